@@ -1,0 +1,118 @@
+#include "engine/base/diagnostic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+namespace abbe {
+
+const std::vector<CodeInfo>& all_codes() {
+  static const std::vector<CodeInfo> codes = {
+#define X(code, severity, title) {Code::code, #code, Severity::severity, title},
+#include "engine/base/diagnostic_codes.def"
+#undef X
+  };
+  return codes;
+}
+
+const CodeInfo& info(Code code) { return all_codes()[static_cast<std::size_t>(code)]; }
+
+Diagnostic diagnostic_at(const SourceFile& source, Span span, Code code, std::string message, std::string help,
+                         std::string replacement) {
+  Diagnostic d = diagnostic(code, std::move(message), std::move(help));
+  d.file = source.name();
+  d.span = span;
+  d.place = source.place(span.begin);
+  d.source_line = source.line(d.place.line);
+  const int rest_of_line = static_cast<int>(d.source_line.size()) - d.place.column + 1;
+  d.caret_length = std::clamp(static_cast<int>(span.end - span.begin), 1, std::max(1, rest_of_line));
+  d.replacement = std::move(replacement);
+  return d;
+}
+
+Diagnostic diagnostic(Code code, std::string message, std::string help) {
+  Diagnostic d;
+  d.code = code;
+  d.message = std::move(message);
+  d.help = std::move(help);
+  return d;
+}
+
+namespace {
+
+std::string_view word_for(Severity severity) {
+  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+}
+
+/// Spaces up to the caret, with tabs kept so that the caret stands under the text.
+std::string indent_like(std::string_view line, int columns) {
+  std::string out;
+  for (int i = 0; i < columns; ++i)
+    out += static_cast<std::size_t>(i) < line.size() && line[i] == '\t' ? '\t' : ' ';
+  return out;
+}
+
+}  // namespace
+
+std::string render(const Diagnostic& d) {
+  std::string out;
+  if (!d.file.empty()) out += d.span ? fmt::format("{}:{}:{}: ", d.file, d.place.line, d.place.column) : d.file + ": ";
+  out += fmt::format("{} {}: {}\n", word_for(d.severity()), info(d.code).name, d.message);
+  if (d.span) {
+    out += fmt::format("  {}\n  {}{}\n", d.source_line, indent_like(d.source_line, d.place.column - 1),
+                       std::string(d.caret_length, '^'));
+  }
+  if (!d.help.empty()) out += "  help: " + d.help + "\n";
+  return out;
+}
+
+std::vector<Diagnostic> Sink::sorted() const {
+  std::vector<Diagnostic> out = list_;
+  std::stable_sort(out.begin(), out.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return (a.span ? a.span->begin : 0) < (b.span ? b.span->begin : 0);
+  });
+  return out;
+}
+
+bool Sink::has_errors() const {
+  return std::any_of(list_.begin(), list_.end(), [](const Diagnostic& d) { return d.severity() == Severity::error; });
+}
+
+UserError::UserError(Diagnostic d) : UserError(std::vector<Diagnostic>{std::move(d)}) {}
+
+UserError::UserError(std::vector<Diagnostic> list)
+    : std::runtime_error(list.empty() ? "unusable input" : list.front().message), list_(std::move(list)) {}
+
+namespace {
+
+int edit_distance(std::string_view a, std::string_view b) {
+  std::vector<int> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = std::toupper(static_cast<unsigned char>(a[i - 1])) == std::toupper(static_cast<unsigned char>(b[j - 1]));
+      const int changed = diagonal + (same ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string nearest_word(std::string_view word, const std::vector<std::string_view>& candidates) {
+  std::string_view best;
+  int best_distance = 3;
+  for (const std::string_view candidate : candidates) {
+    const int distance = edit_distance(word, candidate);
+    const int longest = static_cast<int>(std::max(word.size(), candidate.size()));
+    if (distance < best_distance && 3 * distance <= longest) best = candidate, best_distance = distance;
+  }
+  return std::string(best);
+}
+
+}  // namespace abbe

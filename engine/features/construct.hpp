@@ -1,0 +1,28 @@
+// Features constructed from features (ISO 22093: CONST/...). A method is one file in engine/features/constructions and one
+// line in its all.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "engine/base/arguments.hpp"
+#include "engine/features/element.hpp"
+
+namespace abbe {
+
+struct Construction {
+  std::string_view word;       ///< DMIS method word: "INTOF"
+  std::string_view signature;  ///< arguments after the word; feature operands under the name `from`
+  std::string_view help;
+  std::string_view example;
+  std::string_view source;
+  /// Builds an element of shape `result` from the operands, all in one frame; `nominal` settles what geometry leaves
+  /// open (the sense of a direction). Fails with a reason (parallel planes, wrong kinds of operands).
+  Outcome<Element> (*construct)(Shape result, std::span<const Shape> shapes, std::span<const Element> from,
+                                const Element& nominal, const Arguments&);
+};
+
+std::span<const Construction* const> constructions();
+const Construction* find_construction(std::string_view word);
+
+}  // namespace abbe

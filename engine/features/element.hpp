@@ -1,0 +1,45 @@
+// What a feature *is* once measured, constructed or nominal: one struct for all kinds, so that constructions,
+// alignments and tolerances need no case per pair of kinds.
+#pragma once
+
+#include "engine/math/vec.hpp"
+
+namespace abbe {
+
+/// The geometric elements of ISO 22093 that Abbe knows. Each is described by its FeatureKind (feature.hpp).
+enum class Shape { point, line, plane, circle, cylinder, sphere, cone, torus };
+
+/// A geometric element, in whatever frame its holder says (mm; directions are unit vectors).
+///
+/// | shape    | point                     | direction               | size            | angle      |
+/// |----------|---------------------------|-------------------------|-----------------|------------|
+/// | point    | the point                 | surface normal          |                 |            |
+/// | line     | a point of it (centroid)  | along                   |                 |            |
+/// | plane    | a point of it (centroid)  | normal, out of material |                 |            |
+/// | circle   | centre                    | normal of its plane     | radius          |            |
+/// | cylinder | point of the axis         | axis                    | radius          |            |
+/// | sphere   | centre                    | (unused)                | radius          |            |
+/// | cone     | point of the axis         | apex to open side       | radius at point | half angle |
+/// | torus    | centre                    | axis                    | major radius    |            |
+struct Element {
+  Vec3 point;
+  Vec3 direction{0, 0, 1};
+  double size = 0;        ///< mm
+  double minor_size = 0;  ///< torus: radius of the tube, mm
+  double angle = 0;       ///< cone: half angle, rad
+  /// Signed residuals of the fit, out of the material positive: form = high - low. For a 3-D line low = -high, where high
+  /// is the largest distance, so that form is the diameter of the enclosing cylinder. Zero for what was not fitted.
+  double low = 0, high = 0;
+  /// Where along `direction` the data lie, as signed distances from `point`: the ends of a line or of an axis.
+  double begin = 0, end = 0;
+};
+
+/// The same element in another frame: `X_AB` takes frame B, in which it is given, to A.
+constexpr Element operator*(const Rigid& X_AB, const Element& in_B) {
+  Element in_A = in_B;
+  in_A.point = X_AB * in_B.point;
+  in_A.direction = X_AB.R * in_B.direction;
+  return in_A;
+}
+
+}  // namespace abbe

@@ -1,0 +1,48 @@
+// One kind of feature (ISO 22093: FEAT/...). A kind is one .cpp file in this folder and one line in all.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/arguments.hpp"
+#include "engine/features/element.hpp"
+
+namespace abbe {
+
+/// Points of many lanes (virtual machines), structure of arrays: coordinate k (0..2) of touch i on lane l stands at
+/// data[(3 * i + k) * stride + l]. mm, frame W.
+struct PointColumns {
+  const double* data = nullptr;
+  int points = 0;
+  int lanes = 0;
+  int stride = 0;
+  Vec3 at(int touch, int lane) const {
+    const double* p = data + static_cast<std::size_t>(3 * touch) * stride + lane;
+    return {p[0], p[stride], p[2 * static_cast<std::size_t>(stride)]};
+  }
+};
+
+struct FeatureKind {
+  Shape shape;
+  std::string_view word;        ///< DMIS minor word: "CYLNDR"
+  std::string_view signature;   ///< arguments after the word, notation of base/arguments.hpp
+  std::string_view help;        ///< one line for people
+  std::string_view example;     ///< a complete FEAT statement
+  std::string_view source;      ///< standard and clause, or the reference of the fit
+  int minimum_points;           ///< touches that the least-squares fit needs
+  /// Builds the nominal element from matched arguments, in the frame current at the statement. Fails with a reason for
+  /// impossible values (zero vector, negative diameter).
+  Outcome<Element> (*nominal)(const Arguments&);
+  /// Orthogonal least squares over lanes, Gauss-Newton from `start[lane]`, which must be within about 1 % of the size of the
+  /// feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr or the reason.
+  void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
+};
+
+/// Every kind of feature, in the order of the language reference.
+std::span<const FeatureKind* const> feature_kinds();
+const FeatureKind& feature_kind(Shape);
+/// nullptr when there is no such DMIS word. Upper case.
+const FeatureKind* find_feature_kind(std::string_view word);
+
+}  // namespace abbe

@@ -1,0 +1,113 @@
+// The description of one real machine: its structure, its specification and the sizes of its errors. Read from a machine
+// file (docs/formats.md); everything is converted to the engine's units (mm, rad, s) at that edge.
+//
+// Source of the model: Van Gestel, Bleys, Kruth, "CMM hardware error simulation for uncertainty evaluation" ("the paper").
+// Component names follow ISO 230-1: e<motion><axis>, so `eyx` is the straightness error motion of x in y, `ecx` the yaw of x.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/math/axis.hpp"
+#include "engine/math/vec.hpp"
+
+namespace abbe {
+
+/// The 18 error functions, axis by axis: translations along X, Y, Z, then rotations about X, Y, Z.
+enum class Component { exx, eyx, ezx, eax, ebx, ecx, exy, eyy, ezy, eay, eby, ecy, exz, eyz, ezz, eaz, ebz, ecz };
+inline constexpr int kComponents = 18;
+std::string_view name(Component);                       ///< "exx"
+constexpr Axis axis_of(Component c) { return static_cast<Axis>(static_cast<int>(c) / 6); }
+constexpr bool is_rotation(Component c) { return static_cast<int>(c) % 6 >= 3; }
+
+struct MachineAxis {
+  double travel_mm = 0;
+  int direction = 1;     ///< +1: readings run from 0 to travel; -1: from 0 to -travel
+  Vec3 offset_mm;        ///< scale position: this axis' frame at home, in the frame that carries it (paper, Table 2)
+  bool table_side = false;
+};
+
+/// How one error function is generated (paper eq. 13-16; physics.md section 2).
+struct ComponentSpec {
+  double linear = 0;                   ///< share s of the linear term
+  double curvature = 0;                ///< share c of the quadratic term
+  double e_max = 0;                    ///< mm per m of travel (translations), rad per m of travel (rotations)
+  std::vector<double> harmonics;       ///< amplitudes a_n when the file gives them; empty: drawn at random
+};
+
+struct Specification {
+  std::string standard;                ///< "ISO 10360-2:2001"
+  double mpe_a_mm = 0, mpe_k = 0;      ///< MPE(l) = a + k*l, mm and mm/mm
+  double v_min = 1, v_max = 2;         ///< accepted range of the performance indicator v (paper eq. 19)
+  double longest_share = 0.66;         ///< longest test length as a share of the line through the volume
+};
+
+struct HeadSpec {
+  std::string model;
+  double l_r_mm = 0;                   ///< mounting point to the centre of the head's axes, straight down
+  double sd_a_rad = 0, sd_b_rad = 0;   ///< repeatability of one indexing, one standard deviation
+  double mounting_rad = 0;             ///< turn of the head about the ram axis
+};
+
+struct ProbeSpec {
+  Vec3 sd_mm;                          ///< standard deviations along the axes of {r}, per touch
+};
+
+struct MotionSpec {
+  double speed_mm_s = 0, probing_speed_mm_s = 0, acceleration_mm_s2 = 0;
+};
+
+/// One stylus system of the machine file.
+struct NamedSensor {
+  double head_a_rad = 0, head_b_rad = 0;
+  Vec3 tip_in_r_mm;
+  double radius_mm = 0;
+  double shaft_diameter_mm = 0;
+  std::string material;
+  double young_GPa = 0, cte_ppm_per_K = 0;
+};
+
+/// An effect switched on in the machine file ("effects"): a registry name and its parameters.
+struct EffectSetting {
+  struct Value { double value = 0, u = 0; };
+  std::string name;
+  std::map<std::string, Value> parameters;
+};
+
+struct Machine {
+  std::string name;
+  std::array<MachineAxis, 3> axes;               ///< by Axis
+  std::vector<Axis> ram_chain{Axis::x, Axis::y, Axis::z};  ///< from the base to the ram
+  std::vector<Axis> table_chain;                 ///< from the base to the part
+  Vec3 mount_offset_mm;                          ///< mounting point in the frame of the last ram-side axis
+  int harmonics = 7;
+  std::array<ComponentSpec, kComponents> components;
+  double squareness_cwy_rad = 0, squareness_bwz_rad = 0, squareness_awz_rad = 0;  ///< ISO 230-1; known, the same for every virtual machine
+  Specification specification;
+  HeadSpec head;
+  ProbeSpec probe;
+  MotionSpec motion;
+  std::map<std::string, NamedSensor> sensors;
+  std::vector<EffectSetting> effects;
+
+  const MachineAxis& operator[](Axis a) const { return axes[static_cast<int>(a)]; }
+  ComponentSpec& operator[](Component c) { return components[static_cast<int>(c)]; }
+  const ComponentSpec& operator[](Component c) const { return components[static_cast<int>(c)]; }
+  /// Sum of the offsets of the ram side and the mount: scale readings + this + tip from mount = tip in W (paper eq. 17).
+  Vec3 home_offset() const;
+};
+
+/// Reads a machine file, or a shipped machine by name ("coord3-mc16"). Throws UserError: unreadable, not JSON, unknown key (named,
+/// with its place and the nearest known one), impossible value (negative travel, contradictory MPE, ...).
+Machine read_machine(const std::string& name_or_path);
+/// Names of the shipped machines, in alphabetical order.
+std::vector<std::string> shipped_machines();
+
+/// Parses the text of a machine file; `file` names it in messages. Throws UserError as read_machine does.
+Machine parse_machine(const std::string& file, const std::string& text);
+
+}  // namespace abbe

@@ -1,0 +1,169 @@
+// The plan: a measurement program compiled once to a list of canonical CMM operations. THE CONTRACT between the language,
+// which makes it, and the executor, which runs it. A plan is plain data; it knows neither DMIS syntax nor virtual machines.
+//
+// Values known when the program is compiled stand in the operations; values that exist only while a program runs live in
+// *columns*, one number per lane. Operations are in program order and jumps name operations by index, so that lanes which
+// part can meet again (docs/architecture.md, "Control flow").
+#pragma once
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/base/arguments.hpp"
+#include "engine/base/ids.hpp"
+#include "engine/base/source.hpp"
+#include "engine/features/alignment.hpp"
+#include "engine/features/construct.hpp"
+#include "engine/features/feature.hpp"
+#include "engine/tolerances/tolerance.hpp"
+
+namespace abbe::plan {
+
+using FeatureId = Id<struct FeatureTag>;
+using FrameId = Id<struct FrameTag>;
+using SensorId = Id<struct SensorTag>;
+using ToleranceId = Id<struct ToleranceTag>;
+using CharacteristicId = Id<struct CharacteristicTag>;
+using ColumnId = Id<struct ColumnTag>;
+
+/// A number in an operation: a constant, or a column when `column` is valid.
+struct Operand {
+  double constant = 0;
+  ColumnId column;
+};
+using Point = std::array<Operand, 3>;
+
+// ---- what the program defines ---------------------------------------------------------------------------------------
+
+/// One FEAT statement. A label defined again is another definition; operations name definitions, not labels.
+struct FeatureDef {
+  std::string label;            ///< as written, without F( )
+  const FeatureKind* kind = nullptr;
+  Element nominal;              ///< in the frame current at the FEAT statement
+  bool inner = false;           ///< INNER: the material is outside the radius
+  Span span;
+};
+
+/// One SNSDEF, or a sensor of the machine file by name.
+struct SensorDef {
+  std::string label;
+  bool from_machine_file = false;   ///< then everything below comes from the machine file's `sensors`
+  bool indexed = false;             ///< on the articulating head (INDEX), else fixed to the ram
+  double head_a_rad = 0, head_b_rad = 0;
+  Vec3 tip_in_r{0, 0, 0};           ///< FIXED: tip from the mounting point; INDEX: tip in the last link of the head; mm
+  double radius_mm = 0;
+  bool has_mount = false;           ///< an SNSMNT statement was in force
+  Vec3 mount_offset_mm;             ///< SNSMNT MNTLEN: from the ram's mounting point to the head's centre
+  double mount_turn_rad = 0;        ///< SNSMNT XVEC: turn of the head about the ram axis
+  Span span;
+};
+
+struct FrameDef {
+  std::string label;
+  Span span;
+};
+
+struct ToleranceDef {
+  std::string label;
+  const ToleranceKind* kind = nullptr;
+  Arguments arguments;              ///< features and datums as FeatureId values
+  Span span;
+};
+
+/// A (features, tolerance) pair evaluated at one place of the program: what gets an uncertainty.
+struct CharacteristicDef {
+  std::vector<FeatureId> features;
+  ToleranceId tolerance;
+  Span span;
+  int line = 0;
+};
+
+// ---- expressions over columns ---------------------------------------------------------------------------------------
+
+enum class Op1 { negate, logical_not, abs, acos, asin, atan, cos, sin, tan, exp, ln, log10, sqrt, truncate, round };
+enum class Op2 { add, subtract, multiply, divide, power, modulo, atan2, sign, minimum, maximum,
+                 equal, not_equal, less, less_equal, greater, greater_equal, logical_and, logical_or };
+struct PushConstant { double value = 0; };
+struct PushColumn { ColumnId column; };
+using Instruction = std::variant<PushConstant, PushColumn, Op1, Op2>;
+/// Postfix; leaves exactly one number. Logical values are 0 and 1.
+using Expression = std::vector<Instruction>;
+
+// ---- operations -----------------------------------------------------------------------------------------------------
+
+/// The nominal of the feature is now in force, in the current frame.
+struct DefineFeature { FeatureId feature; };
+struct SelectSensor { SensorId sensor; };
+/// PRCOMP: with compensation a touch yields the surface point, without it the centre of the tip.
+struct SetCompensation { bool on = true; };
+/// Settings of the motion model. Lengths mm, speeds mm/s, accelerations mm/s^2.
+enum class MotionSetting { approach, search, retract, clearance, depth, positioning_speed, measuring_speed, scan_speed,
+                           positioning_acceleration, measuring_acceleration, fly_radius };
+struct SetMotion { MotionSetting setting{}; double value = 0; bool percent = false; };
+/// Straight move of the tip centre, current frame, mm.
+struct Move { Point to; };
+struct BeginMeasure { FeatureId feature; };
+/// One touch of the surface at `point` with outward vector `normal` (current frame, mm), for the feature being measured.
+/// Without `has_normal` the nominal of the feature supplies the vector.
+struct Touch { FeatureId feature; Point point; Point normal; bool has_normal = true; };
+/// Ends the measurement: fits the feature to the touches since BeginMeasure.
+struct EndMeasure { FeatureId feature; };
+struct Construct {
+  FeatureId result;
+  const Construction* method = nullptr;
+  std::vector<FeatureId> from;
+  Arguments arguments;
+};
+
+struct DatumRef {
+  FeatureId feature;
+  bool gives_direction = false;
+  AxisDirection direction;
+  bool origin[3] = {false, false, false};
+};
+/// The next four make `result` and leave it current.
+struct SetMachineFrame { FrameId result; };
+struct SetDatumFrame { FrameId result; std::vector<DatumRef> datums; };
+struct OriginShift { Axis axis{}; FeatureId from; Operand by; };   ///< to the point of `from`, or by a length when it is not valid
+struct TranslateFrame { FrameId result; std::vector<OriginShift> shifts; };
+struct RotateFrame { FrameId result; Axis axis{}; FeatureId to; AxisDirection toward; Operand angle_rad; };
+struct RecallFrame { FrameId frame; };
+
+struct Evaluate { CharacteristicId characteristic; };
+struct Assign { ColumnId column; Expression value; };
+struct Jump { int target = 0; };
+/// Goes to `target` on the lanes where the condition is 0.
+struct JumpUnless { Expression condition; int target = 0; };
+
+using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
+                            SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Assign, Jump, JumpUnless>;
+
+struct Operation {
+  Action action;
+  Span span;   ///< the statement it came from
+  int line = 0;
+};
+
+struct Plan {
+  std::string name;   ///< DMISMN text or the file name
+  std::vector<Operation> operations;
+  std::vector<FeatureDef> features;
+  std::vector<SensorDef> sensors;
+  std::vector<FrameDef> frames;
+  std::vector<ToleranceDef> tolerances;
+  std::vector<CharacteristicDef> characteristics;
+  int columns = 0;
+
+  const FeatureDef& operator[](FeatureId id) const { return features[id.value]; }
+  const SensorDef& operator[](SensorId id) const { return sensors[id.value]; }
+  const FrameDef& operator[](FrameId id) const { return frames[id.value]; }
+  const ToleranceDef& operator[](ToleranceId id) const { return tolerances[id.value]; }
+  const CharacteristicDef& operator[](CharacteristicId id) const { return characteristics[id.value]; }
+};
+
+/// The plan as readable text, one operation a line: for golden tests and `abbe check --plan`.
+std::string to_text(const Plan&);
+
+}  // namespace abbe::plan

@@ -1,0 +1,57 @@
+// Running a plan on virtual machines: what goes in and what comes out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/machine/screening.hpp"
+#include "engine/plan/plan.hpp"
+
+namespace abbe {
+
+/// Which sources of error act in a run. Switching one off changes no random number of the others.
+struct Contributors {
+  bool geometry = true, head = true, probe = true;
+};
+
+struct RunOptions {
+  std::uint64_t seed = 1;
+  int threads = 1;
+  int block_lanes = 128;          ///< results do not depend on it
+  Contributors contributors;
+  Vec3 placement_mm;              ///< where the program's machine coordinate system lies in W (directive `place`)
+};
+
+/// The values of one characteristic, at its `occurrence`-th evaluation, on every machine. Values are mm or rad.
+struct Samples {
+  plan::CharacteristicId characteristic;
+  int occurrence = 1;
+  double reference = 0;           ///< on the error-free machine
+  double nominal = 0;
+  ToleranceLimits limits;
+  std::vector<double> value;      ///< one per machine that reached it, in machine order
+  std::vector<std::uint32_t> machine;  ///< position of that machine among those run: 0, 1, 2, ...
+};
+
+/// A virtual machine on which the program could not go on.
+struct Trap {
+  std::uint32_t machine = 0;      ///< position among those run
+  int operation = 0;              ///< index into the plan
+  int line = 0;
+  std::string reason;
+};
+
+struct RunResult {
+  std::vector<Samples> samples;   ///< in the order in which the error-free machine evaluated them
+  std::vector<Trap> traps;        ///< by machine
+  int machines = 0;
+  std::uint64_t touches = 0;      ///< executed on virtual machines
+};
+
+/// Runs the plan on an error-free machine and on every machine of `machines`. The same result for any thread count and block
+/// size. Throws UserError, with places in `source`, when the error-free machine cannot finish (touch outside the travel, unknown
+/// sensor, degenerate fit): then no machine can.
+RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& machines, const RunOptions&, const SourceFile& source);
+
+}  // namespace abbe

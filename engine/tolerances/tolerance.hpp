@@ -1,0 +1,50 @@
+// One kind of tolerance (ISO 22093: TOL/...). A kind is one .cpp file in this folder and one line in all.cpp.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/arguments.hpp"
+#include "engine/features/element.hpp"
+
+namespace abbe {
+
+enum class Unit { mm, rad };
+
+/// What one evaluation on one lane sees. D is the coordinate system current at the OUTPUT or EVAL statement.
+struct EvaluationInput {
+  std::span<const Shape> shapes;          ///< of the features, in the order in which OUTPUT names them
+  std::span<const Element> actual;        ///< as this machine measured them, in its own D
+  std::span<const Element> nominal;       ///< as FEAT defined them, in the error-free D
+  std::span<const Shape> datum_shapes;    ///< of the datums, in the order in which the tolerance names them
+  std::span<const Element> datums;        ///< as this machine measured them, in its own D
+  std::span<const Element> true_datums;   ///< as the error-free machine measured them, in the error-free D
+};
+
+struct ToleranceLimits {
+  std::optional<double> lower, upper;     ///< of the value that evaluate() returns, same unit
+};
+
+struct ToleranceKind {
+  std::string_view word;        ///< DMIS minor word: "CYLCTY"
+  std::string_view signature;   ///< arguments after the word; datum operands under the name `datum`, a DISTWRT reference under `reference`
+  std::string_view help;
+  std::string_view example;     ///< a complete TOL statement
+  std::string_view source;      ///< standard and clause
+  Unit unit;
+  int features;                 ///< how many features OUTPUT must name before it: 1 or 2
+  /// nullptr when these shapes can carry the tolerance, else why not.
+  const char* (*applies)(const Arguments&, std::span<const Shape>);
+  /// The nominal value (0 for form, position, orientation zones; the nominal diameter for DIAM; ...).
+  double (*nominal)(const Arguments&, std::span<const Element> nominal_features);
+  ToleranceLimits (*limits)(const Arguments&, std::span<const Element> nominal_features);
+  Outcome<double> (*evaluate)(const Arguments&, const EvaluationInput&);
+};
+
+std::span<const ToleranceKind* const> tolerance_kinds();
+const ToleranceKind* find_tolerance_kind(std::string_view word);
+
+}  // namespace abbe

@@ -1,0 +1,49 @@
+// The front end: the text of a measurement program (DMIS, ISO 22093) to a plan.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.hpp"
+#include "engine/plan/plan.hpp"
+
+namespace abbe::lang {
+
+/// One `$$! expect` line.
+struct Expectation {
+  std::string subject;       ///< tolerance label, or "accepted" (share of machines that passed the screening)
+  std::string feature;       ///< set when the line names a feature too: expect FA(x) TA(t) ...
+  int occurrence = 0;        ///< 0: every evaluation of that tolerance; else that one
+  std::string quantity;      ///< u, u95, lcl, ucl, mean, value, conformance
+  std::optional<double> low, high;   ///< between a b; >= a; <= b
+  int line = 0;
+  std::string text;          ///< the directive as written
+};
+
+/// What the comments that start with `$$!` ask for.
+struct Directives {
+  std::optional<std::string> machine;
+  std::optional<int> machines;
+  std::optional<std::uint64_t> seed;
+  std::optional<std::string> workpiece;
+  std::optional<Vec3> place_mm;      ///< where the program's machine coordinate system lies in W
+  std::vector<Expectation> expectations;
+};
+
+/// A characteristic that the program asks for and that an error took away.
+struct Lost {
+  int line = 0;
+  std::string feature, reason;
+};
+
+struct Compilation {
+  plan::Plan plan;           ///< of the statements without errors
+  Directives directives;
+  std::vector<Lost> lost;
+};
+
+/// Never throws on a user's text: every mistake goes to the sink, and what can be used is used.
+Compilation compile(const SourceFile&, Sink&);
+
+}  // namespace abbe::lang
