@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/diagnostic.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/plan/plan.hpp"
 

@@ -1,0 +1,68 @@
+// The state of a block of lanes while a plan runs on it.
+//
+// Lanes 0..machines-1 are virtual machines. The lanes after them are *twins*: error-free machines. Lane `machines` is the
+// reference, the error-free machine that runs the program by itself. The true part lies where an error-free machine would
+// find it (language.md section 4), so every virtual machine needs to know what an error-free machine that took the same path
+// through the program would have seen: its twin. All machines start with the reference as their twin; where machines of one
+// twin part at a condition on measured values, the twin is cloned and follows each group.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/machine/geometry.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/run/sensor.hpp"
+
+namespace abbe {
+
+struct LaneTrap {
+  int operation = 0;
+  std::string reason;
+};
+
+/// One evaluation of a characteristic on one lane.
+struct Value {
+  plan::CharacteristicId characteristic;
+  int visit = 0;      ///< how often this lane evaluated it before
+  double value = 0;
+  double nominal = 0;
+  ToleranceLimits limits;
+};
+
+struct Lane {
+  int pc = 0;
+  bool running = true;
+  int twin = 0;                       ///< lane of the error-free machine that shares this lane's path
+  std::uint32_t machine_index = 0;    ///< keys the random numbers; unused on twins
+  Rigid X_WD;                         ///< current coordinate system
+  plan::SensorId sensor;
+  bool head_indexed = false;          ///< the head has been sent to an orientation
+  double head_a_rad = 0, head_b_rad = 0;
+  std::uint32_t indexings = 0;        ///< how often the head was indexed so far
+  double head_error_a_rad = 0, head_error_b_rad = 0;
+  bool compensation = true;
+  std::uint64_t fuel_used = 0;
+  std::vector<Vec3> points;           ///< of the measurement it is in: surface points, or tip centres without compensation; W
+  std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
+  std::vector<char> has_actual;
+  std::vector<Element> nominal;       ///< by FeatureId, in W; twins only
+  std::vector<Rigid> frames;          ///< X_WD by FrameId
+  std::vector<double> columns;        ///< by ColumnId
+  std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
+  std::vector<Value> values;
+  LaneTrap trap;
+};
+
+struct Block {
+  std::vector<Lane> lanes;
+  int machines = 0;
+  GeometryBlock geometry;
+  std::uint64_t touches = 0;
+
+  int reference() const { return machines; }
+  bool is_twin(int lane) const { return lane >= machines; }
+};
+
+}  // namespace abbe

@@ -1,0 +1,75 @@
+// The handlers of the plan's operations: one overload per action, each working on the active lanes of a block.
+#pragma once
+
+#include <functional>
+
+#include "engine/run/executor.hpp"
+#include "engine/run/expression.hpp"
+
+namespace abbe {
+
+/// One run of one block. The handlers see the lanes that stand at the same operation, in `active`, ascending: virtual machines
+/// first, then twins.
+class BlockRun {
+ public:
+  /// When `where` is given, the reference records in it where it has to go.
+  BlockRun(const Executor& run_by, Block& lanes, std::vector<Executor::Reach::Stop>* where = nullptr)
+      : executor(run_by), block(lanes), stops(where) {}
+
+  /// Runs every lane to the end of the program or to its trap.
+  void run();
+
+  void operator()(const plan::DefineFeature&);
+  void operator()(const plan::SelectSensor&);
+  void operator()(const plan::SetCompensation&);
+  void operator()(const plan::SetMotion&) {}  // times and speeds do not matter to the errors modelled so far
+  void operator()(const plan::Move&);
+  void operator()(const plan::BeginMeasure&);
+  void operator()(const plan::Touch&);
+  void operator()(const plan::EndMeasure&);
+  void operator()(const plan::Construct&);
+  void operator()(const plan::SetMachineFrame&);
+  void operator()(const plan::SetDatumFrame&);
+  void operator()(const plan::TranslateFrame&);
+  void operator()(const plan::RotateFrame&);
+  void operator()(const plan::RecallFrame&);
+  void operator()(const plan::Evaluate&);
+  void operator()(const plan::Assign&);
+  void operator()(const plan::Jump&);
+  void operator()(const plan::JumpUnless&);
+
+ private:
+  using Outcomes = std::vector<char>;
+
+  void gather_lowest();
+  void trap(int lane, std::string reason);
+  Lane& twin_of(const Lane& lane) { return block.lanes[lane.twin]; }
+  double value(const Lane&, const plan::Operand&) const;
+  Vec3 value(const Lane&, const plan::Point&) const;
+  /// The measured or constructed element, or nullptr after trapping the lane.
+  const Element* actual(int lane, plan::FeatureId);
+  void set_frame(Lane&, plan::FrameId, const Rigid& X_WD);
+  /// Runs `f(lane index)` for every active lane and traps those for which it returns a reason.
+  void for_active(const std::function<std::string(int)>& f);
+
+  const Executor& executor;
+  Block& block;
+  std::vector<Executor::Reach::Stop>* stops;
+  std::vector<int> active;
+  int operation = 0;
+  TouchBatch touch_batch;
+  std::vector<Mat3> R_WR;              // by slot of touch_batch
+  std::vector<double> points_buffer;   // columns handed to the fits
+
+  bool prepare_touch(int slot, int lane, const plan::Touch&);
+  void add_errors(int machines);
+  void fit_twins(plan::FeatureId);
+  void fit_machines(plan::FeatureId, std::size_t points);
+  /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.
+  void part_twins(Outcomes& condition);
+};
+
+/// The outward normal of the nominal surface nearest to `point`, same frame; for touches that give no vector.
+Outcome<Vec3> nominal_normal(Shape, const Element& nominal, bool inner, const Vec3& point);
+
+}  // namespace abbe

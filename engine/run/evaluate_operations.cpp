@@ -1,0 +1,186 @@
+// Handlers of constructions, coordinate systems, evaluations and control flow.
+#include "engine/run/block_run.hpp"
+
+namespace abbe {
+
+void BlockRun::operator()(const plan::Construct& construct) {
+  const Shape shape = executor.plan_[construct.result].kind->shape;
+  std::vector<Shape> shapes;
+  for (const plan::FeatureId id : construct.from) shapes.push_back(executor.plan_[id].kind->shape);
+  std::vector<Element> from(shapes.size());
+  for_active([&](int i) -> std::string {
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      const Element* element = actual(i, construct.from[k]);
+      if (!element) return "";
+      from[k] = *element;
+    }
+    Lane& lane = block.lanes[i];
+    const Outcome<Element> made =
+        construct.method->construct(shape, shapes, from, twin_of(lane).nominal[construct.result.value], construct.arguments);
+    if (!made) return made.failure;
+    lane.actual[construct.result.value] = made.value;
+    lane.has_actual[construct.result.value] = 1;
+    return "";
+  });
+}
+
+void BlockRun::set_frame(Lane& lane, plan::FrameId id, const Rigid& X_WD) {
+  lane.X_WD = X_WD;
+  lane.frames[id.value] = X_WD;
+}
+
+void BlockRun::operator()(const plan::SetMachineFrame& set) {
+  for (const int i : active) set_frame(block.lanes[i], set.result, {Mat3{}, executor.options_.placement_mm});
+}
+
+void BlockRun::operator()(const plan::SetDatumFrame& set) {
+  std::vector<DatumUse> uses(set.datums.size());
+  for_active([&](int i) -> std::string {
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+      const plan::DatumRef& datum = set.datums[k];
+      const Element* element = actual(i, datum.feature);
+      if (!element) return "";
+      uses[k] = {executor.plan_[datum.feature].kind->shape, *element, datum.gives_direction, datum.direction,
+                 {datum.origin[0], datum.origin[1], datum.origin[2]}};
+    }
+    const Outcome<Rigid> made = datum_frame(block.lanes[i].X_WD, uses);
+    if (!made) return made.failure;
+    set_frame(block.lanes[i], set.result, made.value);
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::TranslateFrame& translate) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    Vec3 shift_D;
+    for (const plan::OriginShift& shift : translate.shifts) {
+      const int axis = static_cast<int>(shift.axis);
+      if (!shift.from.valid()) {
+        shift_D[axis] += value(lane, shift.by);
+        continue;
+      }
+      const Element* element = actual(i, shift.from);
+      if (!element) return "";
+      shift_D[axis] += (inverse(lane.X_WD) * element->point)[axis];
+    }
+    set_frame(lane, translate.result, {lane.X_WD.R, lane.X_WD * shift_D});
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::RotateFrame& rotate) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    if (!rotate.to.valid()) {
+      Vec3 axis;
+      axis[static_cast<int>(rotate.axis)] = 1;
+      set_frame(lane, rotate.result, {lane.X_WD.R * rotation(axis, value(lane, rotate.angle_rad)), lane.X_WD.p});
+      return "";
+    }
+    const Element* element = actual(i, rotate.to);
+    if (!element) return "";
+    const Outcome<Rigid> made = rotated_to(lane.X_WD, rotate.axis, *element, rotate.toward);
+    if (!made) return made.failure;
+    set_frame(lane, rotate.result, made.value);
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::RecallFrame& recall) {
+  for (const int i : active) block.lanes[i].X_WD = block.lanes[i].frames[recall.frame.value];
+}
+
+void BlockRun::operator()(const plan::Evaluate& evaluate) {
+  const plan::Plan& plan = executor.plan_;
+  const plan::CharacteristicDef& def = plan[evaluate.characteristic];
+  const plan::ToleranceDef& tolerance = plan[def.tolerance];
+  std::vector<plan::FeatureId> features = def.features;
+  for (const int id : tolerance.arguments.features("reference")) features.push_back({id});
+  std::vector<plan::FeatureId> datums;
+  for (const int id : tolerance.arguments.features("datum")) datums.push_back({id});
+
+  std::vector<Shape> shapes, datum_shapes;
+  for (const auto id : features) shapes.push_back(plan[id].kind->shape);
+  for (const auto id : datums) datum_shapes.push_back(plan[id].kind->shape);
+  std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()), true_datums(datums.size());
+
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    const Lane& twin = twin_of(lane);
+    const Rigid X_DW = inverse(lane.X_WD), X_DW_true = inverse(twin.X_WD);
+    for (std::size_t k = 0; k < features.size(); ++k) {
+      const Element* element = actual(i, features[k]);
+      if (!element) return "";
+      actuals[k] = X_DW * *element;
+      nominals[k] = X_DW_true * twin.nominal[features[k].value];
+    }
+    for (std::size_t k = 0; k < datums.size(); ++k) {
+      const Element* element = actual(i, datums[k]);
+      if (!element) return "";
+      datum_actuals[k] = X_DW * *element;
+      true_datums[k] = X_DW_true * twin.actual[datums[k].value];
+    }
+    const Outcome<double> made =
+        tolerance.kind->evaluate(tolerance.arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums});
+    if (!made) return made.failure;
+    lane.values.push_back({evaluate.characteristic, static_cast<int>(lane.visits[operation]++), made.value,
+                           tolerance.kind->nominal(tolerance.arguments, nominals), tolerance.kind->limits(tolerance.arguments, nominals)});
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::Assign& assign) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    const Outcome<double> v = abbe::evaluate(assign.value, [&](plan::ColumnId id) { return lane.columns[id.value]; });
+    if (!v) return v.failure;
+    lane.columns[assign.column.value] = v.value;
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::Jump& jump) {
+  for (const int i : active) block.lanes[i].pc = jump.target;
+}
+
+void BlockRun::operator()(const plan::JumpUnless& jump) {
+  Outcomes condition(block.lanes.size(), 0);
+  for_active([&](int i) -> std::string {
+    const Lane& lane = block.lanes[i];
+    const Outcome<double> v = abbe::evaluate(jump.condition, [&](plan::ColumnId id) { return lane.columns[id.value]; });
+    if (!v) return v.failure;
+    condition[i] = v.value != 0;
+    return "";
+  });
+  part_twins(condition);
+  for (const int i : active)
+    if (block.lanes[i].running && !condition[i]) block.lanes[i].pc = jump.target;
+}
+
+void BlockRun::part_twins(Outcomes& condition) {
+  const std::vector<int> before = active;
+  for (const int t : before) {
+    if (!block.is_twin(t) || !block.lanes[t].running) continue;
+    std::vector<int> going[2];
+    for (const int i : before)
+      if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].twin == t) going[condition[i] != 0].push_back(i);
+    // The reference decides by itself; any other twin exists only for its machines and goes where they go.
+    if (t != block.reference()) {
+      if (going[0].empty() && going[1].empty()) {
+        block.lanes[t].running = false;
+        continue;
+      }
+      condition[t] = going[0].empty();
+    }
+    const std::vector<int>& parting = going[condition[t] == 0];
+    if (parting.empty()) continue;
+    const int clone = static_cast<int>(block.lanes.size());
+    block.lanes.push_back(Lane(block.lanes[t]));
+    condition.push_back(condition[t] == 0);
+    active.push_back(clone);
+    for (const int i : parting) block.lanes[i].twin = clone;
+  }
+}
+
+}  // namespace abbe

@@ -1,0 +1,99 @@
+#include "engine/run/executor.hpp"
+
+#include <algorithm>
+
+#include "engine/run/block_run.hpp"
+
+namespace abbe {
+
+Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
+    : plan_(plan), machine_(machine), options_(options), source_(source) {
+  for (const plan::SensorDef& def : plan.sensors) sensors_.push_back(resolve_sensor(def, machine, source));
+  std::uint32_t touches = 0;
+  for (const plan::Operation& op : plan.operations)
+    site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
+}
+
+Block Executor::make_block(const VirtualMachines& machines, int first, int count) const {
+  Lane start;
+  start.X_WD = {Mat3{}, options_.placement_mm};
+  start.twin = count;
+  start.actual.resize(plan_.features.size());
+  start.has_actual.assign(plan_.features.size(), 0);
+  start.frames.resize(plan_.frames.size());
+  start.columns.assign(plan_.columns, 0.0);
+  start.visits.assign(plan_.operations.size(), 0);
+
+  std::vector<const GeometryCoefficients*> geometry;
+  for (int i = 0; i < count; ++i) geometry.push_back(&machines.geometry[first + i]);
+  Block block{std::vector<Lane>(count + 1, start), count, GeometryBlock(machine_, geometry), 0};
+  for (int i = 0; i < count; ++i) block.lanes[i].machine_index = machines.index[first + i];
+  block.lanes[count].nominal.resize(plan_.features.size());
+  return block;
+}
+
+void Executor::run(Block& block) const { BlockRun(*this, block).run(); }
+
+Executor::Reach Executor::reach() const {
+  Reach reach;
+  Block block = make_block({}, 0, 0);
+  BlockRun(*this, block, &reach.stops).run();
+  return reach;
+}
+
+void BlockRun::run() {
+  while (gather_lowest(), !active.empty()) {
+    for (const int lane : active) {
+      ++block.lanes[lane].pc;
+      if (++block.lanes[lane].fuel_used > kFuel) trap(lane, "the program does not end: two million operations were run (endless loop)");
+    }
+    std::erase_if(active, [&](int lane) { return !block.lanes[lane].running; });
+    std::visit(*this, executor.plan_.operations[operation].action);
+  }
+}
+
+void BlockRun::gather_lowest() {
+  const int end = static_cast<int>(executor.plan_.operations.size());
+  int lowest = end;
+  for (const Lane& lane : block.lanes)
+    if (lane.running) lowest = std::min(lowest, lane.pc);
+  active.clear();
+  operation = lowest;
+  if (lowest == end) return;
+  for (int i = 0; i < static_cast<int>(block.lanes.size()); ++i)
+    if (block.lanes[i].running && block.lanes[i].pc == lowest) active.push_back(i);
+}
+
+void BlockRun::trap(int index, std::string reason) {
+  Lane& lane = block.lanes[index];
+  if (!lane.running) return;
+  lane.running = false;
+  lane.trap = {operation, std::move(reason)};
+  if (!block.is_twin(index)) return;
+  // Without an error-free machine on its path a virtual machine does not know where the part is.
+  for (int i = 0; i < block.machines; ++i)
+    if (block.lanes[i].twin == index) trap(i, block.lanes[index].trap.reason);
+}
+
+double BlockRun::value(const Lane& lane, const plan::Operand& operand) const {
+  return operand.column.valid() ? lane.columns[operand.column.value] : operand.constant;
+}
+
+Vec3 BlockRun::value(const Lane& lane, const plan::Point& point) const {
+  return {value(lane, point[0]), value(lane, point[1]), value(lane, point[2])};
+}
+
+void BlockRun::for_active(const std::function<std::string(int)>& f) {
+  for (const int lane : active) {
+    if (!block.lanes[lane].running) continue;
+    if (std::string reason = f(lane); !reason.empty()) trap(lane, std::move(reason));
+  }
+}
+
+const Element* BlockRun::actual(int lane, plan::FeatureId feature) {
+  if (block.lanes[lane].has_actual[feature.value]) return &block.lanes[lane].actual[feature.value];
+  trap(lane, "feature '" + executor.plan_[feature].label + "' has not been measured or constructed at this point");
+  return nullptr;
+}
+
+}  // namespace abbe

@@ -1,0 +1,48 @@
+// Runs a plan on one block of lanes. Every lane has its own program counter; the lanes at the lowest one go first, together, so
+// lanes that part at a condition meet again by themselves (re-convergence at thread frontiers, Diamos et al., MICRO 2011).
+// Lanes never see each other, so any order of work gives the same result.
+#pragma once
+
+#include <vector>
+
+#include "engine/run/block.hpp"
+#include "engine/run/run.hpp"
+#include "engine/run/touch.hpp"
+
+namespace abbe {
+
+/// How many operations a lane may execute before it counts as caught in an endless loop.
+inline constexpr std::uint64_t kFuel = 2'000'000;
+
+class Executor {
+ public:
+  Executor(const plan::Plan&, const Machine&, const RunOptions&, const SourceFile&);
+
+  /// A block of the given machines (and the reference), ready to run. `first`..: positions in `machines`.
+  Block make_block(const VirtualMachines& machines, int first, int count) const;
+  /// Runs every lane to the end of the program or to its trap.
+  void run(Block&) const;
+
+  /// Scale readings of the touches and the positions of the moves of an error-free machine, before any placement: what the
+  /// program asks the machine to reach.
+  struct Reach {
+    struct Stop {
+      Vec3 reading_mm;
+      int operation = 0;
+      bool touch = false;
+    };
+    std::vector<Stop> stops;
+  };
+  Reach reach() const;
+
+ private:
+  friend class BlockRun;
+  const plan::Plan& plan_;
+  const Machine& machine_;
+  const RunOptions& options_;
+  const SourceFile& source_;
+  std::vector<Sensor> sensors_;      ///< by SensorId
+  std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
+};
+
+}  // namespace abbe

@@ -1,0 +1,213 @@
+// Handlers of sensors, motion, touches and fits.
+#include <algorithm>
+#include <set>
+
+#include "engine/features/fit.hpp"
+#include "engine/lanes/random.hpp"
+#include "engine/run/block_run.hpp"
+
+namespace abbe {
+
+void BlockRun::operator()(const plan::DefineFeature& define) {
+  for (const int i : active) {
+    Lane& lane = block.lanes[i];
+    lane.has_actual[define.feature.value] = 0;
+    if (block.is_twin(i)) lane.nominal[define.feature.value] = lane.X_WD * executor.plan_[define.feature].nominal;
+  }
+}
+
+void BlockRun::operator()(const plan::SelectSensor& select) {
+  constexpr std::uint32_t stream = stream_of("head");
+  const Sensor& sensor = executor.sensors_[select.sensor.value];
+  const HeadSpec& head = executor.machine_.head;
+  for (const int i : active) {
+    Lane& lane = block.lanes[i];
+    lane.sensor = select.sensor;
+    if (!sensor.indexed) continue;
+    const bool stays = lane.head_indexed && lane.head_a_rad == sensor.head_a_rad && lane.head_b_rad == sensor.head_b_rad;
+    if (stays) continue;
+    lane.head_indexed = true;
+    lane.head_a_rad = sensor.head_a_rad;
+    lane.head_b_rad = sensor.head_b_rad;
+    const UniformPair p = uniform_pair({executor.options_.seed, lane.machine_index, stream, 0, lane.indexings++, 0});
+    if (block.is_twin(i) || !executor.options_.contributors.head) continue;
+    lane.head_error_a_rad = head.sd_a_rad * normal_quantile(p.a);
+    lane.head_error_b_rad = head.sd_b_rad * normal_quantile(p.b);
+  }
+}
+
+void BlockRun::operator()(const plan::SetCompensation& set) {
+  for (const int i : active) block.lanes[i].compensation = set.on;
+}
+
+void BlockRun::operator()(const plan::Move& move) {
+  if (!stops) return;
+  const Lane& reference = block.lanes[block.reference()];
+  if (!reference.sensor.valid()) return;
+  const Vec3 reading = reference.X_WD * value(reference, move.to) - executor.machine_.home_offset() -
+                       executor.sensors_[reference.sensor.value].tip_from_mount_mm;
+  stops->push_back({reading, operation, false});
+}
+
+void BlockRun::operator()(const plan::BeginMeasure&) {
+  for (const int i : active) block.lanes[i].points.clear();
+}
+
+Outcome<Vec3> nominal_normal(Shape shape, const Element& nominal, bool inner, const Vec3& point) {
+  if (shape == Shape::point || shape == Shape::plane) return {nominal.direction};
+  if (shape == Shape::line) return Outcome<Vec3>::failed("a touch on a line needs the vector of the surface in PTMEAS");
+  if (shape == Shape::torus) return Outcome<Vec3>::failed("a touch on a torus needs the vector of the surface in PTMEAS");
+  Vec3 out = point - nominal.point;
+  if (shape != Shape::sphere) out = perpendicular_part(out, nominal.direction);
+  if (norm(out) == 0) return Outcome<Vec3>::failed("the point lies on the axis of the feature: give the vector in PTMEAS");
+  out = unit(out);
+  if (shape == Shape::cone) out = std::cos(nominal.angle) * out - std::sin(nominal.angle) * nominal.direction;
+  return {inner ? -out : out};
+}
+
+bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
+  Lane& lane = block.lanes[index];
+  const Lane& twin = twin_of(lane);
+  if (!lane.sensor.valid()) return trap(index, "no sensor is selected (SNSLCT)"), false;
+  const Sensor& sensor = executor.sensors_[lane.sensor.value];
+  const Vec3 surface = twin.X_WD * value(twin, touch.point);
+  Vec3 normal_D, true_normal;
+  if (touch.has_normal) {
+    normal_D = value(lane, touch.normal);
+    true_normal = twin.X_WD.R * value(twin, touch.normal);
+    if (norm(normal_D) == 0) return trap(index, "the vector of the touch has no length"), false;
+  } else {
+    const plan::FeatureDef& def = executor.plan_[touch.feature];
+    const Outcome<Vec3> n = nominal_normal(def.kind->shape, twin.nominal[touch.feature.value], def.inner, surface);
+    if (!n) return trap(index, n.failure), false;
+    true_normal = n.value;
+    normal_D = transpose(twin.X_WD.R) * n.value;
+  }
+  const Vec3 normal = lane.X_WD.R * unit(normal_D);
+  const Vec3 commanded = lane.X_WD * value(lane, touch.point) + sensor.radius_mm * normal;
+  touch_batch.commanded.set(slot, commanded);
+  touch_batch.normal.set(slot, normal);
+  touch_batch.surface.set(slot, surface);
+  touch_batch.surface_normal.set(slot, unit(true_normal));
+  touch_batch.tip.set(slot, sensor.tip_from_mount_mm);
+  touch_batch.reading.set(slot, commanded - executor.machine_.home_offset() - sensor.tip_from_mount_mm);
+  touch_batch.error.set(slot, lane.head_error_a_rad * sensor.per_rad_a_mm + lane.head_error_b_rad * sensor.per_rad_b_mm);
+  touch_batch.radius[slot] = sensor.radius_mm;
+  touch_batch.lane[slot] = index;
+  touch_batch.machine[slot] = lane.machine_index;
+  touch_batch.visit[slot] = lane.visits[operation]++;
+  R_WR[slot] = sensor.R_WR;
+  return true;
+}
+
+void BlockRun::add_errors(int machines) {
+  const Contributors& act = executor.options_.contributors;
+  TouchBatch& b = touch_batch;
+  const int all = b.n;
+  b.n = machines;  // the twins behind them stay free of errors
+  if (act.geometry) {
+    const auto in = [](const Columns3& c) { return std::array<const double*, 3>{c.column[0].data(), c.column[1].data(), c.column[2].data()}; };
+    const auto reading = in(b.reading), tip = in(b.tip);
+    double* const error[3] = {b.error.column[0].data(), b.error.column[1].data(), b.error.column[2].data()};
+    block.geometry.add_error(machines, b.lane.data(), reading.data(), tip.data(), error);
+  }
+  if (act.probe) add_probe_noise(b, executor.machine_.probe, executor.options_.seed, executor.site_[operation], R_WR);
+  b.n = all;
+}
+
+void BlockRun::operator()(const plan::Touch& touch) {
+  touch_batch.resize(static_cast<int>(active.size()));
+  R_WR.resize(active.size());
+  int n = 0, machines = 0;
+  for (const int lane : active) {
+    if (!block.lanes[lane].running || !prepare_touch(n, lane, touch)) continue;
+    ++n;
+    if (!block.is_twin(lane)) ++machines;
+  }
+  touch_batch.n = n;
+  add_errors(machines);
+  find_contact(touch_batch);
+  block.touches += static_cast<std::uint64_t>(machines);
+  for (int i = 0; i < n; ++i) {
+    Lane& lane = block.lanes[touch_batch.lane[i]];
+    const double offset = touch_batch.travel[i] - (lane.compensation ? touch_batch.radius[i] : 0.0);
+    lane.points.push_back(touch_batch.commanded.get(i) + offset * touch_batch.normal.get(i));
+    if (stops && touch_batch.lane[i] == block.reference()) stops->push_back({touch_batch.reading.get(i), operation, true});
+  }
+}
+
+void BlockRun::fit_twins(plan::FeatureId feature) {
+  const FeatureKind& kind = *executor.plan_[feature].kind;
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    if (!block.is_twin(i)) return "";
+    const Element& nominal = lane.nominal[feature.value];
+    Element& result = lane.actual[feature.value];
+    if (kind.shape == Shape::point) {
+      const char* failure = nullptr;
+      points_buffer.clear();
+      for (const Vec3& p : lane.points) points_buffer.insert(points_buffer.end(), {p.x, p.y, p.z});
+      kind.fit_lanes({points_buffer.data(), static_cast<int>(lane.points.size()), 1, 1}, &nominal, &result, &failure);
+      if (failure) return failure;
+    } else {
+      FitProblem problem{kind.shape, lane.points, std::nullopt};
+      if (kind.shape == Shape::circle) problem.normal = nominal.direction;
+      FitSolution solution = fit_points(problem);
+      if (solution.error) return solution.error->message;
+      result = solution.element;
+      // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its open side by itself.
+      if (kind.shape != Shape::cone && dot(result.direction, nominal.direction) < 0) {
+        result.direction = -result.direction;
+        std::swap(result.begin, result.end);
+        result.begin = -result.begin, result.end = -result.end;
+        if (kind.shape == Shape::plane) std::swap(result.low, result.high), result.low = -result.low, result.high = -result.high;
+      }
+    }
+    lane.has_actual[feature.value] = 1;
+    return "";
+  });
+}
+
+void BlockRun::fit_machines(plan::FeatureId feature, std::size_t points) {
+  std::vector<int> lanes;
+  for (const int i : active)
+    if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].points.size() == points) lanes.push_back(i);
+  if (lanes.empty()) return;
+  const int n = static_cast<int>(lanes.size());
+  points_buffer.resize(3 * points * lanes.size());
+  std::vector<Element> start(lanes.size()), result(lanes.size());
+  std::vector<const char*> failure(lanes.size(), nullptr);
+  for (int k = 0; k < n; ++k) {
+    const Lane& lane = block.lanes[lanes[k]];
+    const Lane& twin = block.lanes[lane.twin];
+    for (std::size_t p = 0; p < points; ++p)
+      for (int axis = 0; axis < 3; ++axis) points_buffer[(3 * p + axis) * lanes.size() + k] = lane.points[p][axis];
+    start[k] = (lane.X_WD * inverse(twin.X_WD)) * twin.actual[feature.value];
+  }
+  executor.plan_[feature].kind->fit_lanes({points_buffer.data(), static_cast<int>(points), n, n}, start.data(), result.data(), failure.data());
+  for (int k = 0; k < n; ++k) {
+    if (failure[k]) {
+      trap(lanes[k], failure[k]);
+      continue;
+    }
+    block.lanes[lanes[k]].actual[feature.value] = result[k];
+    block.lanes[lanes[k]].has_actual[feature.value] = 1;
+  }
+}
+
+void BlockRun::operator()(const plan::EndMeasure& end) {
+  const FeatureKind& kind = *executor.plan_[end.feature].kind;
+  for_active([&](int i) -> std::string {
+    const int have = static_cast<int>(block.lanes[i].points.size());
+    if (have >= kind.minimum_points) return "";
+    return "a " + std::string(kind.word) + " needs at least " + std::to_string(kind.minimum_points) + " touches, this measurement has " +
+           std::to_string(have);
+  });
+  fit_twins(end.feature);
+  std::set<std::size_t> counts;  // lanes may have taken different paths inside the measurement
+  for (const int i : active)
+    if (block.lanes[i].running) counts.insert(block.lanes[i].points.size());
+  for (const std::size_t count : counts) fit_machines(end.feature, count);
+}
+
+}  // namespace abbe

@@ -1,0 +1,37 @@
+#include "engine/run/placement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/run/executor.hpp"
+
+namespace abbe {
+
+Placement find_placement(const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+  const RunOptions options;
+  const Executor::Reach reach = Executor(plan, machine, options, source).reach();
+  double low = INFINITY, high = -INFINITY;
+  for (const auto& stop : reach.stops) {
+    if (!stop.touch) continue;
+    low = std::min(low, stop.reading_mm.z);
+    high = std::max(high, stop.reading_mm.z);
+  }
+  const MachineAxis& z = machine[Axis::z];
+  const double first = z.direction > 0 ? 0 : -z.travel_mm, last = first + z.travel_mm;
+  if (low > high || (low >= first && high <= last) || high - low > z.travel_mm) return {};
+  const double shift = std::round((first + last) / 2 - (low + high) / 2);
+  if (std::fabs(shift) > z.travel_mm + std::max(std::fabs(first), std::fabs(last))) return {};
+  Placement placement;
+  placement.shift_mm.z = shift;
+  placement.message = diagnostic(
+      Code::W0303,
+      fmt::format("the touches need z readings from {:.0f} to {:.0f} mm, machine '{}' has {:.0f} to {:.0f}: the program's machine "
+                  "coordinates were shifted by {:+.0f} mm in z, to the middle of the travel",
+                  low, high, machine.name, first, last, shift),
+      fmt::format("say where the part stands with a line such as `$$! place 0 0 {:.0f}` (mm)", shift));
+  return placement;
+}
+
+}  // namespace abbe

@@ -1,0 +1,147 @@
+#include "engine/run/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "engine/run/executor.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// What one block contributes; merged in block order, so that the result does not depend on threads.
+struct BlockResult {
+  struct LaneResult {
+    std::vector<Value> values;
+    std::optional<LaneTrap> trap;
+  };
+  std::vector<LaneResult> lanes;
+  std::uint64_t touches = 0;
+};
+
+BlockResult run_block(const Executor& executor, const VirtualMachines& machines, int first, int count) {
+  Block block = executor.make_block(machines, first, count);
+  executor.run(block);
+  BlockResult result;
+  result.touches = block.touches;
+  for (int i = 0; i < count; ++i) {
+    Lane& lane = block.lanes[i];
+    const bool trapped = !lane.trap.reason.empty();
+    result.lanes.push_back({std::move(lane.values), trapped ? std::optional(lane.trap) : std::nullopt});
+  }
+  return result;
+}
+
+/// Runs all blocks on `threads` threads; the first exception of a block ends the run.
+std::vector<BlockResult> run_blocks(const Executor& executor, const VirtualMachines& machines, const RunOptions& options) {
+  const int per_block = std::max(1, options.block_lanes);
+  const int blocks = (machines.size() + per_block - 1) / per_block;
+  std::vector<BlockResult> results(blocks);
+  std::atomic<int> next = 0;
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto work = [&] {
+    for (int b = next++; b < blocks; b = next++) {
+      try {
+        const int first = b * per_block;
+        results[b] = run_block(executor, machines, first, std::min(per_block, machines.size() - first));
+      } catch (...) {
+        const std::lock_guard lock(failure_mutex);
+        if (!failure) failure = std::current_exception();
+        next = blocks;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> pool;
+    for (int t = 1; t < std::min(options.threads, blocks); ++t) pool.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+/// The range of readings of an axis.
+std::pair<double, double> range(const MachineAxis& axis) {
+  return axis.direction > 0 ? std::pair{0.0, axis.travel_mm} : std::pair{-axis.travel_mm, 0.0};
+}
+
+/// Every touch of the error-free machine must lie inside the travel.
+void check_travel(const Executor::Reach& reach, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+  constexpr std::size_t kShown = 10;
+  std::vector<Diagnostic> errors;
+  std::size_t outside = 0;
+  for (const auto& stop : reach.stops) {
+    if (!stop.touch) continue;
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      const auto [low, high] = range(machine[axis]);
+      const double reading = stop.reading_mm[static_cast<int>(axis)];
+      if (reading >= low && reading <= high) continue;
+      if (++outside > kShown) break;
+      errors.push_back(diagnostic_at(
+          source, plan.operations[stop.operation].span, Code::E0302,
+          fmt::format("this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
+                      machine.name, "xyz"[static_cast<int>(axis)], reading, low, high),
+          "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine"));
+      break;
+    }
+  }
+  if (outside > kShown) errors.back().help += fmt::format(" ({} touches in all are outside)", outside);
+  if (!errors.empty()) throw UserError(std::move(errors));
+}
+
+/// Runs the error-free machine alone and refuses what no machine could do.
+std::vector<Value> reference_values(const Executor& executor, const plan::Plan& plan, const SourceFile& source) {
+  Block block = executor.make_block({}, 0, 0);
+  executor.run(block);
+  Lane& lane = block.lanes[block.reference()];
+  if (!lane.trap.reason.empty()) {
+    throw UserError(diagnostic_at(source, plan.operations[lane.trap.operation].span, Code::E0304,
+                                  "not even an error-free machine can go on here: " + lane.trap.reason,
+                                  "correct the statement; `abbe check` lists everything that it finds in the program"));
+  }
+  return std::move(lane.values);
+}
+
+using Key = std::pair<int, int>;  // characteristic, visit
+
+}  // namespace
+
+RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
+                   const SourceFile& source) {
+  const Executor executor(plan, machine, options, source);
+  const std::vector<Value> reference = reference_values(executor, plan, source);
+  check_travel(executor.reach(), plan, machine, source);
+
+  RunResult result;
+  result.machines = machines.size();
+  std::map<Key, std::size_t> slot;
+  for (const Value& v : reference) {
+    slot[{v.characteristic.value, v.visit}] = result.samples.size();
+    result.samples.push_back({v.characteristic, v.visit + 1, v.value, v.nominal, v.limits, {}, {}});
+  }
+  std::uint32_t machine_number = 0;
+  for (BlockResult& block : run_blocks(executor, machines, options)) {
+    result.touches += block.touches;
+    for (BlockResult::LaneResult& lane : block.lanes) {
+      for (const Value& v : lane.values) {
+        const auto found = slot.find({v.characteristic.value, v.visit});
+        if (found == slot.end()) continue;  // evaluated on a path that the error-free machine does not take
+        result.samples[found->second].value.push_back(v.value);
+        result.samples[found->second].machine.push_back(machine_number);
+      }
+      if (lane.trap)
+        result.traps.push_back({machine_number, lane.trap->operation, plan.operations[lane.trap->operation].line, lane.trap->reason});
+      ++machine_number;
+    }
+  }
+  return result;
+}
+
+}  // namespace abbe

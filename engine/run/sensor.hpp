@@ -1,0 +1,21 @@
+// A stylus system as the touch kernel needs it: where its tip is, and how the head's indexing errors move it.
+#pragma once
+
+#include "engine/machine/machine.hpp"
+#include "engine/plan/plan.hpp"
+
+namespace abbe {
+
+struct Sensor {
+  Vec3 tip_from_mount_mm;          ///< nominal tip centre seen from the mounting point, along the axes of W
+  Mat3 R_WR;                       ///< the last link of the head in W: turns the probe's errors into W
+  Vec3 per_rad_a_mm, per_rad_b_mm; ///< displacement of the tip per radian of indexing error; zero for a fixed sensor
+  double radius_mm = 0;
+  bool indexed = false;
+  double head_a_rad = 0, head_b_rad = 0;
+};
+
+/// Resolves a sensor of the program against the machine. Throws UserError when the machine file has no sensor of that name.
+Sensor resolve_sensor(const plan::SensorDef&, const Machine&, const SourceFile&);
+
+}  // namespace abbe
