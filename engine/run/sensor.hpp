@@ -1,6 +1,7 @@
 // A stylus system as the touch kernel needs it: where its tip is, and how the head's indexing errors move it.
 #pragma once
 
+#include "engine/base/diagnostic.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/plan/plan.hpp"
 
