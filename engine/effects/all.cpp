@@ -1,0 +1,25 @@
+// The list of effects, in the order of the catalogue. A new effect is one file and one line in the all.cpp of its family.
+#include <algorithm>
+
+#include "engine/effects/effect.hpp"
+#include "engine/effects/families.hpp"
+
+namespace abbe {
+
+std::span<const Effect* const> effects() {
+  static const std::vector<const Effect*> list = [] {
+    std::vector<const Effect*> all;
+    for (const auto family : {thermal_effects(), probe_effects(), head_effects(), machine_effects(), part_effects(), noise_effects()})
+      all.insert(all.end(), family.begin(), family.end());
+    return all;
+  }();
+  return list;
+}
+
+const Effect* find_effect(std::string_view name) {
+  const auto all = effects();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Effect* e) { return e->name == name; });
+  return found == all.end() ? nullptr : *found;
+}
+
+}  // namespace abbe

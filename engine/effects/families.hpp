@@ -1,0 +1,15 @@
+// The families of effects; each folder lists its own in its all.cpp.
+#pragma once
+
+#include "engine/effects/effect.hpp"
+
+namespace abbe {
+
+std::span<const Effect* const> thermal_effects();
+std::span<const Effect* const> probe_effects();
+std::span<const Effect* const> head_effects();
+std::span<const Effect* const> machine_effects();
+std::span<const Effect* const> part_effects();
+std::span<const Effect* const> noise_effects();
+
+}  // namespace abbe
