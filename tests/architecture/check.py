@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files [COMPILER]
+
+includes  every #include of a layer names that layer or one that CMakeLists.txt lets it use; the heavy libraries stay where they belong
+headers   every header compiles alone
+codes     every message code is exercised by a test
+files     no file is longer than 500 lines
+"""
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Libraries that may be included only in the named places (docs/architecture.md, "Libraries").
+CONFINED = {
+    "tao/pegtl": ["lang/parser.cpp"],
+    "CLI/": ["programs/options.cpp"],
+    "Eigen/": ["engine/math/", "engine/features/"],
+    "boost/": ["engine/math/"],
+}
+
+
+def sources(*suffixes):
+    for folder in ("engine", "lang", "programs"):
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in suffixes:
+                yield path
+
+
+def layers():
+    """Folder -> folders it may include, from the abbe_layer lines of CMakeLists.txt; uses of uses count."""
+    text = (ROOT / "CMakeLists.txt").read_text()
+    folder, uses = {}, {}
+    for name, where, rest in re.findall(r"abbe_layer\((\w+)\s+(\S+)([^)]*)\)", text):
+        folder[name] = where
+        used = re.search(r"USES\s+(.*)", rest.split("LINKS")[0], re.S)
+        uses[name] = set(used.group(1).split()) if used else set()
+
+    def closure(name):
+        found = set(uses[name])
+        for used in uses[name]:
+            found |= closure(used)
+        return found
+    table = {folder[n]: {folder[u] for u in closure(n)} | {folder[n]} for n in folder}
+    table["programs"] = set(folder.values()) | {"programs"}
+    return table
+
+
+def layer_of(path, table):
+    name = str(path)
+    return max((f for f in table if name.startswith(f + "/")), key=len, default=None)
+
+
+def check_includes():
+    table, wrong = layers(), []
+    for path in sources(".cpp", ".hpp", ".def"):
+        relative = path.relative_to(ROOT)
+        own = layer_of(relative, table)
+        if own is None:
+            wrong.append(f"{relative}: belongs to no layer of CMakeLists.txt")
+            continue
+        for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
+            match = re.match(r'\s*#\s*include\s*(["<])([^">]+)', line)
+            if not match:
+                continue
+            target = match.group(2)
+            if match.group(1) == '"' or target.startswith(("engine/", "lang/", "programs/")):
+                other = layer_of(pathlib.Path(target), table)
+                if other not in table[own]:
+                    wrong.append(f"{relative}:{number}: layer {own} may not include {target}")
+            for library, places in CONFINED.items():
+                if target.startswith(library) and not str(relative).startswith(tuple(places)):
+                    wrong.append(f"{relative}:{number}: {target} belongs only in {', '.join(places)}")
+    return wrong
+
+
+def check_headers(compiler):
+    def compile_alone(path):
+        run = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-I", str(ROOT),
+                              "-include", str(path), "-x", "c++", "/dev/null"], capture_output=True, text=True)
+        return [] if run.returncode == 0 else [f"{path.relative_to(ROOT)} does not compile alone:\n{run.stderr}"]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return [line for lines in pool.map(compile_alone, sources(".hpp")) for line in lines]
+
+
+def check_codes():
+    text = (ROOT / "engine/base/diagnostic_codes.def").read_text()
+    codes = re.findall(r"^X\(([EWN]\d{4}),", text, re.M)
+    exercised = set()
+    for path in (ROOT / "tests").rglob("*"):
+        if path.is_file() and path.suffix in (".cpp", ".dmi", ".py", ".json", ".hpp"):
+            exercised |= set(re.findall(r"\b[EWN]\d{4}\b", path.read_text(errors="replace")))
+    wrong = [f"message code {code} is exercised by no test" for code in codes if code not in exercised]
+    if len(set(codes)) != len(codes) or codes != sorted(codes, key=lambda c: (c[1:], c[0])):
+        wrong.append("diagnostic_codes.def: codes must be unique and in order of their numbers")
+    return wrong
+
+
+def check_files():
+    wrong = []
+    for path in sources(".cpp", ".hpp"):
+        lines = len(path.read_text(errors="replace").splitlines())
+        if lines > 500:
+            wrong.append(f"{path.relative_to(ROOT)} has {lines} lines; the limit is 500")
+    return wrong
+
+
+def main():
+    what = sys.argv[1]
+    wrong = {"includes": check_includes, "codes": check_codes, "files": check_files,
+             "headers": lambda: check_headers(sys.argv[2])}[what]()
+    print("\n".join(wrong) if wrong else f"{what}: good")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
