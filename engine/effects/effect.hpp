@@ -30,6 +30,7 @@ struct StylusScene {
   double cte_per_K = 0;
   double head_a_rad = 0, head_b_rad = 0;
   bool indexed = false;
+  int ordinal = 1;             ///< 1, 2, ...: stylus systems in the order of their first use
 };
 
 /// Temperatures in degrees C; 20 where nothing is known.
@@ -84,6 +85,9 @@ struct TouchScene {
   int feature = 0;            ///< ordinal of the feature measured
   int setup = 0, run = 0, visit = 0, qualification = 0;
   Vec3 travel_length_mm{1000, 1000, 1000};  ///< of the machine's axes
+  /// From the origin of each carriage's frame (x, y, z) to the tip, W: the arm on which a rotation of that carriage acts. For x it
+  /// is l_y + l_z + l_m + t of the geometric model (machine/geometry.hpp).
+  Vec3 lever_mm[3];
 };
 
 /// Where in the chain of a touch an effect acts. Within a stage displacements add.
@@ -97,7 +101,11 @@ struct EffectParameter {
   double low = 0, high = 0;   ///< plausible range; values outside are refused in machine files and flagged by the diagnosis
   double standard = 0;        ///< value when a user gives none
   bool linear = false;        ///< the displacement is linear in all linear parameters jointly
+  std::span<const std::string_view> choices = {};  ///< names of the codes low, low + 1, ... of a parameter that is a choice
 };
+
+/// The names of the codes 0, 1, 2 of every parameter `axis`.
+inline constexpr std::string_view kAxisChoices[] = {"x", "y", "z"};
 
 /// How often an effect draws its random numbers (standard normal, see lanes/random.hpp).
 enum class DrawsPer { none, machine, visit, touch };
