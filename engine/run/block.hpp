@@ -13,6 +13,9 @@
 
 #include "engine/machine/geometry.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/run/effect_set.hpp"
+#include "engine/run/motion.hpp"
+#include "engine/run/run.hpp"
 #include "engine/run/sensor.hpp"
 
 namespace abbe {
@@ -48,6 +51,7 @@ struct Lane {
   std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
   std::vector<char> has_actual;
   std::vector<Element> nominal;       ///< by FeatureId, in W; twins only
+  std::optional<Motion> motion;       ///< twins only: their machines move with them
   std::vector<Rigid> frames;          ///< X_WD by FrameId
   std::vector<double> columns;        ///< by ColumnId
   std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
@@ -59,6 +63,7 @@ struct Block {
   std::vector<Lane> lanes;
   int machines = 0;
   GeometryBlock geometry;
+  EffectSet::LaneParameters effects;
   std::uint64_t touches = 0;
 
   int reference() const { return machines; }

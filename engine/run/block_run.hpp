@@ -22,7 +22,7 @@ class BlockRun {
   void operator()(const plan::DefineFeature&);
   void operator()(const plan::SelectSensor&);
   void operator()(const plan::SetCompensation&);
-  void operator()(const plan::SetMotion&) {}  // times and speeds do not matter to the errors modelled so far
+  void operator()(const plan::SetMotion&);
   void operator()(const plan::Move&);
   void operator()(const plan::BeginMeasure&);
   void operator()(const plan::Touch&);
@@ -63,6 +63,7 @@ class BlockRun {
 
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
+  void add_effects(const plan::Touch&, int machines);
   void fit_twins(plan::FeatureId);
   void fit_machines(plan::FeatureId, std::size_t points);
   /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.

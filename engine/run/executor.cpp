@@ -7,7 +7,7 @@
 namespace abbe {
 
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
-    : plan_(plan), machine_(machine), options_(options), source_(source) {
+    : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name) {
   for (const plan::SensorDef& def : plan.sensors) sensors_.push_back(resolve_sensor(def, machine, source));
   std::uint32_t touches = 0;
   for (const plan::Operation& op : plan.operations)
@@ -24,12 +24,27 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.columns.assign(plan_.columns, 0.0);
   start.visits.assign(plan_.operations.size(), 0);
 
+  const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);
+  Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index), 0};
+  for (int i = 0; i < count; ++i) block.lanes[i].machine_index = index[i];
+  block.lanes[count].nominal.resize(plan_.features.size());
+  block.lanes[count].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
+  return block;
+}
+
+GeometryBlock Executor::acting_geometry(const VirtualMachines& machines, int first, int count) const {
+  std::vector<GeometryCoefficients> alone;
   std::vector<const GeometryCoefficients*> geometry;
   for (int i = 0; i < count; ++i) geometry.push_back(&machines.geometry[first + i]);
-  Block block{std::vector<Lane>(count + 1, start), count, GeometryBlock(machine_, geometry), 0};
-  for (int i = 0; i < count; ++i) block.lanes[i].machine_index = machines.index[first + i];
-  block.lanes[count].nominal.resize(plan_.features.size());
-  return block;
+  if (const auto only = options_.contributors.only_component) {
+    const std::size_t size = basis_size(machine_.harmonics), begin = size * static_cast<std::size_t>(*only);
+    for (const GeometryCoefficients* all : geometry) {
+      alone.emplace_back(all->size(), 0.0);
+      std::copy_n(all->begin() + static_cast<std::ptrdiff_t>(begin), size, alone.back().begin() + static_cast<std::ptrdiff_t>(begin));
+    }
+    for (int i = 0; i < count; ++i) geometry[i] = &alone[i];
+  }
+  return GeometryBlock(machine_, geometry);
 }
 
 void Executor::run(Block& block) const { BlockRun(*this, block).run(); }

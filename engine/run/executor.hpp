@@ -37,11 +37,13 @@ class Executor {
 
  private:
   friend class BlockRun;
+  GeometryBlock acting_geometry(const VirtualMachines& machines, int first, int count) const;
+
   const plan::Plan& plan_;
   const Machine& machine_;
   const RunOptions& options_;
-  const SourceFile& source_;
   std::vector<Sensor> sensors_;      ///< by SensorId
+  EffectSet effects_;
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

@@ -26,6 +26,7 @@ void BlockRun::operator()(const plan::SelectSensor& select) {
     if (!sensor.indexed) continue;
     const bool stays = lane.head_indexed && lane.head_a_rad == sensor.head_a_rad && lane.head_b_rad == sensor.head_b_rad;
     if (stays) continue;
+    if (lane.motion) lane.motion->index_head();
     lane.head_indexed = true;
     lane.head_a_rad = sensor.head_a_rad;
     lane.head_b_rad = sensor.head_b_rad;
@@ -40,7 +41,14 @@ void BlockRun::operator()(const plan::SetCompensation& set) {
   for (const int i : active) block.lanes[i].compensation = set.on;
 }
 
+void BlockRun::operator()(const plan::SetMotion& set) {
+  for (const int i : active)
+    if (block.is_twin(i)) apply(block.lanes[i].motion->settings(), set, executor.machine_);
+}
+
 void BlockRun::operator()(const plan::Move& move) {
+  for (const int i : active)
+    if (block.is_twin(i)) block.lanes[i].motion->move_to(block.lanes[i].X_WD * value(block.lanes[i], move.to));
   if (!stops) return;
   const Lane& reference = block.lanes[block.reference()];
   if (!reference.sensor.valid()) return;
@@ -126,6 +134,7 @@ void BlockRun::operator()(const plan::Touch& touch) {
   }
   touch_batch.n = n;
   add_errors(machines);
+  add_effects(touch, machines);
   find_contact(touch_batch);
   block.touches += static_cast<std::uint64_t>(machines);
   for (int i = 0; i < n; ++i) {

@@ -97,16 +97,16 @@ void check_travel(const Executor::Reach& reach, const plan::Plan& plan, const Ma
 }
 
 /// Runs the error-free machine alone and refuses what no machine could do.
-std::vector<Value> reference_values(const Executor& executor, const plan::Plan& plan, const SourceFile& source) {
+Lane reference_lane(const Executor& executor, const plan::Plan& plan, const SourceFile& source) {
   Block block = executor.make_block({}, 0, 0);
   executor.run(block);
-  Lane& lane = block.lanes[block.reference()];
+  Lane lane = std::move(block.lanes[block.reference()]);
   if (!lane.trap.reason.empty()) {
     throw UserError(diagnostic_at(source, plan.operations[lane.trap.operation].span, Code::E0304,
                                   "not even an error-free machine can go on here: " + lane.trap.reason,
                                   "correct the statement; `abbe check` lists everything that it finds in the program"));
   }
-  return std::move(lane.values);
+  return lane;
 }
 
 using Key = std::pair<int, int>;  // characteristic, visit
@@ -116,13 +116,14 @@ using Key = std::pair<int, int>;  // characteristic, visit
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
                    const SourceFile& source) {
   const Executor executor(plan, machine, options, source);
-  const std::vector<Value> reference = reference_values(executor, plan, source);
+  const Lane reference = reference_lane(executor, plan, source);
   check_travel(executor.reach(), plan, machine, source);
 
   RunResult result;
   result.machines = machines.size();
+  result.cycle_time_s = reference.motion->time_s();
   std::map<Key, std::size_t> slot;
-  for (const Value& v : reference) {
+  for (const Value& v : reference.values) {
     slot[{v.characteristic.value, v.visit}] = result.samples.size();
     result.samples.push_back({v.characteristic, v.visit + 1, v.value, v.nominal, v.limits, {}, {}});
   }

@@ -8,12 +8,16 @@
 #include "engine/base/diagnostic.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/run/effect_use.hpp"
 
 namespace abbe {
 
 /// Which sources of error act in a run. Switching one off changes no random number of the others.
 struct Contributors {
   bool geometry = true, head = true, probe = true;
+  std::optional<Component> only_component;  ///< of the geometry, that error function alone
+  bool effects = true;
+  std::optional<int> only_effect;           ///< of the effects, that one alone: index into the machine's list
 };
 
 struct RunOptions {
@@ -21,6 +25,7 @@ struct RunOptions {
   int threads = 1;
   int block_lanes = 128;          ///< results do not depend on it
   Contributors contributors;
+  EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;              ///< where the program's machine coordinate system lies in W (directive `place`)
 };
 
@@ -48,6 +53,7 @@ struct RunResult {
   std::vector<Trap> traps;        ///< by machine
   int machines = 0;
   std::uint64_t touches = 0;      ///< executed on virtual machines
+  double cycle_time_s = 0;        ///< of the program on the error-free machine (motion.hpp)
 };
 
 /// Runs the plan on an error-free machine and on every machine of `machines`. The same result for any thread count and block

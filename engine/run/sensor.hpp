@@ -8,12 +8,16 @@
 namespace abbe {
 
 struct Sensor {
+  std::string name;
   Vec3 tip_from_mount_mm;          ///< nominal tip centre seen from the mounting point, along the axes of W
   Mat3 R_WR;                       ///< the last link of the head in W: turns the probe's errors into W
   Vec3 per_rad_a_mm, per_rad_b_mm; ///< displacement of the tip per radian of indexing error; zero for a fixed sensor
   double radius_mm = 0;
   bool indexed = false;
   double head_a_rad = 0, head_b_rad = 0;
+  Vec3 to_head{0, 0, 1};           ///< unit vector from the tip towards the head, W
+  double length_mm = 0;            ///< from the head's centre (or the mounting point) to the tip
+  double shaft_diameter_mm = 0, young_MPa = 0, cte_per_K = 0;  ///< of the stylus; 0 where the machine file says nothing
 };
 
 /// Resolves a sensor of the program against the machine. Throws UserError when the machine file has no sensor of that name.

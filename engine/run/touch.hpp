@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "engine/machine/geometry.hpp"
-#include "engine/run/run.hpp"
 #include "engine/run/sensor.hpp"
 
 namespace abbe {
