@@ -1,0 +1,26 @@
+#include "engine/base/ids.hpp"
+#include "engine/features/feature.hpp"
+
+namespace abbe {
+
+extern const FeatureKind point_kind, line_kind, plane_kind, circle_kind, cylinder_kind, sphere_kind, cone_kind, torus_kind;
+
+std::span<const FeatureKind* const> feature_kinds() {
+  static const FeatureKind* const kinds[] = {&point_kind,    &line_kind,   &plane_kind, &circle_kind,
+                                             &cylinder_kind, &sphere_kind, &cone_kind,  &torus_kind};
+  return kinds;
+}
+
+const FeatureKind& feature_kind(Shape shape) {
+  for (const FeatureKind* kind : feature_kinds())
+    if (kind->shape == shape) return *kind;
+  throw InternalError("a Shape without a FeatureKind");
+}
+
+const FeatureKind* find_feature_kind(std::string_view word) {
+  for (const FeatureKind* kind : feature_kinds())
+    if (kind->word == word) return kind;
+  return nullptr;
+}
+
+}  // namespace abbe

@@ -1,0 +1,30 @@
+#include "engine/features/feature.hpp"
+#include "engine/features/lane_fit.hpp"
+#include "engine/features/nominal.hpp"
+
+namespace abbe {
+namespace {
+
+Outcome<Element> nominal(const Arguments& arguments) {
+  const Outcome<Vec3> along = direction(arguments);
+  if (!along) return Outcome<Element>::failed(along.failure);
+  const Outcome<double> size = radius(arguments, "diam");
+  if (!size) return Outcome<Element>::failed(size.failure);
+  return {{.point = location(arguments), .direction = along.value, .size = size.value}};
+}
+
+}  // namespace
+
+extern const FeatureKind circle_kind{
+    .shape = Shape::circle,
+    .word = "CIRCLE",
+    .signature = "side:INNER|OUTER," ABBE_LOCATION "," ABBE_DIRECTION ",diam:length",
+    .help = "a circle: centre, normal of its plane, diameter",
+    .example = "F(C1)=FEAT/CIRCLE,INNER,CART,50,50,0,0,0,1,20",
+    .source = "ISO 22093:2011, FEAT/CIRCLE; radial distances in the plane of the nominal normal",
+    .minimum_points = 3,
+    .nominal = nominal,
+    .fit_lanes = fit_lanes_of<CircleProfile>,
+};
+
+}  // namespace abbe

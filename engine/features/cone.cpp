@@ -1,0 +1,32 @@
+#include "engine/features/feature.hpp"
+#include "engine/features/lane_fit.hpp"
+#include "engine/features/nominal.hpp"
+
+namespace abbe {
+namespace {
+
+// The point is the apex, where the radius is zero; the fit moves it to the touches.
+Outcome<Element> nominal(const Arguments& arguments) {
+  const Outcome<Vec3> along = direction(arguments);
+  if (!along) return Outcome<Element>::failed(along.failure);
+  const double half_angle = arguments.number("angle") / 2;
+  if (!(half_angle > 0 && half_angle < kPi / 2))
+    return Outcome<Element>::failed("the full angle of a cone must be more than 0 and less than 180 degrees");
+  return {{.point = location(arguments), .direction = along.value, .angle = half_angle}};
+}
+
+}  // namespace
+
+extern const FeatureKind cone_kind{
+    .shape = Shape::cone,
+    .word = "CONE",
+    .signature = "side:INNER|OUTER," ABBE_LOCATION "," ABBE_DIRECTION ",angle:angle",
+    .help = "a cone: apex, direction of the axis to the open side, full angle",
+    .example = "F(CO1)=FEAT/CONE,INNER,CART,0,0,-40,0,0,1,60",
+    .source = "ISO 22093:2011, FEAT/CONE; Forbes, NPL DITC 140/89",
+    .minimum_points = 6,
+    .nominal = nominal,
+    .fit_lanes = fit_lanes_of<ConeProfile>,
+};
+
+}  // namespace abbe

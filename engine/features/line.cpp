@@ -1,0 +1,40 @@
+#include "engine/features/feature.hpp"
+#include "engine/features/straight_fit.hpp"
+#include "engine/features/nominal.hpp"
+
+namespace abbe {
+namespace {
+
+/// From end to end: `point` is the middle, as the centroid of evenly spread touches is.
+Outcome<Element> bounded(const Arguments& arguments) {
+  const Vec3 from{arguments.number("x1"), arguments.number("y1"), arguments.number("z1")};
+  const Vec3 to{arguments.number("x2"), arguments.number("y2"), arguments.number("z2")};
+  const double length = norm(to - from);
+  if (!(length > 0)) return Outcome<Element>::failed("the two ends of the line are the same point");
+  return {{.point = 0.5 * (from + to), .direction = (to - from) / length, .begin = -length / 2, .end = length / 2}};
+}
+
+// The normal (ni, nj, nk) of the surface has no place in Element: touches bring their own normals.
+Outcome<Element> nominal(const Arguments& arguments) {
+  if (arguments.has("x1")) return bounded(arguments);
+  const Outcome<Vec3> along = direction(arguments);
+  if (!along) return Outcome<Element>::failed(along.failure);
+  return {{.point = location(arguments), .direction = along.value}};
+}
+
+}  // namespace
+
+extern const FeatureKind line_kind{
+    .shape = Shape::line,
+    .word = "LINE",
+    .signature = "( BND,CART,x1:length,y1:length,z1:length,x2:length,y2:length,z2:length ; UNBND," ABBE_LOCATION
+                 "," ABBE_DIRECTION " ),ni:number,nj:number,nk:number",
+    .help = "a straight line: its two ends, or a point and a direction, then the normal of its surface",
+    .example = "F(L1)=FEAT/LINE,BND,CART,0,0,0,100,0,0,0,0,1",
+    .source = "ISO 22093:2011, FEAT/LINE; total least squares (Pearson 1901)",
+    .minimum_points = 2,
+    .nominal = nominal,
+    .fit_lanes = fit_line_lanes,
+};
+
+}  // namespace abbe

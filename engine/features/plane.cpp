@@ -1,0 +1,28 @@
+#include "engine/features/feature.hpp"
+#include "engine/features/straight_fit.hpp"
+#include "engine/features/nominal.hpp"
+
+namespace abbe {
+namespace {
+
+Outcome<Element> nominal(const Arguments& arguments) {
+  const Outcome<Vec3> along = direction(arguments);
+  if (!along) return Outcome<Element>::failed(along.failure);
+  return {{.point = location(arguments), .direction = along.value}};
+}
+
+}  // namespace
+
+extern const FeatureKind plane_kind{
+    .shape = Shape::plane,
+    .word = "PLANE",
+    .signature = ABBE_LOCATION "," ABBE_DIRECTION,
+    .help = "a plane: a point and the normal out of the material",
+    .example = "F(PL1)=FEAT/PLANE,CART,0,0,0,0,0,1",
+    .source = "ISO 22093:2011, FEAT/PLANE; total least squares (Pearson 1901)",
+    .minimum_points = 3,
+    .nominal = nominal,
+    .fit_lanes = fit_plane_lanes,
+};
+
+}  // namespace abbe

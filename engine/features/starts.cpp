@@ -1,0 +1,225 @@
+#include "engine/features/starts.hpp"
+
+#include <Eigen/Dense>
+
+#include "engine/features/descend.hpp"
+#include "engine/lanes/random.hpp"
+
+namespace abbe {
+namespace {
+
+using Starts = std::vector<Placed<double>>;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Placed<double> frame_along(const Vec3& axis) { return placed(Shape::cylinder, {.point = {}, .direction = axis, .size = 1}, {}); }
+
+/// Least squares of m x = b, in the columns' own scales.
+VectorXd least_squares(const MatrixXd& m, const VectorXd& b) { return m.colPivHouseholderQr().solve(b); }
+
+/// Algebraic circle (dimension 2: rows x, y) or sphere (3): |q|^2 = 2 c q + k, linear in c and k (Kasa 1976).
+struct Ball {
+  double centre[3] = {};
+  double radius = 0;
+};
+Ball algebraic_ball(const MatrixXd& q) {
+  const auto dimension = q.cols();
+  MatrixXd m(q.rows(), dimension + 1);
+  m << 2 * q, VectorXd::Ones(q.rows());
+  const VectorXd x = least_squares(m, q.rowwise().squaredNorm());
+  Ball ball;
+  double radius2 = x[dimension];
+  for (int k = 0; k < dimension; ++k) ball.centre[k] = x[k], radius2 += x[k] * x[k];
+  ball.radius = std::sqrt(std::max(radius2, 0.0));
+  return ball;
+}
+
+/// Coordinates of the points in the frame `s`, one point a row.
+MatrixXd coordinates_in(const Placed<double>& s, const Points<double>& points) {
+  MatrixXd q(points.size(), 3);
+  for (int i = 0; i < q.rows(); ++i) {
+    double row[3];
+    s.coordinates(points[i].data(), row);
+    for (int k = 0; k < 3; ++k) q(i, k) = row[k];
+  }
+  return q;
+}
+
+void shift(Placed<double>& s, double x, double y, double z) {
+  for (int i = 0; i < 3; ++i) s.p[i] += x * s.axes[0][i] + y * s.axes[1][i] + z * s.axes[2][i];
+}
+
+/// Noise on a short arc pulls the algebraic radius in: the same ball, farther away, too.
+Starts ball_starts(Placed<double> frame, const Points<double>& points, int dimension) {
+  const Ball ball = algebraic_ball(coordinates_in(frame, points).leftCols(dimension));
+  Starts list;
+  for (const double farther : {1.0, 3.0, 10.0}) {
+    Placed<double> s = frame;
+    shift(s, farther * ball.centre[0], farther * ball.centre[1], farther * ball.centre[2]);
+    s.size[0] = farther * ball.radius;
+    list.push_back(s);
+  }
+  return list;
+}
+
+Placed<double> cylinder_along(const Vec3& axis, const Points<double>& points) {
+  return ball_starts(frame_along(axis), points, 2).front();
+}
+
+/// With the axis direction z known, rho^2 = (s + h tan)^2 is linear in the shift of the axis and in the coefficients of the
+/// quadratic in h; its slope at h = 0 gives the angle.
+Placed<double> cone_along(const Vec3& axis, const Points<double>& points) {
+  Placed<double> s = frame_along(axis);
+  const MatrixXd q = coordinates_in(s, points);
+  MatrixXd m(q.rows(), 5);
+  m << 2 * q.leftCols(2), q.col(2).cwiseAbs2(), q.col(2), VectorXd::Ones(q.rows());
+  const VectorXd x = least_squares(m, q.leftCols(2).rowwise().squaredNorm());
+  const double radius = std::sqrt(std::max(x[4] + x[0] * x[0] + x[1] * x[1], 0.0));
+  shift(s, x[0], x[1], 0);
+  s.size[1] = std::atan(x[3] / (2 * radius));
+  s.size[0] = radius * std::cos(s.size[1]);
+  return s;
+}
+
+/// The circle through the points seen along the axis, then the circle through their profile about it.
+Placed<double> torus_along(const Vec3& axis, const Points<double>& points) {
+  Placed<double> s = cylinder_along(axis, points);
+  const MatrixXd q = coordinates_in(s, points);
+  MatrixXd profile(q.rows(), 2);
+  profile << q.leftCols(2).rowwise().norm(), q.col(2);
+  const Ball tube = algebraic_ball(profile);
+  shift(s, 0, 0, tube.centre[1]);
+  s.size[0] = tube.centre[0];
+  s.size[1] = tube.radius;
+  return s;
+}
+
+/// A torus is the quartic |q|^4 = |q|^2 (l q) + q M q + v q + k: linear in 13 coefficients, of which l = 4 c gives the centre and
+/// M + 4 c c' (up to a multiple of the identity) = -4 R^2 w w' the axis and the major radius.
+Starts quartic_torus(const Points<double>& points) {
+  if (points.size() < 14) return {};
+  const MatrixXd q = coordinates_in(Placed<double>{}, points);
+  const double unit = std::sqrt(q.rowwise().squaredNorm().mean());
+  MatrixXd m(q.rows(), 13);
+  VectorXd b(q.rows());
+  for (int i = 0; i < q.rows(); ++i) {
+    const Eigen::Vector3d p = q.row(i).transpose() / unit;
+    const double r2 = p.squaredNorm();
+    m.row(i) << r2 * p.transpose(), p[0] * p[0], p[1] * p[1], p[2] * p[2], 2 * p[0] * p[1], 2 * p[0] * p[2],
+        2 * p[1] * p[2], p.transpose(), 1;
+    b[i] = r2 * r2;
+  }
+  const VectorXd x = least_squares(m, b);
+  const Eigen::Vector3d centre = x.head<3>() / 4;
+  Eigen::Matrix3d quadric;
+  quadric << x[3], x[6], x[7], x[6], x[4], x[8], x[7], x[8], x[5];
+  quadric += 4 * centre * centre.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(quadric);  // ascending
+  const Eigen::Vector3d axis = eigen.eigenvectors().col(0);
+  const double major = std::sqrt((eigen.eigenvalues()[1] - eigen.eigenvalues()[0]) / 4);
+  Placed<double> s = frame_along({axis[0], axis[1], axis[2]});
+  for (int k = 0; k < 3; ++k) s.p[k] = centre[k] * unit;
+  s.size[0] = major * unit;
+  const MatrixXd local = coordinates_in(s, points);
+  s.size[1] = ((local.leftCols(2).rowwise().norm().array() - s.size[0]).square() + local.col(2).array().square())
+                  .sqrt()
+                  .mean();
+  return {s};
+}
+
+Vec3 vec(const Extended (&d)[3]) { return {double(d[0]), double(d[1]), double(d[2])}; }
+
+/// Directions all over the half sphere, about 10 degrees apart (Fibonacci lattice).
+void add_lattice(std::vector<Vec3>& axes) {
+  constexpr int count = 200;
+  const double golden = kPi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i) {
+    const double z = (i + 0.5) / count, r = std::sqrt(1 - z * z);
+    axes.push_back({r * std::cos(golden * i), r * std::sin(golden * i), z});
+  }
+}
+
+/// A narrow patch looks like z = (a x^2 + 2 b x y + c y^2) / 2 over its plane. The axis of a surface of revolution lies in the
+/// plane of the normal and of one of the two principal directions there (it is the other one's plane that turns).
+void add_patch_axes(std::vector<Vec3>& axes, const Points<double>& points, const Spread<Extended>& spread) {
+  const Vec3 x = vec(spread.direction[0]), y = vec(spread.direction[1]), n = vec(spread.direction[2]);
+  if (points.size() < 6) return;
+  MatrixXd m(points.size(), 6);
+  VectorXd height(points.size());
+  for (int i = 0; i < m.rows(); ++i) {
+    const Vec3 p{points[i][0], points[i][1], points[i][2]};
+    const double u = dot(p, x) / double(spread.along[0]), v = dot(p, y) / double(spread.along[1]);
+    m.row(i) << 1, u, v, u * u, 2 * u * v, v * v;
+    height[i] = dot(p, n);
+  }
+  const VectorXd f = least_squares(m, height);
+  const double a = f[3] / double(spread.along[0] * spread.along[0]), c = f[5] / double(spread.along[1] * spread.along[1]);
+  const double b = f[4] / double(spread.along[0] * spread.along[1]);
+  const double turn = 0.5 * std::atan2(2 * b, a - c);
+  const Vec3 first = std::cos(turn) * x + std::sin(turn) * y, second = cross(n, first);
+  for (const Vec3& along : {first, second})
+    for (int step = 0; step < 24; ++step) {
+      const double tilt = kPi * step / 24;
+      axes.push_back(std::cos(tilt) * along + std::sin(tilt) * n);
+    }
+}
+
+template <class Profile>
+void keep_best(Starts candidates, const Points<double>& points, std::size_t count, double apart_rad, Starts& kept) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!meaningful<Profile>(candidates[i])) continue;
+    const double cost = sum_of_squares<Profile>(points, candidates[i]);
+    if (std::isfinite(cost)) order.push_back({cost, i});
+  }
+  std::sort(order.begin(), order.end());
+  Starts chosen;
+  for (const auto& [cost, i] : order) {
+    const double(&w)[3] = candidates[i].axes[2];
+    const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const Placed<double>& other) {
+      const double(&v)[3] = other.axes[2];
+      return std::fabs(w[0] * v[0] + w[1] * v[1] + w[2] * v[2]) > std::cos(apart_rad);
+    });
+    if (!near) chosen.push_back(candidates[i]);
+    if (chosen.size() == count) break;
+  }
+  kept.insert(kept.end(), chosen.begin(), chosen.end());
+}
+
+}  // namespace
+
+Points<double> sample(const Points<double>& points, int count) {
+  const auto n = points.size();
+  if (n <= static_cast<std::size_t>(count)) return points;
+  Points<double> chosen;
+  for (int i = 0; i < count; ++i) {  // one from every stretch, at random: a regular step could meet a regular pattern
+    const Philox4 bits = random_bits({.stream = stream_of("fit sample"), .site = static_cast<std::uint32_t>(i)});
+    const double u = uniform_from_bits(bits.v[0], bits.v[1]);
+    chosen.push_back(points[static_cast<std::size_t>((i + u) * static_cast<double>(n) / count)]);
+  }
+  return chosen;
+}
+
+std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, const Spread<Extended>& spread,
+                                   const std::optional<Vec3>& normal) {
+  if (shape == Shape::circle) return ball_starts(frame_along(*normal), points, 2);
+  if (shape == Shape::sphere) return ball_starts(Placed<double>{}, points, 3);
+  std::vector<Vec3> axes;
+  for (const auto& d : spread.direction) axes.push_back(vec(d));
+  add_patch_axes(axes, points, spread);
+  add_lattice(axes);
+  Starts all, kept;
+  for (const Vec3& axis : axes)
+    all.push_back(shape == Shape::cylinder ? cylinder_along(axis, points)
+                  : shape == Shape::cone   ? cone_along(axis, points)
+                                           : torus_along(axis, points));
+  if (shape == Shape::cylinder) keep_best<CylinderProfile>(all, points, 8, 0.2, kept);
+  if (shape == Shape::cone) keep_best<ConeProfile>(all, points, 12, 0.15, kept);
+  if (shape == Shape::torus) {
+    kept = quartic_torus(points);
+    keep_best<TorusProfile>(all, points, 16, 0.15, kept);
+  }
+  return kept;
+}
+
+}  // namespace abbe

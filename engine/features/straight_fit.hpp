@@ -1,0 +1,13 @@
+// Lines and planes over lanes: one pass of second moments in the frame of the nominal, where the off-diagonal moments are small
+// and so lose nothing to rounding, then the eigenvectors lane by lane. No iteration and no start needed but for the sense.
+#pragma once
+
+#include "engine/features/feature.hpp"
+
+namespace abbe {
+
+/// FeatureKind::fit_lanes of the line and the plane.
+void fit_line_lanes(const PointColumns&, const Element* start, Element* result, const char** failure);
+void fit_plane_lanes(const PointColumns&, const Element* start, Element* result, const char** failure);
+
+}  // namespace abbe
