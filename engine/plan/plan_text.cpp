@@ -1,0 +1,185 @@
+// The plan as text, one operation a line: "12  touch BORE at 10 20 -5 normal 0 0 1". Definitions
+// stand before the operations that use them. Numbers are printed with the fewest digits that
+// identify them, so equal plans give equal texts.
+#include <fmt/format.h>
+
+#include "engine/plan/plan.hpp"
+
+namespace abbe::plan {
+
+namespace {
+
+constexpr std::string_view kSettings[] = {"approach",
+                                          "search",
+                                          "retract",
+                                          "clearance",
+                                          "depth",
+                                          "positioning_speed",
+                                          "measuring_speed",
+                                          "scan_speed",
+                                          "positioning_acceleration",
+                                          "measuring_acceleration",
+                                          "fly_radius"};
+constexpr std::string_view kOp1[] = {"negate", "not",   "abs",  "acos",     "asin",
+                                     "atan",   "cos",   "sin",  "tan",      "exp",
+                                     "ln",     "log10", "sqrt", "truncate", "round"};
+constexpr std::string_view kOp2[] = {"+",   "-",  "*",  "/", "**", "mod", "atan2", "sign", "min",
+                                     "max", "==", "!=", "<", "<=", ">",   ">=",    "and",  "or"};
+
+constexpr std::string_view kQuantities[] = {
+    "x", "y", "z", "i", "j", "k", "radius", "minor_radius", "half_angle", "length", "form"};
+
+template <class Enum>
+std::string_view name_of(Enum value, const auto& names) {
+  return names[static_cast<std::size_t>(value)];
+}
+
+char letter(Axis axis) { return "xyz"[static_cast<int>(axis)]; }
+std::string text(const AxisDirection& d) {
+  return fmt::format("{}{}", d.sign < 0 ? '-' : '+', letter(d.axis));
+}
+/// Adding zero turns -0 into 0.
+std::string text(double value) { return fmt::format("{}", value + 0.0); }
+std::string text(const Operand& o) {
+  return o.column.valid() ? fmt::format("column {}", o.column.value) : text(o.constant);
+}
+std::string text(const Vec3& v) { return fmt::format("{} {} {}", text(v.x), text(v.y), text(v.z)); }
+std::string text(const Point& p) {
+  return fmt::format("{} {} {}", text(p[0]), text(p[1]), text(p[2]));
+}
+
+std::string text(const Expression& expression) {
+  std::string out;
+  for (const Instruction& instruction : expression) {
+    if (!out.empty()) out += ' ';
+    if (const auto* c = std::get_if<PushConstant>(&instruction)) out += text(c->value);
+    if (const auto* c = std::get_if<PushColumn>(&instruction))
+      out += fmt::format("column {}", c->column.value);
+    if (const auto* op = std::get_if<Op1>(&instruction)) out += name_of(*op, kOp1);
+    if (const auto* op = std::get_if<Op2>(&instruction)) out += name_of(*op, kOp2);
+  }
+  return out;
+}
+
+/// One overload per operation.
+class ActionText {
+ public:
+  explicit ActionText(const Plan& plan) : plan_(plan) {}
+
+  std::string operator()(const DefineFeature& o) const {
+    const FeatureDef& f = plan_[o.feature];
+    std::string out =
+        fmt::format("define {} = {}{} at {} along {}", name(o.feature), f.kind->word,
+                    f.inner ? " inner" : "", text(f.nominal.point), text(f.nominal.direction));
+    if (f.nominal.size != 0) out += fmt::format(" size {}", text(f.nominal.size));
+    if (f.nominal.minor_size != 0) out += fmt::format(" minor {}", text(f.nominal.minor_size));
+    if (f.nominal.angle != 0) out += fmt::format(" angle {}", text(f.nominal.angle));
+    return out;
+  }
+  std::string operator()(const SelectSensor& o) const {
+    const SensorDef& s = plan_[o.sensor];
+    if (s.from_machine_file) return fmt::format("sensor {} of the machine file", s.label);
+    std::string out = fmt::format("sensor {}", s.label);
+    if (s.indexed) out += fmt::format(" head {} {}", text(s.head_a_rad), text(s.head_b_rad));
+    out += fmt::format(" tip {} radius {}", text(s.tip_in_r), text(s.radius_mm));
+    if (s.has_mount)
+      out += fmt::format(" mount {} turn {}", text(s.mount_offset_mm), text(s.mount_turn_rad));
+    return out;
+  }
+  std::string operator()(const SetCompensation& o) const {
+    return fmt::format("compensation {}", o.on ? "on" : "off");
+  }
+  std::string operator()(const SetMotion& o) const {
+    return fmt::format("set {} {}{}", name_of(o.setting, kSettings), text(o.value),
+                       o.percent ? " percent" : "");
+  }
+  std::string operator()(const Move& o) const { return fmt::format("move {}", text(o.to)); }
+  std::string operator()(const BeginMeasure& o) const {
+    return fmt::format("measure {}", name(o.feature));
+  }
+  std::string operator()(const Touch& o) const {
+    return fmt::format("touch {} at {}{}", name(o.feature), text(o.point),
+                       o.has_normal ? fmt::format(" normal {}", text(o.normal)) : "");
+  }
+  std::string operator()(const EndMeasure& o) const {
+    return fmt::format("fit {}", name(o.feature));
+  }
+  std::string operator()(const Construct& o) const {
+    std::string out = fmt::format("construct {} = {}", name(o.result), o.method->word);
+    for (const FeatureId f : o.from) out += fmt::format(" {}", name(f));
+    return out;
+  }
+  std::string operator()(const SetMachineFrame& o) const {
+    return fmt::format("frame {} = machine", plan_[o.result].label);
+  }
+  std::string operator()(const SetDatumFrame& o) const {
+    std::string out = fmt::format("frame {} = datums", plan_[o.result].label);
+    for (const DatumRef& d : o.datums) {
+      out += fmt::format(" {}", name(d.feature));
+      if (d.gives_direction) out += fmt::format(" {}", text(d.direction));
+      for (int k = 0; k < 3; ++k)
+        if (d.origin[k]) out += fmt::format(" origin {}", "xyz"[k]);
+    }
+    return out;
+  }
+  std::string operator()(const TranslateFrame& o) const {
+    std::string out = fmt::format("frame {} = translate", plan_[o.result].label);
+    for (const OriginShift& s : o.shifts)
+      out += fmt::format(
+          " {} {}", letter(s.axis),
+          s.from.valid() ? fmt::format("to {}", name(s.from)) : fmt::format("by {}", text(s.by)));
+    return out;
+  }
+  std::string operator()(const RotateFrame& o) const {
+    const std::string how = o.to.valid() ? fmt::format("{} to {}", name(o.to), text(o.toward))
+                                         : fmt::format("by {}", text(o.angle_rad));
+    return fmt::format("frame {} = rotate about {} {}", plan_[o.result].label, letter(o.axis), how);
+  }
+  std::string operator()(const RecallFrame& o) const {
+    return fmt::format("recall frame {}", plan_[o.frame].label);
+  }
+  std::string operator()(const Evaluate& o) const {
+    const CharacteristicDef& c = plan_[o.characteristic];
+    const ToleranceDef& t = plan_[c.tolerance];
+    std::string out = fmt::format("evaluate {} = {} of", t.label, t.kind->word);
+    for (const FeatureId f : c.features) out += fmt::format(" {}", name(f));
+    for (const int d : t.arguments.features("datum"))
+      out += fmt::format(" datum {}", name(FeatureId{d}));
+    for (const int d : t.arguments.features("reference"))
+      out += fmt::format(" reference {}", name(FeatureId{d}));
+    return out;
+  }
+  std::string operator()(const Obtain& o) const {
+    return fmt::format("column {} = {} of {}", o.column.value, name_of(o.quantity, kQuantities),
+                       name(o.feature));
+  }
+  std::string operator()(const Assign& o) const {
+    return fmt::format("column {} = {}", o.column.value, text(o.value));
+  }
+  std::string operator()(const Jump& o) const { return fmt::format("jump {}", o.target); }
+  std::string operator()(const JumpUnless& o) const {
+    return fmt::format("jump {} unless {}", o.target, text(o.condition));
+  }
+
+ private:
+  /// The label; with the definition's number when the label is defined more than once.
+  std::string name(FeatureId id) const {
+    const std::string& label = plan_[id].label;
+    int definitions = 0;
+    for (const FeatureDef& f : plan_.features) definitions += f.label == label ? 1 : 0;
+    return definitions > 1 ? fmt::format("{}#{}", label, id.value) : label;
+  }
+
+  const Plan& plan_;
+};
+
+}  // namespace
+
+std::string to_text(const Plan& plan) {
+  std::string out = fmt::format("plan {}\n", plan.name);
+  for (std::size_t i = 0; i < plan.operations.size(); ++i)
+    out += fmt::format("{:4}  {}\n", i, std::visit(ActionText(plan), plan.operations[i].action));
+  return out;
+}
+
+}  // namespace abbe::plan

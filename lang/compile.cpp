@@ -1,0 +1,159 @@
+#include "lang/compile.hpp"
+
+#include <fmt/format.h>
+
+#include "lang/directives.hpp"
+#include "lang/follow_up.hpp"
+#include "lang/lines.hpp"
+#include "lang/lowering.hpp"
+#include "lang/parser.hpp"
+#include "lang/statement.hpp"
+
+namespace abbe::lang {
+
+namespace {
+
+constexpr std::size_t kLongestLabel = 64;
+
+/// Drives the statements of one file through lookup, signature and lowering.
+class Compiler {
+ public:
+  Compiler(const SourceFile& source, Sink& sink) : lowering_(source, sink) {}
+
+  Compilation run() {
+    lowering_.out.plan.name = lowering_.source.name();
+    for (const LogicalLine& line : logical_lines(lowering_.source)) {
+      read_directives(line, lowering_);
+      if (const auto raw = parse_statement(line, lowering_.source, lowering_.sink)) one(*raw);
+    }
+    finish();
+    return std::move(lowering_.out);
+  }
+
+ private:
+  void one(const RawStatement& raw) {
+    lowering_.statement = &raw;
+    lowering_.failed = false;
+    if (!raw.usable && !raw.missing_slash) lowering_.fail("the statement is not complete");
+    std::string_view word = raw.word;
+    if (raw.target) {
+      not_supported("a jump target", raw.span);
+    } else if (const Statement* statement = find_statement(raw.word)) {
+      known(*statement, raw);
+    } else if (is_standard_word(raw.word)) {
+      if (!outside(raw)) not_supported(raw.word, raw.word_span);
+    } else {
+      meant_ = unknown(raw);
+      word = meant_;
+    }
+    if (lowering_.failed) {
+      follow_up(lowering_, raw, word);
+    } else if (raw.label) {
+      lowering_.symbols.spoilt.erase(spoilt_key(raw.label->kind, raw.label->name));
+    }
+    lowering_.statement = nullptr;
+  }
+
+  /// True for statements that are not part of the plan: in a skipped region, or after the end of
+  /// the program.
+  bool outside(const RawStatement& raw) {
+    if (lowering_.skipping) return true;
+    if (lowering_.end_line == 0 && !second_program_) return false;
+    const bool asks = raw.word == "OUTPUT" || raw.word == "EVAL";
+    if (second_program_ && asks) lowering_.fail("it belongs to a second program in the file");
+    if (!second_program_ && !after_end_reported_) {
+      lowering_.warn(Code::W0204, raw.word_span,
+                     fmt::format("the program ended in line {}", lowering_.end_line),
+                     "move ENDFIL to the end; what follows it is ignored");
+      after_end_reported_ = true;
+    }
+    return true;
+  }
+
+  void known(const Statement& statement, const RawStatement& raw) {
+    const bool switches = statement.word == "DMESW", begins = statement.word == "DMISMN";
+    if (!switches && !begins && outside(raw)) return;
+    if (raw.missing_slash)
+      return lowering_.error(Code::E0115, *raw.missing_slash,
+                             fmt::format("expected '/' after {}", statement.word),
+                             fmt::format("for example: {}", statement.example));
+    if (!label_fits(statement, raw) || lowering_.failed) return;
+    if (const auto match = lowering_.match(statement.signature, raw, statement.word))
+      statement.lower(lowering_, raw, *match);
+    if (begins && lowering_.failed && lowering_.begin_line != 0) second_program_ = true;
+  }
+
+  bool label_fits(const Statement& statement, const RawStatement& raw) {
+    if (raw.label && raw.label->name.size() > kLongestLabel)
+      lowering_.warn(Code::W0103, raw.label->span,
+                     fmt::format("this label has {} characters", raw.label->name.size()),
+                     fmt::format("a controller may refuse more than {}", kLongestLabel));
+    const std::string given = raw.label ? raw.label->kind : "";
+    if (statement.label == "*" || (given == statement.label && (!raw.label || !given.empty()))) {
+      if (!raw.label || !raw.label->name.empty()) return true;
+      lowering_.error(Code::E0109, raw.label->span, "this label is empty",
+                      "write a name between the parentheses");
+      return false;
+    }
+    lowering_.error(Code::E0109, raw.label ? raw.label->span : raw.word_span,
+                    statement.label.empty()
+                        ? fmt::format("{} takes no label", statement.word)
+                        : fmt::format("{} needs a label {}(name)", statement.word, statement.label),
+                    fmt::format("for example: {}", statement.example));
+    return false;
+  }
+
+  /// Each word is named once: a program may use it a thousand times.
+  void not_supported(const std::string& what, Span span) {
+    if (!lowering_.reported_words.insert(what).second) return;
+    lowering_.warn(Code::W0101, span,
+                   fmt::format("{} is not supported yet and is skipped wherever it stands", what),
+                   "results are those of a program without it");
+  }
+
+  /// Reports the word; the word that was probably meant, or "".
+  std::string unknown(const RawStatement& raw) {
+    if (outside(raw)) return "";
+    std::vector<std::string_view> words(standard_words().begin(), standard_words().end());
+    const std::string near = nearest_word(raw.word, words);
+    if (raw.missing_slash && near.empty()) {
+      lowering_.error(Code::E0101, raw.span,
+                      fmt::format("'{}' is not a statement", lowering_.source.text(raw.span)),
+                      "a statement is WORD/argument,argument; a comment begins with $$");
+      lowering_.failed = false;  // free text takes nothing away
+      return "";
+    }
+    lowering_.error(Code::E0110, raw.word_span, fmt::format("{} is not a word of DMIS", raw.word),
+                    near.empty() ? "`abbe explain` lists the words; a comment begins with $$"
+                                 : fmt::format("did you mean {}?", near),
+                    near);
+    return near;
+  }
+
+  void finish() {
+    const std::uint32_t end = static_cast<std::uint32_t>(lowering_.source.text().size());
+    const Span last{end > 0 ? end - 1 : 0, end};
+    if (lowering_.measuring) {
+      const OpenMeasure& block = *lowering_.measuring;
+      lowering_.sink.add(diagnostic_at(lowering_.source, block.span, Code::E0205,
+                                       "this MEAS has no ENDMES",
+                                       "end the measurement with ENDMES"));
+    }
+    if (lowering_.begin_line == 0 && !lowering_.out.plan.operations.empty())
+      lowering_.warn(Code::W0206, {0, 1}, "the program has no DMISMN",
+                     "begin it with DMISMN/'name',5.2");
+    if (lowering_.begin_line != 0 && lowering_.end_line == 0)
+      lowering_.warn(Code::W0205, last, "the program has no ENDFIL", "end it with ENDFIL");
+    check_expectations(lowering_);
+  }
+
+  Lowering lowering_;
+  std::string meant_;
+  bool second_program_ = false, after_end_reported_ = false;
+};
+
+}  // namespace
+
+Compilation compile(const SourceFile& source, Sink& sink) { return Compiler(source, sink).run(); }
+
+}  // namespace abbe::lang

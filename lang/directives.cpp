@@ -1,0 +1,270 @@
+#include "lang/directives.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+namespace abbe::lang {
+
+namespace {
+
+constexpr std::array kDirectives = {
+    DirectiveHelp{"machine", "machine NAME",
+                  "machine file, or name of a shipped machine; the command line wins"},
+    DirectiveHelp{"machines", "machines N", "how many virtual machines"},
+    DirectiveHelp{"seed", "seed N", "seed of the random numbers"},
+    DirectiveHelp{"workpiece", "workpiece FILE", "true sizes and calibration of the part"},
+    DirectiveHelp{"place", "place X Y Z",
+                  "where the program's machine coordinate system lies in the machine, mm"},
+    DirectiveHelp{"expect",
+                  "expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B",
+                  "an expected result, checked by `abbe test`; also: expect accepted between A B"}};
+
+constexpr std::array<std::string_view, 7> kQuantities = {"u",    "u95",   "lcl",        "ucl",
+                                                         "mean", "value", "conformance"};
+
+struct Token {
+  std::string text;
+  Span span;
+};
+
+/// Thrown inside this file to leave a directive that has a mistake; the message is in the sink.
+struct Abandoned {};
+
+class DirectiveReader {
+ public:
+  DirectiveReader(const JoinedText& comment, Lowering& lowering, int line)
+      : lowering_(lowering), line_(line), comment_(comment) {
+    split();
+  }
+
+  void read() {
+    try {
+      while (next_ < tokens_.size()) one();
+    } catch (const Abandoned&) {  // the rest of the comment cannot be told apart from the mistake
+    }
+  }
+
+ private:
+  void split() {
+    const std::string& text = comment_.text();
+    for (std::size_t i = text.find('!') + 1; i < text.size();) {
+      const std::size_t begin = text.find_first_not_of(" \t", i);
+      if (begin == std::string::npos) break;
+      std::size_t end = begin;
+      for (int depth = 0;
+           end < text.size() && (depth > 0 || (text[end] != ' ' && text[end] != '\t')); ++end)
+        depth += text[end] == '(' ? 1 : text[end] == ')' && depth > 0 ? -1 : 0;
+      tokens_.push_back({text.substr(begin, end - begin), comment_.span(begin, end)});
+      i = end;
+    }
+    whole_ = comment_.span(0, text.size());
+  }
+
+  [[noreturn]] void mistake(Code code, Span at, std::string message, std::string help,
+                            std::string replacement = "") {
+    lowering_.sink.add(diagnostic_at(lowering_.source, at, code, std::move(message),
+                                     std::move(help), std::move(replacement)));
+    throw Abandoned{};
+  }
+
+  const Token* peek() const { return next_ < tokens_.size() ? &tokens_[next_] : nullptr; }
+
+  const Token& take(std::string_view directive, std::string_view expected) {
+    if (next_ < tokens_.size()) return tokens_[next_++];
+    const Span at = tokens_.empty() ? whole_ : tokens_.back().span;
+    mistake(Code::E0114, at,
+            fmt::format("directive '{}' ends where {} is expected", directive, expected),
+            help_for(directive));
+  }
+
+  static std::string help_for(std::string_view directive) {
+    const auto it = std::find_if(kDirectives.begin(), kDirectives.end(),
+                                 [&](const DirectiveHelp& d) { return d.word == directive; });
+    return fmt::format("write $$! {}", it->form);
+  }
+
+  template <class Number>
+  Number number(std::string_view directive, std::string_view expected) {
+    const Token& token = take(directive, expected);
+    std::string_view digits = token.text;
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    Number value{};
+    const auto [end, failure] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (failure != std::errc{} || end != digits.data() + digits.size())
+      mistake(Code::E0114, token.span,
+              fmt::format("directive '{}': '{}' is not {}", directive, token.text, expected),
+              help_for(directive));
+    return value;
+  }
+
+  void one() {
+    const Token& word = tokens_[next_++];
+    const std::string name = upper(word.text);
+    Directives& out = lowering_.out.directives;
+    if (name == "MACHINE") {
+      out.machine = take("machine", "a name").text;
+    } else if (name == "MACHINES") {
+      const Span at = peek() ? peek()->span : word.span;
+      out.machines = number<int>("machines", "a whole number");
+      if (*out.machines < 1)
+        mistake(Code::E0114, at, "directive 'machines': at least one machine is needed",
+                help_for("machines"));
+    } else if (name == "SEED") {
+      out.seed = number<std::uint64_t>("seed", "a whole number");
+    } else if (name == "WORKPIECE") {
+      out.workpiece = take("workpiece", "a file").text;
+    } else if (name == "PLACE") {
+      Vec3 place;
+      for (int k = 0; k < 3; ++k) place[k] = number<double>("place", "a number in mm");
+      out.place_mm = place;
+    } else if (name == "EXPECT") {
+      expect();
+    } else {
+      unknown(word);
+    }
+  }
+
+  [[noreturn]] void unknown(const Token& word) {
+    std::vector<std::string_view> words;
+    for (const DirectiveHelp& d : kDirectives) words.push_back(d.word);
+    const std::string near = nearest_word(word.text, words);
+    mistake(Code::E0113, word.span, fmt::format("'{}' is not a directive", word.text),
+            near.empty() ? fmt::format("known: {}", fmt::join(words, " "))
+                         : fmt::format("did you mean {}?", near),
+            near);
+  }
+
+  /// "TA(LEN)" to LEN when the kind is one of the two, else nothing.
+  static std::optional<std::string> label(const std::string& token, std::string_view kind,
+                                          std::string_view other) {
+    const std::size_t open = token.find('(');
+    if (open == std::string::npos || !token.ends_with(')')) return std::nullopt;
+    const std::string written = upper(token.substr(0, open));
+    if (written != kind && written != other) return std::nullopt;
+    return token.substr(open + 1, token.size() - open - 2);
+  }
+
+  void expect() {
+    Expectation e;
+    e.line = line_;
+    const std::string& text = comment_.text();
+    e.text = text.substr(text.find_first_not_of(" \t", text.find('!') + 1));
+    const Token* first = &take("expect", "TA(label) or accepted");
+    if (const auto feature = label(first->text, "FA", "F")) {
+      e.feature = *feature;
+      first = &take("expect", "TA(label)");
+    }
+    const Span subject_span = first->span;
+    if (const auto tolerance = label(first->text, "TA", "T")) {
+      e.subject = *tolerance;
+      occurrence(e);
+      quantity(e);
+    } else if (upper(first->text) == "ACCEPTED" && e.feature.empty()) {
+      e.subject = e.quantity = "accepted";
+    } else {
+      mistake(
+          Code::E0114, subject_span,
+          fmt::format("directive 'expect': '{}' is neither TA(label) nor accepted", first->text),
+          help_for("expect"));
+    }
+    bounds(e);
+    occurrence(e);
+    if (const Token* extra = peek())
+      mistake(Code::E0114, extra->span,
+              fmt::format("directive 'expect' takes no '{}' here", extra->text),
+              help_for("expect"));
+    lowering_.expectation_spans.push_back(subject_span);
+    lowering_.out.directives.expectations.push_back(std::move(e));
+  }
+
+  void occurrence(Expectation& e) {
+    if (!peek() || upper(peek()->text) != "OCCURRENCE") return;
+    ++next_;
+    const Span at = peek() ? peek()->span : whole_;
+    e.occurrence = number<int>("expect", "a whole number");
+    if (e.occurrence < 1)
+      mistake(Code::E0114, at, "directive 'expect': occurrences count from 1", help_for("expect"));
+  }
+
+  void quantity(Expectation& e) {
+    const Token& token = take("expect", "a quantity");
+    e.quantity = token.text;
+    if (std::find(kQuantities.begin(), kQuantities.end(), token.text) != kQuantities.end()) return;
+    const std::string near = nearest_word(token.text, {kQuantities.begin(), kQuantities.end()});
+    mistake(Code::E0114, token.span,
+            fmt::format("directive 'expect': '{}' is not a quantity", token.text),
+            near.empty() ? fmt::format("one of {}", fmt::join(kQuantities, " "))
+                         : fmt::format("did you mean {}?", near),
+            near);
+  }
+
+  void bounds(Expectation& e) {
+    const Token& relation = take("expect", "between, >= or <=");
+    if (upper(relation.text) == "BETWEEN") {
+      e.low = number<double>("expect", "a number");
+      const Span at = peek() ? peek()->span : whole_;
+      e.high = number<double>("expect", "a number");
+      if (*e.low > *e.high)
+        mistake(Code::E0114, at, "directive 'expect': nothing lies between these bounds",
+                "write the smaller bound first");
+    } else if (relation.text == ">=") {
+      e.low = number<double>("expect", "a number");
+    } else if (relation.text == "<=") {
+      e.high = number<double>("expect", "a number");
+    } else {
+      mistake(Code::E0114, relation.span,
+              fmt::format("directive 'expect': '{}' is not between, >= or <=", relation.text),
+              help_for("expect"));
+    }
+  }
+
+  Lowering& lowering_;
+  int line_;
+  const JoinedText& comment_;
+  std::vector<Token> tokens_;
+  std::size_t next_ = 0;
+  Span whole_;
+};
+
+int evaluations_of(const plan::Plan& plan, const Expectation& e) {
+  return static_cast<int>(std::count_if(
+      plan.characteristics.begin(), plan.characteristics.end(),
+      [&](const plan::CharacteristicDef& c) {
+        return upper(plan[c.tolerance].label) == upper(e.subject) &&
+               (e.feature.empty() ||
+                std::any_of(c.features.begin(), c.features.end(), [&](plan::FeatureId f) {
+                  return upper(plan[f].label) == upper(e.feature);
+                }));
+      }));
+}
+
+}  // namespace
+
+std::span<const DirectiveHelp> directives() { return kDirectives; }
+
+void read_directives(const LogicalLine& line, Lowering& lowering) {
+  if (line.comment && line.comment->text().starts_with('!'))
+    DirectiveReader(*line.comment, lowering,
+                    lowering.source.place(line.comment->file_offset(0)).line)
+        .read();
+}
+
+void check_expectations(Lowering& lowering) {
+  const auto& expectations = lowering.out.directives.expectations;
+  for (std::size_t i = 0; i < expectations.size(); ++i) {
+    const Expectation& e = expectations[i];
+    if (e.subject == "accepted" && e.quantity == "accepted") continue;
+    const int count = evaluations_of(lowering.out.plan, e);
+    if (count >= std::max(1, e.occurrence) || !lowering.out.lost.empty()) continue;
+    lowering.sink.add(diagnostic_at(lowering.source, lowering.expectation_spans[i], Code::E0215,
+                                    fmt::format("TA({}) is evaluated {} time{} in this program",
+                                                e.subject, count, count == 1 ? "" : "s"),
+                                    "expect a tolerance that OUTPUT or EVAL names"));
+  }
+}
+
+}  // namespace abbe::lang

@@ -1,0 +1,25 @@
+// Comments that begin with `$$!`: what only the simulator needs. A real controller skips them.
+//
+//   machine NAME            machines N            seed N            workpiece FILE
+//   place X Y Z             where the program's machine coordinate system lies in the machine, mm
+//   whatever UNITS says expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B
+//   expect accepted between A B
+// Several may stand in one comment; `expect` takes the rest of it.
+#pragma once
+
+#include "lang/lowering.hpp"
+
+namespace abbe::lang {
+
+/// The word after `$$!` and what it does: for `abbe explain`.
+struct DirectiveHelp {
+  std::string_view word, form, help;
+};
+std::span<const DirectiveHelp> directives();
+
+/// Reads a comment if it is a directive; every mistake goes to the sink.
+void read_directives(const LogicalLine&, Lowering&);
+/// Expectations about tolerances that nothing evaluates are errors.
+void check_expectations(Lowering&);
+
+}  // namespace abbe::lang

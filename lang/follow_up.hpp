@@ -1,0 +1,12 @@
+// What a statement with an error takes away (see lowering.hpp): labels, the measurement it stands
+// in, the coordinate system, the units, the sensor, characteristics.
+#pragma once
+
+#include "lang/lowering.hpp"
+
+namespace abbe::lang {
+
+/// `word` is the statement that was meant: the one written, or for a misspelt word the nearest.
+void follow_up(Lowering&, const RawStatement&, std::string_view word);
+
+}  // namespace abbe::lang

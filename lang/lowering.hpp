@@ -1,0 +1,150 @@
+// The state of a compilation while statements are lowered to the plan, one after the other.
+//
+// Plain data with a few members that every statement needs: messages at a place, labels, operands,
+// operations. A label binds to the definition in force where it is used, so a label defined again
+// leaves earlier uses alone.
+//
+// What an error takes away is followed up, because a result that silently lacks a touch or an
+// alignment is worse than none:
+//   - a statement with an error makes the label it would have defined *spoilt*; uses of a spoilt
+//   label give no further message
+//   - an error inside MEAS..ENDMES spoils the feature that is measured there
+//   - an error in a statement that sets the coordinate system, the units or the sensor casts a
+//   *doubt* on everything
+//     measured and evaluated until the next statement that sets it completely
+// An OUTPUT or EVAL of something spoilt or in doubt is entered in Compilation::lost with the line
+// to blame.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/compile.hpp"
+#include "lang/parser.hpp"
+#include "lang/signature.hpp"
+#include "lang/units.hpp"
+
+namespace abbe::lang {
+
+/// The tolerance stays as it was written until OUTPUT or EVAL names it: datums may be bound after
+/// TOL.
+struct ToleranceSymbol {
+  const ToleranceKind* kind = nullptr;
+  Match match;
+  Span span;
+  std::string label;
+  std::vector<std::pair<std::vector<int>, plan::ToleranceId>>
+      instances;  ///< by the features that its labels meant
+};
+
+/// Whether a feature has been measured or constructed at this place of the program.
+struct ActualState {
+  bool present = false;
+  std::string spoilt;  ///< why what was measured is of no use; empty while it is
+};
+
+/// A MEAS block that is open.
+struct OpenMeasure {
+  plan::FeatureId feature;  ///< not valid when the block has an error in its MEAS statement
+  int declared = 0, touches = 0;
+  std::size_t first_operation = 0;
+  Span span, count_span;
+  int line = 0;
+  std::string spoilt;  ///< why the measurement is of no use; empty while it is
+};
+
+/// SNSMNT in force.
+struct Mount {
+  Vec3 offset_mm;
+  double turn_rad = 0;
+};
+
+/// Labels, folded to upper case. `spoilt` holds "F:NAME" and the reason why the label cannot be
+/// used.
+struct Symbols {
+  std::map<std::string, plan::FeatureId> features, datums;
+  std::map<std::string, plan::FrameId> frames;
+  std::map<std::string, plan::SensorId> sensors;
+  std::map<std::string, ToleranceSymbol> tolerances;
+  std::map<std::string, std::string> spoilt;
+};
+
+class Lowering {
+ public:
+  Lowering(const SourceFile& source_, Sink& sink_) : source(source_), sink(sink_) {}
+
+  // ---- messages; an error makes the current statement fail
+  void error(Code, Span, std::string message, std::string help = "", std::string replacement = "");
+  void warn(Code, Span, std::string message, std::string help = "", std::string replacement = "");
+  /// The statement fails without a message of its own: an earlier error is to blame.
+  void fail(std::string reason);
+
+  // ---- arguments
+  /// Matches arguments from `first` on; reports a mismatch as an error of `what`.
+  std::optional<Match> match(std::string_view signature, const RawStatement&, std::string_view what,
+                             std::size_t first = 0);
+  /// Values of a match for a kind of feature, tolerance or construction. Labels of features must
+  /// have been measured; datums must be bound. Nothing after an error.
+  std::optional<Arguments> arguments(const Match&);
+
+  // ---- labels: nothing after an error or when spoilt
+  std::optional<plan::FeatureId> defined_feature(const LabelRef&);
+  std::optional<plan::FeatureId> actual_feature(const LabelRef&);  ///< measured or constructed
+  std::optional<plan::FeatureId> datum(const LabelRef&);
+  std::optional<plan::FrameId> frame(const LabelRef&);
+  std::optional<plan::SensorId> sensor(const LabelRef&);
+  ToleranceSymbol* tolerance(const LabelRef&);
+  /// SA(name) that no SNSDEF defined names a sensor of the machine file: defines it so.
+  void sensor_of_machine_file(const LabelRef&);
+
+  // ---- the plan
+  void emit(plan::Action);
+  /// A new coordinate system under the label of the statement.
+  plan::FrameId new_frame(const RawStatement&);
+  ActualState& actual(plan::FeatureId id) { return actuals[static_cast<std::size_t>(id.value)]; }
+  /// The one way from a matched number to an operand.
+  static plan::Operand operand(const MatchedValue& value) { return {value.number, {}}; }
+  /// Three numbers of the match that begin at the one named `first`.
+  static plan::Point point(const Match&, std::string_view first);
+
+  const SourceFile& source;
+  Sink& sink;
+  Compilation out;
+
+  Units units;
+  Symbols symbols;
+  std::vector<ActualState> actuals;  ///< by FeatureId
+  std::optional<OpenMeasure> measuring;
+  bool sensor_selected = false;
+  std::optional<Mount> mount;
+  std::vector<std::string> modes;                     ///< MODE, in order of preference
+  std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
+  bool skipping = false;                              ///< DMESW/OFF
+  int begin_line = 0, end_line = 0;                   ///< of DMISMN and ENDFIL; 0 before them
+  std::set<std::string> reported_words;               ///< words warned about once
+  std::vector<Span> expectation_spans;                ///< of Directives::expectations
+
+  // ---- of the current statement
+  bool failed = false;
+  std::string failure;  ///< the first reason
+  const RawStatement* statement = nullptr;
+
+  /// The first doubt that holds now, or "".
+  std::string doubt() const;
+
+ private:
+  template <class Map>
+  typename Map::mapped_type* find(Map& map, std::string_view kind, const LabelRef& label,
+                                  std::string_view next_step);
+
+  std::map<std::string_view, Signature> signatures_;  ///< parsed once; signature texts are static
+};
+
+/// Folded key for Symbols::spoilt: F and FA, T and TA, D and DA, S and SA share their names.
+std::string spoilt_key(std::string_view kind, std::string_view name);
+
+}  // namespace abbe::lang

@@ -1,0 +1,38 @@
+// The list of statements. A new statement is one constant in a file of this folder and one name
+// here.
+#include <array>
+
+#include "lang/statement.hpp"
+
+namespace abbe::lang {
+
+extern const Statement kDmismn, kFilnam, kEndfil, kUnits, kDecpl, kMode, kPrcomp, kSnset, kFedrat,
+    kAclrat, kFly, kFinpos, kWkplan, kGeoalg, kTecomp, kSnsmnt, kSnsdef, kSnslct, kFeat, kConst,
+    kMeas, kPtmeas, kGoto, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol,
+    kOutput, kEval, kText, kDisply, kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause;
+
+std::span<const Statement* const> statements() {
+  static constexpr std::array list = {
+      // the frame of a program
+      &kDmismn, &kFilnam, &kEndfil, &kUnits, &kMode, &kDmesw, &kDmeswv,
+      // the machine
+      &kPrcomp, &kSnset, &kFedrat, &kAclrat, &kFly, &kFinpos, &kWkplan, &kGeoalg, &kTecomp,
+      &kSnsmnt, &kSnsdef, &kSnslct,
+      // measuring
+      &kFeat, &kMeas, &kPtmeas, &kGoto, &kEndmes, &kConst,
+      // coordinate systems
+      &kDatdef, &kDatset, &kTrans, &kRotate, &kSave, &kRecall,
+      // results
+      &kTol, &kOutput, &kEval,
+      // understood and skipped
+      &kText, &kDisply, &kDevice, &kOpen, &kClose, &kVform, &kDecpl, &kPause};
+  return list;
+}
+
+const Statement* find_statement(std::string_view word) {
+  for (const Statement* statement : statements())
+    if (statement->word == word) return statement;
+  return nullptr;
+}
+
+}  // namespace abbe::lang

@@ -1,0 +1,167 @@
+// Datums and coordinate systems: DATDEF, DATSET, TRANS, ROTATE, SAVE, RECALL.
+#include <fmt/format.h>
+
+#include "lang/statement.hpp"
+#include "lang/statements/words.hpp"
+
+namespace abbe::lang {
+
+namespace {
+
+void bind_datum(Lowering& lowering, const RawStatement&, const Match& match) {
+  const std::optional<plan::FeatureId> id = lowering.actual_feature(match.find("feature")->label);
+  if (id) lowering.symbols.datums[upper(match.text("datum"))] = *id;
+}
+
+/// The words that follow a datum: at most one direction, any origins.
+void use_datum(plan::DatumRef& datum, std::string_view word) {
+  if (word.ends_with("ORIG")) {
+    datum.origin[static_cast<int>(axis_of(word))] = true;
+  } else {
+    datum.gives_direction = true;
+    datum.direction = direction_of(word);
+  }
+}
+
+void set_frame(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  if (match.values.empty()) {
+    lowering.emit(plan::SetMachineFrame{lowering.new_frame(raw)});
+    lowering.frame_doubt.clear();
+    return;
+  }
+  std::vector<plan::DatumRef> datums;
+  for (const MatchedValue& v : match.values) {
+    if (v.type == ValueType::datum) {
+      datums.push_back({lowering.datum(v.label).value_or(plan::FeatureId{}), false, {}, {}});
+    } else {
+      use_datum(datums.back(), v.text);
+    }
+  }
+  if (lowering.failed) return;
+  lowering.emit(plan::SetDatumFrame{lowering.new_frame(raw), std::move(datums)});
+}
+
+void translate(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  std::vector<plan::OriginShift> shifts;
+  for (std::size_t i = 0; i + 1 < match.values.size(); i += 2) {
+    const MatchedValue& value = match.values[i + 1];
+    plan::OriginShift shift{axis_of(match.values[i].text), {}, {}};
+    if (value.type == ValueType::length) {
+      shift.by = Lowering::operand(value);
+    } else {
+      const auto id = value.type == ValueType::feature ? lowering.actual_feature(value.label)
+                                                       : lowering.datum(value.label);
+      shift.from = id.value_or(plan::FeatureId{});
+    }
+    shifts.push_back(shift);
+  }
+  if (lowering.failed) return;
+  lowering.emit(plan::TranslateFrame{lowering.new_frame(raw), std::move(shifts)});
+}
+
+void rotate(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  plan::RotateFrame operation;
+  operation.axis = axis_of(match.text("axis"));
+  if (const MatchedValue* angle = match.find("angle")) {
+    operation.angle_rad = Lowering::operand(*angle);
+  } else {
+    const MatchedValue& to = match.values[1];
+    const auto id = to.type == ValueType::feature ? lowering.actual_feature(to.label)
+                                                  : lowering.datum(to.label);
+    operation.to = id.value_or(plan::FeatureId{});
+    operation.toward = direction_of(match.text("toward"));
+    if (operation.toward.axis == operation.axis)
+      lowering.error(Code::E0212, match.find("toward")->span,
+                     fmt::format("a rotation about {} cannot bring anything to {}",
+                                 match.text("axis"), match.text("toward")),
+                     "name a direction across the axis");
+  }
+  if (lowering.failed) return;
+  operation.result = lowering.new_frame(raw);
+  lowering.emit(operation);
+}
+
+void save(Lowering& lowering, const RawStatement&, const Match& match) {
+  const LabelRef& label = match.values[0].label;
+  if (match.has("frame")) lowering.frame(label);
+  if (match.has("sensor")) lowering.sensor(label);
+  if (match.has("feature")) lowering.defined_feature(label);
+}
+
+void recall(Lowering& lowering, const RawStatement&, const Match& match) {
+  const LabelRef& label = match.values[0].label;
+  if (match.has("sensor")) {
+    lowering.sensor_of_machine_file(label);
+    lowering.sensor(label);
+    return;
+  }
+  const std::string key = upper(label.name);
+  if (key == "MCS" && !lowering.symbols.frames.count(key)) {
+    lowering.symbols.frames[key] = plan::FrameId{static_cast<int>(lowering.out.plan.frames.size())};
+    lowering.out.plan.frames.push_back({label.name, label.span});
+    lowering.emit(plan::SetMachineFrame{lowering.symbols.frames[key]});
+  } else if (const auto frame = lowering.frame(label)) {
+    lowering.emit(plan::RecallFrame{*frame});
+  }
+  if (!lowering.failed) lowering.frame_doubt.clear();
+}
+
+}  // namespace
+
+extern const Statement kDatdef, kDatset, kTrans, kRotate, kSave, kRecall;
+
+const Statement kDatdef = {"DATDEF",
+                           "",
+                           "feature:feature, datum:datum",
+                           "Makes a measured or constructed feature a datum.",
+                           "DATDEF/FA(TOP),DAT(A)",
+                           "ISO 22093, DATDEF",
+                           bind_datum};
+const Statement kDatset = {
+    "DATSET",
+    "D",
+    "( MCS ; datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG, "
+    "{ ( datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ; "
+    "use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ) } )",
+    "Sets the coordinate system: from datums, each with the axis that it directs and the origins "
+    "that it fixes, or the "
+    "machine's own (MCS).",
+    "D(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG",
+    "ISO 22093, DATSET",
+    set_frame};
+const Statement kTrans = {
+    "TRANS",
+    "D",
+    "at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ), "
+    "{ at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ) }",
+    "Moves the origin of the current coordinate system, to a feature or by a length.",
+    "D(PART)=TRANS/XORIG,FA(CORNER),ZORIG,-30",
+    "ISO 22093, TRANS",
+    translate};
+const Statement kRotate = {"ROTATE",
+                           "D",
+                           "axis:XAXIS|YAXIS|ZAXIS, ( angle:angle ; ( to:feature ; to:datum ), "
+                           "toward:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR )",
+                           "Turns the current coordinate system about one of its axes, by an angle "
+                           "or until a feature points along a direction.",
+                           "D(PART)=ROTATE/ZAXIS,FA(EDGE),XDIR",
+                           "ISO 22093, ROTATE",
+                           rotate};
+const Statement kSave = {
+    "SAVE",
+    "",
+    "( frame:frame ; sensor:sensor ; feature:feature ), ...",
+    "Keeps a coordinate system, sensor or feature. All are kept here anyway; the label is checked.",
+    "SAVE/DA(PART)",
+    "ISO 22093, SAVE",
+    save};
+const Statement kRecall = {"RECALL",
+                           "",
+                           "( frame:frame ; sensor:sensor ), ...",
+                           "Makes a coordinate system current again, D(MCS) the machine's own; or "
+                           "announces a sensor of the machine file.",
+                           "RECALL/DA(PART)",
+                           "ISO 22093, RECALL",
+                           recall};
+
+}  // namespace abbe::lang

@@ -1,0 +1,80 @@
+// FEAT and CONST. Which arguments a kind of feature or a construction takes is said by the engine's
+// registries.
+#include <fmt/format.h>
+
+#include "engine/features/construct.hpp"
+#include "engine/features/feature.hpp"
+#include "lang/statement.hpp"
+#include "lang/statements/words.hpp"
+
+namespace abbe::lang {
+
+namespace {
+
+void define_feature(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const MatchedValue& word = *match.find("kind");
+  const FeatureKind* kind = find_feature_kind(word.text);
+  if (!kind) return unknown_kind(lowering, word, "FEAT", "kind of feature", feature_words());
+  const std::optional<Match> rest =
+      lowering.match(kind->signature, raw, fmt::format("FEAT/{}", kind->word), match.used);
+  const std::optional<Arguments> arguments = rest ? lowering.arguments(*rest) : std::nullopt;
+  if (!arguments) return;
+  const Outcome<Element> nominal = kind->nominal(*arguments);
+  if (!nominal)
+    return lowering.error(Code::E0208, raw.span,
+                          fmt::format("this {} cannot be: {}", kind->word, nominal.failure),
+                          fmt::format("a correct one: {}", kind->example));
+  const plan::FeatureId id{static_cast<int>(lowering.out.plan.features.size())};
+  lowering.out.plan.features.push_back(
+      {raw.label->name, kind, nominal.value, arguments->text("side") == "INNER", raw.span});
+  lowering.actuals.emplace_back();
+  lowering.symbols.features[upper(raw.label->name)] = id;
+  lowering.emit(plan::DefineFeature{id});
+}
+
+std::vector<std::string_view> method_words() {
+  std::vector<std::string_view> words;
+  for (const Construction* method : constructions()) words.push_back(method->word);
+  return words;
+}
+
+void construct(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const std::optional<plan::FeatureId> result =
+      lowering.defined_feature(match.find("feature")->label);
+  if (result) check_kind(lowering, *match.find("kind"), *result);
+  const MatchedValue& word = *match.find("method");
+  const Construction* method = find_construction(word.text);
+  if (!method) return unknown_kind(lowering, word, "CONST", "construction", method_words());
+  const std::optional<Match> rest =
+      lowering.match(method->signature, raw, fmt::format("CONST/...,{}", method->word), match.used);
+  const std::optional<Arguments> arguments = rest ? lowering.arguments(*rest) : std::nullopt;
+  if (arguments && result) {
+    plan::Construct operation{*result, method, {}, *arguments};
+    for (const int id : arguments->features("from")) operation.from.push_back(plan::FeatureId{id});
+    lowering.emit(std::move(operation));
+    lowering.actual(*result) = {true, ""};
+  } else if (result) {
+    lowering.actual(*result) = {false, lowering.failure};
+  }
+}
+
+}  // namespace
+
+extern const Statement kFeat, kConst;
+
+const Statement kFeat = {"FEAT",
+                         "F",
+                         "kind:word, ...",
+                         "Defines the nominal of a feature in the current coordinate system.",
+                         "F(BORE)=FEAT/CIRCLE,INNER,CART,50,50,40,0,0,1,50",
+                         "ISO 22093, FEAT",
+                         define_feature};
+const Statement kConst = {"CONST",
+                          "",
+                          "kind:word, feature:feature, method:word, ...",
+                          "Constructs the feature F(l), defined before, from other features.",
+                          "CONST/LINE,F(EDGE),INTOF,FA(TOP),FA(FRONT)",
+                          "ISO 22093, CONST",
+                          construct};
+
+}  // namespace abbe::lang

@@ -1,0 +1,110 @@
+// How the machine moves and what a touch yields: SNSET, FEDRAT, ACLRAT, FLY, PRCOMP, GEOALG.
+#include "engine/features/feature.hpp"
+#include "lang/statement.hpp"
+#include "lang/statements/words.hpp"
+
+namespace abbe::lang {
+
+namespace {
+
+using plan::MotionSetting;
+
+void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match) {
+  const std::string word = match.text("setting");
+  const MotionSetting setting = word == "APPRCH"   ? MotionSetting::approach
+                                : word == "SEARCH" ? MotionSetting::search
+                                : word == "RETRCT" ? MotionSetting::retract
+                                : word == "CLRSRF" ? MotionSetting::clearance
+                                                   : MotionSetting::depth;
+  lowering.emit(plan::SetMotion{setting, match.number("distance", 0)});
+}
+
+constexpr double kInch = 25.4;
+
+void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
+  const std::string what = match.text("speed"), unit = match.text("unit");
+  const MotionSetting setting = what == "POSVEL"   ? MotionSetting::positioning_speed
+                                : what == "MESVEL" ? MotionSetting::measuring_speed
+                                                   : MotionSetting::scan_speed;
+  const double mm = unit == "MPM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
+  const double seconds = unit.ends_with("PM") ? 60 : 1;
+  lowering.emit(plan::SetMotion{setting, match.number("value") * mm / seconds, unit == "PCENT"});
+}
+
+void set_acceleration(Lowering& lowering, const RawStatement&, const Match& match) {
+  const MotionSetting setting = match.text("acceleration") == "POSACL"
+                                    ? MotionSetting::positioning_acceleration
+                                    : MotionSetting::measuring_acceleration;
+  const std::string unit = match.text("unit");
+  const double mm = unit == "MPMM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
+  const double square_seconds = unit == "MPMM" || unit == "IPMM" ? 3600 : 1;
+  lowering.emit(
+      plan::SetMotion{setting, match.number("value") * mm / square_seconds, unit == "PCENT"});
+}
+
+void set_fly(Lowering& lowering, const RawStatement&, const Match& match) {
+  lowering.emit(plan::SetMotion{MotionSetting::fly_radius, match.number("radius", 0)});
+}
+
+void set_compensation(Lowering& lowering, const RawStatement&, const Match& match) {
+  lowering.emit(plan::SetCompensation{match.text("state") == "ON"});
+}
+
+void choose_algorithm(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const MatchedValue& kind = *match.find("kind");
+  if (kind.text == "ALL" || find_feature_kind(kind.text)) return;
+  unknown_kind(lowering, kind, raw.word, "kind of feature", feature_words());
+}
+
+}  // namespace
+
+extern const Statement kSnset, kFedrat, kAclrat, kFly, kPrcomp, kGeoalg;
+
+const Statement kSnset = {
+    "SNSET",
+    "",
+    "( setting:APPRCH|SEARCH|RETRCT|CLRSRF|DEPTH, distance:length ; setting:CLRSRF|DEPTH, OFF )",
+    "Distances of a touch: from where it starts (APPRCH), how far it searches (SEARCH), how far it "
+    "retracts (RETRCT).",
+    "SNSET/APPRCH,5.0",
+    "ISO 22093, SNSET",
+    set_sensor_path};
+const Statement kFedrat = {
+    "FEDRAT",
+    "",
+    "speed:POSVEL|MESVEL|SCNVEL, unit:MPM|MMPS|IPM|IPS|PCENT, value:number",
+    "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed.",
+    "FEDRAT/POSVEL,MPM,1.8",
+    "ISO 22093, FEDRAT",
+    set_speed};
+const Statement kAclrat = {
+    "ACLRAT",
+    "",
+    "acceleration:POSACL|MESACL, unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number",
+    "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2 or per cent.",
+    "ACLRAT/MESACL,MMPSS,100",
+    "ISO 22093, ACLRAT",
+    set_acceleration};
+const Statement kFly = {
+    "FLY",
+    "",
+    "( radius:length ; OFF )",
+    "Passes intermediate positions within this radius instead of stopping there.",
+    "FLY/5.0",
+    "ISO 22093, FLY",
+    set_fly};
+const Statement kPrcomp = {
+    "PRCOMP",        "",
+    "state:ON|OFF",  "ON: a touch yields the point of the surface. OFF: the centre of the tip.",
+    "PRCOMP/ON",     "ISO 22093, PRCOMP",
+    set_compensation};
+const Statement kGeoalg = {
+    "GEOALG",
+    "",
+    "kind:word, LSTSQR",
+    "Algorithm that fits a kind of feature. Only least squares is available.",
+    "GEOALG/CIRCLE,LSTSQR",
+    "ISO 22093, GEOALG",
+    choose_algorithm};
+
+}  // namespace abbe::lang

@@ -1,0 +1,154 @@
+// TOL, OUTPUT, EVAL: what is asked of features. Which arguments a tolerance takes is said by the
+// engine's registry.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/tolerances/tolerance.hpp"
+#include "lang/statement.hpp"
+#include "lang/statements/words.hpp"
+
+namespace abbe::lang {
+
+namespace {
+
+std::vector<std::string_view> tolerance_words() {
+  std::vector<std::string_view> words;
+  for (const ToleranceKind* kind : tolerance_kinds()) words.push_back(kind->word);
+  return words;
+}
+
+void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const MatchedValue& word = *match.find("kind");
+  const ToleranceKind* kind = find_tolerance_kind(word.text);
+  if (!kind) return unknown_kind(lowering, word, "TOL", "tolerance", tolerance_words());
+  std::optional<Match> rest =
+      lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used);
+  if (!rest) return;
+  lowering.symbols.tolerances[upper(raw.label->name)] = {
+      kind, std::move(*rest), raw.span, raw.label->name, {}};
+}
+
+/// The features and datums that the labels of the tolerance mean now; -1 for one that cannot be
+/// used.
+std::vector<int> operands_now(Lowering& lowering, const ToleranceSymbol& symbol,
+                              const MatchedValue& use) {
+  std::vector<int> ids;
+  for (const MatchedValue& v : symbol.match.values) {
+    if (v.type != ValueType::feature && v.type != ValueType::datum) continue;
+    LabelRef label = v.label;
+    label.span = use.span;  // the mistake shows where the tolerance is used
+    const auto id =
+        v.type == ValueType::feature ? lowering.actual_feature(label) : lowering.datum(label);
+    ids.push_back(id ? id->value : -1);
+  }
+  return ids;
+}
+
+/// The definition with its labels resolved to what they mean now; the same one for the same
+/// meaning.
+std::optional<plan::ToleranceId> instance(Lowering& lowering, ToleranceSymbol& symbol,
+                                          const MatchedValue& use) {
+  const std::vector<int> ids = operands_now(lowering, symbol, use);
+  if (lowering.failed) return std::nullopt;
+  for (const auto& [known, id] : symbol.instances)
+    if (known == ids) return id;
+  const plan::ToleranceId id{static_cast<int>(lowering.out.plan.tolerances.size())};
+  lowering.out.plan.tolerances.push_back(
+      {symbol.label, symbol.kind, *lowering.arguments(symbol.match), symbol.span});
+  symbol.instances.push_back({ids, id});
+  return id;
+}
+
+/// One feature of OUTPUT has this shape; the tolerance says whether it suits.
+void evaluate(Lowering& lowering, const RawStatement& raw,
+              const std::vector<plan::FeatureId>& features, const MatchedValue& use) {
+  ToleranceSymbol* symbol = lowering.tolerance(use.label);
+  if (!symbol) return;
+  const ToleranceKind& kind = *symbol->kind;
+  if (static_cast<int>(features.size()) != kind.features)
+    return lowering.error(
+        Code::E0213, use.span,
+        fmt::format("{} takes {} feature{}, {} given", kind.word, kind.features,
+                    kind.features == 1 ? "" : "s", features.size()),
+        fmt::format("write {}/{},{}({})", raw.word, kind.features == 1 ? "FA(a)" : "FA(a),FA(b)",
+                    use.label.kind, use.label.name));
+  const std::optional<plan::ToleranceId> tolerance = instance(lowering, *symbol, use);
+  if (!tolerance) return;
+  std::vector<Shape> shapes;
+  for (const plan::FeatureId id : features) shapes.push_back(lowering.out.plan[id].kind->shape);
+  if (const char* reason = kind.applies(lowering.out.plan[*tolerance].arguments, shapes))
+    return lowering.error(Code::E0214, use.span,
+                          fmt::format("{} cannot be evaluated here: {}", kind.word, reason),
+                          fmt::format("`abbe explain {}` says what it applies to", kind.word));
+  const plan::CharacteristicId id{static_cast<int>(lowering.out.plan.characteristics.size())};
+  lowering.out.plan.characteristics.push_back({features, *tolerance, raw.span, raw.line});
+  lowering.emit(plan::Evaluate{id});
+}
+
+/// Every tolerance is tried by itself, so that one mistake does not take the others away.
+void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  std::vector<plan::FeatureId> features;
+  std::vector<const MatchedValue*> tolerances;
+  for (const MatchedValue& v : match.values) {
+    if (v.type == ValueType::tolerance) tolerances.push_back(&v);
+    if (v.type == ValueType::feature)
+      features.push_back(lowering.actual_feature(v.label).value_or(plan::FeatureId{}));
+    if (v.type == ValueType::frame) lowering.frame(v.label);
+    if (v.type == ValueType::sensor) lowering.sensor(v.label);
+  }
+  if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty())
+    lowering.fail(lowering.doubt());
+  const std::string feature = features.empty() ? "" : match.find("feature")->label.name;
+  const bool features_failed = lowering.failed;
+  const std::string features_failure = lowering.failure;
+  bool any_failed = features_failed;
+  std::string first_failure = features_failure;
+  for (const MatchedValue* use : tolerances) {
+    lowering.failed = features_failed;
+    lowering.failure = features_failure;
+    if (!features_failed) evaluate(lowering, raw, features, *use);
+    if (!lowering.failed) continue;
+    lowering.out.lost.push_back(
+        {raw.line, feature,
+         fmt::format("{}({}): {}", use->label.kind, use->label.name, lowering.failure)});
+    if (!any_failed) first_failure = lowering.failure;
+    any_failed = true;
+  }
+  if (tolerances.empty() && any_failed)
+    lowering.out.lost.push_back({raw.line, feature, first_failure});
+  lowering.failed = any_failed;
+  lowering.failure = first_failure;
+}
+
+}  // namespace
+
+extern const Statement kTol, kOutput, kEval;
+
+const Statement kTol = {
+    "TOL",
+    "T",
+    "kind:word, ...",
+    "Defines a tolerance. Its datums may be bound later, before OUTPUT or EVAL.",
+    "T(ROUND)=TOL/CIRLTY,0.01",
+    "ISO 22093, TOL",
+    define_tolerance};
+const Statement kOutput = {
+    "OUTPUT",
+    "",
+    "( feature:feature, { feature:feature }, { tolerance:tolerance } ; frame:frame ; sensor:sensor "
+    "), ...",
+    "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty.",
+    "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
+    "ISO 22093, OUTPUT",
+    output};
+const Statement kEval = {
+    "EVAL",
+    "",
+    "feature:feature, { feature:feature }, tolerance:tolerance, { tolerance:tolerance }",
+    "Evaluates tolerances without putting out the features.",
+    "EVAL/FA(BORE),T(ROUND)",
+    "ISO 22093, EVAL",
+    output};
+
+}  // namespace abbe::lang

@@ -1,0 +1,47 @@
+#include "lang/units.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace abbe::lang {
+
+namespace {
+
+/// "-12:30:15.5" in degrees.
+std::optional<double> sexagesimal(std::string_view text) {
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  double degrees = 0, unit = 1;
+  for (int part = 0; part < 3; ++part) {
+    double value = 0;
+    const auto [end, failure] =
+        std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+    if (failure != std::errc{} || value < 0 || (part > 0 && value >= 60)) return std::nullopt;
+    degrees += value * unit;
+    unit /= 60;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+    if (text.empty())
+      return part == 0 ? std::nullopt : std::optional(negative ? -degrees : degrees);
+    if (text.front() != ':') return std::nullopt;
+    text.remove_prefix(1);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> constant(const RawArgument& argument, Quantity quantity, const Units& units) {
+  const bool plain = argument.kind == RawArgument::Kind::number;
+  if (quantity == Quantity::angle && argument.kind == RawArgument::Kind::expression) {
+    const std::optional<double> degrees = sexagesimal(argument.text);
+    return degrees ? std::optional(*degrees * Units::kRadPerDegree) : std::nullopt;
+  }
+  if (!plain) return std::nullopt;
+  const double factor = quantity == Quantity::length  ? units.mm_per_unit
+                        : quantity == Quantity::angle ? units.rad_per_unit
+                                                      : 1;
+  const double value = argument.number * factor;
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace abbe::lang

@@ -1,0 +1,24 @@
+// The units in force (UNITS) and the one place where a number of the program becomes a value in
+// engine units.
+#pragma once
+
+#include <optional>
+
+#include "lang/parser.hpp"
+
+namespace abbe::lang {
+
+struct Units {
+  double mm_per_unit = 1;
+  double rad_per_unit = kRadPerDegree;
+  static constexpr double kRadPerDegree = 3.14159265358979323846 / 180;
+};
+
+enum class Quantity { number, length, angle };
+
+/// The constant that the argument stands for: mm, rad, or as written for a plain number. Nothing
+/// when it is no constant. Angles may also be written degrees:minutes:seconds. Expressions over
+/// variables will be lowered from here.
+std::optional<double> constant(const RawArgument&, Quantity, const Units&);
+
+}  // namespace abbe::lang
