@@ -1,13 +1,18 @@
-// One loop over lanes, compiled for several x86-64 levels. A kernel is a plain scalar functor f(i); for_lanes runs it for
-// i = 0..n-1 and the compiler vectorises it. Because contraction is off (see cmake/abbe_layer.cmake) every level gives the
-// same bits, so one portable program is also a fast one.
+// One loop over lanes, compiled for several x86-64 levels. A kernel is a plain scalar functor f(i);
+// for_lanes runs it for i = 0..n-1 and the compiler vectorises it. Because contraction is off (see
+// cmake/abbe_layer.cmake) every level gives the same bits: one portable program is also a fast one.
 //
-// Kernels must not call libm (its calls do not vectorise and differ between versions): use lanes/elementary.hpp.
+// `flatten` inlines the functor into each clone however long it is. Called, it would be compiled for
+// the baseline only.
+//
+// Kernels must not call libm: its calls do not vectorise and differ between versions. They use
+// lanes/elementary.hpp.
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(ABBE_ONE_LEVEL)
-#define ABBE_EVERY_LEVEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(ABBE_ONE_LEVEL)
+#define ABBE_EVERY_LEVEL \
+  __attribute__((flatten, target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define ABBE_EVERY_LEVEL
 #endif

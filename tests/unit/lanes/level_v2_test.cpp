@@ -1,0 +1,13 @@
+// The random kernel for x86-64-v2 alone. Standard headers come first: they keep the level of the
+// build.
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#pragma GCC target("arch=x86-64-v2")
+#define ABBE_ONE_LEVEL
+#define abbe abbe_v2
+#include "engine/lanes/random.cpp"
+#endif
