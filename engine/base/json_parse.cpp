@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/json_reader.hpp"
+
+namespace abbe {
+
+namespace {
+
+constexpr std::size_t kDeepest = 64;
+
+// nlohmann's parser tells what it read, not where. The tree builder follows in the text: between
+// two tokens stand only white space, commas and colons, so each token begins where the last one
+// ended and those are skipped.
+class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  explicit TreeBuilder(const SourceFile& source) : source_(source), text_(source.text()) {
+    if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
+  }
+
+  bool null() override { return scalar(JsonNode::Kind::null, 4); }
+  bool boolean(bool value) override {
+    return scalar(JsonNode::Kind::boolean, value ? 4 : 5, value ? 1 : 0);
+  }
+  bool number_integer(number_integer_t value) override {
+    return number(static_cast<double>(value), true);
+  }
+  bool number_unsigned(number_unsigned_t value) override {
+    return number(static_cast<double>(value), true);
+  }
+  bool number_float(number_float_t value, const string_t&) override { return number(value, false); }
+  bool string(string_t& value) override {
+    JsonNode& node = place();
+    node.kind = JsonNode::Kind::text;
+    node.span = string_token();
+    node.text = value;
+    return true;
+  }
+  bool binary(binary_t&) override { return false; }
+  bool start_object(std::size_t) override { return open(JsonNode::Kind::object); }
+  bool start_array(std::size_t) override { return open(JsonNode::Kind::array); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(string_t& name) override {
+    auto& members = open_.back()->members;
+    const Span span = string_token();
+    const auto same = [&](const JsonNode::Member& m) { return m.key == name; };
+    if (const auto first = std::find_if(members.begin(), members.end(), same);
+        first != members.end()) {
+      fail(span, Code::E0403,
+           fmt::format("the key \"{}\" stands twice in this object, first in line {}", name,
+                       source_.place(first->key_span.begin).line),
+           "keep one of the two");
+    }
+    members.push_back({name, span, {}});
+    return true;
+  }
+
+  bool parse_error(std::size_t position, const std::string&,
+                   const nlohmann::json::exception& error) override {
+    std::string what = error.what();
+    if (const auto cut = what.find("column"); cut != std::string::npos)
+      what.erase(0, what.find(": ", cut) + 2);
+    const auto offset =
+        static_cast<std::uint32_t>(std::min(position ? position - 1 : 0, text_.size()));
+    fail({offset, offset + 1}, Code::E0401, "this is not JSON: " + what,
+         "JSON has double quotes around keys and texts, commas between members, none after the "
+         "last, and no comments");
+  }
+
+  JsonNode root;
+
+ private:
+  [[noreturn]] void fail(Span span, Code code, std::string message, std::string help) {
+    throw UserError(diagnostic_at(source_, span, code, std::move(message), std::move(help)));
+  }
+
+  JsonNode& place() {
+    if (open_.empty()) return root;
+    JsonNode& parent = *open_.back();
+    return parent.kind == JsonNode::Kind::object ? parent.members.back().value
+                                                 : parent.items.emplace_back();
+  }
+  std::uint32_t skip() {
+    while (at_ < text_.size() && std::strchr(" \t\r\n,:", text_[at_])) ++at_;
+    return static_cast<std::uint32_t>(at_);
+  }
+  Span token(std::size_t length) {
+    const std::uint32_t begin = skip();
+    at_ += length;
+    return {begin, static_cast<std::uint32_t>(at_)};
+  }
+  Span string_token() {
+    const std::uint32_t begin = skip();
+    for (++at_; text_[at_] != '"'; ++at_) at_ += text_[at_] == '\\';
+    return {begin, static_cast<std::uint32_t>(++at_)};
+  }
+  bool scalar(JsonNode::Kind kind, std::size_t length, double value = 0) {
+    JsonNode& node = place();
+    node.kind = kind;
+    node.span = token(length);
+    node.number = value;
+    return true;
+  }
+  bool number(double value, bool is_integer) {
+    const std::uint32_t begin = skip();
+    const std::size_t end =
+        std::min(text_.find_first_not_of("0123456789+-.eE", begin), text_.size());
+    JsonNode& node = place();
+    node.kind = JsonNode::Kind::number;
+    node.span = token(end - begin);
+    node.number = value;
+    node.is_integer = is_integer;
+    return true;
+  }
+  bool open(JsonNode::Kind kind) {
+    const Span bracket = token(1);
+    if (open_.size() == kDeepest)
+      fail(bracket, Code::E0401,
+           fmt::format("objects and lists are nested more than {} deep", kDeepest),
+           "no file of this program needs that");
+    JsonNode& node = place();
+    node.kind = kind;
+    node.span = bracket;
+    open_.push_back(&node);
+    return true;
+  }
+  bool close() {
+    open_.back()->span.end = token(1).end;
+    open_.pop_back();
+    return true;
+  }
+
+  const SourceFile& source_;
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::vector<JsonNode*>
+      open_;  ///< the objects and lists around the next token; none moves while it is open
+};
+
+}  // namespace
+
+JsonNode parse_json(const SourceFile& source) {
+  TreeBuilder builder(source);
+  nlohmann::json::sax_parse(source.text(), &builder);
+  return std::move(builder.root);
+}
+
+}  // namespace abbe
