@@ -2,9 +2,19 @@
 //
 // Each error function is a linear combination of fixed basis functions of the normalised reading u in [-1, 1]:
 //   1, u, 2u^2 - 1, cos(n pi u), sin(n pi u) for n = 1..N
-// so a virtual machine is a table of coefficients, evaluated exactly: no interpolation.
+// so a virtual machine is a table of coefficients, evaluated exactly: no interpolation. u = -1 is home, where the scale reads 0.
+//
+// Frames. {0} is the base. W is the machine coordinate system: it rides with the part, and coincides with {0} while the table-side
+// axes are at home. A ram-side axis j carries the tip: d += e_j + w_j x l_j, with l_j from its frame to the tip. A table-side
+// axis carries the part, so it moves the part away from under the tip: its frame stands at the sum of (offset_k - enc_k axis_k)
+// over the table chain up to j, and d -= e_j + w_j x l_j, with l_j again from its frame to the tip (the point on the part).
+//
+// Squarenesses. Positive: the angle between the two axes is larger than 90 degrees. The tip is then less far along the first axis
+// than the machine believes, so with measured = true + d: d_x = cwy y + bwz z, d_y = awz z (readings). They are linear terms of exy,
+// exz and eyz (with the opposite sign in the function of a table-side axis, which enters with a minus).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +34,14 @@ GeometryCoefficients draw_geometry(const Machine&, std::uint64_t seed, std::uint
 
 /// The value of one error function at a scale reading, mm or rad: the plain reference of the lane kernel.
 double error_at(const Machine&, const GeometryCoefficients&, Component, double reading_mm);
+
+/// The lever from the frame of one axis to the tip: component k is offset_mm[k] + reach[k] * enc[k] + tip_from_mount[k].
+struct AxisLever {
+  double sign = 1;      ///< of the axis' contribution: +1 ram side, -1 table side
+  Vec3 offset_mm;
+  Vec3 reach;           ///< 1 where the reading of axis k lengthens the lever, else 0
+};
+AxisLever axis_lever(const Machine&, Axis);
 
 /// The 18 values at one position of the carriages.
 struct AxisErrors {
@@ -45,9 +63,16 @@ class GeometryBlock {
   void add_error(int n, const int* lane, const double* const enc[3], const double* const tip[3], double* const d[3]) const;
 
  private:
-  const Machine* machine_;
-  int lanes_ = 0, stride_ = 0;
-  std::vector<double> coefficients_;  // [component][basis][lane]
+  template <class Index>
+  void add_error_indexed(int n, Index lane, const double* const enc[3], const double* const tip[3], double* const d[3]) const;
+
+  struct AxisData {
+    AxisLever lever;
+    double u_per_mm = 0;
+  };
+  std::array<AxisData, 3> axes_;
+  int harmonics_ = 0, lanes_ = 0;
+  std::vector<double> coefficients_;  // [axis][basis][component of the axis][lane]
 };
 
 }  // namespace abbe

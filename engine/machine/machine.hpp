@@ -73,7 +73,10 @@ struct NamedSensor {
 
 /// An effect switched on in the machine file ("effects"): a registry name and its parameters.
 struct EffectSetting {
-  struct Value { double value = 0, u = 0; };
+  struct Value {
+    double value = 0, u = 0;
+    std::string word;                  ///< of a parameter that names something ("axis": "x")
+  };
   std::string name;
   std::map<std::string, Value> parameters;
 };
@@ -93,6 +96,7 @@ struct Machine {
   MotionSpec motion;
   std::map<std::string, NamedSensor> sensors;
   std::vector<EffectSetting> effects;
+  std::string known_state;                       ///< JSON text of "known_state", as written; empty when the file has none
 
   const MachineAxis& operator[](Axis a) const { return axes[static_cast<int>(a)]; }
   ComponentSpec& operator[](Component c) { return components[static_cast<int>(c)]; }

@@ -1,5 +1,11 @@
 // Virtual machines that satisfy the specification: a virtual ISO 10360-2 test of each candidate (paper section 7,
 // physics.md section 3).
+//
+// The lines run in scale readings through the middle of the travels, over `longest_share` of what the travels allow, centred. The
+// five lengths of a line start at the same end and are evenly spaced from 25 mm (a fifth of the longest on lines under 125 mm). Which end
+// matters: errors are zero at home, so lengths that start there meet smaller ones, and the share accepted moves by some
+// percent. The axes start at home; of each diagonal's two corners the one is taken that makes the four starting points alternate corners
+// of the volume, one of them home: no end of any axis is favoured.
 #pragma once
 
 #include <array>

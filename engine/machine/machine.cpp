@@ -1,0 +1,47 @@
+#include "engine/machine/machine.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "engine/base/diagnostic.hpp"
+#include "engine/machine/shipped.hpp"
+
+namespace abbe {
+
+std::string_view name(Component c) {
+  static constexpr std::string_view names[kComponents] = {"exx", "eyx", "ezx", "eax", "ebx", "ecx",
+                                                          "exy", "eyy", "ezy", "eay", "eby", "ecy",
+                                                          "exz", "eyz", "ezz", "eaz", "ebz", "ecz"};
+  return names[static_cast<int>(c)];
+}
+
+std::vector<std::string> shipped_machines() {
+  std::vector<std::string> names;
+  for (const ShippedFile& file : shipped_machine_files()) names.emplace_back(file.name);
+  return names;
+}
+
+Machine read_machine(const std::string& name_or_path) {
+  std::vector<std::string_view> names;
+  for (const ShippedFile& file : shipped_machine_files()) {
+    if (file.name == name_or_path)
+      return parse_machine(std::string(file.name) + ".json", std::string(file.text));
+    names.push_back(file.name);
+  }
+  const bool is_path = name_or_path.find_first_of("/.") != std::string::npos ||
+                       std::filesystem::exists(name_or_path);
+  if (is_path) {
+    const SourceFile source = read_source(name_or_path);
+    return parse_machine(source.name(), std::string(source.text()));
+  }
+  const std::string near = nearest_word(name_or_path, names);
+  throw UserError(diagnostic(
+      Code::E0411,
+      fmt::format("there is no machine \"{}\": neither a file nor one of the shipped machines ({})",
+                  name_or_path, fmt::join(names, ", ")),
+      near.empty() ? "`abbe machine init NAME` prints a machine file to start from"
+                   : fmt::format("did you mean \"{}\"?", near)));
+}
+
+}  // namespace abbe

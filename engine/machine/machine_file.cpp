@@ -1,0 +1,253 @@
+// The machine file (docs/formats.md): keys, units, defaults and what contradicts what. Conversion
+// to mm and rad happens here.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/base/json_reader.hpp"
+#include "engine/machine/machine.hpp"
+
+namespace abbe {
+
+namespace {
+
+constexpr double kMmPerUm = 1e-3;
+constexpr double kPpm = 1e-6;  ///< um/m, and um/m^2 per m
+constexpr double kRadPerDegree = kPi / 180;
+constexpr double kRadPerArcsec = kPi / 180 / 3600;
+constexpr int kMostHarmonics = 64;
+
+constexpr std::string_view kAxisNames[3] = {"x", "y", "z"};
+
+Vec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
+
+void read_axes(JsonObject axes, Machine& machine) {
+  for (int k = 0; k < 3; ++k) {
+    JsonObject axis = axes.object(kAxisNames[k]);
+    machine.axes[k].travel_mm = axis.number("travel_mm", kPositive);
+    machine.axes[k].direction = axis.integer_or("direction", 1, -1, 1);
+    if (machine.axes[k].direction == 0)
+      axis.fault("direction", Code::E0406, "\"direction\" is 0, but must be 1 or -1",
+                 "1 when the readings grow from 0 to the travel, -1 when they fall from 0 to minus "
+                 "the travel");
+  }
+}
+
+std::vector<Axis> read_side(JsonObject& chain, std::string_view key,
+                            std::vector<std::string> otherwise, int (&times)[3]) {
+  std::vector<Axis> side;
+  for (const std::string& name : chain.text_list_or(key, std::move(otherwise))) {
+    const auto found = std::find(std::begin(kAxisNames), std::end(kAxisNames), name);
+    if (found == std::end(kAxisNames)) {
+      chain.fault(key, Code::E0412, fmt::format("\"{}\" is not an axis", name),
+                  "the axes are \"x\", \"y\" and \"z\"");
+      continue;
+    }
+    const auto axis = static_cast<int>(found - std::begin(kAxisNames));
+    ++times[axis];
+    side.push_back(static_cast<Axis>(axis));
+  }
+  return side;
+}
+
+void read_chain(JsonObject chain, Machine& machine) {
+  int times[3] = {};
+  machine.ram_chain = read_side(chain, "ram_side", {"x", "y", "z"}, times);
+  machine.table_chain = read_side(chain, "table_side", {}, times);
+  for (const Axis axis : machine.table_chain)
+    machine.axes[static_cast<int>(axis)].table_side = true;
+  for (int k = 0; k < 3; ++k) {
+    if (times[k] == 1) continue;
+    chain.fault(times[k] ? "table_side" : "ram_side", Code::E0412,
+                fmt::format("axis \"{}\" {} in the chain", kAxisNames[k],
+                            times[k] ? "stands more than once" : "is missing"),
+                "each axis stands once, in \"ram_side\" when it carries the probe, in "
+                "\"table_side\" when it carries the part, "
+                "in the order from the base outwards");
+  }
+}
+
+void read_offsets(JsonObject offsets, Machine& machine) {
+  for (int k = 0; k < 3; ++k)
+    machine.axes[k].offset_mm = vec3(offsets.numbers_or(kAxisNames[k], {0, 0, 0}, 3));
+  machine.mount_offset_mm = vec3(offsets.numbers_or("mount", {0, 0, 0}, 3));
+}
+
+/// Table 1 of the paper.
+ComponentSpec default_component(Component c) {
+  if (is_rotation(c)) return {0.6, 0, 10 * kPpm, {}};
+  const bool positioning = static_cast<int>(c) % 6 == static_cast<int>(axis_of(c));
+  return positioning ? ComponentSpec{0.8, 0.1, 7 * kMmPerUm, {}}
+                     : ComponentSpec{0.5, 0.4, 7 * kMmPerUm, {}};
+}
+
+void check_shares(JsonObject& object, const ComponentSpec& spec, int harmonics) {
+  const double trend = spec.linear + spec.curvature;
+  if (trend > 1 + 1e-9) {
+    object.fault(
+        "s", Code::E0413,
+        fmt::format("s + c is {:.6g}, but the shares of one error function sum to 1", trend),
+        "s + c may be at most 1; what is left goes to the harmonics");
+  } else if (!spec.harmonics.empty()) {
+    const double sum = std::accumulate(spec.harmonics.begin(), spec.harmonics.end(), trend);
+    if (std::abs(sum - 1) > 1e-6)
+      object.fault("harmonics", Code::E0413,
+                   fmt::format("s + c + the harmonics is {:.6g}, but must be 1", sum),
+                   "scale the amplitudes, or leave \"harmonics\" out to have them drawn at random");
+    if (static_cast<int>(spec.harmonics.size()) > harmonics)
+      object.fault("harmonics", Code::E0413,
+                   fmt::format("{} amplitudes, but the file has {} harmonics",
+                               spec.harmonics.size(), harmonics),
+                   "raise \"geometry.harmonics\"");
+  } else if (harmonics == 0 && trend == 0) {
+    object.fault("s", Code::E0413, "this error function is empty: no harmonics, and s and c are 0",
+                 "give s or c, or set e_max to 0 and s to 1");
+  }
+}
+
+void read_geometry(JsonObject geometry, Machine& machine) {
+  machine.harmonics = geometry.integer_or("harmonics", 7, 0, kMostHarmonics);
+  JsonObject components = geometry.object_or_absent("components");
+  for (int k = 0; k < kComponents; ++k) {
+    const auto component = static_cast<Component>(k);
+    ComponentSpec spec = default_component(component);
+    JsonObject object = components.object_or_absent(name(component));
+    const double unit = is_rotation(component) ? kPpm : kMmPerUm;
+    spec.linear = object.number_or("s", spec.linear, kShare);
+    spec.curvature = object.number_or("c", spec.curvature, kShare);
+    spec.e_max = object.number_or("e_max", spec.e_max / unit, kNotNegative) * unit;
+    spec.harmonics = object.number_list("harmonics", kShare);
+    if (object.present()) check_shares(object, spec, machine.harmonics);
+    machine[component] = std::move(spec);
+  }
+  JsonObject squareness = geometry.object_or_absent("squareness_um_per_m");
+  machine.squareness_cwy_rad = squareness.number_or("cwy", 0) * kPpm;
+  machine.squareness_bwz_rad = squareness.number_or("bwz", 0) * kPpm;
+  machine.squareness_awz_rad = squareness.number_or("awz", 0) * kPpm;
+}
+
+void read_specification(JsonObject object, Specification& spec) {
+  spec.standard = object.text_or("standard", "ISO 10360-2");
+  JsonObject mpe = object.object("mpe");
+  spec.mpe_a_mm = mpe.number("a_um", kNotNegative) * kMmPerUm;
+  spec.mpe_k = mpe.number("k_um_per_m", kNotNegative) * kPpm;
+  if (mpe.has("a_um") && mpe.has("k_um_per_m") && spec.mpe_a_mm == 0 && spec.mpe_k == 0)
+    mpe.fault("a_um", Code::E0414,
+              "a and k are both 0: no machine has a maximum permissible error of 0",
+              "MPE(l) = a + k l, as the data sheet gives it: 5 + 5 um/m is \"a_um\": 5, "
+              "\"k_um_per_m\": 5");
+  spec.v_min = object.number_or("v_min", 1, kPositive);
+  spec.v_max = object.number_or("v_max", 2, kPositive);
+  if (spec.v_min >= spec.v_max)
+    object.fault(object.has("v_min") ? "v_min" : "v_max", Code::E0414,
+                 fmt::format("v_min is {:g} and v_max {:g}: no machine lies between", spec.v_min,
+                             spec.v_max),
+                 "v = min |MPE / error|; the usual range is 1 to 2");
+  spec.longest_share = object.number_or("longest_share", 0.66, kPositiveShare);
+}
+
+void read_head(JsonObject object, HeadSpec& head) {
+  if (!object.present()) return;
+  head.model = object.text_or("model", "");
+  head.l_r_mm = object.number_or("l_r_mm", 0, kNotNegative);
+  JsonObject sd = object.object("angle_sd_arcsec");
+  head.sd_a_rad = sd.number("A", kNotNegative) * kRadPerArcsec;
+  head.sd_b_rad = sd.number("B", kNotNegative) * kRadPerArcsec;
+  head.mounting_rad = object.object_or_absent("mounting").number_or("turn_deg", 0) * kRadPerDegree;
+}
+
+struct Material {
+  std::string_view name;
+  double young_GPa, cte_ppm_per_K;
+};
+// Typical values of stylus shafts; a file that knows better gives its own numbers.
+constexpr Material kMaterials[] = {{"tungsten carbide", 620, 5.0},
+                                   {"steel", 200, 11.5},
+                                   {"ceramic", 350, 7.5},
+                                   {"carbon fibre", 450, -0.4}};
+
+NamedSensor read_sensor(JsonObject object) {
+  NamedSensor sensor;
+  const std::vector<double> head = object.numbers_or("head_deg", {0, 0}, 2);
+  sensor.head_a_rad = head[0] * kRadPerDegree;
+  sensor.head_b_rad = head[1] * kRadPerDegree;
+  if (!object.has("tip_in_r_mm"))
+    object.fault("tip_in_r_mm", Code::E0404,
+                 "a sensor needs \"tip_in_r_mm\", the centre of its tip seen from the head",
+                 "a straight stylus of 100 mm is \"tip_in_r_mm\": [0, 0, -100]");
+  sensor.tip_in_r_mm = vec3(object.numbers_or("tip_in_r_mm", {0, 0, 0}, 3));
+  const double diameter_mm = object.number("diameter_mm", kPositive);
+  sensor.radius_mm = diameter_mm / 2;
+  sensor.shaft_diameter_mm = object.number_or("shaft_diameter_mm", diameter_mm / 2, kPositive);
+  sensor.material = object.text_or("material", "tungsten carbide");
+  std::vector<std::string_view> names;
+  Material material = kMaterials[0];
+  for (const Material& m : kMaterials) {
+    names.push_back(m.name);
+    if (m.name == sensor.material) material = m;
+  }
+  if (object.has("material") && !(object.has("young_GPa") && object.has("cte_ppm_per_K")))
+    object.one_of("material", sensor.material, names);
+  sensor.young_GPa = object.number_or("young_GPa", material.young_GPa, kPositive);
+  sensor.cte_ppm_per_K = object.number_or("cte_ppm_per_K", material.cte_ppm_per_K);
+  return sensor;
+}
+
+EffectSetting read_effect(JsonObject object) {
+  EffectSetting effect;
+  effect.name = object.text("name");
+  JsonObject parameters = object.object_or_absent("parameters");
+  for (const std::string& key : parameters.own_names()) {
+    EffectSetting::Value& parameter = effect.parameters[key];
+    if (parameters.kind_of(key) == JsonNode::Kind::object) {
+      JsonObject value = parameters.object(key);
+      parameter.value = value.number("value");
+      parameter.u = value.number_or("u", 0, kNotNegative);
+    } else if (parameters.kind_of(key) == JsonNode::Kind::text) {
+      parameter.word = parameters.text(key);
+    } else {
+      parameter.value = parameters.number(key);
+    }
+  }
+  return effect;
+}
+
+}  // namespace
+
+Machine parse_machine(const std::string& file, const std::string& text) {
+  JsonReader reader(SourceFile(file, text));
+  JsonObject root = reader.root();
+  if (const std::string schema = root.text_or("schema", "abbe.machine/1");
+      schema != "abbe.machine/1")
+    root.fault(
+        "schema", Code::E0407,
+        fmt::format("the schema is \"{}\", but a machine file has \"abbe.machine/1\"", schema),
+        "is this the right file? `abbe machine init NAME` prints a complete machine file");
+  Machine machine;
+  machine.name = root.text("name");
+  read_axes(root.object("axes"), machine);
+  read_chain(root.object_or_absent("chain"), machine);
+  read_offsets(root.object_or_absent("offsets_mm"), machine);
+  read_geometry(root.object_or_absent("geometry"), machine);
+  read_specification(root.object("specification"), machine.specification);
+  read_head(root.object_or_absent("head"), machine.head);
+  machine.probe.sd_mm =
+      vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kNotNegative)) *
+      kMmPerUm;
+  JsonObject motion = root.object_or_absent("motion");
+  machine.motion.speed_mm_s = motion.number_or("speed_mm_s", 200, kPositive);
+  machine.motion.probing_speed_mm_s = motion.number_or("probing_speed_mm_s", 5, kPositive);
+  machine.motion.acceleration_mm_s2 = motion.number_or("acceleration_mm_s2", 500, kPositive);
+  JsonObject sensors = root.object_or_absent("sensors");
+  for (const std::string& key : sensors.own_names())
+    machine.sensors[key] = read_sensor(sensors.object(key));
+  for (const JsonObject& effect : root.object_list("effects"))
+    machine.effects.push_back(read_effect(effect));
+  machine.known_state = root.raw("known_state");
+  reader.finish();
+  return machine;
+}
+
+}  // namespace abbe

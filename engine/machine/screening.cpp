@@ -1,0 +1,227 @@
+#include "engine/machine/screening.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "engine/base/diagnostic.hpp"
+
+namespace abbe {
+
+namespace {
+
+constexpr int kLines = 7, kLengths = 5;
+constexpr int kBatch = 128;  ///< candidates drawn and tested together
+constexpr std::uint64_t kPatience =
+    20'000;  ///< candidates before next to none accepted is called hopeless
+constexpr std::uint64_t kHopeless = 10'000;  ///< one in so many
+constexpr double kShortest_mm = 25;          ///< below 30 mm, as the standard asks
+
+using LengthErrors = std::array<std::array<double, kLengths>, kLines>;
+
+/// Length errors of the virtual test on every lane of the block: (d(end) - d(start)) . direction.
+std::vector<LengthErrors> length_errors(const std::array<TestLine, kLines>& lines,
+                                        const GeometryBlock& block) {
+  const int n = block.lanes();
+  std::vector<int> lane(n);
+  for (int i = 0; i < n; ++i) lane[i] = i;
+  std::vector<double> columns(9 * static_cast<std::size_t>(n));
+  double* const c = columns.data();
+  double* const enc[3] = {c, c + n, c + 2 * n};
+  double* const tip[3] = {c + 3 * n, c + 4 * n, c + 5 * n};
+  double* const d[3] = {c + 6 * n, c + 7 * n, c + 8 * n};
+  for (int k = 0; k < 3; ++k) std::fill_n(tip[k], n, kTestTip[k]);
+
+  // The error along the line, at a distance from its start, on every lane.
+  const auto error_along = [&](const TestLine& line, double distance_mm, std::vector<double>& out) {
+    const Vec3 at = line.start_mm + distance_mm * line.direction;
+    for (int k = 0; k < 3; ++k) std::fill_n(enc[k], n, at[k]), std::fill_n(d[k], n, 0.0);
+    block.add_error(n, lane.data(), enc, tip, d);
+    for (int i = 0; i < n; ++i) out[i] = dot({d[0][i], d[1][i], d[2][i]}, line.direction);
+  };
+
+  std::vector<LengthErrors> errors(n);
+  std::vector<double> start(n), end(n);
+  for (int k = 0; k < kLines; ++k) {
+    error_along(lines[k], 0, start);
+    for (int m = 0; m < kLengths; ++m) {
+      error_along(lines[k], lines[k].length_mm[m], end);
+      for (int i = 0; i < n; ++i) errors[i][k][m] = end[i] - start[i];
+    }
+  }
+  return errors;
+}
+
+/// v = min |MPE(l) / (known + factor * drawn)|.
+double indicator(const Specification& spec, const std::array<TestLine, kLines>& lines,
+                 const LengthErrors& known, const LengthErrors& drawn, double factor) {
+  double v = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kLines; ++k)
+    for (int m = 0; m < kLengths; ++m) {
+      const double mpe = spec.mpe_a_mm + spec.mpe_k * lines[k].length_mm[m];
+      v = std::min(v, mpe / std::fabs(known[k][m] + factor * drawn[k][m]));
+    }
+  return v;
+}
+
+/// Consecutive candidates with their length errors.
+struct Batch {
+  std::vector<GeometryCoefficients> geometry;
+  std::vector<LengthErrors> errors;
+};
+
+Batch draw_batch(const Machine& machine, const std::array<TestLine, kLines>& lines,
+                 std::uint64_t seed, std::uint32_t first, int count) {
+  Batch batch;
+  std::vector<const GeometryCoefficients*> pointers;
+  for (int i = 0; i < count; ++i)
+    batch.geometry.push_back(draw_geometry(machine, seed, first + static_cast<std::uint32_t>(i)));
+  for (const GeometryCoefficients& one : batch.geometry) pointers.push_back(&one);
+  batch.errors = length_errors(lines, GeometryBlock(machine, pointers));
+  return batch;
+}
+
+/// f(0) .. f(n-1), each on some thread. f writes to its own slot, so the order does not matter.
+template <class F>
+void on_threads(int n, int threads, const F& f) {
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    for (int i = next++; i < n; i = next++) f(i);
+  };
+  std::vector<std::jthread> helpers;
+  for (int t = 1; t < std::min(threads, n); ++t) helpers.emplace_back(work);
+  work();
+}
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+[[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts,
+                          int threads) {
+  const SuggestedFactor best = suggest_e_max_factor(machine, seed, 2000, threads);
+  throw UserError(diagnostic(
+      Code::E0415,
+      fmt::format("only {} of {} virtual machines of \"{}\" satisfy its specification: {} fail the "
+                  "MPE, {} have errors too small for it",
+                  counts.used, counts.generated, machine.name,
+                  percent(double(counts.failed_mpe) / double(counts.generated)),
+                  percent(double(counts.too_small) / double(counts.generated))),
+      best.share_accepted > 0 ? fmt::format("multiply every e_max by {:.2g}: then {} are accepted",
+                                            best.factor, percent(best.share_accepted))
+                              : "no factor on e_max helps: check the MPE, the offsets and the "
+                                "squarenesses of the machine file"));
+}
+
+}  // namespace
+
+std::array<TestLine, 7> test_lines(const Machine& machine) {
+  static constexpr std::string_view names[kLines] = {"x", "y", "z", "d1", "d2", "d3", "d4"};
+  // How a line runs through each travel: away from home (1), towards home (-1), or not at all.
+  static constexpr int runs[kLines][3] = {{1, 0, 0},   {0, 1, 0},   {0, 0, 1},  {1, 1, 1},
+                                          {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+  std::array<TestLine, kLines> lines;
+  for (int k = 0; k < kLines; ++k) {
+    Vec3 whole, middle;
+    for (int a = 0; a < 3; ++a) {
+      const double travel = machine.axes[a].direction * machine.axes[a].travel_mm;
+      whole[a] = runs[k][a] * travel;
+      middle[a] = travel / 2;
+    }
+    const double longest = machine.specification.longest_share * norm(whole);
+    const double shortest = std::min(kShortest_mm, longest / kLengths);
+    lines[k] = {names[k], middle - 0.5 * longest * unit(whole), unit(whole), {}};
+    for (int m = 0; m < kLengths; ++m)
+      lines[k].length_mm[m] = shortest + (longest - shortest) * m / (kLengths - 1);
+  }
+  return lines;
+}
+
+TestResult virtual_acceptance_test(const Machine& machine, const GeometryCoefficients& geometry) {
+  const auto lines = test_lines(machine);
+  const GeometryCoefficients* const one[] = {&geometry};
+  const LengthErrors errors = length_errors(lines, GeometryBlock(machine, one)).front();
+  return {errors, indicator(machine.specification, lines, {}, errors, 1)};
+}
+
+VirtualMachines screened_machines(const Machine& machine, std::uint64_t seed, int count,
+                                  int threads) {
+  return more_screened_machines(machine, seed, count, threads, 0);
+}
+
+VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t seed, int count,
+                                       int threads, std::uint32_t first_candidate) {
+  const auto lines = test_lines(machine);
+  const Specification& spec = machine.specification;
+  VirtualMachines out;
+  // Batches are drawn `threads` at a time and judged in their order, candidate by candidate, until
+  // there are enough.
+  std::vector<Batch> round(std::max(1, threads));
+  for (std::uint32_t first = first_candidate; out.size() < count;) {
+    on_threads(static_cast<int>(round.size()), threads, [&](int b) {
+      round[b] =
+          draw_batch(machine, lines, seed, first + static_cast<std::uint32_t>(b * kBatch), kBatch);
+    });
+    for (Batch& batch : round) {
+      for (int i = 0; i < kBatch && out.size() < count; ++i) {
+        const double v = indicator(spec, lines, {}, batch.errors[i], 1);
+        ++out.counts.generated;
+        if (v < spec.v_min) {
+          ++out.counts.failed_mpe;
+        } else if (v > spec.v_max) {
+          ++out.counts.too_small;
+        } else {
+          ++out.counts.used;
+          out.index.push_back(first + static_cast<std::uint32_t>(i));
+          out.geometry.push_back(std::move(batch.geometry[i]));
+          out.v.push_back(v);
+        }
+      }
+      first += kBatch;
+      if (out.counts.generated >= kPatience && out.counts.used * kHopeless < out.counts.generated)
+        give_up(machine, seed, out.counts, threads);
+    }
+  }
+  return out;
+}
+
+SuggestedFactor suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,
+                                     int threads) {
+  const auto lines = test_lines(machine);
+  const Specification& spec = machine.specification;
+  // Errors grow in proportion to e_max; only the known squarenesses, which every candidate shares,
+  // do not.
+  Machine known_only = machine;
+  for (ComponentSpec& component : known_only.components) component.e_max = 0;
+  const LengthErrors known = draw_batch(known_only, lines, seed, 0, 1).errors.front();
+
+  const int batches = (candidates + kBatch - 1) / kBatch;
+  std::vector<Batch> drawn(batches);
+  on_threads(batches, threads, [&](int b) {
+    drawn[b] = draw_batch(machine, lines, seed, static_cast<std::uint32_t>(b * kBatch),
+                          std::min(kBatch, candidates - b * kBatch));
+    for (LengthErrors& errors : drawn[b].errors)
+      for (int k = 0; k < kLines; ++k)
+        for (int m = 0; m < kLengths; ++m) errors[k][m] -= known[k][m];
+  });
+
+  // From 1/100 to 100 in steps of 2 %.
+  constexpr int kSteps = 466;
+  std::vector<double> share(kSteps);
+  const auto factor_of = [](int step) { return 0.01 * std::pow(1.02, step); };
+  on_threads(kSteps, threads, [&](int step) {
+    int accepted = 0;
+    for (const Batch& batch : drawn)
+      for (const LengthErrors& errors : batch.errors) {
+        const double v = indicator(spec, lines, known, errors, factor_of(step));
+        accepted += v >= spec.v_min && v <= spec.v_max;
+      }
+    share[step] = double(accepted) / candidates;
+  });
+  const auto best = std::max_element(share.begin(), share.end());
+  return {factor_of(static_cast<int>(best - share.begin())), *best};
+}
+
+}  // namespace abbe
