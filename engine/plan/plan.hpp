@@ -132,13 +132,16 @@ struct RotateFrame { FrameId result; Axis axis{}; FeatureId to; AxisDirection to
 struct RecallFrame { FrameId frame; };
 
 struct Evaluate { CharacteristicId characteristic; };
+/// What OBTAIN can read of a measured feature, in the current frame: mm, unit vector components, rad.
+enum class Quantity { x, y, z, i, j, k, radius, minor_radius, half_angle, length, form };
+struct Obtain { ColumnId column; FeatureId feature; Quantity quantity{}; };
 struct Assign { ColumnId column; Expression value; };
 struct Jump { int target = 0; };
 /// Goes to `target` on the lanes where the condition is 0.
 struct JumpUnless { Expression condition; int target = 0; };
 
 using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
-                            SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Assign, Jump, JumpUnless>;
+                            SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Obtain, Assign, Jump, JumpUnless>;
 
 struct Operation {
   Action action;

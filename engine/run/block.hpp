@@ -52,6 +52,7 @@ struct Lane {
   std::vector<char> has_actual;
   std::vector<Element> nominal;       ///< by FeatureId, in W; twins only
   std::optional<Motion> motion;       ///< twins only: their machines move with them
+  TouchMotion last_touch;             ///< twins only
   std::vector<Rigid> frames;          ///< X_WD by FrameId
   std::vector<double> columns;        ///< by ColumnId
   std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation

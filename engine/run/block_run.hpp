@@ -12,9 +12,8 @@ namespace abbe {
 /// first, then twins.
 class BlockRun {
  public:
-  /// When `where` is given, the reference records in it where it has to go.
-  BlockRun(const Executor& run_by, Block& lanes, std::vector<Executor::Reach::Stop>* where = nullptr)
-      : executor(run_by), block(lanes), stops(where) {}
+  BlockRun(const Executor& run_by, Block& lanes, Executor::Observed* observer = nullptr)
+      : executor(run_by), block(lanes), observed(observer) {}
 
   /// Runs every lane to the end of the program or to its trap.
   void run();
@@ -34,6 +33,7 @@ class BlockRun {
   void operator()(const plan::RotateFrame&);
   void operator()(const plan::RecallFrame&);
   void operator()(const plan::Evaluate&);
+  void operator()(const plan::Obtain&);
   void operator()(const plan::Assign&);
   void operator()(const plan::Jump&);
   void operator()(const plan::JumpUnless&);
@@ -54,7 +54,7 @@ class BlockRun {
 
   const Executor& executor;
   Block& block;
-  std::vector<Executor::Reach::Stop>* stops;
+  Executor::Observed* observed;
   std::vector<int> active;
   int operation = 0;
   TouchBatch touch_batch;
@@ -64,6 +64,8 @@ class BlockRun {
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
   void add_effects(const plan::Touch&, int machines);
+  void observe_touch(const plan::Touch&, int slot);
+  RecordingRow recording_row(const plan::Touch&, int slot) const;
   void fit_twins(plan::FeatureId);
   void fit_machines(plan::FeatureId, std::size_t points);
   /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.

@@ -130,6 +130,38 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
   });
 }
 
+namespace {
+
+double quantity_of(const Element& element, plan::Quantity quantity) {
+  using enum plan::Quantity;
+  switch (quantity) {
+    case x: return element.point.x;
+    case y: return element.point.y;
+    case z: return element.point.z;
+    case i: return element.direction.x;
+    case j: return element.direction.y;
+    case k: return element.direction.z;
+    case radius: return element.size;
+    case minor_radius: return element.minor_size;
+    case half_angle: return element.angle;
+    case length: return element.end - element.begin;
+    case form: return element.high - element.low;
+  }
+  ABBE_CHECK(false);
+}
+
+}  // namespace
+
+void BlockRun::operator()(const plan::Obtain& obtain) {
+  for_active([&](int i) -> std::string {
+    const Element* element = actual(i, obtain.feature);
+    if (!element) return "";
+    Lane& lane = block.lanes[i];
+    lane.columns[obtain.column.value] = quantity_of(inverse(lane.X_WD) * *element, obtain.quantity);
+    return "";
+  });
+}
+
 void BlockRun::operator()(const plan::Assign& assign) {
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];

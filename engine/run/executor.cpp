@@ -49,11 +49,10 @@ GeometryBlock Executor::acting_geometry(const VirtualMachines& machines, int fir
 
 void Executor::run(Block& block) const { BlockRun(*this, block).run(); }
 
-Executor::Reach Executor::reach() const {
-  Reach reach;
-  Block block = make_block({}, 0, 0);
-  BlockRun(*this, block, &reach.stops).run();
-  return reach;
+Executor::Observed Executor::observe(Block& block) const {
+  Observed observed;
+  BlockRun(*this, block, &observed).run();
+  return observed;
 }
 
 void BlockRun::run() {

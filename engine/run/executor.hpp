@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "engine/recording/recording.hpp"
 #include "engine/run/block.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/touch.hpp"
@@ -23,17 +24,18 @@ class Executor {
   /// Runs every lane to the end of the program or to its trap.
   void run(Block&) const;
 
-  /// Scale readings of the touches and the positions of the moves of an error-free machine, before any placement: what the
-  /// program asks the machine to reach.
-  struct Reach {
-    struct Stop {
-      Vec3 reading_mm;
-      int operation = 0;
-      bool touch = false;
-    };
-    std::vector<Stop> stops;
+  /// What a machine did, for those who want more than results.
+  struct Stop {
+    Vec3 reading_mm;                   ///< nominal scale readings
+    int operation = 0;
+    bool touch = false;                ///< else the target of a move
   };
-  Reach reach() const;
+  struct Observed {
+    std::vector<Stop> stops;           ///< of the reference: where the program asks the machine to go
+    std::vector<RecordingRow> rows;    ///< of lane 0: what it reported; coordinates of the program's machine system
+  };
+  /// Runs a block as run() does and keeps what is observed.
+  Observed observe(Block&) const;
 
  private:
   friend class BlockRun;

@@ -49,12 +49,12 @@ void BlockRun::operator()(const plan::SetMotion& set) {
 void BlockRun::operator()(const plan::Move& move) {
   for (const int i : active)
     if (block.is_twin(i)) block.lanes[i].motion->move_to(block.lanes[i].X_WD * value(block.lanes[i], move.to));
-  if (!stops) return;
+  if (!observed) return;
   const Lane& reference = block.lanes[block.reference()];
   if (!reference.sensor.valid()) return;
   const Vec3 reading = reference.X_WD * value(reference, move.to) - executor.machine_.home_offset() -
                        executor.sensors_[reference.sensor.value].tip_from_mount_mm;
-  stops->push_back({reading, operation, false});
+  observed->stops.push_back({reading, operation, false});
 }
 
 void BlockRun::operator()(const plan::BeginMeasure&) {
@@ -141,7 +141,7 @@ void BlockRun::operator()(const plan::Touch& touch) {
     Lane& lane = block.lanes[touch_batch.lane[i]];
     const double offset = touch_batch.travel[i] - (lane.compensation ? touch_batch.radius[i] : 0.0);
     lane.points.push_back(touch_batch.commanded.get(i) + offset * touch_batch.normal.get(i));
-    if (stops && touch_batch.lane[i] == block.reference()) stops->push_back({touch_batch.reading.get(i), operation, true});
+    if (observed) observe_touch(touch, i);
   }
 }
 

@@ -11,9 +11,11 @@ namespace abbe {
 
 Placement find_placement(const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
   const RunOptions options;
-  const Executor::Reach reach = Executor(plan, machine, options, source).reach();
+  const Executor executor(plan, machine, options, source);
+  Block reference = executor.make_block({}, 0, 0);
+  const Executor::Observed observed = executor.observe(reference);
   double low = INFINITY, high = -INFINITY;
-  for (const auto& stop : reach.stops) {
+  for (const auto& stop : observed.stops) {
     if (!stop.touch) continue;
     low = std::min(low, stop.reading_mm.z);
     high = std::max(high, stop.reading_mm.z);

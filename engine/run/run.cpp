@@ -73,11 +73,11 @@ std::pair<double, double> range(const MachineAxis& axis) {
 }
 
 /// Every touch of the error-free machine must lie inside the travel.
-void check_travel(const Executor::Reach& reach, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
   constexpr std::size_t kShown = 10;
   std::vector<Diagnostic> errors;
   std::size_t outside = 0;
-  for (const auto& stop : reach.stops) {
+  for (const Executor::Stop& stop : stops) {
     if (!stop.touch) continue;
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
       const auto [low, high] = range(machine[axis]);
@@ -97,15 +97,16 @@ void check_travel(const Executor::Reach& reach, const plan::Plan& plan, const Ma
 }
 
 /// Runs the error-free machine alone and refuses what no machine could do.
-Lane reference_lane(const Executor& executor, const plan::Plan& plan, const SourceFile& source) {
+Lane reference_lane(const Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
   Block block = executor.make_block({}, 0, 0);
-  executor.run(block);
+  const Executor::Observed observed = executor.observe(block);
   Lane lane = std::move(block.lanes[block.reference()]);
   if (!lane.trap.reason.empty()) {
     throw UserError(diagnostic_at(source, plan.operations[lane.trap.operation].span, Code::E0304,
                                   "not even an error-free machine can go on here: " + lane.trap.reason,
                                   "correct the statement; `abbe check` lists everything that it finds in the program"));
   }
+  check_travel(observed.stops, plan, machine, source);
   return lane;
 }
 
@@ -116,8 +117,7 @@ using Key = std::pair<int, int>;  // characteristic, visit
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
                    const SourceFile& source) {
   const Executor executor(plan, machine, options, source);
-  const Lane reference = reference_lane(executor, plan, source);
-  check_travel(executor.reach(), plan, machine, source);
+  const Lane reference = reference_lane(executor, plan, machine, source);
 
   RunResult result;
   result.machines = machines.size();
@@ -143,6 +143,22 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
     }
   }
   return result;
+}
+
+Recording record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,
+                      const SourceFile& source) {
+  ABBE_CHECK(one.size() == 1);
+  const Executor executor(plan, machine, options, source);
+  reference_lane(executor, plan, machine, source);
+  Block block = executor.make_block(one, 0, 1);
+  Recording recording;
+  recording.rows = executor.observe(block).rows;
+  const LaneTrap& trap = block.lanes[0].trap;
+  if (!trap.reason.empty()) {
+    throw UserError(diagnostic_at(source, plan.operations[trap.operation].span, Code::E0308,
+                                  "the recorded machine cannot go on here: " + trap.reason, "choose another seed or smaller effects"));
+  }
+  return recording;
 }
 
 }  // namespace abbe

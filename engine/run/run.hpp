@@ -8,6 +8,7 @@
 #include "engine/base/diagnostic.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/recording/recording.hpp"
 #include "engine/run/effect_use.hpp"
 
 namespace abbe {
@@ -60,5 +61,9 @@ struct RunResult {
 /// size. Throws UserError, with places in `source`, when the error-free machine cannot finish (touch outside the travel, unknown
 /// sensor, degenerate fit): then no machine can.
 RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& machines, const RunOptions&, const SourceFile& source);
+
+/// Runs the plan on the one machine of `one` and returns what it reports at every touch: tip centres in the program's machine
+/// coordinates, with targets, normals, motion and raw readings. Throws UserError as run_plan does, and when that machine is trapped.
+Recording record_plan(const plan::Plan&, const Machine&, const VirtualMachines& one, const RunOptions&, const SourceFile& source);
 
 }  // namespace abbe

@@ -39,7 +39,8 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
   for (int slot = machines; slot < touch_batch.n; ++slot) {
     const int index = touch_batch.lane[slot];
     Lane& twin = block.lanes[index];
-    const TouchMotion motion = twin.motion->touch(touch_batch.commanded.get(slot), touch_batch.normal.get(slot));
+    twin.last_touch = twin.motion->touch(touch_batch.commanded.get(slot), touch_batch.normal.get(slot));
+    const TouchMotion& motion = twin.last_touch;
     const auto group = groups.find(index);
     if (!acting || group == groups.end()) continue;
     TouchScene scene;
@@ -64,6 +65,38 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.seed,
                           executor.site_[operation], touch_batch);
   }
+}
+
+void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
+  const int lane = touch_batch.lane[slot];
+  if (lane == block.reference()) observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
+  if (lane == 0 && block.machines > 0) observed->rows.push_back(recording_row(touch, slot));
+}
+
+RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
+  const Lane& lane = block.lanes[touch_batch.lane[slot]];
+  const Lane& twin = block.lanes[lane.twin];
+  const Sensor& sensor = executor.sensors_[lane.sensor.value];
+  const Vec3 along = touch_batch.travel[slot] * touch_batch.normal.get(slot);
+  const Vec3 true_normal = touch_batch.surface_normal.get(slot);
+  RecordingRow row;
+  row.feature = executor.plan_[touch.feature].label;
+  row.touch = static_cast<int>(lane.points.size());
+  row.position_mm = touch_batch.commanded.get(slot) + along - executor.options_.placement_mm;
+  row.target_mm = touch_batch.surface.get(slot) + sensor.radius_mm * true_normal - executor.options_.placement_mm;
+  row.normal = true_normal;
+  row.sensor = sensor.name;
+  if (sensor.indexed) {
+    row.head_a_deg = sensor.head_a_rad * 180 / kPi;
+    row.head_b_deg = sensor.head_b_rad * 180 / kPi;
+    row.visit = static_cast<int>(lane.indexings);
+  }
+  row.time_s = twin.last_touch.time_s;
+  row.speed_mm_s = twin.last_touch.speed_mm_s;
+  row.accel_mm_s2 = twin.last_touch.acceleration_mm_s2;
+  row.travel = twin.last_touch.travel;
+  row.reading_mm = touch_batch.reading.get(slot) + along;
+  return row;
 }
 
 }  // namespace abbe

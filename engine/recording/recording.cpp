@@ -1,0 +1,107 @@
+#include "engine/recording/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+
+namespace abbe {
+
+namespace {
+
+/// One column: its name, and the text of a row's value or nothing.
+struct Column {
+  std::string name;
+  std::function<std::optional<std::string>(const RecordingRow&)> text;
+};
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+/// Fixed decimals without a negative zero.
+std::string decimals(double value, int digits) {
+  std::string text = fmt::format("{:.{}f}", value, digits);
+  if (text.find_first_not_of("-0.") == std::string::npos && text.front() == '-') text.erase(0, 1);
+  return text;
+}
+
+Column number(std::string name, int digits, std::function<std::optional<double>(const RecordingRow&)> value) {
+  return {std::move(name), [=](const RecordingRow& row) -> std::optional<std::string> {
+            const std::optional<double> v = value(row);
+            return v ? std::optional(decimals(*v, digits)) : std::nullopt;
+          }};
+}
+
+void add_vector(std::vector<Column>& columns, const std::array<const char*, 3>& names, int digits,
+                std::function<std::optional<Vec3>(const RecordingRow&)> value) {
+  for (int axis = 0; axis < 3; ++axis)
+    columns.push_back(number(names[axis], digits, [=](const RecordingRow& row) -> std::optional<double> {
+      const std::optional<Vec3> v = value(row);
+      return v ? std::optional((*v)[axis]) : std::nullopt;
+    }));
+}
+
+std::vector<Column> all_columns() {
+  std::vector<Column> c;
+  const auto integer = [&](const char* name, auto member) {
+    c.push_back({name, [=](const RecordingRow& row) -> std::optional<std::string> {
+                   const std::optional<int> v = row.*member;
+                   return v ? std::optional(std::to_string(*v)) : std::nullopt;
+                 }});
+  };
+  c.push_back({"feature", [](const RecordingRow& row) { return std::optional(quoted(row.feature)); }});
+  integer("touch", &RecordingRow::touch);
+  add_vector(c, {"x", "y", "z"}, 7, [](const RecordingRow& row) { return std::optional(row.position_mm); });
+  add_vector(c, {"tx", "ty", "tz"}, 7, [](const RecordingRow& row) { return row.target_mm; });
+  add_vector(c, {"nx", "ny", "nz"}, 9, [](const RecordingRow& row) { return row.normal; });
+  integer("setup", &RecordingRow::setup);
+  integer("run", &RecordingRow::run);
+  c.push_back({"sensor", [](const RecordingRow& row) { return row.sensor ? std::optional(quoted(*row.sensor)) : std::nullopt; }});
+  c.push_back(number("head_A_deg", 4, [](const RecordingRow& row) { return row.head_a_deg; }));
+  c.push_back(number("head_B_deg", 4, [](const RecordingRow& row) { return row.head_b_deg; }));
+  integer("qualification", &RecordingRow::qualification);
+  integer("visit", &RecordingRow::visit);
+  c.push_back(number("time_s", 3, [](const RecordingRow& row) { return row.time_s; }));
+  c.push_back(number("speed_mm_s", 4, [](const RecordingRow& row) { return row.speed_mm_s; }));
+  c.push_back(number("accel_mm_s2", 2, [](const RecordingRow& row) { return row.accel_mm_s2; }));
+  add_vector(c, {"ax", "ay", "az"}, 9, [](const RecordingRow& row) { return row.travel; });
+  c.push_back(number("temp_part_C", 3, [](const RecordingRow& row) { return row.temp_part_C; }));
+  c.push_back(number("temp_x_C", 3, [](const RecordingRow& row) { return row.temp_x_C; }));
+  c.push_back(number("temp_y_C", 3, [](const RecordingRow& row) { return row.temp_y_C; }));
+  c.push_back(number("temp_z_C", 3, [](const RecordingRow& row) { return row.temp_z_C; }));
+  c.push_back(number("temp_air_C", 3, [](const RecordingRow& row) { return row.temp_air_C; }));
+  c.push_back(number("load_kg", 3, [](const RecordingRow& row) { return row.load_kg; }));
+  add_vector(c, {"enc_x", "enc_y", "enc_z"}, 7, [](const RecordingRow& row) { return row.reading_mm; });
+  return c;
+}
+
+}  // namespace
+
+std::string to_csv(const Recording& recording) {
+  std::vector<Column> columns = all_columns();
+  std::erase_if(columns, [&](const Column& column) {
+    for (const RecordingRow& row : recording.rows)
+      if (column.text(row)) return false;
+    return true;
+  });
+  std::string out;
+  for (const auto& [key, value] : recording.metadata) out += fmt::format("# {}: {}\n", key, value);
+  out += fmt::format("# frame: {}\n# point: {}\n", recording.in_part_frame ? "part" : "mcs",
+                     recording.point == RecordedPoint::surface ? "surface" : "tip_centre");
+  for (std::size_t k = 0; k < columns.size(); ++k) out += (k ? "," : "") + columns[k].name;
+  out += "\n";
+  for (const RecordingRow& row : recording.rows) {
+    for (std::size_t k = 0; k < columns.size(); ++k) out += (k ? "," : "") + columns[k].text(row).value_or("");
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace abbe

@@ -1,0 +1,41 @@
+// A recording: what one machine reported, touch by touch, and everything logged beside it (docs/formats.md, "Recordings"). One row is one
+// scalar observation along n. What was not logged is absent, never zero: an effect that needs it cannot be judged.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/math/vec.hpp"
+
+namespace abbe {
+
+struct RecordingRow {
+  std::string feature;
+  int touch = 1;                        ///< 1-based, within the feature
+  int setup = 1, run = 1;
+  Vec3 position_mm;                     ///< recorded, tip centre or surface point as the recording says
+  std::optional<Vec3> target_mm, normal;  ///< where it should be, and the outward unit normal there
+  std::optional<std::string> sensor;
+  std::optional<double> head_a_deg, head_b_deg;
+  std::optional<int> qualification, visit;
+  std::optional<double> time_s, speed_mm_s, accel_mm_s2;
+  std::optional<Vec3> travel;           ///< unit vector of the motion at the touch
+  std::optional<double> temp_part_C, temp_x_C, temp_y_C, temp_z_C, temp_air_C, load_kg;
+  std::optional<Vec3> reading_mm;       ///< raw scale readings
+};
+
+enum class RecordedPoint { tip_centre, surface };
+
+struct Recording {
+  std::vector<std::pair<std::string, std::string>> metadata;  ///< `# key: value` lines beyond the next two
+  bool in_part_frame = false;           ///< `frame: part`, else machine coordinates
+  RecordedPoint point = RecordedPoint::tip_centre;
+  std::vector<RecordingRow> rows;
+};
+
+/// RFC 4180 with `#` lines before the header; a column appears when any row has it. Lengths with 7 decimals (0.1 nm).
+std::string to_csv(const Recording&);
+
+}  // namespace abbe

@@ -1,0 +1,139 @@
+#include "engine/run/run.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/unit/run/plan_builder.hpp"
+
+using namespace abbe;
+using namespace abbe::test;
+
+namespace {
+
+const SourceFile& no_source() {
+  static const SourceFile source("test", "");
+  return source;
+}
+
+Arguments distance(std::string axis) {
+  Arguments a;
+  a.add_text("mode", "NOMINL");
+  a.add_number("nominal", 0);
+  a.add_number("lower", -1);
+  a.add_number("upper", 1);
+  a.add_text("axis", std::move(axis));
+  return a;
+}
+
+/// Two points 200 mm apart along y, each with the head at its own orientation; the distance along y.
+plan::Plan two_points(double a1_deg, double a2_deg) {
+  PlanBuilder b;
+  const auto first = b.sensor(a1_deg, 90, 150), second = b.sensor(a2_deg, 90, 150);
+  b.append(plan::SelectSensor{first});
+  const auto p = b.point({800, 400, -500}, {0, -1, 0});
+  b.append(plan::SelectSensor{second});
+  const auto q = b.point({800, 600, -500}, {0, 1, 0});
+  b.evaluate({p, q}, "DISTB", distance("YAXIS"));
+  return b.plan;
+}
+
+double variance(const std::vector<double>& x) {
+  double mean = 0, sum = 0;
+  for (const double v : x) mean += v / static_cast<double>(x.size());
+  for (const double v : x) sum += (v - mean) * (v - mean);
+  return sum / static_cast<double>(x.size() - 1);
+}
+
+RunOptions only_head() {
+  RunOptions options;
+  options.contributors = {};
+  options.contributors.geometry = options.contributors.probe = false;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("without errors every machine sees the reference, exactly where the program puts the points") {
+  const Machine machine = read_machine("coord3-mc16");
+  RunOptions options = only_head();
+  options.contributors.head = false;
+  const RunResult r = run_plan(two_points(0, 0), machine, screened_machines(machine, 1, 5, 1), options, no_source());
+  REQUIRE(r.samples.size() == 1);
+  CHECK(r.samples[0].reference == doctest::Approx(200).epsilon(1e-14));
+  for (const double v : r.samples[0].value) CHECK(v == r.samples[0].reference);
+}
+
+TEST_CASE("with one orientation the head's errors cancel out of a length") {
+  const Machine machine = read_machine("coord3-mc16");
+  const RunResult r = run_plan(two_points(45, 45), machine, screened_machines(machine, 1, 200, 1), only_head(), no_source());
+  for (const double v : r.samples[0].value) CHECK(std::fabs(v - 200) < 1e-9);
+}
+
+TEST_CASE("with two orientations the head's variance is that of the closed form") {
+  // Both with B = 90: the tip is at (0, sinA l, -cosA l), so along y only A matters: dy/dA = l cosA. The two indexings are
+  // independent: var = (l sd)^2 (cos^2 A1 + cos^2 A2).
+  const Machine machine = read_machine("coord3-mc16");
+  constexpr int n = 4000;
+  const RunResult r = run_plan(two_points(20, 60), machine, screened_machines(machine, 1, n, 2), only_head(), no_source());
+  const double sd = machine.head.sd_a_rad, a1 = 20 * kPi / 180, a2 = 60 * kPi / 180;
+  const double expected = std::pow(150 * sd, 2) * (std::pow(std::cos(a1), 2) + std::pow(std::cos(a2), 2));
+  // The variance of n normal numbers has a relative standard deviation of sqrt(2/(n-1)); 3.9 of them: false alarms 1 in 10 000.
+  CHECK(std::fabs(variance(r.samples[0].value) / expected - 1) < 3.9 * std::sqrt(2.0 / (n - 1)));
+}
+
+TEST_CASE("returning to an orientation indexes anew, selecting the same one again does not") {
+  const Machine machine = read_machine("coord3-mc16");
+  const auto distance_after = [&](bool leave) {
+    PlanBuilder b;
+    const auto straight = b.sensor(0, 0, 100), tilted = b.sensor(30, 90, 150);
+    b.append(plan::SelectSensor{tilted});
+    const auto p = b.point({800, 400, -500}, {0, -1, 0});
+    if (leave) b.append(plan::SelectSensor{straight});
+    b.append(plan::SelectSensor{tilted});
+    const auto q = b.point({800, 600, -500}, {0, 1, 0});
+    b.evaluate({p, q}, "DISTB", distance("YAXIS"));
+    return variance(run_plan(b.plan, machine, screened_machines(machine, 1, 50, 1), only_head(), no_source()).samples[0].value);
+  };
+  CHECK(distance_after(false) < 1e-20);
+  CHECK(distance_after(true) > 1e-8);
+}
+
+TEST_CASE("switching a contributor off changes no number of the others") {
+  const Machine machine = read_machine("coord3-mc16");
+  const VirtualMachines machines = screened_machines(machine, 1, 20, 1);
+  const plan::Plan plan = two_points(10, 40);
+  RunOptions all, geometry = all, rest = all;
+  geometry.contributors.head = geometry.contributors.probe = false;
+  rest.contributors.geometry = false;
+  const auto values = [&](const RunOptions& o) { return run_plan(plan, machine, machines, o, no_source()).samples[0].value; };
+  const auto sum = values(all), first = values(geometry), second = values(rest);
+  for (std::size_t i = 0; i < sum.size(); ++i) CHECK((first[i] - 200) + (second[i] - 200) == doctest::Approx(sum[i] - 200).epsilon(1e-6));
+}
+
+TEST_CASE("a touch outside the travel is refused with its reading and the range") {
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 100)});
+  b.point({5000, 400, -500}, {-1, 0, 0});
+  const Machine machine = read_machine("coord3-mc16");
+  try {
+    run_plan(b.plan, machine, screened_machines(machine, 1, 1, 1), {}, no_source());
+    FAIL("no error");
+  } catch (const UserError& e) {
+    REQUIRE(e.diagnostics().size() == 1);
+    CHECK(e.diagnostics()[0].code == Code::E0302);
+    CHECK(e.diagnostics()[0].message.find("4998.000") != std::string::npos);
+  }
+}
+
+TEST_CASE("what no machine can do is an error at its operation: touching without a sensor") {
+  PlanBuilder b;
+  b.point({500, 400, -500}, {-1, 0, 0});
+  const Machine machine = read_machine("coord3-mc16");
+  try {
+    run_plan(b.plan, machine, screened_machines(machine, 1, 1, 1), {}, no_source());
+    FAIL("no error");
+  } catch (const UserError& e) {
+    CHECK(e.diagnostics()[0].code == Code::E0304);
+  }
+}
