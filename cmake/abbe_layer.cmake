@@ -13,7 +13,8 @@ find_package(doctest REQUIRED)
 add_library(abbe_settings INTERFACE)
 target_compile_options(abbe_settings INTERFACE
   -ffp-contract=off -fno-math-errno -fno-trapping-math
-  -Wall -Wextra -Wconversion -Wshadow -Wno-sign-conversion)
+  -Wall -Wextra -Wconversion -Wshadow -Wno-sign-conversion
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # g++ 12 warns wrongly inside std::string (GCC bug 105651)
 target_include_directories(abbe_settings INTERFACE ${CMAKE_SOURCE_DIR})
 option(ABBE_WERROR "Treat warnings as errors" ON)
 if(ABBE_WERROR)
