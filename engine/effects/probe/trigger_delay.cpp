@@ -1,0 +1,52 @@
+// Delay between contact and the latching of the scales.
+//
+//   d = v (t_delay - t_cal) a,   so   r = - v (t_delay - t_cal)  for an approach a = -n
+//
+// While the signal is on its way the machine moves on along a. The qualification stores the delay
+// as a smaller tip; only the change since then, or probing at another speed, shows.
+// Size: 1 ms at 8 mm/s is 8 um.
+// Sources: Ling & Wilkin, NIST IR (1999): error proportional to feed; user guides ask to qualify at
+// the gauging speed.
+// Confused with: probe.tip_radius as long as there is one speed (rho 1.00; 0.33 with a second one).
+#include "engine/effects/probe/probe.hpp"
+#include "engine/effects/terms.hpp"
+
+namespace abbe {
+namespace {
+
+constexpr EffectParameter kParameters[] = {
+    {.name = "delay_ms",
+     .unit = "ms",
+     .help = "delay at the trigger minus that at the qualification; positive: late",
+     .typical = 0.2,
+     .low = -100,
+     .high = 100,
+     .linear = true},
+};
+
+Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+  const double delay_s = theta[0] * 1e-3;
+  return delay_s * scene.speed_mm_s * approach(scene);
+}
+
+}  // namespace
+
+constinit const Effect kTriggerDelay{
+    .name = "probe.trigger_delay",
+    .title = "trigger delay times probing speed",
+    .help =
+        "The scales are read a little after the contact, and the machine has moved on by speed "
+        "times delay: the surface seems too far "
+        "in, in proportion to the probing speed. At one speed it cannot be told from a tip radius "
+        "error.",
+    .source =
+        "Ling & Wilkin, NIST IR (1999): error proportional to feed; touch-trigger probe user "
+        "guides: qualify at the gauging speed",
+    .separate = "repeat at a second probing speed",
+    .stage = Stage::probe,
+    .needs = Covariate::normal | Covariate::speed,
+    .parameters = kParameters,
+    .displace = displace,
+};
+
+}  // namespace abbe
