@@ -25,6 +25,7 @@ constexpr Reason kReasons[] = {
     {"too_few_points", "there are fewer different points than the element needs"},
 };
 
+bool zero(const Vec3& p) { return p.x == 0 && p.y == 0 && p.z == 0; }
 bool finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 int count_distinct(const std::vector<Vec3>& points) {
@@ -88,7 +89,7 @@ Cloud centred(const std::vector<Vec3>& points) {
 }
 
 std::optional<FitError> refusal(const FitProblem& problem) {
-  if (problem.normal && !(finite(*problem.normal) && norm(*problem.normal) > 0)) return fit_error("bad_normal");
+  if (problem.normal && (!finite(*problem.normal) || zero(*problem.normal))) return fit_error("bad_normal");
   if (!std::all_of(problem.points.begin(), problem.points.end(), finite)) return fit_error("not_finite");
   const int needed = feature_kind(problem.shape).minimum_points;
   if (static_cast<int>(problem.points.size()) < needed) return fit_error("too_few_points");
@@ -98,13 +99,19 @@ std::optional<FitError> refusal(const FitProblem& problem) {
   return std::nullopt;
 }
 
-std::optional<FitError> refusal(Shape shape, const Cloud& cloud) {
+std::optional<FitError> refusal(const FitProblem& problem, const Cloud& cloud) {
+  const Shape shape = problem.shape;
+  const auto& along = cloud.spread.along;
+  const double negligible = cloud.negligible();
   if (shape == Shape::point) return std::nullopt;
-  if (cloud.spread.along[0] <= cloud.negligible()) return fit_error("identical_points");
-  if (shape == Shape::line) return std::nullopt;
-  if (cloud.spread.along[1] <= cloud.negligible()) return fit_error("collinear_points");
-  if (shape == Shape::plane || shape == Shape::circle) return std::nullopt;
-  if (cloud.spread.along[2] <= cloud.negligible()) return fit_error("coplanar_points");
+  if (along[0] <= negligible) return fit_error("identical_points");
+  if (shape == Shape::line)
+    return along[0] - along[1] <= negligible ? std::optional(fit_error("not_unique")) : std::nullopt;
+  if (along[1] <= negligible) return fit_error("collinear_points");
+  const bool seeks_plane = shape == Shape::plane || (shape == Shape::circle && !problem.normal);
+  if (seeks_plane && along[1] - along[2] <= negligible) return fit_error("not_unique");
+  if (seeks_plane || shape == Shape::circle) return std::nullopt;
+  if (along[2] <= negligible) return fit_error("coplanar_points");
   return std::nullopt;
 }
 

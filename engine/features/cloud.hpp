@@ -35,9 +35,9 @@ Cloud centred(const std::vector<Vec3>& points);
 /// of the first, where the products lose nothing to cancellation.
 Spread<Extended> spread_of_points(const Points<Extended>& centred);
 
-/// Why there is no element, before any fitting.
+/// Why there is no element, before any fitting: what the points alone show, and what their spreads show.
 std::optional<FitError> refusal(const FitProblem&);
-std::optional<FitError> refusal(Shape, const Cloud&);
+std::optional<FitError> refusal(const FitProblem&, const Cloud&);
 
 /// A FitError with the text that belongs to the code.
 FitError fit_error(const char* code);

@@ -98,27 +98,50 @@ bool different(const Placed<Extended>& a, const Placed<Extended>& b, Extended ex
   return tilted || std::fabs(a.size[0] - b.size[0]) > 1e-4L * extent;
 }
 
+/// Whether a sum of squares is the best one but for a share of it and the rounding of the coordinates.
+bool rival(const Cloud& cloud, Extended cost, Extended best, Extended share) {
+  const Extended rounding = cloud.negligible();
+  return cost <= best * (1 + share) + static_cast<Extended>(cloud.exact.size()) * rounding * rounding;
+}
+
 struct Minimum {
   Extended cost;
   Placed<Extended> surface;
 };
 
-/// Descends from every start on a sample, polishes the best few on all points.
+struct Descent {
+  double cost;
+  Placed<double> surface;
+};
+bool cheaper(const Descent& a, const Descent& b) { return a.cost < b.cost; }
+
+/// Where the starts lead: on the sample from all of them, on all points from the best few. Best first.
 template <class Profile>
-std::vector<Minimum> minima(const Cloud& cloud, std::vector<Placed<double>> list, const Points<double>& sampled) {
-  std::vector<std::pair<double, Placed<double>>> reached;
-  for (Placed<double>& s : list) {
+std::vector<Descent> descents(const Cloud& cloud, const std::vector<Placed<double>>& list, const Points<double>& sampled) {
+  std::vector<Descent> reached;
+  for (Placed<double> s : list) {
     const double cost = descend<Profile>(sampled, cloud.extent(), s, 80);
     if (std::isfinite(cost) && meaningful<Profile>(s)) reached.push_back({cost, s});
   }
-  std::stable_sort(reached.begin(), reached.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(reached.begin(), reached.end(), cheaper);
+  if (sampled.size() == cloud.rounded.size()) return reached;
+  if (reached.size() > 3) reached.resize(3);
+  for (Descent& d : reached) d.cost = descend<Profile>(cloud.rounded, cloud.extent(), d.surface, 40);
+  std::stable_sort(reached.begin(), reached.end(), cheaper);
+  return reached;
+}
+
+/// The best minimum and its rivals, those that fit (nearly) as well. Best first.
+template <class Profile>
+std::vector<Minimum> minima(const Cloud& cloud, const std::vector<Descent>& reached) {
   std::vector<Minimum> found;
-  for (auto& [cost, s] : reached) {
-    if (found.size() == 3) break;
-    if (sampled.size() < cloud.rounded.size()) descend<Profile>(cloud.rounded, cloud.extent(), s, 40);
-    Placed<Extended> exact = extended(s);
-    if (!polish<Profile>(cloud.exact, cloud.extent(), exact)) continue;
-    found.push_back({sum_of_squares<Profile>(cloud.exact, exact), exact});
+  for (const Descent& d : reached) {
+    if (found.size() == 3 || (!found.empty() && !rival(cloud, d.cost, found.front().cost, 1e-3L))) break;
+    Placed<Extended> s = extended(d.surface);
+    const bool known = std::any_of(found.begin(), found.end(),
+                                   [&](const Minimum& m) { return !different(m.surface, s, cloud.extent()); });
+    if (known) continue;
+    if (polish<Profile>(cloud.exact, cloud.extent(), s)) found.push_back({sum_of_squares<Profile>(cloud.exact, s), s});
   }
   std::stable_sort(found.begin(), found.end(), [](const Minimum& a, const Minimum& b) { return a.cost < b.cost; });
   return found;
@@ -126,13 +149,12 @@ std::vector<Minimum> minima(const Cloud& cloud, std::vector<Placed<double>> list
 
 template <class Profile>
 FitSolution solve_revolution(const Cloud& cloud, const std::vector<Placed<double>>& list, const Points<double>& sampled) {
-  const std::vector<Minimum> found = minima<Profile>(cloud, list, sampled);
+  const std::vector<Minimum> found = minima<Profile>(cloud, descents<Profile>(cloud, list, sampled));
   if (found.empty()) return failed("not_converged");
   const Minimum& best = found.front();
-  const Extended n = static_cast<Extended>(cloud.exact.size());
-  const Extended same_cost = best.cost * (1 + 1e-9L) + n * Extended(cloud.negligible()) * Extended(cloud.negligible());
   for (const Minimum& other : found)
-    if (other.cost <= same_cost && different(best.surface, other.surface, cloud.extent())) return failed("not_unique");
+    if (rival(cloud, other.cost, best.cost, 1e-9L) && different(best.surface, other.surface, cloud.extent()))
+      return failed("not_unique");
   if (Profile::kShape == Shape::cone && std::fabs(best.surface.size[1]) < 1e-9L) return failed("no_apex");
   return revolution_solution<Profile>(cloud, best.surface);
 }
@@ -146,6 +168,15 @@ FitSolution solve(Shape shape, const Cloud& cloud, const std::vector<Placed<doub
     case Shape::torus: return solve_revolution<TorusProfile>(cloud, list, sampled);
     default: throw InternalError("not a surface of revolution");
   }
+}
+
+/// The sense of a direction that the points leave open: the component of the largest magnitude is positive.
+FitSolution with_usual_sense(Shape shape, FitSolution solution) {
+  const Vec3& d = solution.element.direction;
+  const double ax = std::fabs(d.x), ay = std::fabs(d.y), az = std::fabs(d.z);
+  const double leading = ax >= ay && ax >= az ? d.x : ay >= az ? d.y : d.z;
+  if (leading < 0 && shape != Shape::cone) solution.element = turned_over(shape, solution.element);
+  return solution;
 }
 
 /// The points of a circle seen along its normal: what is left when their heights are taken away.
@@ -164,10 +195,10 @@ FitSolution fit(const FitProblem& problem, Begin begin) {
   FitSolution bad;
   if ((bad.error = refusal(problem))) return bad;
   Cloud cloud = centred(problem.points);
-  if ((bad.error = refusal(problem.shape, cloud))) return bad;
+  if ((bad.error = refusal(problem, cloud))) return bad;
   const Shape shape = problem.shape;
   if (shape == Shape::point) return point_solution(cloud);
-  if (shape == Shape::line || shape == Shape::plane) return straight_solution(shape, cloud);
+  if (shape == Shape::line || shape == Shape::plane) return with_usual_sense(shape, straight_solution(shape, cloud));
   std::optional<Vec3> normal;
   if (shape == Shape::circle) {
     Extended n[3];
@@ -176,10 +207,11 @@ FitSolution fit(const FitProblem& problem, Begin begin) {
     for (Extended& component : n) component /= length;
     normal = {double(n[0]), double(n[1]), double(n[2])};
     flatten(cloud, n);
-    if ((bad.error = refusal(shape, cloud))) return bad;
+    if ((bad.error = refusal({shape, {}, normal}, cloud))) return bad;
   }
   const Points<double> sampled = sample(cloud.rounded, kSample);
-  return solve(shape, cloud, begin(cloud, sampled, normal), sampled);
+  const FitSolution solution = solve(shape, cloud, begin(cloud, sampled, normal), sampled);
+  return problem.normal ? solution : with_usual_sense(shape, solution);
 }
 
 }  // namespace

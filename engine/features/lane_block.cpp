@@ -37,11 +37,7 @@ void fit_one_lane(Shape shape, const PointColumns& columns, int lane, const Elem
   failure = solution.error ? reason_of(solution.error->code) : nullptr;
   if (solution.error) return;
   result = solution.element;
-  if (shape == Shape::cone || dot(result.direction, start.direction) >= 0) return;
-  result.direction = -result.direction;
-  if (shape == Shape::plane) result.low = -solution.element.high, result.high = -solution.element.low;
-  result.begin = -solution.element.end;
-  result.end = -solution.element.begin;
+  if (shape != Shape::cone && dot(result.direction, start.direction) < 0) result = turned_over(shape, result);
 }
 
 }  // namespace abbe

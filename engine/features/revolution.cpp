@@ -13,4 +13,12 @@ Placed<double> placed(Shape shape, const Element& e, const Vec3& origin) {
   return s;
 }
 
+Element turned_over(Shape shape, Element e) {
+  e.direction = -e.direction;
+  const double begin = e.begin, low = e.low;
+  e.begin = -e.end, e.end = -begin;
+  if (shape == Shape::plane) e.low = -e.high, e.high = -low;
+  return e;
+}
+
 }  // namespace abbe

@@ -94,6 +94,26 @@ Placed<double> torus_along(const Vec3& axis, const Points<double>& points) {
   return s;
 }
 
+/// A sector of a torus is a bent cylinder: the tubes of the cylinders given, bent to several radii in several directions.
+Starts bent_tubes(const Starts& cylinders, double extent) {
+  Starts list;
+  for (const Placed<double>& tube : cylinders)
+    for (const double bend : {0.7, 1.2, 2.0, 4.0, 10.0})
+      for (int turn = 0; turn < 16; ++turn) {
+        const double angle = kPi * turn / 8, c = std::cos(angle), s = std::sin(angle);
+        Placed<double> torus = tube;
+        double axis[3];
+        for (int k = 0; k < 3; ++k) axis[k] = c * tube.axes[1][k] - s * tube.axes[0][k];
+        torus.size[0] = bend * extent + tube.size[0];
+        torus.size[1] = tube.size[0];
+        shift(torus, torus.size[0] * c, torus.size[0] * s, 0);
+        for (int k = 0; k < 3; ++k) torus.axes[0][k] = tube.axes[2][k];
+        point_axis(torus, axis);
+        list.push_back(torus);
+      }
+  return list;
+}
+
 /// A torus is the quartic |q|^4 = |q|^2 (l q) + q M q + v q + k: linear in 13 coefficients, of which l = 4 c gives the centre and
 /// M + 4 c c' (up to a multiple of the identity) = -4 R^2 w w' the axis and the major radius.
 Starts quartic_torus(const Points<double>& points) {
@@ -164,8 +184,20 @@ void add_patch_axes(std::vector<Vec3>& axes, const Points<double>& points, const
     }
 }
 
+/// About the normal of a thin ring, as far as its tube lets the axis lean.
+std::vector<Vec3> ring_axes(const Spread<Extended>& spread) {
+  const Vec3 x = vec(spread.direction[0]), y = vec(spread.direction[1]), n = vec(spread.direction[2]);
+  const double lean = double(spread.along[2] / spread.along[1]);
+  std::vector<Vec3> axes;
+  for (const double much : {0.4, 0.8, 1.2, 1.8})
+    for (int turn = 0; turn < 12; ++turn)
+      axes.push_back(unit(n + much * lean * (std::cos(kPi * turn / 6) * x + std::sin(kPi * turn / 6) * y)));
+  return axes;
+}
+
+/// Adds the best `count` of the candidates to `kept`, no two with nearly the same direction and size.
 template <class Profile>
-void keep_best(Starts candidates, const Points<double>& points, std::size_t count, double apart_rad, Starts& kept) {
+void keep_best(const Starts& candidates, const Points<double>& points, int count, double apart_rad, Starts& kept) {
   std::vector<std::pair<double, std::size_t>> order;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (!meaningful<Profile>(candidates[i])) continue;
@@ -178,10 +210,11 @@ void keep_best(Starts candidates, const Points<double>& points, std::size_t coun
     const double(&w)[3] = candidates[i].axes[2];
     const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const Placed<double>& other) {
       const double(&v)[3] = other.axes[2];
-      return std::fabs(w[0] * v[0] + w[1] * v[1] + w[2] * v[2]) > std::cos(apart_rad);
+      const double ratio = other.size[0] / candidates[i].size[0];
+      return std::fabs(w[0] * v[0] + w[1] * v[1] + w[2] * v[2]) > std::cos(apart_rad) && ratio > 0.8 && ratio < 1.25;
     });
     if (!near) chosen.push_back(candidates[i]);
-    if (chosen.size() == count) break;
+    if (static_cast<int>(chosen.size()) == count) break;
   }
   kept.insert(kept.end(), chosen.begin(), chosen.end());
 }
@@ -208,17 +241,27 @@ std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, co
   for (const auto& d : spread.direction) axes.push_back(vec(d));
   add_patch_axes(axes, points, spread);
   add_lattice(axes);
-  Starts all, kept;
-  for (const Vec3& axis : axes)
-    all.push_back(shape == Shape::cylinder ? cylinder_along(axis, points)
-                  : shape == Shape::cone   ? cone_along(axis, points)
-                                           : torus_along(axis, points));
-  if (shape == Shape::cylinder) keep_best<CylinderProfile>(all, points, 8, 0.2, kept);
-  if (shape == Shape::cone) keep_best<ConeProfile>(all, points, 12, 0.15, kept);
-  if (shape == Shape::torus) {
-    kept = quartic_torus(points);
-    keep_best<TorusProfile>(all, points, 16, 0.15, kept);
+  const auto along_all = [&](const std::vector<Vec3>& list, auto start_along) {
+    Starts along;
+    for (const Vec3& axis : list) along.push_back(start_along(axis, points));
+    return along;
+  };
+  const int few = points.size() < 16 ? 4 : 1;  // few points have many minima, and cost little
+  Starts kept;
+  if (shape == Shape::cone) {
+    keep_best<ConeProfile>(along_all(axes, cone_along), points, 12 * few, 0.15 / few, kept);
+    return kept;
   }
+  keep_best<CylinderProfile>(along_all(axes, cylinder_along), points, 8 * few, 0.2 / few, kept);
+  if (shape == Shape::cylinder) return kept;
+  const double extent = double(spread.along[0]);
+  if (kept.size() > 8) kept.resize(8);
+  for (Placed<double>& cylinder : kept) descend<CylinderProfile>(points, extent, cylinder, 30);
+  const Starts tubes = std::move(kept);
+  kept = quartic_torus(points);
+  keep_best<TorusProfile>(along_all(axes, torus_along), points, 16 * few, 0.15 / few, kept);
+  keep_best<TorusProfile>(along_all(ring_axes(spread), torus_along), points, 12 * few, 0, kept);
+  keep_best<TorusProfile>(bent_tubes(tubes, extent), points, 24 * few, 0.15 / few, kept);
   return kept;
 }
 

@@ -1,0 +1,166 @@
+// fit_points: derivatives, exact cases, many random elements, and the points that it must refuse.
+#include <doctest/doctest.h>
+
+#include "engine/features/descend.hpp"
+#include "engine/features/solve.hpp"
+#include "tests/unit/features/shapes.hpp"
+
+using namespace abbe;
+
+namespace {
+
+FitProblem problem_on(const Element& e, Shape shape, int points, double noise, const Part& part = {}) {
+  FitProblem problem{shape, {}, {}};
+  for (int i = 0; i < points; ++i)
+    problem.points.push_back(surface_point(e, shape, random_at("u", i), random_at("v", i),
+                                           noise * (2 * random_at("noise", i) - 1), part));
+  return problem;
+}
+
+std::string code_of(const FitProblem& problem) {
+  const FitSolution solution = fit_points(problem);
+  return solution.error ? solution.error->code : "";
+}
+
+double between(std::string_view stream, int n, double low, double high) { return low + (high - low) * random_at(stream, n); }
+
+template <class Profile>
+void check_derivatives() {
+  constexpr int N = kUnknowns<Profile>;
+  using J = Jet<double, N>;
+  const double size[2] = {Profile::kShape == Shape::torus ? 9.0 : 5.0, 0.6};
+  for (int n = 0; n < 20; ++n) {
+    const double q[3] = {between("x", n, -20, 20), between("y", n, -20, 20), between("z", n, -20, 20)};
+    double ready[3] = {}, row[N + 1];
+    Profile::prepare(size, ready);
+    distance_row<Profile>(q[0], q[1], q[2], ready, row);
+    J zero[N];
+    for (int i = 0; i < N; ++i) zero[i] = J::unknown(0, i);
+    const J d = displaced_distance<Profile>(q, zero, size);
+    CHECK(row[N] == doctest::Approx(d.value).epsilon(1e-12));
+    for (int i = 0; i < N; ++i) CHECK(row[i] == doctest::Approx(d.gradient[i]).epsilon(1e-12));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("derivatives written by hand equal those of the definition") {
+  check_derivatives<CircleProfile>();
+  check_derivatives<CylinderProfile>();
+  check_derivatives<SphereProfile>();
+  check_derivatives<ConeProfile>();
+  check_derivatives<TorusProfile>();
+}
+
+TEST_CASE("points without errors give the element itself") {
+  for (const FeatureKind* kind : feature_kinds()) {
+    if (kind->shape == Shape::point) continue;
+    CAPTURE(kind->word);
+    const Element truth = some_element(kind->shape);
+    const FitSolution s = fit_points(problem_on(truth, kind->shape, 60, 0));
+    REQUIRE_FALSE(s.error);
+    CHECK(s.form < 1e-12);
+    const double along = dot(s.element.point - truth.point, truth.direction);
+    CHECK(s.element.size == doctest::Approx(truth.size + along * std::tan(truth.angle)).epsilon(1e-13));
+    CHECK(s.element.minor_size == doctest::Approx(truth.minor_size).epsilon(1e-13));
+    CHECK(norm(cross(s.element.point - truth.point, truth.direction)) < (kind->shape == Shape::plane ? 50 : 1e-11));
+    if (kind->shape != Shape::sphere) CHECK(norm(cross(s.element.direction, truth.direction)) < 1e-13);
+  }
+}
+
+TEST_CASE("the apex and the ends of a cone") {
+  const Element truth = some_element(Shape::cone);
+  const FitSolution s = fit_points(problem_on(truth, Shape::cone, 60, 0));
+  REQUIRE_FALSE(s.error);
+  CHECK(norm(s.apex - (truth.point - truth.size / std::tan(truth.angle) * truth.direction)) < 1e-11);
+  CHECK(s.element.angle == doctest::Approx(truth.angle).epsilon(1e-14));
+  CHECK(dot(s.element.direction, truth.direction) > 0);
+  CHECK(s.element.begin < 0);
+  CHECK(s.element.end > 0);
+  CHECK(s.element.end - s.element.begin < 30);
+}
+
+TEST_CASE("no start is better than the truth") {
+  for (const Shape shape : {Shape::circle, Shape::sphere, Shape::cylinder, Shape::cone, Shape::torus}) {
+    for (int n = 0; n < 25; ++n) {
+      Element e = some_element(shape);
+      const double away = std::pow(10, between("away", n, 0, 5));
+      e.point = {away, -away * random_at("p", n), away * random_at("q", n)};
+      e.direction = unit(Vec3{between("i", n, -1, 1), between("j", n, -1, 1), between("k", n, -1, 1)});
+      Part part;
+      part.turn = between("turn", n, 30, 360) * kPi / 180;
+      part.length = e.size * std::pow(10, between("length", n, -1, 1));
+      if (shape == Shape::cone) {
+        e.angle = between("angle", n, 1, 80) * kPi / 180;
+        part.length = std::min(part.length, 1.9 * e.size / std::tan(e.angle));
+      }
+      if (shape == Shape::torus) e.minor_size = e.size * between("minor", n, 0.05, 0.9);
+      const FitProblem problem = problem_on(e, shape, 40, e.size * std::pow(10, between("rough", n, -7, -3)), part);
+      const FitSolution global = fit_points(problem), local = fit_points_from(problem, e);
+      CAPTURE(feature_kind(shape).word);
+      CAPTURE(n);
+      REQUIRE_FALSE(local.error);
+      REQUIRE_FALSE(global.error);
+      CHECK(global.rms <= local.rms * (1 + 1e-9));
+    }
+  }
+}
+
+TEST_CASE("ten thousand points, in any order") {
+  for (const Shape shape : {Shape::plane, Shape::cylinder, Shape::torus}) {
+    FitProblem problem = problem_on(some_element(shape), shape, 10000, 0.02);
+    const FitSolution s = fit_points(problem);
+    REQUIRE_FALSE(s.error);
+    CHECK(s.rms == doctest::Approx(0.02 / std::sqrt(3.0)).epsilon(0.03));
+    std::reverse(problem.points.begin(), problem.points.end());
+    const FitSolution reversed = fit_points(problem);
+    REQUIRE_FALSE(reversed.error);
+    CHECK(norm(s.element.point - reversed.element.point) < 1e-10);
+    CHECK(norm(s.element.direction - reversed.element.direction) < 1e-12);
+    CHECK(std::fabs(s.element.size - reversed.element.size) < 1e-10);
+  }
+}
+
+TEST_CASE("the length of a prescribed normal means nothing") {
+  FitProblem problem = problem_on(some_element(Shape::circle), Shape::circle, 20, 1e-3);
+  for (const double length : {1.0, 1e-300, 1e300}) {
+    problem.normal = Vec3{0.6 * length, 0, 0.8 * length};
+    const FitSolution s = fit_points(problem);
+    REQUIRE_FALSE(s.error);
+    CHECK(norm(s.element.direction - Vec3{0.6, 0, 0.8}) < 1e-15);
+  }
+}
+
+TEST_CASE("points that determine no element are refused with a reason") {
+  const FitProblem on_plane = problem_on(some_element(Shape::plane), Shape::plane, 30, 0);
+  const FitProblem on_line = problem_on(some_element(Shape::line), Shape::line, 30, 0);
+  for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::cone, Shape::torus}) {
+    CHECK(code_of({shape, on_plane.points, {}}) == "coplanar_points");
+    CHECK(code_of({shape, on_line.points, {}}) == "collinear_points");
+  }
+  CHECK(code_of({Shape::circle, on_line.points, {}}) == "collinear_points");
+  CHECK(code_of({Shape::circle, on_plane.points, Vec3{}}) == "bad_normal");
+  CHECK(code_of({Shape::circle, on_plane.points, Vec3{NAN, 0, 1}}) == "bad_normal");
+  CHECK(code_of({Shape::circle, on_plane.points, any_perpendicular(some_element(Shape::plane).direction)}) ==
+        "collinear_points");
+  CHECK(code_of({Shape::line, {{1, 2, 3}, {1, 2, 3}}, {}}) == "identical_points");
+  CHECK(code_of({Shape::plane, {{1, 2, 3}, {4, 5, 7}, {4, 5, 7}, {1, 2, 3}}, {}}) == "too_few_points");
+  CHECK(code_of({Shape::sphere, {}, {}}) == "too_few_points");
+  CHECK(code_of({Shape::line, {{1, 2, 3}, {INFINITY, 2, 3}}, {}}) == "not_finite");
+}
+
+TEST_CASE("an answer that is one of several is no answer") {
+  std::vector<Vec3> cube;
+  for (const double x : {-1, 1})
+    for (const double y : {-1, 1})
+      for (const double z : {-1, 1}) cube.push_back({10 * x, 10 * y, 10 * z});
+  for (const Shape shape : {Shape::line, Shape::plane, Shape::circle, Shape::cylinder})
+    CHECK(code_of({shape, cube, {}}) == "not_unique");
+  CHECK(code_of({Shape::sphere, cube, {}}) == "");
+  CHECK(code_of({Shape::cone, problem_on(some_element(Shape::cylinder), Shape::cylinder, 40, 0).points, {}}) == "no_apex");
+}
+
+TEST_CASE("flat points have no best ball") {
+  const FitProblem rough = problem_on(some_element(Shape::plane), Shape::plane, 40, 1e-3);
+  CHECK(code_of({Shape::sphere, rough.points, {}}) == "not_converged");
+}
