@@ -71,17 +71,15 @@ constinit const Effect kHeadAxisErrors{
     .title = "error motions of the head's axes",
     .help =
         "The axes of the head wobble, do not meet and are not square, so the tip of a computed "
-        "orientation is off by a constant vector "
-        "that repeats whenever the orientation returns. Translations are the same for all styli, "
-        "rotations grow with the stylus "
-        "length. Orientations that are qualified one by one do not show it.",
+        "orientation is off by a constant vector that repeats whenever the orientation returns. "
+        "Translations are the same for all styli, rotations grow with the stylus length. "
+        "Orientations that are qualified one by one do not show it.",
     .source =
         "ISO 230-7 error motions of rotary axes; ISO 10360-5 multi-stylus test; Van Gestel, Bleys "
         "& Kruth, section 8.2",
     .separate =
         "return to each orientation several times, out of order, on a fixed sphere; a second "
-        "stylus length splits translations from "
-        "rotations",
+        "stylus length splits translations from rotations",
     .stage = Stage::head,
     .needs = 0u | Covariate::head,
     .parameters = kParameters,

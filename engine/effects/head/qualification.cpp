@@ -60,8 +60,8 @@ constinit const Effect kHeadQualification{
     .title = "qualification that aged with temperature",
     .help =
         "The tip offsets were right when the styli were qualified; since then head and stylus "
-        "changed temperature, and every "
-        "orientation drifts along its own vector. A new qualification removes it.",
+        "changed temperature, and every orientation drifts along its own vector. A new "
+        "qualification removes it.",
     .source = "thermal expansion of head and stylus; ISO 10360-5 location test",
     .separate =
         "qualify again and compare; the fixed sphere in all orientations at two temperatures",

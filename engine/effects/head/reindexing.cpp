@@ -35,9 +35,8 @@ constinit const Effect kHeadReindexing{
     .title = "repeatability of the head's indexing",
     .help =
         "Each time the head goes to an orientation it stops at slightly other angles, so the tip "
-        "shifts across the stylus by angle "
-        "times length. The shift is common to all touches of that visit: the scatter between "
-        "visits is larger than within.",
+        "shifts across the stylus by angle times length. The shift is common to all touches of "
+        "that visit: the scatter between visits is larger than within.",
     .source = "Van Gestel, Bleys & Kruth, section 8.2; PH10M: 0.5 um at 62 mm (2 sigma), 4.03 urad",
     .separate =
         "several visits to one orientation on a fixed sphere, with the visit recorded; a second "

@@ -54,10 +54,9 @@ constinit const Effect kHeadSag{
     .title = "sag of a lying stylus or extension",
     .help =
         "A long bar bends under its weight and turns its joint when it does not hang straight "
-        "down: the tip is lower than computed and "
-        "the machine reads too high. Nothing at A = 0, most at A = 90, on either side alike. It "
-        "grows with the second and third power "
-        "of the length.",
+        "down: the tip is lower than computed and the machine reads too high. Nothing at A = 0, "
+        "most at A = 90, on either side alike. It grows with the second and third power of the "
+        "length.",
     .source = "Euler-Bernoulli cantilever with an elastic joint",
     .separate =
         "A = 0 against A = +90 and A = -90 on a fixed sphere; two lengths or masses of the "

@@ -46,8 +46,8 @@ constinit const Effect kBacklash{
     .title = "backlash of an axis",
     .help =
         "The reading of an axis depends on the sense in which it moved last: half the backlash too "
-        "far in the direction of motion. Probing "
-        "opposite faces makes the senses differ, so it looks like a tip radius along that axis.",
+        "far in the direction of motion. Probing opposite faces makes the senses differ, so it "
+        "looks like a tip radius along that axis.",
     .source = "ISO 230-2 reversal error; ISO 10360-2; play operator (Krasnosel'skii & Pokrovskii)",
     .separate =
         "touch the same face with the other axes arriving from either side; reverse the moves "

@@ -70,9 +70,8 @@ constinit const Effect kDynamics{
     .title = "deflection and ringing by acceleration",
     .help =
         "Acceleration tilts the carriages, and they ring when it ends. A probe that triggers soon "
-        "after sees the tilt times the arm to "
-        "the tip: an error that follows acceleration, sense and arm, and fades with the approach "
-        "distance.",
+        "after sees the tilt times the arm to the tip: an error that follows acceleration, sense "
+        "and arm, and fades with the approach distance.",
     .source =
         "Pereira & Hocken, Precision Engineering 31 (2007); damped oscillator released from its "
         "static deflection",

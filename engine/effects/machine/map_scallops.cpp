@@ -56,9 +56,8 @@ constinit const Effect kMapScallops{
     .title = "residual of the error map between its nodes",
     .help =
         "The machine's compensation is exact at the nodes of its map and interpolates linearly "
-        "between them; a curved error leaves a "
-        "parabola in every gap, zero with a cusp at each node. It repeats with the spacing of the "
-        "nodes.",
+        "between them; a curved error leaves a parabola in every gap, zero with a cusp at each "
+        "node. It repeats with the spacing of the nodes.",
     .source = "error of linear interpolation, e'' h^2/8",
     .separate =
         "positions at the nodes against positions half-way; a grid shifted by half the spacing",

@@ -60,8 +60,8 @@ constinit const Effect kRamDroop{
     .title = "bending of the ram",
     .help =
         "The farther the ram reaches out, the more it bends: by its weight if it lies or leans, "
-        "and by the probing force. The error grows "
-        "with the third power of the extension and looks much like a squareness error of the ram.",
+        "and by the probing force. The error grows with the third power of the extension and looks "
+        "much like a squareness error of the ram.",
     .source = "Euler-Bernoulli cantilever",
     .separate =
         "the same artefact at several extensions of the ram, with tilted placements; another "

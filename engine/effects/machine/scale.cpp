@@ -43,8 +43,7 @@ constinit const Effect kMachineScale{
     .title = "scale reads long or short",
     .help =
         "All lengths along one axis are too long or too short by the same share. On all three axes "
-        "alike it is a uniform scale, which "
-        "a part at another temperature looks like.",
+        "alike it is a uniform scale, which a part at another temperature looks like.",
     .source =
         "ISO 230-1; ISO 10360-2; artefact-based checks report three relative scales and three "
         "squarenesses",

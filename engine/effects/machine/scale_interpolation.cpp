@@ -67,9 +67,8 @@ constinit const Effect kScaleInterpolation{
     .title = "scale error within the signal period",
     .help =
         "The electronics divides each period of the scale's signal a little unevenly, so the "
-        "reading errs with the period of the scale. "
-        "It limits short steps and looks like noise anywhere else, until readings are folded to "
-        "one period.",
+        "reading errs with the period of the scale. It limits short steps and looks like noise "
+        "anywhere else, until readings are folded to one period.",
     .source =
         "encoder data sheets: TONiC 0.03 um, RGH25F 0.05 um, LIDA 4xx 0.2 um at 20 um, LIDA 2xx 2 "
         "um at 200 um",

@@ -48,9 +48,8 @@ constinit const Effect kMachineSquareness{
     .name = "machine.squareness",
     .title = "two axes not square",
     .help =
-        "The angle between two axes is not 90 degrees: one diagonal of their plane is measured too "
-        "long and the other too short; lengths "
-        "along the axes stay right.",
+        "The angle between two axes is not 90 degrees. One diagonal of their plane is measured too "
+        "long and the other too short; lengths along the axes stay right.",
     .source = "ISO 230-1; ISO 10360-2",
     .separate =
         "a ball bar or gauge in both diagonals, or a reversal square; on a single small sphere it "

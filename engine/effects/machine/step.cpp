@@ -57,8 +57,8 @@ constinit const Effect kMachineStep{
     .title = "sudden change of the machine",
     .help =
         "From one moment on, or beyond one position of an axis, all readings jump by the same "
-        "vector: a crash, a re-levelling, an air "
-        "bearing that lifts. Features measured on both sides of the step no longer fit together.",
+        "vector: a crash, a re-levelling, an air bearing that lifts. Features measured on both "
+        "sides of the step no longer fit together.",
     .source = "change point; ISO 10360-2 interim checks",
     .separate =
         "return to a fixed reference sphere; approach the place from both sides; another stylus "

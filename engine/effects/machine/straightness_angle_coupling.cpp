@@ -82,13 +82,12 @@ constinit const Effect kStraightnessAngleCoupling{
     .title = "straightness and angle from one rail",
     .help =
         "A carriage that follows a wavy rail shifts and tilts together: its angle is nearly the "
-        "slope of its straightness. Machines "
-        "with independent straightness and angles miss this; the effect adds coupled functions "
-        "from a random rail profile and the "
-        "distance of the bearings.",
+        "slope of its straightness. Machines with independent straightness and angles miss this; "
+        "the effect adds coupled functions from a random rail profile and the distance of the "
+        "bearings.",
     .source =
-        "Bryan, CIRP Annals 28 (1979), on the relation through the bearing base; Hu et al., "
-        "Machines 9, 33 (2021)",
+        "Bryan, Precision Engineering 1 (1979), the Abbe principle revisited; Hu et al., Machines "
+        "9, 33 (2021)",
     .separate =
         "the same line measured with two Abbe offsets (stylus lengths or heights) on one axis",
     .stage = Stage::structure,

@@ -95,10 +95,9 @@ constinit const Effect kContactFlattening{
     .title = "elastic flattening at the contact",
     .help =
         "Tip and surface flatten under the measuring force, so the surface seems too far in. The "
-        "qualification removes the flattening "
-        "on the reference sphere; a part of softer material keeps the difference. Small for "
-        "touch-trigger probes, felt with small "
-        "tips, large forces and soft parts.",
+        "qualification removes the flattening on the reference sphere; a part of softer material "
+        "keeps the difference. Small for touch-trigger probes, felt with small tips, large forces "
+        "and soft parts.",
     .source = "Hertz (1882); Puttock & Thwaite, CSIRO Tech. Paper 25 (1969)",
     .separate =
         "the same feature in another material; another force (it grows with F^(2/3)); two tip "

@@ -39,10 +39,9 @@ constinit const Effect kCosineError{
     .name = "probe.cosine_error",
     .title = "tip compensated along the wrong direction",
     .help =
-        "When a point is probed askew and the tip radius is compensated along the approach or the "
-        "nominal normal, the surface seems too "
-        "far out by R (1 - cos angle): never too far in, four times larger at twice the angle, "
-        "proportional to the tip radius.",
+        "A point is probed askew, and the tip radius is compensated along the approach or the "
+        "nominal normal. The surface then seems too far out by R (1 - cos angle): never too far "
+        "in, four times larger at twice the angle, proportional to the tip radius.",
     .source =
         "geometry of the contact; ISO 10360-5 and probing guides ask for approach along the normal",
     .separate = "probe the same point under several angles; several tip radii",

@@ -146,20 +146,16 @@ constinit const Effect kPretravelLobing{
     .title = "three-lobed pretravel of a kinematic probe",
     .help =
         "A touch-trigger probe with three seats needs twice the force in its stiff directions that "
-        "it needs in the soft ones, so the "
-        "stylus bends more before the trigger there. Rings and spheres show three lobes that turn "
-        "with the probe body; the error "
-        "grows with the square of the stylus length and vanishes when the touch is along the "
-        "stylus. The mean is contained in the "
-        "qualified tip radius.",
+        "it needs in the soft ones, so the stylus bends more before the trigger there. Rings and "
+        "spheres show three lobes that turn with the probe body; the error grows with the square "
+        "of the stylus length and vanishes when the touch is along the stylus. The mean is "
+        "contained in the qualified tip radius.",
     .source =
         "Estler et al., Precision Engineering 19 (1996) and NIST (1997); Shen & Springer, J. "
-        "Manuf. Sci. Eng. 120 (1998): 16 um "
-        "range with 50 mm",
+        "Manuf. Sci. Eng. 120 (1998): 16 um range with 50 mm",
     .separate =
         "turn the head by B = 60 degrees: the lobes turn with it and those of the part stay; two "
-        "stylus lengths; turn the "
-        "reference sphere; a ring and a sphere",
+        "stylus lengths; turn the reference sphere; a ring and a sphere",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::head | Covariate::sensor,
     .parameters = kParameters,

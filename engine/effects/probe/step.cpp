@@ -28,8 +28,7 @@ constexpr EffectParameter kParameters[] = {
     {.name = "direction",
      .unit = "code",
      .help = "along which axis of the head's last link: 0 x, 1 y, 2 z (along the body, towards the "
-             "head); 3 oblique: as azimuth and "
-             "elevation say",
+             "head); 3 oblique: as azimuth and elevation say",
      .high = 3,
      .choices = kDirectionChoices},
     {.name = "azimuth_deg",
@@ -57,9 +56,8 @@ constinit const Effect kProbeStep{
     .title = "sudden change of a stylus",
     .help =
         "From one moment on, the tip of a stylus sits elsewhere: a loose joint, a light crash, a "
-        "changed tip without a new "
-        "qualification. All later touches with this stylus jump by the same vector of the probe "
-        "body; other styli do not.",
+        "changed tip without a new qualification. All later touches with this stylus jump by the "
+        "same vector of the probe body; other styli do not.",
     .source = "change of the qualified tip offset (ISO 10360-5 location tests)",
     .separate = "the reference sphere before and after, with this stylus and with another",
     .stage = Stage::probe,

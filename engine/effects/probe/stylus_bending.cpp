@@ -59,11 +59,9 @@ constinit const Effect kStylusBending{
     .title = "stylus bends under the trigger force",
     .help =
         "The shaft bends before the probe triggers, most when it is touched sideways and not at "
-        "all along the shaft. The "
-        "qualification removes the mean; touches across the shaft then read too far in and touches "
-        "along it too far out. It grows "
-        "with the third power of the length and falls with the fourth of the diameter. A change of "
-        "the trigger force since the "
+        "all along the shaft. The qualification removes the mean; touches across the shaft then "
+        "read too far in and touches along it too far out. It grows with the third power of the "
+        "length and falls with the fourth of the diameter. A change of the trigger force since the "
         "qualification shows in full.",
     .source = "Euler-Bernoulli cantilever; Estler et al., Precision Engineering 19 (1996)",
     .separate =

@@ -37,9 +37,8 @@ constinit const Effect kStylusLength{
     .title = "stylus longer or shorter than assumed",
     .help =
         "The length used to compute the tip offset is wrong: mis-entered, or another tip than "
-        "assigned. Every orientation of the head "
-        "shifts by a constant vector along its stylus; with a single orientation the whole part "
-        "merely seems to be shifted.",
+        "assigned. Every orientation of the head shifts by a constant vector along its stylus; "
+        "with a single orientation the whole part merely seems to be shifted.",
     .source = "geometry of the head (Van Gestel, Bleys & Kruth, eq. 25)",
     .separate = "three or more orientations of the head, one at 45 degrees, on a fixed sphere",
     .stage = Stage::probe,

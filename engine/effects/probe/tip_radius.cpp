@@ -36,18 +36,16 @@ constinit const Effect kTipRadius{
     .title = "tip radius other than assumed",
     .help =
         "The effective radius of the tip differs from the one that the qualification stored: wrong "
-        "size of the reference sphere, "
-        "wear, dirt, or another mean pretravel than at the qualification. Outer features become "
-        "larger by twice the error, inner "
-        "ones smaller; positions and distances between like surfaces do not change.",
+        "size of the reference sphere, wear, dirt, or another mean pretravel than at the "
+        "qualification. Outer features become larger by twice the error, inner ones smaller; "
+        "positions and distances between like surfaces do not change.",
     .source =
         "Estler et al., Precision Engineering 19 (1996); NPL calibration of reference spheres, U = "
         "0.07 um + 1.1e-6 D",
     .separate =
         "a second probing speed (tells it from the trigger's delay); an inner and an outer length, "
-        "or a length between opposite "
-        "faces (tells it from a scale); the certificate of the ball (tells the radius from the "
-        "mean pretravel)",
+        "or a length between opposite faces (tells it from a scale); the certificate of the ball "
+        "(tells the radius from the mean pretravel)",
     .stage = Stage::probe,
     .needs = 0u | Covariate::normal,
     .parameters = kParameters,

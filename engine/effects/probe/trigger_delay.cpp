@@ -36,9 +36,8 @@ constinit const Effect kTriggerDelay{
     .title = "trigger delay times probing speed",
     .help =
         "The scales are read a little after the contact, and the machine has moved on by speed "
-        "times delay: the surface seems too far "
-        "in, in proportion to the probing speed. At one speed it cannot be told from a tip radius "
-        "error.",
+        "times delay: the surface seems too far in, in proportion to the probing speed. At one "
+        "speed it cannot be told from a tip radius error.",
     .source =
         "Ling & Wilkin, NIST IR (1999): error proportional to feed; touch-trigger probe user "
         "guides: qualify at the gauging speed",
