@@ -16,8 +16,9 @@ struct Construction {
   std::string_view help;
   std::string_view example;
   std::string_view source;
-  /// Builds an element of shape `result` from the operands, all in one frame; `nominal` settles what geometry leaves
-  /// open (the sense of a direction). Fails with a reason (parallel planes, wrong kinds of operands).
+  /// Builds an element of shape `result` from the operands, all in the coordinate system current at the statement (MOVEPT
+  /// moves along its axes); `nominal` settles what geometry leaves open (the sense of a direction). Fails with a reason
+  /// (parallel planes, wrong kinds of operands).
   Outcome<Element> (*construct)(Shape result, std::span<const Shape> shapes, std::span<const Element> from,
                                 const Element& nominal, const Arguments&);
 };

@@ -1,0 +1,39 @@
+// COG: the mean of the points of features, each with the same weight. TR: the same element under a new label.
+#include "engine/features/constructions/tools.hpp"
+
+namespace abbe {
+namespace {
+
+Outcome<Element> centre(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
+  if (result != Shape::point) return cannot("COG makes a point");
+  Vec3 sum;
+  for (const Element& e : from) sum += e.point;
+  return {{.point = sum / static_cast<double>(from.size()), .direction = nominal.direction}};
+}
+
+Outcome<Element> transfer(Shape result, Shapes shapes, Elements from, const Element&, const Arguments&) {
+  if (result != shapes[0]) return cannot("TR takes over a feature of the same kind");
+  return {from[0]};
+}
+
+}  // namespace
+
+extern const Construction centre_of_gravity{
+    .word = "COG",
+    .signature = "from:feature,{ from:feature }",
+    .help = "the mean of the points or centres of features",
+    .example = "CONST/POINT,F(P),COG,FA(A),FA(B),FA(C)",
+    .source = "ISO 22093:2011, CONST COG",
+    .construct = centre,
+};
+
+extern const Construction transferred{
+    .word = "TR",
+    .signature = "from:feature",
+    .help = "the same element under another label",
+    .example = "CONST/PLANE,F(P2),TR,FA(P1)",
+    .source = "ISO 22093:2011, CONST TR",
+    .construct = transfer,
+};
+
+}  // namespace abbe

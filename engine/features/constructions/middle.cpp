@@ -1,0 +1,72 @@
+// MIDPT, MIDLI, MIDPL: halfway between two features.
+//
+// Of the two bisectors of a pair of lines or planes the one in the acute angle is meant; where they cross at 45 degrees or
+// more, the one nearer to the nominal. It is found where both are cut by what stands across the bisector (or runs along it)
+// through the middle of their points, which needs no intersection and so holds for parallel pairs too.
+#include <cmath>
+
+#include "engine/features/constructions/tools.hpp"
+
+namespace abbe {
+namespace {
+
+/// Unit vector halfway between the directions a and b, up to sense.
+Vec3 bisector(const Vec3& a, const Vec3& b, const Vec3& nominal) {
+  const double cosine = dot(a, b);
+  bool same = cosine > 0;
+  if (std::fabs(cosine) < std::sqrt(0.5)) same = std::fabs(dot(unit(a + b), nominal)) >= std::fabs(dot(unit(a - b), nominal));
+  return unit(same ? a + b : a - b);
+}
+
+Outcome<Element> middle_point(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
+  if (result != Shape::point) return cannot("MIDPT makes a point");
+  return {{.point = 0.5 * (from[0].point + from[1].point), .direction = nominal.direction}};
+}
+
+Outcome<Element> middle_line(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+  if (result != Shape::line || !has_axis(shapes[0]) || !has_axis(shapes[1])) return cannot("MIDLI makes a line of two lines or axes");
+  const Vec3 d = bisector(from[0].direction, from[1].direction, nominal.direction);
+  const Element across{.point = 0.5 * (from[0].point + from[1].point), .direction = d};
+  const Vec3 a = line_meets_plane(from[0].point, from[0].direction, across);
+  const Vec3 b = line_meets_plane(from[1].point, from[1].direction, across);
+  return {in_sense_of(nominal, {.point = 0.5 * (a + b), .direction = d})};
+}
+
+Outcome<Element> middle_plane(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+  if (result != Shape::plane || shapes[0] != Shape::plane || shapes[1] != Shape::plane) return cannot("MIDPL makes a plane of two planes");
+  const Vec3 n = bisector(from[0].direction, from[1].direction, nominal.direction);
+  const Vec3 middle = 0.5 * (from[0].point + from[1].point);
+  const Vec3 point = 0.5 * (line_meets_plane(middle, n, from[0]) + line_meets_plane(middle, n, from[1]));
+  return {in_sense_of(nominal, {.point = point, .direction = n})};
+}
+
+}  // namespace
+
+extern const Construction mid_point{
+    .word = "MIDPT",
+    .signature = "from:feature,from:feature",
+    .help = "the point halfway between the points or centres of two features",
+    .example = "CONST/POINT,F(P),MIDPT,FA(A),FA(B)",
+    .source = "ISO 22093:2011, CONST MIDPT",
+    .construct = middle_point,
+};
+
+extern const Construction mid_line{
+    .word = "MIDLI",
+    .signature = "from:feature,from:feature",
+    .help = "the line halfway between two lines or axes",
+    .example = "CONST/LINE,F(L),MIDLI,FA(A),FA(B)",
+    .source = "ISO 22093:2011, CONST MIDLI",
+    .construct = middle_line,
+};
+
+extern const Construction mid_plane{
+    .word = "MIDPL",
+    .signature = "from:feature,from:feature",
+    .help = "the plane halfway between two planes",
+    .example = "CONST/PLANE,F(P),MIDPL,FA(A),FA(B)",
+    .source = "ISO 22093:2011, CONST MIDPL",
+    .construct = middle_plane,
+};
+
+}  // namespace abbe

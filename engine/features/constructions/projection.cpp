@@ -1,0 +1,48 @@
+// PROJPT, PROJLI: the foot of a point on a plane or an axis, the shadow of a line on a plane.
+#include "engine/features/constructions/tools.hpp"
+
+namespace abbe {
+namespace {
+
+Outcome<Element> project_point(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+  if (result != Shape::point) return cannot("PROJPT makes a point");
+  const Element& onto = from[1];
+  if (shapes[1] == Shape::plane)
+    return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point), .direction = onto.direction}};
+  if (has_axis(shapes[1])) return {{.point = foot_on_line(onto.point, onto.direction, from[0].point), .direction = nominal.direction}};
+  return cannot("PROJPT projects onto a plane, a line or an axis");
+}
+
+Outcome<Element> project_line(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+  if (result != Shape::line || !has_axis(shapes[0]) || shapes[1] != Shape::plane) return cannot("PROJLI projects a line or an axis onto a plane");
+  const Element &line = from[0], &plane = from[1];
+  const Vec3 shadow = perpendicular_part(line.direction, plane.direction);
+  const double cosine = norm(shadow);
+  if (cosine < kParallel) return cannot("the line is perpendicular to the plane");
+  return {in_sense_of(nominal, {.point = foot_on_plane(plane.point, plane.direction, line.point),
+                                .direction = shadow / cosine,
+                                .begin = line.begin * cosine,
+                                .end = line.end * cosine})};
+}
+
+}  // namespace
+
+extern const Construction projected_point{
+    .word = "PROJPT",
+    .signature = "from:feature,from:feature",
+    .help = "the point or centre of the first feature, projected onto the plane or axis of the second",
+    .example = "CONST/POINT,F(P),PROJPT,FA(A),FA(PL)",
+    .source = "ISO 22093:2011, CONST PROJPT",
+    .construct = project_point,
+};
+
+extern const Construction projected_line{
+    .word = "PROJLI",
+    .signature = "from:feature,from:feature",
+    .help = "a line or axis projected onto a plane",
+    .example = "CONST/LINE,F(L),PROJLI,FA(A),FA(PL)",
+    .source = "ISO 22093:2011, CONST PROJLI",
+    .construct = project_line,
+};
+
+}  // namespace abbe
