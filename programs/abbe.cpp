@@ -1,1 +1,19 @@
-int main() { return 0; }
+// The command `abbe`. Exit codes: commands/commands.hpp.
+#include <cstdio>
+#include <exception>
+
+#include "programs/commands/commands.hpp"
+#include "programs/options.hpp"
+#include "programs/terminal.hpp"
+
+int main(int argc, char** argv) {
+  try {
+    return abbe::parse_command_line(argc, argv)();
+  } catch (const abbe::UserError& error) {
+    abbe::print_messages(error.diagnostics());
+    return abbe::kUnusable;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "abbe: internal fault: %s\nPlease report this with the command and its input files.\n", error.what());
+    return abbe::kFault;
+  }
+}

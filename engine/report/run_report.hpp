@@ -1,4 +1,8 @@
 // Everything a report of `abbe run` may show, as plain data. Writers (engine/report/writers) turn it into text, JSON, ...
+//
+// The figures of one characteristic follow GUM and JCGM 101: the value of the error-free machine as reference, the mean and
+// standard uncertainty u of the values of all virtual machines, and the 95 % limits, which are given relative to the reference
+// as Table 3 of the paper prints them (LCL, UCL).
 #pragma once
 
 #include <cstdint>
@@ -24,7 +28,7 @@ struct CharacteristicReport {
   std::optional<double> lower, upper;     ///< tolerance limits of the value
   std::optional<double> conformance_probability;
   struct Contribution { std::string name; double share = 0; };
-  std::vector<Contribution> contributions;  ///< shares of variance, sum 1 (all 0 when nothing varies)
+  std::vector<Contribution> contributions;  ///< shares of variance, sum 1; all 0 when nothing varies, empty when unknown
   int trapped = 0;                        ///< machines that did not reach it
 };
 
@@ -48,11 +52,14 @@ struct RunReport {
   std::vector<Diagnostic> messages;
 };
 
-/// Turns samples into the figures of the report. `alone[k]` is the run in which only contributor k acted.
+/// The run in which only one contributor acted, on the same machines and with the same random numbers.
 struct ContributorRun {
   std::string name;
   RunResult result;
 };
+/// Turns samples into the figures of the report; angles become degrees here. Characteristics that fewer than two machines
+/// reached have no figures and are left out. A contributor's share is the variance of its own run over the sum of those
+/// variances; variances of rounding, below (1e-9 mm)^2 or (1e-12 rad)^2, count as 0.
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan&, const RunResult&, const std::vector<ContributorRun>& alone);
 
 }  // namespace abbe

@@ -1,0 +1,20 @@
+// The unit in which a characteristic is reported: mm as inside the engine, degrees for angles. The only place of that
+// conversion on the way out.
+#pragma once
+
+#include <numbers>
+
+#include "engine/plan/plan.hpp"
+
+namespace abbe {
+
+struct ReportUnit {
+  const char* name = "mm";  ///< "mm" or "deg"
+  double factor = 1;        ///< reported value = engine value * factor
+};
+
+inline ReportUnit report_unit(const plan::Plan& plan, plan::CharacteristicId id) {
+  return plan[plan[id].tolerance].kind->unit == Unit::rad ? ReportUnit{"deg", 180 / std::numbers::pi} : ReportUnit{};
+}
+
+}  // namespace abbe

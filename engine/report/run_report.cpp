@@ -1,0 +1,78 @@
+#include "engine/report/run_report.hpp"
+
+#include "engine/base/ids.hpp"
+#include "engine/report/report_unit.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that length, in rad.
+double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-9 : 1e-12; }
+
+/// Shares of variance; empty when a contributor's own run left too few values to tell.
+std::vector<CharacteristicReport::Contribution> contributions(const std::vector<ContributorRun>& alone, std::size_t sample,
+                                                              Unit unit) {
+  std::vector<CharacteristicReport::Contribution> list;
+  double total = 0;
+  for (const ContributorRun& run : alone) {
+    const std::vector<double>& value = run.result.samples[sample].value;
+    if (value.size() < 2) return {};
+    const double u = summarize(value).u;
+    const double variance = u < smallest_u(unit) ? 0 : u * u;
+    list.push_back({run.name, variance});
+    total += variance;
+  }
+  if (total > 0)
+    for (auto& contribution : list) contribution.share /= total;
+  return list;
+}
+
+std::optional<double> scaled(std::optional<double> value, double factor) {
+  return value ? std::optional(*value * factor) : std::nullopt;
+}
+
+CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples, int machines) {
+  const plan::CharacteristicDef& definition = plan[samples.characteristic];
+  const plan::ToleranceDef& tolerance = plan[definition.tolerance];
+  const auto [unit, factor] = report_unit(plan, samples.characteristic);
+
+  CharacteristicReport report;
+  for (const plan::FeatureId feature : definition.features) report.features.push_back(plan[feature].label);
+  report.tolerance = tolerance.label;
+  report.kind = tolerance.kind->word;
+  report.unit = unit;
+  report.line = definition.line;
+  report.occurrence = samples.occurrence;
+  report.nominal = samples.nominal * factor;
+  report.reference = samples.reference * factor;
+  std::vector<double> values = samples.value;
+  for (double& v : values) v *= factor;
+  report.summary = summarize(values);
+  report.lcl = report.summary.symmetric.low - report.reference;
+  report.ucl = report.summary.symmetric.high - report.reference;
+  report.lower = scaled(samples.limits.lower, factor);
+  report.upper = scaled(samples.limits.upper, factor);
+  if (report.lower || report.upper)
+    report.conformance_probability = conformance_probability(samples.value, samples.limits.lower, samples.limits.upper);
+  report.trapped = machines - static_cast<int>(samples.value.size());
+  return report;
+}
+
+}  // namespace
+
+std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan, const RunResult& result,
+                                                         const std::vector<ContributorRun>& alone) {
+  for (const ContributorRun& run : alone) ABBE_CHECK(run.result.samples.size() == result.samples.size());
+  std::vector<CharacteristicReport> reports;
+  for (std::size_t i = 0; i < result.samples.size(); ++i) {
+    const Samples& samples = result.samples[i];
+    if (samples.value.size() < 2) continue;
+    CharacteristicReport report = characteristic_report(plan, samples, result.machines);
+    report.contributions = contributions(alone, i, plan[plan[samples.characteristic].tolerance].kind->unit);
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+}  // namespace abbe

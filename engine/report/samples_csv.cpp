@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "engine/report/report_unit.hpp"
+#include "engine/report/study.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// RFC 4180: a field in quotes, quotes inside doubled.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::string characteristic_name(const plan::Plan& plan, const plan::CharacteristicDef& definition) {
+  std::string name;
+  for (const plan::FeatureId f : definition.features) name += fmt::format("FA({}),", plan[f].label);
+  return name + fmt::format("TA({})", plan[definition.tolerance].label);
+}
+
+}  // namespace
+
+std::string samples_csv(const plan::Plan& plan, const Study& study) {
+  std::string out = "machine,candidate,characteristic,occurrence,unit,reference,value\r\n";
+  for (const Samples& samples : study.result.samples) {
+    const plan::CharacteristicDef& definition = plan[samples.characteristic];
+    const ReportUnit unit = report_unit(plan, samples.characteristic);
+    const std::string middle = fmt::format("{},{},{},{}", quoted(characteristic_name(plan, definition)), samples.occurrence,
+                                           unit.name, samples.reference * unit.factor);
+    for (std::size_t i = 0; i < samples.value.size(); ++i) {
+      const std::uint32_t machine = samples.machine[i];
+      out += fmt::format("{},{},{},{}\r\n", machine, study.candidates[machine], middle, samples.value[i] * unit.factor);
+    }
+  }
+  return out;
+}
+
+}  // namespace abbe

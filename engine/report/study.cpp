@@ -1,0 +1,197 @@
+#include "engine/report/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include "engine/base/ids.hpp"
+#include "engine/report/influences.hpp"
+#include "engine/report/report_unit.hpp"
+
+namespace abbe {
+
+namespace {
+
+void check_options(const StudyOptions& options) {
+  if (!options.digits && options.machines < 2)
+    throw UserError(diagnostic(Code::E0603, fmt::format("{} virtual machines were asked for; expected at least 2", options.machines),
+                               "a standard uncertainty needs two values; 1000 machines give it to about 2 %"));
+  if (options.digits && *options.digits != 1 && *options.digits != 2)
+    throw UserError(diagnostic(Code::E0603, fmt::format("{} significant digits of u were asked for; expected 1 or 2", *options.digits),
+                               "each further digit needs a hundred times as many machines"));
+}
+
+/// Every contributor acting alone, by the name under which its share is reported.
+struct NamedContributors {
+  std::string name;
+  Contributors contributors;
+};
+
+std::vector<NamedContributors> each_alone(const Machine& machine) {
+  const auto only = [](bool geometry, bool head, bool probe, bool effects) {
+    Contributors c;
+    c.geometry = geometry, c.head = head, c.probe = probe, c.effects = effects;
+    return c;
+  };
+  std::vector<NamedContributors> list{{"geometry", only(true, false, false, false)},
+                                      {"head", only(false, true, false, false)},
+                                      {"probe", only(false, false, true, false)}};
+  for (int i = 0; i < static_cast<int>(machine.effects.size()); ++i) {
+    list.push_back({machine.effects[i].name, only(false, false, false, true)});
+    list.back().contributors.only_effect = i;
+  }
+  return list;
+}
+
+/// One study in the making: what all its steps share.
+class StudyRun {
+ public:
+  StudyRun(const plan::Plan& plan, const Machine& machine, const StudyOptions& options, const SourceFile& source, const Progress& progress)
+      : plan_(plan), machine_(machine), options_(options), source_(source), progress_(progress) {}
+
+  Study run() {
+    const int count = options_.digits ? kBlockMachines : options_.machines;
+    step("drawing virtual machines");
+    const VirtualMachines machines = screened_machines(machine_, options_.seed, count, options_.threads);
+    step("running the program");
+    append(machines, run(machines, {}));
+    std::vector<ContributorRun> alone;
+    for (const NamedContributors& c : each_alone(machine_)) {
+      step(c.name + " alone");
+      alone.push_back({c.name, run(machines, c.contributors)});
+    }
+    if (options_.digits) run_until_stable();
+    write_report(alone);
+    return std::move(study_);
+  }
+
+ private:
+  void step(const std::string& what) const {
+    if (progress_) progress_(what);
+  }
+
+  RunResult run(const VirtualMachines& machines, const Contributors& contributors) const {
+    RunOptions options;
+    options.seed = options_.seed;
+    options.threads = options_.threads;
+    options.contributors = contributors;
+    options.placement_mm = options_.placement_mm;
+    return run_plan(plan_, machine_, machines, options, source_);
+  }
+
+  /// Joins a further run to the result; its machines are counted on from those already there.
+  void append(const VirtualMachines& machines, RunResult part) {
+    const auto shift = static_cast<std::uint32_t>(study_.result.machines);
+    ScreeningCounts& counts = study_.report.machines;
+    counts.generated += machines.counts.generated, counts.failed_mpe += machines.counts.failed_mpe;
+    counts.too_small += machines.counts.too_small, counts.used += machines.counts.used;
+    study_.candidates.insert(study_.candidates.end(), machines.index.begin(), machines.index.end());
+    add_to_trials(part);
+    if (shift == 0) {
+      study_.result = std::move(part);
+      return;
+    }
+    for (Trap& trap : part.traps) {
+      trap.machine += shift;
+      study_.result.traps.push_back(std::move(trap));
+    }
+    for (std::size_t i = 0; i < part.samples.size(); ++i) {
+      Samples &all = study_.result.samples[i], &more = part.samples[i];
+      ABBE_CHECK(all.characteristic == more.characteristic && all.occurrence == more.occurrence);
+      all.value.insert(all.value.end(), more.value.begin(), more.value.end());
+      for (const std::uint32_t m : more.machine) all.machine.push_back(m + shift);
+    }
+    study_.result.machines += part.machines;
+    study_.result.touches += part.touches;
+  }
+
+  void add_to_trials(const RunResult& block) {
+    if (!options_.digits) return;
+    trials_.resize(block.samples.size(), AdaptiveTrials(*options_.digits));
+    for (std::size_t i = 0; i < block.samples.size(); ++i) {
+      const Samples& samples = block.samples[i];
+      if (samples.value.size() < 2) continue;
+      std::vector<double> values = samples.value;
+      const double factor = report_unit(plan_, samples.characteristic).factor;
+      for (double& v : values) v *= factor;  // the digits are those of the figures reported
+      trials_[i].add(summarize(values));
+    }
+  }
+
+  /// Characteristics that no block could summarise do not count: they are reported as lost.
+  bool stable() const {
+    return std::all_of(trials_.begin(), trials_.end(), [](const AdaptiveTrials& t) { return t.blocks() == 0 || t.stable(); });
+  }
+
+  void run_until_stable() {
+    for (int blocks = 1; blocks < kMaxBlocks && !stable(); ++blocks) {
+      step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines, *options_.digits));
+      const VirtualMachines machines = more_screened_machines(machine_, options_.seed, kBlockMachines, options_.threads,
+                                                              study_.candidates.back() + 1);
+      append(machines, run(machines, {}));
+    }
+    if (!stable())
+      message(Code::W0605, fmt::format("after {} machines the figures are not yet stable to {} digits", study_.result.machines, *options_.digits),
+              "see the Monte Carlo errors, or ask for --digits 1");
+  }
+
+  void message(Code code, std::string text, std::string help) {
+    study_.report.messages.push_back(diagnostic(code, std::move(text), std::move(help)));
+  }
+
+  void write_report(const std::vector<ContributorRun>& alone) {
+    RunReport& report = study_.report;
+    report.program = source_.name();
+    report.machine = machine_.name;
+    report.seed = options_.seed;
+    report.characteristics = characteristic_reports(plan_, study_.result, alone);
+    report.influences = influences(machine_);
+    report.traps = study_.result.traps;
+    add_unreached();
+    if (report.machines.share_accepted() < 0.5) warn_of_screening();
+    if (study_.result.samples.empty())
+      message(Code::W0606, "the program evaluates no characteristic", "add an OUTPUT or EVAL statement with a feature and a tolerance");
+  }
+
+  /// Characteristics without figures, because fewer than two machines reached them.
+  void add_unreached() {
+    for (const Samples& samples : study_.result.samples) {
+      if (samples.value.size() >= 2) continue;
+      const plan::CharacteristicDef& definition = plan_[samples.characteristic];
+      std::string reason = fmt::format("{} of {} machines reached it", samples.value.size(), study_.result.machines);
+      if (const auto& traps = study_.result.traps; !traps.empty())
+        reason += fmt::format("; the first stopped at line {}: {}", traps.front().line, traps.front().reason);
+      std::string features;
+      for (const plan::FeatureId f : definition.features) features += (features.empty() ? "" : ", ") + plan_[f].label;
+      study_.report.lost.push_back({definition.line, features, reason});
+    }
+  }
+
+  void warn_of_screening() {
+    step("looking for a factor on e_max");
+    constexpr int kCandidates = 1000;
+    const double share = study_.report.machines.share_accepted();
+    const SuggestedFactor suggested = suggest_e_max_factor(machine_, options_.seed, kCandidates, options_.threads);
+    message(Code::W0416,
+            fmt::format("only {:.1f} % of the generated machines satisfy the specification of '{}'", 100 * share, machine_.name),
+            fmt::format("with every e_max multiplied by {:.2f} about {:.0f} % would; see `abbe machine screen`", suggested.factor,
+                        100 * suggested.share_accepted));
+  }
+
+  const plan::Plan& plan_;
+  const Machine& machine_;
+  const StudyOptions& options_;
+  const SourceFile& source_;
+  const Progress& progress_;
+  Study study_;
+  std::vector<AdaptiveTrials> trials_;   ///< one per entry of result.samples
+};
+
+}  // namespace
+
+Study run_study(const plan::Plan& plan, const Machine& machine, const StudyOptions& options, const SourceFile& source,
+                const Progress& progress) {
+  check_options(options);
+  return StudyRun(plan, machine, options, source, progress).run();
+}
+
+}  // namespace abbe

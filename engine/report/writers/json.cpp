@@ -1,0 +1,90 @@
+// The report for programs, schema "abbe.run/1". A key once published stays; every number is in the unit that its key, or the
+// characteristic's "unit", names. JSON has no NaN: what has no value is null.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/report/writer.hpp"
+
+namespace abbe {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
+Json pair(std::optional<double> low, std::optional<double> high) { return Json::array({number(low), number(high)}); }
+
+Json contributions(const CharacteristicReport& c) {
+  Json out = Json::object();
+  for (const auto& contribution : c.contributions) out[contribution.name] = number(contribution.share);
+  return out;
+}
+
+Json characteristic(const CharacteristicReport& c) {
+  const Summary& s = c.summary;
+  return {{"feature", c.features},
+          {"tolerance", c.tolerance},
+          {"kind", c.kind},
+          {"unit", c.unit},
+          {"line", c.line},
+          {"occurrence", c.occurrence},
+          {"nominal", number(c.nominal)},
+          {"reference", number(c.reference)},
+          {"mean", number(s.mean)},
+          {"u", number(s.u)},
+          {"lcl", number(c.lcl)},
+          {"ucl", number(c.ucl)},
+          {"interval95",
+           {{"symmetric", pair(s.symmetric.low, s.symmetric.high)}, {"shortest", pair(s.shortest.low, s.shortest.high)}}},
+          {"monte_carlo_error",
+           {{"mean", number(s.mean_error)}, {"u", number(s.u_error)}, {"lcl", number(s.low_error)}, {"ucl", number(s.high_error)}}},
+          {"tolerance_limits", pair(c.lower, c.upper)},
+          {"conformance_probability", number(c.conformance_probability)},
+          {"contributions", contributions(c)},
+          {"trapped", c.trapped}};
+}
+
+Json message(const Diagnostic& d) {
+  static constexpr const char* kSeverity[] = {"error", "warning", "note"};
+  return {{"code", info(d.code).name},
+          {"severity", kSeverity[static_cast<int>(d.severity())]},
+          {"line", d.span ? Json(d.place.line) : Json()},
+          {"column", d.span ? Json(d.place.column) : Json()},
+          {"message", d.message},
+          {"help", d.help}};
+}
+
+template <class T, class F>
+Json list(const std::vector<T>& items, F convert) {
+  Json out = Json::array();
+  for (const T& item : items) out.push_back(convert(item));
+  return out;
+}
+
+std::string write_json(const RunReport& r) {
+  const ScreeningCounts& m = r.machines;
+  const Json report = {
+      {"schema", "abbe.run/1"},
+      {"program", r.program},
+      {"machine", r.machine},
+      {"seed", r.seed},
+      {"version", r.version},
+      {"machines",
+       {{"used", m.used},
+        {"generated", m.generated},
+        {"failed_mpe", m.failed_mpe},
+        {"too_small", m.too_small},
+        {"share_accepted", number(m.share_accepted())}}},
+      {"characteristics", list(r.characteristics, characteristic)},
+      {"lost", list(r.lost, [](const auto& l) { return Json{{"line", l.line}, {"feature", l.feature}, {"reason", l.reason}}; })},
+      {"influences", list(r.influences, [](const auto& i) { return Json{{"name", i.name}, {"status", i.status}}; })},
+      {"messages", list(r.messages, message)}};
+  // Labels keep the bytes of the program, which may be Latin-1: what is not UTF-8 is replaced.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+extern const ReportWriter json_writer{"json", "one JSON object, schema abbe.run/1", write_json};
+
+}  // namespace abbe

@@ -1,0 +1,67 @@
+// The commands of `abbe`: one options struct and one function for each, in a file of its own beside this header.
+//
+// options.cpp fills the struct from the command line and calls the function. A command prints its result on stdout, its
+// messages on stderr (terminal.hpp), and returns the exit code. It may throw UserError (abbe.cpp renders it and exits with
+// 2); anything else that escapes is a fault of ours and exits with 3.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "programs/program_study.hpp"
+
+namespace abbe {
+
+inline constexpr int kDone = 0;      ///< done, and the answer is yes
+inline constexpr int kNo = 1;        ///< done, and the answer is no: errors found, an expectation failed
+inline constexpr int kUnusable = 2;  ///< wrong usage or unusable input
+inline constexpr int kFault = 3;     ///< internal fault
+
+struct RunCommandOptions {
+  StudyRequest request;
+  std::string format = "text";     ///< a name of report_writers()
+  std::optional<std::string> csv;  ///< where every sample goes
+};
+int run_command(const RunCommandOptions&);
+
+struct CheckOptions {
+  std::vector<std::string> programs;
+  bool plan = false;            ///< also print the plan of each program
+  std::string format = "text";  ///< text or json
+};
+int check_command(const CheckOptions&);
+
+struct TestOptions {
+  std::vector<std::string> paths;    ///< programs, and folders to search for them
+  std::optional<std::string> junit;  ///< where the JUnit XML goes
+  StudySettings settings;
+};
+int test_command(const TestOptions&);
+
+struct FitOptions {
+  std::string element, points;  ///< "circle"; a CSV file with the header x,y,z
+  std::optional<std::array<double, 3>> normal;
+  std::string format = "text";  ///< text or json
+};
+int fit_command(const FitOptions&);
+
+struct MachineOptions {
+  std::string action;      ///< list, show, screen, init
+  std::string machine;     ///< file or shipped name; for init the new file's name; empty for list
+  int machines = 1000;     ///< how many accepted machines `screen` draws
+  std::uint64_t seed = 1;
+  int threads = 0;         ///< 0: all of the computer
+  std::string format = "text";
+};
+int machine_command(const MachineOptions&);
+
+struct ExplainOptions {
+  std::optional<std::string> word;  ///< a DMIS word, an effect or a message code; none: what there is
+  bool markdown = false;            ///< the whole language reference as Markdown
+};
+int explain_command(const ExplainOptions&);
+
+}  // namespace abbe

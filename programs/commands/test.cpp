@@ -1,0 +1,102 @@
+// `abbe test`: runs programs and compares their figures with what their `$$! expect` lines ask for.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "engine/base/files.hpp"
+#include "programs/commands/commands.hpp"
+#include "programs/expectations.hpp"
+#include "programs/junit.hpp"
+#include "programs/terminal.hpp"
+
+namespace abbe {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_program(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".dmi";
+}
+
+/// The files named, and below the folders named all programs, in the order of their names.
+std::vector<std::string> programs_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> found;
+  for (const std::string& path : paths) {
+    std::error_code none;
+    if (!fs::is_directory(path, none)) {
+      found.push_back(path);
+      continue;
+    }
+    std::vector<std::string> below;
+    for (const auto& entry : fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
+      if (entry.is_regular_file() && is_program(entry.path())) below.push_back(entry.path().string());
+    std::sort(below.begin(), below.end());
+    found.insert(found.end(), below.begin(), below.end());
+  }
+  return found;
+}
+
+/// Every expectation of a program that cannot be run fails for the same reason.
+void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectations, const std::string& reason) {
+  for (const lang::Expectation& e : expectations) suite.cases.push_back({e.text, e.line, reason, false});
+}
+
+/// An expectation that cannot be read must fail, not vanish.
+void add_unreadable(TestSuite& suite, const CompiledProgram& program) {
+  for (const Diagnostic& d : program.messages)
+    if (d.severity() == Severity::error && d.source_line.find("$$!") != std::string::npos)
+      suite.cases.push_back({d.source_line, d.place.line, fmt::format("{} {}", info(d.code).name, d.message), false});
+}
+
+TestSuite test_program(const std::string& path, const StudySettings& settings, ProgressLine& progress) {
+  const CompiledProgram program = compile_program(path);
+  const auto& expectations = program.compilation.directives.expectations;
+  TestSuite suite{path, {}};
+  add_unreadable(suite, program);
+  if (expectations.empty()) return suite;
+  if (program.has_errors) {
+    fail_all(suite, expectations, "the program has errors; `abbe check` lists them");
+    return suite;
+  }
+  try {
+    const Study study = study_program(program, settings, [&](std::string_view step) { progress.show(fmt::format("{}: {}", path, step)); });
+    for (const lang::Expectation& e : expectations) {
+      const Verdict verdict = judge(e, study.report);
+      suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
+    }
+  } catch (const UserError& error) {
+    suite.cases.clear();
+    fail_all(suite, expectations, error.what());
+  }
+  return suite;
+}
+
+}  // namespace
+
+int test_command(const TestOptions& options) {
+  std::vector<TestSuite> suites;
+  int passed = 0, failed = 0;
+  for (const std::string& path : programs_of(options.paths)) {
+    ProgressLine progress;
+    TestSuite suite = test_program(path, options.settings, progress);
+    if (suite.cases.empty()) continue;
+    for (const TestCase& c : suite.cases) {
+      ++(c.passed ? passed : failed);
+      print_result(fmt::format("{}  {}:{}: {}\n", c.passed ? "ok  " : "FAIL", path, c.line, c.outcome));
+    }
+    suites.push_back(std::move(suite));
+  }
+  if (suites.empty())
+    throw UserError(diagnostic(Code::E0607, "no program with an expectation was found",
+                               "write a line such as `$$! expect TA(LEN) u95 between 0.003 0.005` into a .dmi file"));
+  if (options.junit) write_whole(*options.junit, junit_xml(suites));
+  print_result(fmt::format("{} passed, {} failed\n", passed, failed));
+  return failed ? kNo : kDone;
+}
+
+}  // namespace abbe

@@ -1,0 +1,75 @@
+#include "programs/expectations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/base/ids.hpp"
+
+namespace abbe {
+
+namespace {
+
+bool same_label(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+}
+
+std::string bounds(const lang::Expectation& e) {
+  if (e.low && e.high) return fmt::format("between {} and {}", *e.low, *e.high);
+  return e.low ? fmt::format(">= {}", *e.low) : fmt::format("<= {}", *e.high);
+}
+
+std::optional<double> figure(const CharacteristicReport& c, const std::string& quantity) {
+  const Summary& s = c.summary;
+  if (quantity == "u") return s.u;
+  if (quantity == "u95") return (s.symmetric.high - s.symmetric.low) / 2;
+  if (quantity == "lcl") return c.lcl;
+  if (quantity == "ucl") return c.ucl;
+  if (quantity == "mean") return s.mean;
+  if (quantity == "value") return c.reference;
+  ABBE_CHECK(quantity == "conformance");
+  return c.conformance_probability;
+}
+
+bool names(const lang::Expectation& e, const CharacteristicReport& c) {
+  const auto is_it = [&](const std::string& feature) { return same_label(feature, e.feature); };
+  return same_label(c.tolerance, e.subject) && (e.occurrence == 0 || e.occurrence == c.occurrence) &&
+         (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), is_it));
+}
+
+Verdict unknown(const lang::Expectation& e, const RunReport& report) {
+  std::vector<std::string_view> tolerances;
+  for (const CharacteristicReport& c : report.characteristics) tolerances.push_back(c.tolerance);
+  std::string what = fmt::format("TA({})", e.subject);
+  if (!e.feature.empty()) what = fmt::format("FA({}) with ", e.feature) + what;
+  if (e.occurrence > 0) what += fmt::format(", occurrence {}", e.occurrence);
+  const bool label_known = std::any_of(tolerances.begin(), tolerances.end(), [&](auto t) { return same_label(t, e.subject); });
+  const std::string near = label_known ? "" : nearest_word(e.subject, tolerances);
+  const Diagnostic d = diagnostic(Code::E0608, "the program evaluates no " + what,
+                                  near.empty() ? "see the characteristics that `abbe run` lists" : "did you mean TA(" + near + ")?");
+  return {false, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help)};
+}
+
+Verdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
+  if (!value) return {false, name + ": there is none, because the tolerance has no limits"};
+  const bool inside = (!e.low || *value >= *e.low) && (!e.high || *value <= *e.high);
+  return {inside, fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};
+}
+
+}  // namespace
+
+Verdict judge(const lang::Expectation& e, const RunReport& report) {
+  ABBE_CHECK(e.low || e.high);
+  if (e.subject == "accepted") return compare(e, "accepted", report.machines.share_accepted());
+  std::optional<Verdict> verdict;
+  for (const CharacteristicReport& c : report.characteristics) {
+    if (!names(e, c)) continue;
+    const Verdict next = compare(e, fmt::format("TA({}) {}", c.tolerance, e.quantity), figure(c, e.quantity));
+    if (!next.passed) return next;
+    if (!verdict) verdict = next;
+  }
+  return verdict ? *verdict : unknown(e, report);
+}
+
+}  // namespace abbe

@@ -1,0 +1,59 @@
+#include "programs/program_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "engine/run/placement.hpp"
+
+namespace abbe {
+
+namespace {
+
+int thread_count(int asked) {
+  if (asked < 0)
+    throw UserError(diagnostic(Code::E0603, fmt::format("{} threads were asked for; expected a positive number", asked),
+                               "leave --threads out to use the whole computer"));
+  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+CompiledProgram compile_program(const std::string& path) {
+  SourceFile source = read_source(path);
+  Sink sink;
+  lang::Compilation compilation = lang::compile(source, sink);
+  return {std::move(source), std::move(compilation), sink.sorted(), sink.has_errors()};
+}
+
+Study study_program(const CompiledProgram& program, const StudySettings& settings, const Progress& progress) {
+  const lang::Directives& asked = program.compilation.directives;
+  const plan::Plan& plan = program.compilation.plan;
+  const Machine machine = read_machine(settings.machine.value_or(asked.machine.value_or(kDefaultMachine)));
+
+  StudyOptions options;
+  options.seed = settings.seed.value_or(asked.seed.value_or(options.seed));
+  options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
+  options.digits = settings.digits;
+  options.threads = thread_count(settings.threads);
+
+  std::vector<Diagnostic> messages = program.messages;
+  if (asked.place_mm) {
+    options.placement_mm = *asked.place_mm;
+  } else {
+    const Placement placement = find_placement(plan, machine, program.source);
+    options.placement_mm = placement.shift_mm;
+    if (placement.message) messages.push_back(*placement.message);
+  }
+
+  Study study = run_study(plan, machine, options, program.source, progress);
+  study.report.version = ABBE_VERSION;
+  std::vector<LostCharacteristic> lost;
+  for (const lang::Lost& l : program.compilation.lost) lost.push_back({l.line, l.feature, l.reason});
+  study.report.lost.insert(study.report.lost.begin(), lost.begin(), lost.end());
+  study.report.messages.insert(study.report.messages.begin(), messages.begin(), messages.end());
+  return study;
+}
+
+}  // namespace abbe

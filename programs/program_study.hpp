@@ -1,0 +1,46 @@
+// From a program file to a report: read, compile, settle what is asked for, study. The commands `run` and `test` share it.
+//
+// A program may carry settings in its directives (`$$! machine`, `$$! machines`, `$$! seed`, `$$! place`); the command line
+// wins over them, and the documented defaults fill the rest.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "engine/report/study.hpp"
+#include "lang/compile.hpp"
+
+namespace abbe {
+
+inline constexpr const char* kDefaultMachine = "coord3-mc16";
+inline constexpr int kDefaultMachines = 1000;
+
+/// What the command line may settle of a study; what is left out is up to the program and the defaults.
+struct StudySettings {
+  std::optional<std::string> machine;  ///< file or shipped name
+  std::optional<int> machines;
+  std::optional<int> digits;           ///< significant digits of u that must be stable; chooses the number of machines
+  std::optional<std::uint64_t> seed;
+  int threads = 0;                     ///< 0: all of the computer
+};
+
+struct StudyRequest {
+  std::string program;
+  StudySettings settings;
+  bool only_valid = false;             ///< go on without the statements that have errors
+};
+
+/// A program and what its compilation gave; messages in the order of their places.
+struct CompiledProgram {
+  SourceFile source;
+  lang::Compilation compilation;
+  std::vector<Diagnostic> messages;
+  bool has_errors = false;
+};
+CompiledProgram compile_program(const std::string& path);
+
+/// Studies a compiled program. Throws UserError: no usable machine, or the error-free machine cannot run the program.
+Study study_program(const CompiledProgram&, const StudySettings&, const Progress& progress = {});
+
+}  // namespace abbe

@@ -1,0 +1,40 @@
+#include "programs/terminal.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace abbe {
+
+namespace {
+
+constexpr const char* kEraseLine = "\r\033[K";
+
+}  // namespace
+
+void print_messages(const std::vector<Diagnostic>& messages) {
+  for (const Diagnostic& d : messages) std::fputs(render(d).c_str(), stderr);
+}
+
+void print_result(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!written)
+    throw UserError(diagnostic(Code::E0602, std::string("cannot write the result to stdout: ") + std::strerror(errno),
+                               "check the disk, or the program that reads the result"));
+}
+
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) std::fputs(kEraseLine, stderr);
+}
+
+void ProgressLine::show(std::string_view text) {
+  if (!terminal_) return;
+  std::fprintf(stderr, "%s%.*s ...", kEraseLine, static_cast<int>(text.size()), text.data());
+  shown_ = true;
+}
+
+}  // namespace abbe
