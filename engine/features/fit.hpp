@@ -18,7 +18,7 @@ struct FitProblem {
 
 struct FitError {
   std::string code;     ///< "too_few_points", "identical_points", "collinear_points", "coplanar_points", "not_finite", "bad_normal",
-                        ///< "not_converged", ...
+                        ///< "not_unique", "no_apex", "not_converged"
   std::string message;  ///< what is wrong, in plain words
 };
 
