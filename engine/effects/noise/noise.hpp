@@ -1,0 +1,18 @@
+// The effects that change the noise (docs/physics/noise.md), one per .cpp file. They shift no mean:
+// their numbers are drawn anew for every touch, and a diagnosis judges them by the likelihood of
+// the spread, not by added terms.
+#pragma once
+
+#include "engine/effects/terms.hpp"
+
+namespace abbe {
+
+extern const Effect kVibration;
+extern const Effect kOutliers;
+extern const Effect kResolution;
+extern const Effect kUnequalNoise;
+
+/// The probability below a standard normal number: makes a uniform draw of a normal one.
+inline double normal_probability(double z) { return 0.5 * std::erfc(-z * std::sqrt(0.5)); }
+
+}  // namespace abbe

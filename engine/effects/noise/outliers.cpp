@@ -1,0 +1,61 @@
+// Single touches that are grossly wrong (catalogue N2).
+//
+//   r = size exp(0.7 z2)   with probability `share`,   else 0
+//
+// Dirt and burrs make a surface proud, and a probe that triggers early reads the same way: outliers
+// are one-sided, r > 0. Their sizes are log-normal about the median `size`: 95 % between a quarter
+// and four times of it, 3 to 50 um for the standard 12 um. z1 decides whether, z2 how much. Size:
+// 0.1 to 2 % of the touches.
+// Source: contamination model of robust statistics (Huber 1964), one-sided.
+// Confused with: nothing else makes a few large residuals of one sign; but in small numbers they
+// pass for a form error. Software that removes touches beyond k sigma around the fit biases the
+// spread.
+#include "engine/effects/noise/noise.hpp"
+
+namespace abbe {
+namespace {
+
+constexpr double kLogSpread = 0.7;  // 12 um exp(+-1.96 * 0.7) is 3 to 47 um
+
+constexpr EffectParameter kParameters[] = {
+    {.name = "share",
+     .unit = "1",
+     .help = "share of the touches that are outliers",
+     .typical = 0.005,
+     .low = 0,
+     .high = 0.5},
+    {.name = "size_um",
+     .unit = "um",
+     .help = "median size of an outlier; positive: the surface seems too far out",
+     .typical = 12,
+     .low = -1000,
+     .high = 1000,
+     .standard = 12,
+     .linear = true},
+};
+
+Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+  if (normal_probability(z[0]) >= theta[0]) return {};
+  return along_normal(scene, theta[1] * kUm * std::exp(kLogSpread * z[1]));
+}
+
+}  // namespace
+
+constinit const Effect kOutliers{
+    .name = "noise.outliers",
+    .title = "outliers",
+    .help =
+        "A few touches are wrong by many times the usual scatter: dirt, a burr, a probe that "
+        "triggers early. The surface then seems too far out, never too far in. One of them can "
+        "decide a form error, a maximum or a small alignment feature.",
+    .source = "Huber, Ann. Math. Statist. 35 (1964): contaminated normal; one-sided",
+    .separate = "clean the part and repeat the suspect touches",
+    .stage = Stage::noise,
+    .needs = 0u | Covariate::normal,
+    .parameters = kParameters,
+    .draws_per = DrawsPer::touch,
+    .draws = 2,
+    .displace = displace,
+};
+
+}  // namespace abbe

@@ -1,0 +1,95 @@
+// One group of touches scatters more than the others (catalogue N4).
+//
+//   r = sd sqrt(ratio^2 - 1) z   in the group,   0 outside     z: standard normal per touch
+//
+// sd is the scatter that all touches have already (the probe's); the group gets what is missing to
+// ratio * sd. Groups: styli longer than a limit, a tilted head, probing faster than a limit. Size:
+// twice the scatter with a stylus twice as long.
+// Source: variances add (JCGM 100, 5.1.2); dependence on stylus length, head angle and speed after
+// ISO 10360-5 and data sheets of probes.
+// Confused with: noise.vibration when the group is one direction; noise.outliers when the group is
+// small.
+#include "engine/effects/noise/noise.hpp"
+
+namespace abbe {
+namespace {
+
+enum Group { long_styli, tilted_head, fast_probing };
+constexpr std::string_view kGroups[] = {"long styli", "tilted head", "fast probing"};
+constexpr double kUpright_rad = 1 * kDegree;
+
+constexpr EffectParameter kParameters[] = {
+    {.name = "ratio",
+     .unit = "1",
+     .help = "standard deviation in the group over that of the other touches",
+     .typical = 1.5,
+     .low = 1,
+     .high = 20,
+     .standard = 1},
+    {.name = "sd_um",
+     .unit = "um",
+     .help = "standard deviation of the other touches",
+     .typical = 0.5,
+     .low = 0,
+     .high = 50,
+     .standard = 0.5,
+     .linear = true},
+    {.name = "group",
+     .unit = "code",
+     .help = "which touches scatter more: 0 those with long styli, 1 with the head tilted by more "
+             "than 1 degree, 2 with fast probing",
+     .high = 2,
+     .choices = kGroups},
+    {.name = "longer_than_mm",
+     .unit = "mm",
+     .help = "limit of the stylus length for the group of long styli",
+     .typical = 100,
+     .low = 0,
+     .high = 2000,
+     .standard = 100},
+    {.name = "faster_than_mm_s",
+     .unit = "mm/s",
+     .help = "limit of the probing speed for the group of fast probing",
+     .typical = 5,
+     .low = 0,
+     .high = 1000,
+     .standard = 5},
+};
+
+bool in_group(const TouchScene& scene, const double* theta) {
+  switch (code(theta[2])) {
+    case long_styli:
+      return scene.stylus.length_mm > theta[3];
+    case tilted_head:
+      return std::fabs(scene.stylus.head_a_rad) > kUpright_rad;
+    default:
+      return scene.speed_mm_s > theta[4];
+  }
+}
+
+Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+  if (!in_group(scene, theta)) return {};
+  const double missing_variance = std::fmax(0, theta[0] * theta[0] - 1);
+  return along_normal(scene, theta[1] * kUm * std::sqrt(missing_variance) * z[0]);
+}
+
+}  // namespace
+
+constinit const Effect kUnequalNoise{
+    .name = "noise.unequal",
+    .title = "unequal scatter",
+    .help =
+        "Some touches scatter more than others: those with long styli, with a tilted head, or at "
+        "high speed. One standard deviation for all then gives too much weight to the bad ones "
+        "and hides the good ones.",
+    .source = "JCGM 100:2008 5.1.2; probe data sheets (scatter against stylus length and speed)",
+    .separate = "repeat one touch many times in each group",
+    .stage = Stage::noise,
+    .needs = Covariate::normal | Covariate::sensor,
+    .parameters = kParameters,
+    .draws_per = DrawsPer::touch,
+    .draws = 1,
+    .displace = displace,
+};
+
+}  // namespace abbe

@@ -1,0 +1,83 @@
+// Form error of the part or of the artefact (catalogue W3).
+//
+//   r = sum_k a_k h_k(n_part) + [ a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength) ]
+//
+// h_k are real harmonics of the normal in the part's frame, with a largest value of 1: the five of
+// degree 2 and the two sectoral ones of degree 3. On a sphere they are its form, on a cylinder
+// along the part's z ovality and three lobes. Faces of one normal have a form over their position p
+// along an axis of the part instead: a wave. r > 0 is material too much. The form is there in every
+// repeat and moves with the part. Sizes: reference spheres 0.05 to 0.1 um, machined parts
+// micrometres.
+// Source: real solid harmonics on the unit sphere; ISO 12181 (lobes), ISO 12780 (waviness).
+// Confused with: probe.tip_form and probe.pretravel_lobing, by definition so while the part is
+// never turned against the probe.
+#include "engine/effects/part/part.hpp"
+
+namespace abbe {
+namespace {
+
+constexpr double kTypical_um = 0.5, kMost_um = 500;
+constexpr EffectParameter lobe(std::string_view name, std::string_view help) {
+  return {.name = name,
+          .unit = "um",
+          .help = help,
+          .typical = kTypical_um,
+          .low = -kMost_um,
+          .high = kMost_um,
+          .linear = true};
+}
+
+constexpr EffectParameter kParameters[] = {
+    lobe("oval_um", "two lobes about the part's z: proud along x, low along y"),
+    lobe("oval_45_um", "two lobes about the part's z: proud at 45 degrees between x and y"),
+    lobe("oval_xz_um", "two lobes about the part's y: proud at 45 degrees between x and z"),
+    lobe("oval_yz_um", "two lobes about the part's x: proud at 45 degrees between y and z"),
+    lobe("egg_um", "proud by this at both poles of the part's z, low by half of it at the equator"),
+    lobe("three_lobe_um", "three lobes about the part's z: one of them proud along x"),
+    lobe("three_lobe_30_um",
+         "three lobes about the part's z: one of them proud at 30 degrees from x"),
+    lobe("wave_um", "wave over the position on the part: sine, zero at the part's origin"),
+    lobe("wave_cosine_um",
+         "wave over the position on the part: cosine, proud at the part's origin"),
+    {.name = "wavelength_mm",
+     .unit = "mm",
+     .help = "length of the wave",
+     .typical = 100,
+     .low = 0.1,
+     .high = 10000,
+     .standard = 100},
+    axis_parameter("axis of the part along which the wave runs: 0 x, 1 y, 2 z"),
+};
+
+Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+  const auto [x, y, z] = scene.normal_on_part;
+  double r_um = theta[0] * (x * x - y * y) + theta[1] * 2 * x * y + theta[2] * 2 * x * z +
+                theta[3] * 2 * y * z + theta[4] * (3 * z * z - 1) / 2 +
+                theta[5] * x * (x * x - 3 * y * y) + theta[6] * y * (3 * x * x - y * y);
+  if (theta[7] != 0 || theta[8] != 0) {
+    const double phase = 2 * kPi * scene.on_part[code(theta[10])] / theta[9];
+    r_um += theta[7] * std::sin(phase) + theta[8] * std::cos(phase);
+  }
+  return along_normal(scene, r_um * kUm);
+}
+
+}  // namespace
+
+constinit const Effect kPartForm{
+    .name = "part.form",
+    .title = "form error of the part",
+    .help =
+        "The surface is not the ideal one: a ball is oval or three-lobed, a plane is wavy. The "
+        "same deviation returns in every repeat and goes with the part when it is turned. On a "
+        "part whose form is the thing to measure this is no error; on an artefact that counts as "
+        "perfect it is.",
+    .source = "real harmonics of degree 2 and 3; ISO 12181 roundness, ISO 12780 straightness",
+    .separate =
+        "turn the part against the probe (multi-step reversal); measure it with another probe",
+    .stage = Stage::part,
+    .needs = Covariate::normal | Covariate::part_frame,
+    .parameters = kParameters,
+    .displace = displace,
+};
+
+}  // namespace abbe

@@ -1,0 +1,71 @@
+// The table sags under the weight of the part, and the guides with it (catalogue W1).
+//
+//   k = 8 (sag per 500 kg) (m / 500 kg) / Lx^2,   Lx: travel of x
+//   d_z = - k [ s_x^2/2 + s_x l_x + q (s_y^2/2 + s_y l_y) ]
+//   d_x = + k s_x l_z      d_y = + q k s_y l_z
+//
+// To first order a central load makes a bowl: equal curvatures along x and y (q = 1). Rails of x at
+// the sides of the table follow its curvature along x only (q = 0). The guides pitch with their
+// slope, so the sag comes with its Abbe part (bent_guide.hpp; here the middle is low, which is a
+// negative arch). The part is stiff, or stands on three points: it does not bend with the table. m
+// is the logged load plus `mass_kg`. Size: 0.5 to 5 um per 500 kg.
+// Source: elastic plate, deflection proportional to the load; ISO 10360-2 tests under load where
+// the maker rates one.
+// Confused with: thermal.table_bending (a bowl against an arch along x only), quadratic ezx and ezy
+// (needs a known machine).
+#include "engine/effects/bent_guide.hpp"
+#include "engine/effects/part/part.hpp"
+
+namespace abbe {
+namespace {
+
+constexpr double kRatedLoad_kg = 500;
+
+constexpr EffectParameter kParameters[] = {
+    {.name = "sag_um_per_500kg",
+     .unit = "um",
+     .help = "sag of the middle of the x travel below its ends, under 500 kg",
+     .typical = 1.5,
+     .low = -100,
+     .high = 100,
+     .linear = true},
+    {.name = "mass_kg",
+     .unit = "kg",
+     .help = "mass on the table besides the logged load",
+     .typical = 0,
+     .low = 0,
+     .high = 20000},
+    {.name = "cross_share",
+     .unit = "1",
+     .help = "curvature along y over curvature along x: 1 for a bowl, 0 for rails at the sides",
+     .typical = 1,
+     .low = 0,
+     .high = 2,
+     .standard = 1},
+};
+
+Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+  const double load = (scene.load_kg + theta[1]) / kRatedLoad_kg, travel = scene.travel_length_mm.x;
+  const double curvature = 8 * theta[0] * kUm * load / (travel * travel);
+  return bent_guide(scene, 0, -curvature) + bent_guide(scene, 1, -theta[2] * curvature);
+}
+
+}  // namespace
+
+constinit const Effect kLoadBending{
+    .name = "part.load_bending",
+    .title = "table bent by the part's weight",
+    .help =
+        "The table sags under the part like a bowl, and the guides that it carries follow. A "
+        "light artefact measured on the same place shows nothing; under load, heights show a "
+        "parabola over the table, and the pitch of the carriages makes errors in x and y that "
+        "grow with the height. In proportion to the mass.",
+    .source = "elastic plate under a central load; ISO 10360-2 under the rated load",
+    .separate = "the same artefact with and without dead weight on the table",
+    .stage = Stage::structure,
+    .needs = Covariate::position | Covariate::load,
+    .parameters = kParameters,
+    .displace = displace,
+};
+
+}  // namespace abbe

@@ -1,0 +1,66 @@
+// A part that has not yet taken the temperature that the compensation reckons with (catalogue T9).
+//
+//   Tw(t) = Tinf + (T0 - Tinf) exp(-t / tau)
+//   e = a (T0 - Tinf) exp(-t / tau) (c - c0),     r = n . e
+//
+// The part came warm (T0 > Tinf) or cold onto the machine; the compensation takes it as settled at
+// Tinf. Its size drifts while the machine's origin does not. c0 is the origin of the part's frame,
+// t counts from the start of the program.
+// Size: steel 11.5 um per metre and kelvin; 1 K left over 500 mm 5.75 um. A steel block of 40 mm in
+// moving air: tau of 2 h.
+// Source: linear expansion; lumped heat capacity (Newton's law of cooling).
+// Confused with: thermal.part_expansion in a short program, thermal.drift when the part is small or
+// touched on one side only.
+#include "engine/effects/thermal/thermal.hpp"
+
+namespace abbe {
+namespace {
+
+constexpr EffectParameter kParameters[] = {
+    {.name = "start_K",
+     .unit = "K",
+     .help = "temperature of the part at the start minus the settled one",
+     .typical = 1,
+     .low = -50,
+     .high = 50,
+     .linear = true},
+    {.name = "tau_s",
+     .unit = "s",
+     .help = "time constant of the part",
+     .typical = 7200,
+     .low = 1,
+     .high = 1e6,
+     .standard = 7200},
+    {.name = "cte_ppm_per_K",
+     .unit = "ppm/K",
+     .help = "expansion coefficient of the part",
+     .typical = 11.5,
+     .low = -1,
+     .high = 30,
+     .standard = 11.5},
+};
+
+Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+  const double left_K = theta[0] * (1 - settled_share(scene.time_s, theta[1]));
+  return isotropic_growth(scene, kPpm * theta[2] * left_K);
+}
+
+}  // namespace
+
+constinit const Effect kPartSoak{
+    .name = "thermal.part_soak",
+    .title = "part not soaked",
+    .help =
+        "The part was put on the machine before it had the temperature of the room, and is taken "
+        "as settled. Its lengths are wrong in proportion, and the error decays while the program "
+        "runs: the first features are worst. The place of the part on the machine does not "
+        "drift.",
+    .source = "linear expansion with Newton's law of cooling",
+    .separate = "repeat the first length at the end; wait; a sensor on the part",
+    .stage = Stage::thermal,
+    .needs = Covariate::normal | Covariate::part_frame | Covariate::time,
+    .parameters = kParameters,
+    .displace = displace,
+};
+
+}  // namespace abbe

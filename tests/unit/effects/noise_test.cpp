@@ -1,0 +1,107 @@
+// The effects of the noise: their distributions, found by running through the normal quantiles.
+#include "engine/effects/noise/noise.hpp"
+
+#include <cmath>
+
+#include "tests/unit/effects/bench.hpp"
+
+namespace abbe {
+
+using namespace effects_test;
+
+namespace {
+
+/// The standard normal number below which a share p lies, by bisection: no library needed.
+double quantile(double p) {
+  double low = -10, high = 10;
+  for (int i = 0; i < 80; ++i) {
+    const double middle = (low + high) / 2;
+    (normal_probability(middle) < p ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+/// Mean and standard deviation, um, over evenly spread quantiles of the first draw.
+struct Moments {
+  double mean = 0, sd = 0;
+};
+Moments moments(const Effect& effect, const TouchScene& scene, Parameters named) {
+  constexpr int kSteps = 4000;
+  double sum = 0, squares = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r = reading_um(effect, scene, named, {quantile((i + 0.5) / kSteps)});
+    sum += r, squares += r * r;
+  }
+  const double mean = sum / kSteps;
+  return {mean, std::sqrt(squares / kSteps - mean * mean)};
+}
+
+}  // namespace
+
+TEST_CASE("vibration: no mean, the given spread along any normal") {
+  const Vec3 oblique = unit(Vec3{1, 2, -2});
+  const Moments m = moments(kVibration, touch(oblique), {{"sd_um", 0.4}});
+  CHECK(std::fabs(m.mean) < 1e-6);
+  CHECK(m.sd == doctest::Approx(0.4).epsilon(0.002));
+}
+
+TEST_CASE("vibration: of one axis it shows in proportion to the normal") {
+  const auto sd = [](const Vec3& normal) {
+    return moments(kVibration, touch(normal), {{"sd_um", 0.4}, {"direction", 1}}).sd;
+  };
+  CHECK(sd({0, 1, 0}) == doctest::Approx(0.4).epsilon(0.002));
+  CHECK(sd({0, 0.6, 0.8}) == doctest::Approx(0.24).epsilon(0.002));
+  CHECK(sd({1, 0, 0}) == 0);
+}
+
+TEST_CASE("outliers: the given share, all on one side, 3 to 50 um for a median of 12") {
+  const TouchScene scene = touch({0, 0, 1});
+  const Parameters dirt = {{"share", 0.02}};
+  constexpr int kSteps = 2000;
+  int outliers = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r = reading_um(kOutliers, scene, dirt, {quantile((i + 0.5) / kSteps), 0});
+    CHECK(r >= 0);
+    if (r > 0) ++outliers;
+  }
+  CHECK(outliers == 40);
+  CHECK(reading_um(kOutliers, scene, dirt, {-5, 0}) == doctest::Approx(12));
+  CHECK(reading_um(kOutliers, scene, dirt, {-5, -1.96}) == doctest::Approx(3).epsilon(0.02));
+  CHECK(reading_um(kOutliers, scene, dirt, {-5, 1.96}) == doctest::Approx(47).epsilon(0.02));
+}
+
+TEST_CASE("outliers: none when their share is not given") {
+  CHECK(displacement_mm(kOutliers, touch({0, 0, 1}), {}, {-8, 0}) == Vec3{});
+}
+
+TEST_CASE("resolution: 1 um rounding is uniform with a standard deviation of 0.29 um") {
+  const TouchScene scene = touch({0, 0, 1});
+  const Moments m = moments(kResolution, scene, {{"resolution_um", 1}});
+  CHECK(std::fabs(m.mean) < 1e-6);
+  CHECK(m.sd == doctest::Approx(1 / std::sqrt(12.)).epsilon(1e-4));
+  CHECK(reading_um(kResolution, scene, {{"resolution_um", 1}}, {9}) == doctest::Approx(0.5));
+  CHECK(reading_um(kResolution, scene, {{"resolution_um", 1}}, {-9}) == doctest::Approx(-0.5));
+}
+
+TEST_CASE("unequal: brings the group to its ratio and leaves the others alone") {
+  const Parameters twice = {{"ratio", 2}, {"sd_um", 0.5}};
+  const Moments long_stylus = moments(kUnequalNoise, touch({0, 0, 1}, 150), twice);
+  CHECK(std::hypot(long_stylus.sd, 0.5) == doctest::Approx(1.0).epsilon(0.002));
+  CHECK(std::fabs(long_stylus.mean) < 1e-6);
+  CHECK(displacement_mm(kUnequalNoise, touch({0, 0, 1}, 50), twice, {1}) == Vec3{});
+  CHECK(displacement_mm(kUnequalNoise, touch({0, 0, 1}, 150), {{"ratio", 1}}, {1}) == Vec3{});
+}
+
+TEST_CASE("unequal: the group may be a tilted head or fast probing") {
+  const auto acts = [](const TouchScene& scene, double group) {
+    return displacement_mm(kUnequalNoise, scene, {{"ratio", 2}, {"group", group}}, {1}) != Vec3{};
+  };
+  CHECK(acts(touch({0, 0, 1}, 50, kPi / 2), 1));
+  CHECK(!acts(touch({0, 0, 1}, 50, 0), 1));
+  TouchScene slow = touch({0, 0, 1});
+  slow.speed_mm_s = 3;
+  CHECK(acts(touch({0, 0, 1}), 2));
+  CHECK(!acts(slow, 2));
+}
+
+}  // namespace abbe
