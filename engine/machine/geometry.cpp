@@ -200,9 +200,7 @@ Vec3 geometric_error(const Machine& machine, const AxisErrors& errors, const Vec
   Vec3 d;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const AxisLever lever = axis_lever(machine, axis);
-    const Vec3 reach{lever.reach.x * enc_mm.x, lever.reach.y * enc_mm.y, lever.reach.z * enc_mm.z};
-    d += lever.sign * (translation(errors, axis) +
-                       cross(rotation(errors, axis), lever.offset_mm + reach + tip_from_mount));
+    d += lever.sign * (translation(errors, axis) + cross(rotation(errors, axis), lever.at(enc_mm, tip_from_mount)));
   }
   return d;
 }

@@ -35,11 +35,15 @@ GeometryCoefficients draw_geometry(const Machine&, std::uint64_t seed, std::uint
 /// The value of one error function at a scale reading, mm or rad: the plain reference of the lane kernel.
 double error_at(const Machine&, const GeometryCoefficients&, Component, double reading_mm);
 
-/// The lever from the frame of one axis to the tip: component k is offset_mm[k] + reach[k] * enc[k] + tip_from_mount[k].
+/// The lever from the frame of one axis to the tip, as it depends on the readings.
 struct AxisLever {
   double sign = 1;      ///< of the axis' contribution: +1 ram side, -1 table side
   Vec3 offset_mm;
   Vec3 reach;           ///< 1 where the reading of axis k lengthens the lever, else 0
+  /// The lever at given readings, mm.
+  constexpr Vec3 at(const Vec3& enc_mm, const Vec3& tip_from_mount) const {
+    return offset_mm + Vec3{reach.x * enc_mm.x, reach.y * enc_mm.y, reach.z * enc_mm.z} + tip_from_mount;
+  }
 };
 AxisLever axis_lever(const Machine&, Axis);
 

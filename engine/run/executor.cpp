@@ -8,7 +8,10 @@ namespace abbe {
 
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
     : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name) {
-  for (const plan::SensorDef& def : plan.sensors) sensors_.push_back(resolve_sensor(def, machine, source));
+  for (const plan::SensorDef& def : plan.sensors) {
+    sensors_.push_back(resolve_sensor(def, machine, source));
+    sensors_.back().ordinal = static_cast<int>(sensors_.size());
+  }
   std::uint32_t touches = 0;
   for (const plan::Operation& op : plan.operations)
     site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);

@@ -21,6 +21,7 @@ StylusScene stylus_scene(const Sensor& sensor) {
   s.head_a_rad = sensor.head_a_rad;
   s.head_b_rad = sensor.head_b_rad;
   s.indexed = sensor.indexed;
+  s.ordinal = sensor.ordinal;
   return s;
 }
 
@@ -60,7 +61,11 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     scene.touch = static_cast<int>(executor.site_[operation]);
     scene.feature = touch.feature.value;
     scene.visit = static_cast<int>(twin.indexings);
-    for (int axis = 0; axis < 3; ++axis) scene.travel_length_mm[axis] = executor.machine_.axes[axis].travel_mm;
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      const int k = static_cast<int>(axis);
+      scene.travel_length_mm[k] = executor.machine_[axis].travel_mm;
+      scene.lever_mm[k] = axis_lever(executor.machine_, axis).at(scene.reading, scene.stylus.tip_from_mount_mm);
+    }
     group->second.scene = &scene;
     executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.seed,
                           executor.site_[operation], touch_batch);

@@ -9,6 +9,7 @@ namespace abbe {
 
 struct Sensor {
   std::string name;
+  int ordinal = 1;                 ///< 1, 2, ... in the order of the sensors' definitions
   Vec3 tip_from_mount_mm;          ///< nominal tip centre seen from the mounting point, along the axes of W
   Mat3 R_WR;                       ///< the last link of the head in W: turns the probe's errors into W
   Vec3 per_rad_a_mm, per_rad_b_mm; ///< displacement of the tip per radian of indexing error; zero for a fixed sensor
