@@ -200,7 +200,8 @@ Vec3 geometric_error(const Machine& machine, const AxisErrors& errors, const Vec
   Vec3 d;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const AxisLever lever = axis_lever(machine, axis);
-    d += lever.sign * (translation(errors, axis) + cross(rotation(errors, axis), lever.at(enc_mm, tip_from_mount)));
+    d += lever.sign * (translation(errors, axis) +
+                       cross(rotation(errors, axis), lever.at(enc_mm, tip_from_mount)));
   }
   return d;
 }

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
-#include "engine/base/diagnostic.hpp"
 #include "engine/machine/shipped.hpp"
 
 namespace abbe {
@@ -42,6 +42,19 @@ Machine read_machine(const std::string& name_or_path) {
                   name_or_path, fmt::join(names, ", ")),
       near.empty() ? "`abbe machine init NAME` prints a machine file to start from"
                    : fmt::format("did you mean \"{}\"?", near)));
+}
+
+std::vector<Diagnostic> machine_warnings(const Machine& machine) {
+  const auto at_origin = [](const MachineAxis& axis) { return axis.offset_mm == Vec3{}; };
+  if (machine.mount_offset_mm != Vec3{} ||
+      !std::all_of(machine.axes.begin(), machine.axes.end(), at_origin))
+    return {};
+  return {diagnostic(Code::W0417,
+                     fmt::format("machine \"{}\" gives no scale positions: every scale is taken to "
+                                 "lie in the machine's origin",
+                                 machine.name),
+                     "measure where the scales are and give \"offsets_mm\": without them "
+                     "measurements far from the scales seem too good")};
 }
 
 }  // namespace abbe

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/diagnostic.hpp"
 #include "engine/math/axis.hpp"
 #include "engine/math/vec.hpp"
 
@@ -110,6 +111,9 @@ struct Machine {
 Machine read_machine(const std::string& name_or_path);
 /// Names of the shipped machines, in alphabetical order.
 std::vector<std::string> shipped_machines();
+
+/// What is suspect in a machine that can be used: no scale positions given, so that Abbe errors are too small.
+std::vector<Diagnostic> machine_warnings(const Machine&);
 
 /// Parses the text of a machine file; `file` names it in messages. Throws UserError as read_machine does.
 Machine parse_machine(const std::string& file, const std::string& text);

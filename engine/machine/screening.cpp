@@ -8,8 +8,6 @@
 #include <limits>
 #include <thread>
 
-#include "engine/base/diagnostic.hpp"
-
 namespace abbe {
 
 namespace {
@@ -101,7 +99,7 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
 
 [[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts,
                           int threads) {
-  const SuggestedFactor best = suggest_e_max_factor(machine, seed, 2000, threads);
+  const SuggestedFactor best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
   throw UserError(diagnostic(
       Code::E0415,
       fmt::format("only {} of {} virtual machines of \"{}\" satisfy its specification: {} fail the "
@@ -127,7 +125,7 @@ std::array<TestLine, 7> test_lines(const Machine& machine) {
     Vec3 whole, middle;
     for (int a = 0; a < 3; ++a) {
       const double travel = machine.axes[a].direction * machine.axes[a].travel_mm;
-      whole[a] = runs[k][a] * travel;
+      if (runs[k][a] != 0) whole[a] = runs[k][a] * travel;
       middle[a] = travel / 2;
     }
     const double longest = machine.specification.longest_share * norm(whole);
@@ -185,6 +183,22 @@ VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t see
     }
   }
   return out;
+}
+
+std::optional<Diagnostic> screening_warning(const Machine& machine, const ScreeningCounts& counts,
+                                            std::uint64_t seed, int threads) {
+  if (counts.share_accepted() >= 0.5) return std::nullopt;
+  const SuggestedFactor best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
+  return diagnostic(Code::W0416,
+                    fmt::format("only {} of the virtual machines of \"{}\" satisfy its "
+                                "specification: {} fail the MPE, {} have errors too "
+                                "small for it",
+                                percent(counts.share_accepted()), machine.name,
+                                percent(double(counts.failed_mpe) / double(counts.generated)),
+                                percent(double(counts.too_small) / double(counts.generated))),
+                    fmt::format("the e_max of the machine file fit its specification badly: "
+                                "multiplied by {:.2f}, {} would pass",
+                                best.factor, percent(best.share_accepted)));
 }
 
 SuggestedFactor suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,

@@ -10,8 +10,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "engine/base/diagnostic.hpp"
 #include "engine/machine/geometry.hpp"
 
 namespace abbe {
@@ -53,6 +55,12 @@ VirtualMachines screened_machines(const Machine&, std::uint64_t seed, int count,
 /// Continues where `after` stopped: the next `count` accepted machines (adaptive runs).
 VirtualMachines more_screened_machines(const Machine&, std::uint64_t seed, int count, int threads, std::uint32_t first_candidate);
 
+/// What the user must hear of a screening: over half of the candidates fall outside the specification, and which factor on e_max
+/// would fit. Nothing when more pass.
+std::optional<Diagnostic> screening_warning(const Machine&, const ScreeningCounts&, std::uint64_t seed, int threads);
+
+/// Candidates enough for a factor good to some percent: with them the share accepted is known to 1 %.
+inline constexpr int kSuggestionCandidates = 2000;
 /// The factor on all e_max for which the share accepted is largest, from `candidates` candidates.
 struct SuggestedFactor {
   double factor = 1, share_accepted = 0;

@@ -157,4 +157,16 @@ TEST_CASE("a specification that nothing satisfies is refused with the way out") 
   }
 }
 
+TEST_CASE(
+    "a warning is due when over half of the candidates fall outside, as with the paper's own "
+    "parameters") {
+  const Machine paper = read_machine("coord3-mc16"), fitting = read_machine("moving-table-700");
+  const auto warning = screening_warning(paper, screened_machines(paper, 1, 500, 2).counts, 1, 2);
+  REQUIRE(warning.has_value());
+  CHECK(warning->code == Code::W0416);
+  CHECK(warning->help.find("0.6") != std::string::npos);
+  CHECK(
+      !screening_warning(fitting, screened_machines(fitting, 1, 500, 2).counts, 1, 2).has_value());
+}
+
 }  // namespace abbe

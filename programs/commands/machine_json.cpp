@@ -1,0 +1,174 @@
+// The JSON reports of `abbe machine show` and `abbe machine screen`. Every number is in the unit
+// that its key names.
+#include <nlohmann/json.hpp>
+
+#include "programs/commands/machine_report.hpp"
+
+namespace abbe {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kAxisNames[] = {"x", "y", "z"};
+constexpr double kDegreesPerRad = 180 / kPi;
+
+Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+Json chain(const std::vector<Axis>& axes) {
+  Json out = Json::array();
+  for (const Axis axis : axes) out.push_back(kAxisNames[static_cast<int>(axis)]);
+  return out;
+}
+
+Json messages(const std::vector<Diagnostic>& list) {
+  Json out = Json::array();
+  for (const Diagnostic& d : list)
+    out.push_back({{"code", info(d.code).name}, {"message", d.message}, {"help", d.help}});
+  return out;
+}
+
+Json specification(const Specification& spec) {
+  return {{"standard", spec.standard},
+          {"mpe", {{"a_um", spec.mpe_a_mm * 1e3}, {"k_um_per_m", spec.mpe_k * 1e6}}},
+          {"v_min", spec.v_min},
+          {"v_max", spec.v_max},
+          {"longest_share", spec.longest_share}};
+}
+
+/// The parameters of one error function, and the function of the drawn machine, sampled.
+Json component_json(const MachineReport& report, Component component) {
+  constexpr int kSamples = 101;
+  const Machine& machine = report.machine;
+  const ComponentSpec& spec = machine[component];
+  const MachineAxis& axis = machine[axis_of(component)];
+  const bool rotation = is_rotation(component);
+  const char* const unit = rotation ? "um_per_m" : "um";
+  Json readings = Json::array(), values = Json::array();
+  for (int i = 0; i < kSamples; ++i) {
+    const double reading_mm = axis.direction * axis.travel_mm * i / (kSamples - 1);
+    readings.push_back(reading_mm);
+    values.push_back(error_at(machine, report.drawn.geometry[0], component, reading_mm) *
+                     (rotation ? 1e6 : 1e3));
+  }
+  Json out{{"s", spec.linear}, {"c", spec.curvature}};
+  out[rotation ? "e_max_um_per_m2" : "e_max_um_per_m"] = spec.e_max * (rotation ? 1e6 : 1e3);
+  if (!spec.harmonics.empty()) out["harmonics"] = spec.harmonics;
+  out["curve"] = {{"reading_mm", readings}, {std::string("error_") + unit, values}};
+  return out;
+}
+
+Json axes_json(const Machine& machine) {
+  Json out = Json::object();
+  for (int k = 0; k < 3; ++k) {
+    const MachineAxis& axis = machine.axes[k];
+    out[kAxisNames[k]] = {{"travel_mm", axis.travel_mm},
+                          {"direction", axis.direction},
+                          {"side", axis.table_side ? "table" : "ram"},
+                          {"offset_mm", triple(axis.offset_mm)}};
+  }
+  return out;
+}
+
+Json sensors_json(const Machine& machine) {
+  Json out = Json::object();
+  for (const auto& [label, s] : machine.sensors)
+    out[label] = {{"head_deg", {s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad}},
+                  {"tip_in_r_mm", triple(s.tip_in_r_mm)},
+                  {"diameter_mm", 2 * s.radius_mm},
+                  {"shaft_diameter_mm", s.shaft_diameter_mm},
+                  {"material", s.material},
+                  {"young_GPa", s.young_GPa},
+                  {"cte_ppm_per_K", s.cte_ppm_per_K}};
+  return out;
+}
+
+Json effects_json(const Machine& machine) {
+  Json out = Json::array();
+  for (const EffectSetting& effect : machine.effects) {
+    Json parameters = Json::object();
+    for (const auto& [key, value] : effect.parameters)
+      parameters[key] =
+          value.word.empty() ? Json{{"value", value.value}, {"u", value.u}} : Json(value.word);
+    out.push_back({{"name", effect.name}, {"parameters", parameters}});
+  }
+  return out;
+}
+
+std::string dump(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string machine_report_json(const MachineReport& report) {
+  const Machine& m = report.machine;
+  Json components = Json::object();
+  for (int k = 0; k < kComponents; ++k) {
+    const auto component = static_cast<Component>(k);
+    components[std::string(name(component))] = component_json(report, component);
+  }
+  return dump(
+      {{"schema", "abbe.machine_report/1"},
+       {"name", m.name},
+       {"axes", axes_json(m)},
+       {"chain", {{"ram_side", chain(m.ram_chain)}, {"table_side", chain(m.table_chain)}}},
+       {"mount_offset_mm", triple(m.mount_offset_mm)},
+       {"harmonics", m.harmonics},
+       {"squareness_um_per_m",
+        {{"cwy", m.squareness_cwy_rad * 1e6},
+         {"bwz", m.squareness_bwz_rad * 1e6},
+         {"awz", m.squareness_awz_rad * 1e6}}},
+       {"specification", specification(m.specification)},
+       {"head",
+        {{"model", m.head.model},
+         {"l_r_mm", m.head.l_r_mm},
+         {"angle_sd_arcsec",
+          {{"A", m.head.sd_a_rad * kDegreesPerRad * 3600},
+           {"B", m.head.sd_b_rad * kDegreesPerRad * 3600}}},
+         {"mounting", {{"turn_deg", m.head.mounting_rad * kDegreesPerRad}}}}},
+       {"probe", {{"sd_um", triple(1e3 * m.probe.sd_mm)}}},
+       {"motion",
+        {{"speed_mm_s", m.motion.speed_mm_s},
+         {"probing_speed_mm_s", m.motion.probing_speed_mm_s},
+         {"acceleration_mm_s2", m.motion.acceleration_mm_s2}}},
+       {"sensors", sensors_json(m)},
+       {"effects", effects_json(m)},
+       {"virtual_machine",
+        {{"seed", report.seed}, {"candidate", report.drawn.index[0]}, {"v", report.drawn.v[0]}}},
+       {"components", components},
+       {"messages", messages(report.messages)}});
+}
+
+std::string screening_json(const ScreeningReport& report) {
+  const ScreeningCounts& c = report.counts;
+  Json lines = Json::array();
+  for (const LineReport& line : report.lines) {
+    Json mpe_um = Json::array();
+    for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
+    lines.push_back({{"name", line.line.name},
+                     {"start_reading_mm", triple(line.line.start_mm)},
+                     {"direction", triple(line.line.direction)},
+                     {"length_mm", line.line.length_mm},
+                     {"mpe_um", mpe_um},
+                     {"error_over_mpe",
+                      {{"median", line.median}, {"p95", line.p95}, {"largest", line.largest}}}});
+  }
+  return dump(
+      {{"schema", "abbe.screening/1"},
+       {"machine", report.machine.name},
+       {"seed", report.seed},
+       {"specification", specification(report.machine.specification)},
+       {"machines",
+        {{"used", c.used},
+         {"generated", c.generated},
+         {"failed_mpe", c.failed_mpe},
+         {"too_small", c.too_small},
+         {"share_accepted", c.share_accepted()}}},
+       {"suggested_e_max_factor",
+        {{"factor", report.suggested.factor}, {"share_accepted", report.suggested.share_accepted}}},
+       {"lines", lines},
+       {"messages", messages(report.messages)}});
+}
+
+}  // namespace abbe

@@ -1,0 +1,181 @@
+// The text reports of `abbe machine show` and `abbe machine screen`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "programs/commands/machine_report.hpp"
+
+namespace abbe {
+
+namespace {
+
+constexpr std::string_view kAxisNames[] = {"x", "y", "z"};
+constexpr double kDegreesPerRad = 180 / kPi;
+constexpr double kArcsecPerRad = 180 * 3600 / kPi;
+
+std::string triple(const Vec3& v) { return fmt::format("{:9.6g} {:9.6g} {:9.6g}", v.x, v.y, v.z); }
+
+std::string chain_text(const Machine& machine) {
+  std::string ram = "base", table = "base";
+  for (const Axis axis : machine.ram_chain)
+    ram += fmt::format(" > {}", kAxisNames[static_cast<int>(axis)]);
+  for (const Axis axis : machine.table_chain)
+    table += fmt::format(" > {}", kAxisNames[static_cast<int>(axis)]);
+  return fmt::format("  {} > mount > head > tip;  {} > part\n", ram, table);
+}
+
+std::string axes_text(const Machine& machine) {
+  std::string out =
+      "\nAxes                                   scale position, mm\n"
+      "  axis  side   travel mm  readings            x         y         z\n";
+  for (int k = 0; k < 3; ++k) {
+    const MachineAxis& axis = machine.axes[k];
+    out += fmt::format("  {:<5} {:<6} {:>9g}  0 .. {:<8g} {}\n", kAxisNames[k],
+                       axis.table_side ? "table" : "ram", axis.travel_mm,
+                       axis.direction * axis.travel_mm, triple(axis.offset_mm));
+  }
+  return out + fmt::format("  {:<40} {}\n", "mount", triple(machine.mount_offset_mm)) +
+         chain_text(machine);
+}
+
+std::string components_text(const Machine& machine) {
+  std::string out = fmt::format(
+      "\nError functions, {} harmonics: shares of the linear and quadratic term, e_max, largest "
+      "over the travel\n",
+      machine.harmonics);
+  for (int k = 0; k < kComponents; ++k) {
+    const auto component = static_cast<Component>(k);
+    const ComponentSpec& spec = machine[component];
+    const bool rotation = is_rotation(component);
+    const double e_max = spec.e_max * (rotation ? 1e6 : 1e3);
+    out +=
+        fmt::format("  {}  s {:<5g} c {:<5g} {:>6g} {:<7}{:>7.3g} {}\n", name(component),
+                    spec.linear, spec.curvature, e_max, rotation ? "um/m2" : "um/m",
+                    e_max * machine[axis_of(component)].travel_mm * 1e-3, rotation ? "um/m" : "um");
+  }
+  return out + fmt::format("  known squareness: cwy {:g}, bwz {:g}, awz {:g} um/m\n",
+                           machine.squareness_cwy_rad * 1e6, machine.squareness_bwz_rad * 1e6,
+                           machine.squareness_awz_rad * 1e6);
+}
+
+std::string equipment_text(const Machine& machine) {
+  const Specification& spec = machine.specification;
+  const HeadSpec& head = machine.head;
+  const Vec3 sd_um = 1e3 * machine.probe.sd_mm;
+  std::string out = fmt::format(
+      "\nSpecification  {}: MPE(l) = {:g} um + {:g} um/m; accepted {:g} <= v <= {:g}; lines over "
+      "{:g} of the travel\n",
+      spec.standard, spec.mpe_a_mm * 1e3, spec.mpe_k * 1e6, spec.v_min, spec.v_max,
+      spec.longest_share);
+  out += fmt::format(
+      "Head           {}: l_r {:g} mm; repeatability A {:.3g}, B {:.3g} arcsec; turned {:g} deg\n",
+      head.model.empty() ? "none" : head.model, head.l_r_mm, head.sd_a_rad * kArcsecPerRad,
+      head.sd_b_rad * kArcsecPerRad, head.mounting_rad * kDegreesPerRad);
+  out += fmt::format(
+      "Probe          standard deviations {:g}, {:g}, {:g} um along the axes of the head's last "
+      "link\n",
+      sd_um.x, sd_um.y, sd_um.z);
+  out += fmt::format("Motion         {:g} mm/s, probing at {:g} mm/s, {:g} mm/s2\n",
+                     machine.motion.speed_mm_s, machine.motion.probing_speed_mm_s,
+                     machine.motion.acceleration_mm_s2);
+  out += "Sensors\n";
+  for (const auto& [label, s] : machine.sensors)
+    out += fmt::format(
+        "  {:<12} A {:>5.6g}, B {:>5.6g} deg  tip {} mm  diameter {:g} mm, shaft {:g} mm {}\n",
+        label, s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad, triple(s.tip_in_r_mm),
+        2 * s.radius_mm, s.shaft_diameter_mm, s.material);
+  out += "Effects\n";
+  for (const EffectSetting& effect : machine.effects) {
+    out += "  " + effect.name;
+    for (const auto& [key, value] : effect.parameters)
+      out += value.word.empty() ? fmt::format("  {} {:g}{}", key, value.value,
+                                              value.u > 0 ? fmt::format(" (u {:g})", value.u) : "")
+                                : fmt::format("  {} {}", key, value.word);
+    out += "\n";
+  }
+  return out + (machine.effects.empty() ? "  none beyond geometry, head and probe\n" : "");
+}
+
+/// A row of blocks from the lowest value to the highest.
+std::string sparkline(const std::vector<double>& values) {
+  static constexpr std::string_view blocks[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double range = *high > *low ? *high - *low : 1;
+  std::string out;
+  for (const double value : values)
+    out += blocks[std::clamp(static_cast<int>(8 * (value - *low) / range), 0, 7)];
+  return out;
+}
+
+/// Without the sign of what is shown as zero.
+double shown(double value) { return std::fabs(value) < 0.005 ? 0 : value; }
+
+std::string curves_text(const MachineReport& report) {
+  constexpr int kColumns = 48;
+  const Machine& machine = report.machine;
+  std::string out = fmt::format(
+      "\nOne virtual machine (seed {}, candidate {}, v = {:.2f}): its errors from home to the end "
+      "of the travel\n",
+      report.seed, report.drawn.index[0], report.drawn.v[0]);
+  for (int k = 0; k < kComponents; ++k) {
+    const auto component = static_cast<Component>(k);
+    const MachineAxis& axis = machine[axis_of(component)];
+    std::vector<double> values;
+    for (int i = 0; i < kColumns; ++i)
+      values.push_back(error_at(machine, report.drawn.geometry[0], component,
+                                axis.direction * axis.travel_mm * i / (kColumns - 1)) *
+                       (is_rotation(component) ? 1e6 : 1e3));
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    out += fmt::format("  {}  {}  {:6.2f} .. {:5.2f} {}\n", name(component), sparkline(values),
+                       shown(*low), shown(*high), is_rotation(component) ? "um/m" : "um");
+  }
+  return out;
+}
+
+std::string bar(double share) {
+  constexpr int kFull = 30;
+  std::string out;
+  for (int i = 0; i < std::clamp(static_cast<int>(std::lround(kFull * share)), 0, kFull); ++i)
+    out += "█";
+  return out;
+}
+
+std::string count_line(std::string_view what, std::uint64_t count, const ScreeningCounts& counts) {
+  return fmt::format("  {:<34} {:>8}  {:5.1f} %\n", what, count,
+                     100 * double(count) / double(counts.generated));
+}
+
+}  // namespace
+
+std::string machine_report_text(const MachineReport& report) {
+  const Machine& machine = report.machine;
+  return machine.name + "\n" + axes_text(machine) + components_text(machine) +
+         equipment_text(machine) + curves_text(report);
+}
+
+std::string screening_text(const ScreeningReport& report) {
+  const Specification& spec = report.machine.specification;
+  const ScreeningCounts& counts = report.counts;
+  std::string out = fmt::format(
+      "{}: virtual test after {}, 35 lengths, MPE(l) = {:g} um + {:g} um/m, seed {}\n\n",
+      report.machine.name, spec.standard, spec.mpe_a_mm * 1e3, spec.mpe_k * 1e6, report.seed);
+  out += fmt::format("  {:<34} {:>8}\n", "virtual machines drawn", counts.generated);
+  out += count_line(fmt::format("accepted ({:g} <= v <= {:g})", spec.v_min, spec.v_max),
+                    counts.used, counts);
+  out += count_line("failed the MPE", counts.failed_mpe, counts);
+  out += count_line("errors too small", counts.too_small, counts);
+  out += fmt::format("\n  best factor on e_max: {:.2f}, accepts {:.1f} %\n",
+                     report.suggested.factor, 100 * report.suggested.share_accepted);
+  out +=
+      "\nLargest |error| / MPE of the accepted machines, by line (the bar is the median machine; "
+      "full width: 1)\n"
+      "  line  longest mm   MPE um   median   95 %  largest\n";
+  for (const LineReport& line : report.lines)
+    out += fmt::format("  {:<5} {:>10.1f} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f}  {}\n",
+                       line.line.name, line.line.length_mm[4], line.mpe_mm[4] * 1e3, line.median,
+                       line.p95, line.largest, bar(line.median));
+  return out;
+}
+
+}  // namespace abbe
