@@ -1,0 +1,60 @@
+#include "engine/base/diagnostic.hpp"
+
+#include <doctest/doctest.h>
+
+namespace abbe {
+
+TEST_CASE("places count lines and columns from 1, whatever ends a line") {
+  const SourceFile source("f", "ab\ncd\r\nef\rg");
+  CHECK(source.line_count() == 4);
+  CHECK(source.place(0) == Place{1, 1});
+  CHECK(source.place(4) == Place{2, 2});
+  CHECK(source.place(7) == Place{3, 1});
+  CHECK(source.place(10) == Place{4, 1});
+  CHECK(source.line(2) == "cd");
+  CHECK(source.line(3) == "ef");
+  CHECK(source.text({3, 5}) == "cd");
+}
+
+TEST_CASE("a message shows its line, with the caret under the word") {
+  const SourceFile source("p.dmi", "one\n\ttwo three\n");
+  const Diagnostic d = diagnostic_at(source, {9, 14}, Code::E0406, "three is too many", "take two");
+  CHECK(render(d) == "p.dmi:2:6: error E0406: three is too many\n  \ttwo three\n  \t    ^^^^^\n  help: take two\n");
+  CHECK(render(diagnostic(Code::W0416, "few")) == "warning W0416: few\n");
+}
+
+TEST_CASE("a caret stays on its line") {
+  const SourceFile source("p", "ab\ncd");
+  CHECK(diagnostic_at(source, {1, 5}, Code::E0401, "x").caret_length == 1);
+  CHECK(diagnostic_at(source, {5, 5}, Code::E0401, "x").caret_length == 1);
+}
+
+TEST_CASE("messages are sorted by place; only errors count as errors") {
+  const SourceFile source("p", "abcdef");
+  Sink sink;
+  sink.add(diagnostic_at(source, {4, 5}, Code::W0416, "later"));
+  sink.add(diagnostic_at(source, {1, 2}, Code::W0416, "earlier"));
+  CHECK(sink.sorted()[0].message == "earlier");
+  CHECK(!sink.has_errors());
+  sink.add(diagnostic(Code::E0401, "bad"));
+  CHECK(sink.has_errors());
+}
+
+TEST_CASE("a slip of the pen is recognised, another word is not") {
+  CHECK(nearest_word("PTMAES", {"PTMEAS", "GOTO"}) == "PTMEAS");
+  CHECK(nearest_word("goto", {"PTMEAS", "GOTO"}) == "GOTO");
+  CHECK(nearest_word("ab", {"xy"}).empty());
+  CHECK(nearest_word("travel", {"direction"}).empty());
+  CHECK(nearest_word("anything", {}).empty());
+}
+
+TEST_CASE("every code is listed once, with its letter and a title") {
+  for (const CodeInfo& code : all_codes()) {
+    CAPTURE(code.name);
+    CHECK(info(code.code).name == code.name);
+    CHECK(code.name.front() == (code.severity == Severity::error ? 'E' : code.severity == Severity::warning ? 'W' : 'N'));
+    CHECK(!code.title.empty());
+  }
+}
+
+}  // namespace abbe
