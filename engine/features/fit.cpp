@@ -47,11 +47,13 @@ FitSolution straight_solution(Shape shape, const Cloud& cloud) {
   for (const auto& p : cloud.exact) {
     const Extended h = p[0] * along[0] + p[1] * along[1] + p[2] * along[2];
     const Extended x = p[0] - h * along[0], y = p[1] - h * along[1], z = p[2] - h * along[2];
-    ranges.add(shape == Shape::line ? std::sqrt(x * x + y * y + z * z) : h, h);
+    const Extended across = std::sqrt(x * x + y * y + z * z);
+    shape == Shape::line ? ranges.add(across, h) : ranges.add(h, across);
   }
   if (shape == Shape::line) ranges.low = -ranges.high;
   ranges.report(solution, cloud.exact.size());
-  if (shape == Shape::line) solution.element.begin = double(ranges.begin), solution.element.end = double(ranges.end);
+  solution.element.begin = double(shape == Shape::line ? ranges.begin : -ranges.end);
+  solution.element.end = double(ranges.end);
   return solution;
 }
 

@@ -88,8 +88,9 @@ class StraightFit {
       const double d = plane ? z : std::sqrt(x * x + y * y);
       r.low[l] = d < r.low[l] ? d : r.low[l];
       r.high[l] = d > r.high[l] ? d : r.high[l];
-      r.begin[l] = z < r.begin[l] ? z : r.begin[l];
-      r.end[l] = z > r.end[l] ? z : r.end[l];
+      const double h = plane ? std::sqrt(x * x + y * y) : z;
+      r.begin[l] = h < r.begin[l] ? h : r.begin[l];
+      r.end[l] = h > r.end[l] ? h : r.end[l];
     });
   }
 
@@ -99,7 +100,8 @@ class StraightFit {
     e.direction = {surface_[l].axes[2][0], surface_[l].axes[2][1], surface_[l].axes[2][2]};
     e.high = ranges_.high[l];
     e.low = shape_ == Shape::plane ? ranges_.low[l] : -ranges_.high[l];
-    if (shape_ == Shape::line) e.begin = ranges_.begin[l], e.end = ranges_.end[l];
+    e.begin = shape_ == Shape::line ? ranges_.begin[l] : -ranges_.end[l];
+    e.end = ranges_.end[l];
   }
 
   Shape shape_;
