@@ -5,14 +5,12 @@
 // direction lie degrees, so that errors of measurement never take a virtual machine to the other side.
 #pragma once
 
-#include "engine/features/element.hpp"
+#include "engine/features/shape_traits.hpp"
 
 namespace abbe {
 
 inline constexpr double kNearlyParallel = 0.3;   ///< sine, 17 degrees: meant as parallel
 inline constexpr double kSameAxis_mm = 0.1;      ///< a point nearer to an axis than this gives no direction from it
-
-constexpr bool is_spot(Shape shape) { return shape == Shape::point || shape == Shape::sphere; }
 
 constexpr Vec3 column(const Mat3& m, int i) { return i == 0 ? m.cx : i == 1 ? m.cy : m.cz; }
 

@@ -16,7 +16,7 @@ enum class Unit { mm, rad };
 
 /// What one evaluation on one lane sees. D is the coordinate system current at the OUTPUT or EVAL statement.
 struct EvaluationInput {
-  std::span<const Shape> shapes;          ///< of the features, in the order in which OUTPUT names them
+  std::span<const Shape> shapes;          ///< of the features, in the order in which OUTPUT names them, then of the reference
   std::span<const Element> actual;        ///< as this machine measured them, in its own D
   std::span<const Element> nominal;       ///< as FEAT defined them, in the error-free D
   std::span<const Shape> datum_shapes;    ///< of the datums, in the order in which the tolerance names them
@@ -34,7 +34,7 @@ struct ToleranceKind {
   std::string_view help;
   std::string_view example;     ///< a complete TOL statement
   std::string_view source;      ///< standard and clause
-  Unit unit;
+  Unit unit;                    ///< of the value; unit_of() knows the exceptions
   int features;                 ///< how many features OUTPUT must name before it: 1 or 2
   /// nullptr when these shapes can carry the tolerance, else why not.
   const char* (*applies)(const Arguments&, std::span<const Shape>);
@@ -42,7 +42,12 @@ struct ToleranceKind {
   double (*nominal)(const Arguments&, std::span<const Element> nominal_features);
   ToleranceLimits (*limits)(const Arguments&, std::span<const Element> nominal_features);
   Outcome<double> (*evaluate)(const Arguments&, const EvaluationInput&);
+  Unit (*unit_for)(const Arguments&) = nullptr;   ///< where the arguments decide: CORTOL of a coordinate or of an angle
 };
+
+inline Unit unit_of(const ToleranceKind& kind, const Arguments& arguments) {
+  return kind.unit_for ? kind.unit_for(arguments) : kind.unit;
+}
 
 std::span<const ToleranceKind* const> tolerance_kinds();
 const ToleranceKind* find_tolerance_kind(std::string_view word);

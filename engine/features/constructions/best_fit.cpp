@@ -40,7 +40,7 @@ Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Ele
 
 }  // namespace
 
-extern const Construction best_fit{
+extern const Construction best_fit_method{
     .word = "BF",
     .signature = "from:feature,{ from:feature }",
     .help = "least-squares fit through the points and centres of features",

@@ -18,7 +18,7 @@ Outcome<Element> transfer(Shape result, Shapes shapes, Elements from, const Elem
 
 }  // namespace
 
-extern const Construction centre_of_gravity{
+extern const Construction centre_of_gravity_method{
     .word = "COG",
     .signature = "from:feature,{ from:feature }",
     .help = "the mean of the points or centres of features",
@@ -27,7 +27,7 @@ extern const Construction centre_of_gravity{
     .construct = centre,
 };
 
-extern const Construction transferred{
+extern const Construction transferred_method{
     .word = "TR",
     .signature = "from:feature",
     .help = "the same element under another label",

@@ -87,7 +87,7 @@ Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Ele
 
 }  // namespace
 
-extern const Construction intersection{
+extern const Construction intersection_method{
     .word = "INTOF",
     .signature = "from:feature,from:feature,[from:feature]",
     .help = "intersection: line of two planes; point of two axes, axis and plane, or three planes; circle of plane and round surface",

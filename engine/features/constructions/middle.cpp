@@ -42,7 +42,7 @@ Outcome<Element> middle_plane(Shape result, Shapes shapes, Elements from, const 
 
 }  // namespace
 
-extern const Construction mid_point{
+extern const Construction mid_point_method{
     .word = "MIDPT",
     .signature = "from:feature,from:feature",
     .help = "the point halfway between the points or centres of two features",
@@ -51,7 +51,7 @@ extern const Construction mid_point{
     .construct = middle_point,
 };
 
-extern const Construction mid_line{
+extern const Construction mid_line_method{
     .word = "MIDLI",
     .signature = "from:feature,from:feature",
     .help = "the line halfway between two lines or axes",
@@ -60,7 +60,7 @@ extern const Construction mid_line{
     .construct = middle_line,
 };
 
-extern const Construction mid_plane{
+extern const Construction mid_plane_method{
     .word = "MIDPL",
     .signature = "from:feature,from:feature",
     .help = "the plane halfway between two planes",

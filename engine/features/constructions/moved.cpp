@@ -25,7 +25,7 @@ Outcome<Element> offset(Shape result, Shapes shapes, Elements from, const Elemen
 
 }  // namespace
 
-extern const Construction moved_point{
+extern const Construction moved_point_method{
     .word = "MOVEPT",
     .signature = "from:feature,( from:feature,distance:length ; dx:length,dy:length,dz:length )",
     .help = "the point of a feature moved by dx, dy, dz, or by a distance along the direction of a second feature",
@@ -34,7 +34,7 @@ extern const Construction moved_point{
     .construct = move_point,
 };
 
-extern const Construction offset_plane{
+extern const Construction offset_plane_method{
     .word = "OFFSET",
     .signature = "from:feature,distance:length",
     .help = "a plane moved along its normal",

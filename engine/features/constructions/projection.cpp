@@ -27,7 +27,7 @@ Outcome<Element> project_line(Shape result, Shapes shapes, Elements from, const 
 
 }  // namespace
 
-extern const Construction projected_point{
+extern const Construction projected_point_method{
     .word = "PROJPT",
     .signature = "from:feature,from:feature",
     .help = "the point or centre of the first feature, projected onto the plane or axis of the second",
@@ -36,7 +36,7 @@ extern const Construction projected_point{
     .construct = project_point,
 };
 
-extern const Construction projected_line{
+extern const Construction projected_line_method{
     .word = "PROJLI",
     .signature = "from:feature,from:feature",
     .help = "a line or axis projected onto a plane",

@@ -40,7 +40,7 @@ Outcome<Element> parallel_to(Shape result, Shapes shapes, Elements from, const E
 
 }  // namespace
 
-extern const Construction perpendicular_through{
+extern const Construction perpendicular_through_method{
     .word = "PERPTO",
     .signature = "from:feature,[THRU],from:feature",
     .help = "a line or plane perpendicular to the first feature through the second",
@@ -49,7 +49,7 @@ extern const Construction perpendicular_through{
     .construct = perpendicular,
 };
 
-extern const Construction parallel_through{
+extern const Construction parallel_through_method{
     .word = "PARTO",
     .signature = "from:feature,[THRU],from:feature",
     .help = "a line or plane parallel to the first feature through the second",

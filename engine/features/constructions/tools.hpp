@@ -1,10 +1,11 @@
-// What the construction methods share: when directions count as parallel, which shapes have an axis or a centre, and how the
-// nominal settles the sense of a direction.
+// What the construction methods share: when directions count as parallel, and how the nominal
+// settles the sense of a direction.
 #pragma once
 
 #include <span>
 
 #include "engine/features/construct.hpp"
+#include "engine/features/shape_traits.hpp"
 
 namespace abbe {
 
@@ -15,10 +16,6 @@ inline constexpr double kParallel = 1e-3;   ///< sine below which an intersectio
 
 inline Outcome<Element> cannot(const char* reason) { return Outcome<Element>::failed(reason); }
 
-constexpr bool has_axis(Shape s) { return s == Shape::line || s == Shape::cylinder || s == Shape::cone || s == Shape::torus; }
-constexpr bool has_centre(Shape s) {
-  return s == Shape::point || s == Shape::circle || s == Shape::sphere || s == Shape::torus;
-}
 inline bool parallel(const Vec3& a, const Vec3& b) { return norm(cross(a, b)) < kParallel; }
 
 /// The element with its direction turned to the side of the nominal one; as it is when the nominal direction lies across it.

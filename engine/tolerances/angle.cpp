@@ -1,0 +1,76 @@
+// ANGL: the full angle of a cone. ANGLB: the angle between two features, planes by their normals, others by their directions, a
+// plane and an axis by 90 degrees minus the angle of normal and axis.
+//
+// Two features make an angle and its supplement; which one is meant is not written. It is the one nearer to the nominal value
+// (the middle of the limits with LIMIT), on every machine alike.
+#include <cmath>
+
+#include "engine/tolerances/common.hpp"
+
+namespace abbe {
+namespace {
+
+const char* cone_only(const Arguments&, Shapes s) { return s[0] == Shape::cone ? nullptr : "the angle tolerance of one feature is for cones"; }
+
+double nominal_cone(const Arguments&, Elements nominal) { return 2 * nominal[0].angle; }
+
+ToleranceLimits cone_limits(const Arguments& arguments, Elements nominal) {
+  const double angle = 2 * nominal[0].angle;
+  return {angle + arguments.number("lower"), angle + arguments.number("upper")};
+}
+
+Outcome<double> cone_angle(const Arguments&, const EvaluationInput& in) { return {2 * in.actual[0].angle}; }
+
+const char* with_directions(const Arguments&, Shapes s) {
+  return is_spot(s[0]) || is_spot(s[1]) ? "a point or a sphere has no direction to make an angle with" : nullptr;
+}
+
+double expected(const Arguments& arguments) {
+  if (arguments.has("nominal")) return arguments.number("nominal");
+  return 0.5 * (arguments.number("lower") + arguments.number("upper"));
+}
+
+double nominal_angle(const Arguments& arguments, Elements) { return expected(arguments); }
+
+ToleranceLimits limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
+
+Outcome<double> angle_between(const Arguments& arguments, const EvaluationInput& in) {
+  const Vec3 &u = in.actual[0].direction, &v = in.actual[1].direction;
+  const bool mixed = (in.shapes[0] == Shape::plane) != (in.shapes[1] == Shape::plane);
+  const double sine = norm(cross(u, v)), cosine = std::fabs(dot(u, v));
+  const double acute = mixed ? std::atan2(cosine, sine) : std::atan2(sine, cosine);
+  const double wanted = expected(arguments);
+  return {std::fabs(acute - wanted) <= std::fabs(kPi - acute - wanted) ? acute : kPi - acute};
+}
+
+}  // namespace
+
+extern const ToleranceKind feature_angle_tolerance{
+    .word = "ANGL",
+    .signature = "lower:angle,upper:angle",
+    .help = "full angle of a cone; deviations from the nominal angle",
+    .example = "T(A1)=TOL/ANGL,-0.1,0.1",
+    .source = "ISO 22093:2011, TOL/ANGL",
+    .unit = Unit::rad,
+    .features = 1,
+    .applies = cone_only,
+    .nominal = nominal_cone,
+    .limits = cone_limits,
+    .evaluate = cone_angle,
+};
+
+extern const ToleranceKind angle_of_two_tolerance{
+    .word = "ANGLB",
+    .signature = ABBE_ANGLE_LIMITS,
+    .help = "angle between two features",
+    .example = "T(A2)=TOL/ANGLB,NOMINL,90,-0.05,0.05",
+    .source = "ISO 22093:2011, TOL/ANGLB",
+    .unit = Unit::rad,
+    .features = 2,
+    .applies = with_directions,
+    .nominal = nominal_angle,
+    .limits = limits,
+    .evaluate = angle_between,
+};
+
+}  // namespace abbe

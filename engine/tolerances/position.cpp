@@ -1,0 +1,75 @@
+// POS: the diameter of the smallest zone about the nominal location that holds the actual one, 2 |deviation| (ISO 5458).
+//
+// The deviation is the location of the feature in the datum reference frame of this machine's datums, minus that of the nominal
+// in the frame of the true datums; datums not named leave the freedoms of the current coordinate system.
+//
+// - 2D: the feature's point, in the plane across the nominal direction (across z of the frame for a sphere)
+// - 3D, features with a centre: in space
+// - 3D, axes: both ends of the measured axis, distance from the nominal axis, the larger of the two
+// - 3D, planes: a zone of parallel planes about the nominal; the rim of the measured area, with the outermost touches
+//
+// MMC and LMC, on the feature or on datums: the bonus depends on a size tolerance that POS does not name. The value is that of
+// RFS, and the limit the zone at the material condition itself, without bonus: conformity is judged on the safe side.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/features/alignment.hpp"
+#include "engine/tolerances/common.hpp"
+
+namespace abbe {
+namespace {
+
+bool is_flat_zone(const Arguments& arguments) { return arguments.text("space") == "2D"; }
+
+const char* located(const Arguments& arguments, Shapes shapes) {
+  if (arguments.features("datum").size() > 3) return "a position has at most three datums";
+  return shapes[0] == Shape::plane && is_flat_zone(arguments) ? "the position of a plane is written 3D" : nullptr;
+}
+
+double axis_deviation(const Element& actual, const Element& nominal) {
+  auto from_nominal_axis = [&](double t) {
+    return norm(perpendicular_part(actual.point + t * actual.direction - nominal.point, nominal.direction));
+  };
+  return std::max(from_nominal_axis(actual.begin), from_nominal_axis(actual.end));
+}
+
+double plane_deviation(const Element& actual, const Element& nominal) {
+  const double middle = dot(actual.point - nominal.point, nominal.direction);
+  const double rim = actual.end * norm(cross(actual.direction, nominal.direction));
+  return std::max(std::fabs(middle + rim + actual.high), std::fabs(middle - rim + actual.low));
+}
+
+double deviation(bool flat, Shape shape, const Element& actual, const Element& nominal) {
+  const Vec3 d = actual.point - nominal.point;
+  if (flat) return norm(perpendicular_part(d, is_spot(shape) ? Vec3{0, 0, 1} : nominal.direction));
+  if (shape == Shape::plane) return plane_deviation(actual, nominal);
+  return has_centre(shape) ? norm(d) : axis_deviation(actual, nominal);
+}
+
+Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) {
+  const bool flat = is_flat_zone(arguments);
+  if (in.datums.empty()) return {2 * deviation(flat, in.shapes[0], in.actual[0], in.nominal[0])};
+  const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
+  if (!frame) return no_value(frame.failure);
+  const Outcome<Rigid> true_frame = datum_reference_frame(in.datum_shapes, in.true_datums);
+  if (!true_frame) return no_value(true_frame.failure);
+  return {2 * deviation(flat, in.shapes[0], inverse(frame.value) * in.actual[0], inverse(true_frame.value) * in.nominal[0])};
+}
+
+}  // namespace
+
+extern const ToleranceKind true_position_tolerance{
+    .word = "POS",
+    .signature = "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
+    .help = "position: diameter of the zone about the nominal location, in the frame of the datums; MMC and LMC get no bonus",
+    .example = "T(P1)=TOL/POS,3D,0.1,RFS,DAT(A),DAT(B),DAT(C)",
+    .source = "ISO 22093:2011, TOL/POS; ISO 5458; ISO 5459; ASME Y14.5-2018, 10",
+    .unit = Unit::mm,
+    .features = 1,
+    .applies = located,
+    .nominal = no_deviation,
+    .limits = zone_limits,
+    .evaluate = position,
+};
+
+}  // namespace abbe

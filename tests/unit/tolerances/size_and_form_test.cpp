@@ -1,0 +1,64 @@
+#include <set>
+
+#include "tests/unit/tolerances/evaluation.hpp"
+
+using namespace abbe;
+using namespace abbe::test;
+using doctest::Approx;
+
+TEST_CASE("Every tolerance describes itself and is found by its word") {
+  std::set<std::string_view> words;
+  for (const ToleranceKind* kind : tolerance_kinds()) {
+    CAPTURE(std::string(kind->word));
+    CHECK(words.insert(kind->word).second);
+    CHECK(find_tolerance_kind(kind->word) == kind);
+    CHECK_FALSE(kind->help.empty());
+    CHECK_FALSE(kind->source.empty());
+    CHECK(kind->example.find("TOL/" + std::string(kind->word)) != std::string_view::npos);
+    CHECK((kind->features == 1 || kind->features == 2));
+    CHECK((kind->applies && kind->nominal && kind->limits && kind->evaluate));
+  }
+  CHECK(find_tolerance_kind("DIAMETER") == nullptr);
+}
+
+TEST_CASE("Sizes are compared with the nominal size") {
+  Evaluation d("DIAM");
+  d.number("lower", -0.1).number("upper", 0.2).feature(Shape::cylinder, sized(at({}), 10.01), sized(at({}), 10));
+  CHECK(d.value() == Approx(20.02));
+  CHECK(d.nominal_value() == Approx(20));
+  CHECK(*d.limits().lower == Approx(19.9));
+  CHECK(*d.limits().upper == Approx(20.2));
+  CHECK(d.refusal().empty());
+  Evaluation r("RAD");
+  r.number("lower", -0.1).number("upper", 0.2).feature(Shape::sphere, sized(at({}), 10.01), sized(at({}), 10));
+  CHECK(r.value() == Approx(10.01));
+  CHECK(r.nominal_value() == Approx(10));
+  CHECK(*r.limits().lower == Approx(9.9));
+  CHECK(*r.limits().upper == Approx(10.2));
+  CHECK(Evaluation("DIAM").feature(Shape::plane, at({})).refusal() == "a size tolerance is for circles, cylinders and spheres");
+  CHECK(Evaluation("RAD").feature(Shape::point, at({})).refusal() == "a size tolerance is for circles, cylinders and spheres");
+}
+
+TEST_CASE("Form is the spread of the residuals") {
+  const Element e = spread(at({}), -0.003, 0.004), line = spread(at({}), -0.006, 0.006);
+  CHECK(Evaluation("FLAT").feature(Shape::plane, e).value() == Approx(0.007));
+  CHECK(Evaluation("STRGHT").feature(Shape::line, line).value() == Approx(0.012));
+  CHECK(Evaluation("CIRLTY").feature(Shape::circle, e).value() == Approx(0.007));
+  CHECK(Evaluation("CIRLTY").feature(Shape::sphere, line).value() == Approx(0.012));
+  CHECK(Evaluation("CYLCTY").feature(Shape::cylinder, e).value() == Approx(0.007));
+  CHECK(Evaluation("FLAT").feature(Shape::plane, at({})).value() == 0);
+  CHECK(Evaluation("FLAT").feature(Shape::line, e).refusal() == "flatness is for planes");
+  CHECK(Evaluation("STRGHT").feature(Shape::plane, e).refusal() == "straightness is for lines");
+  CHECK(Evaluation("CIRLTY").feature(Shape::cylinder, e).refusal() == "circularity is for circles and spheres");
+  CHECK(Evaluation("CYLCTY").feature(Shape::circle, e).refusal() == "cylindricity is for cylinders");
+  for (const auto& [word, shape] : {std::pair{"FLAT", Shape::plane}, {"STRGHT", Shape::line}, {"CIRLTY", Shape::circle}, {"CYLCTY", Shape::cylinder}})
+    CHECK(Evaluation(word).feature(shape, e).refusal().empty());
+}
+
+TEST_CASE("A zone is an upper limit, and a zone of zero sets none") {
+  const ToleranceLimits limits = Evaluation("FLAT").number("zone", 0.05).feature(Shape::plane, at({})).limits();
+  CHECK_FALSE(limits.lower);
+  CHECK(*limits.upper == 0.05);
+  CHECK(Evaluation("FLAT").feature(Shape::plane, at({})).nominal_value() == 0);
+  CHECK_FALSE(Evaluation("CYLCTY").number("zone", 0).feature(Shape::cylinder, at({})).limits().upper);
+}
