@@ -1,5 +1,7 @@
 #include "programs/options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <memory>
@@ -23,9 +25,15 @@ std::shared_ptr<Options> chosen_by(CLI::App* command, Chosen& chosen, int (*run)
   return options;
 }
 
+/// CLI11 would wrap "-1" into a huge unsigned number.
+CLI::Validator not_negative() {
+  return {[](std::string& text) { return text.starts_with('-') ? "expected a whole number from 0 on, found " + text : std::string(); }, ""};
+}
+
 void add_settings(CLI::App* command, StudySettings& s) {
+  command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
   command->add_option("--machines", s.machines, "how many virtual machines (default 1000)")->type_name("N");
-  command->add_option("--seed", s.seed, "of the random numbers (default 1)")->type_name("S");
+  command->add_option("--seed", s.seed, "of the random numbers (default 1)")->type_name("S")->check(not_negative());
   command->add_option("--threads", s.threads, "default: all of the computer; the result does not depend on it")->type_name("T");
 }
 
@@ -98,7 +106,7 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
   if (operand) command->add_option(operand, o->machine, "machine file or name")->required();
   if (o->action == "screen") {
     command->add_option("--machines", o->machines, "how many accepted machines to draw")->capture_default_str();
-    command->add_option("--seed", o->seed, "of the random numbers")->capture_default_str();
+    command->add_option("--seed", o->seed, "of the random numbers")->check(not_negative())->capture_default_str();
     command->add_option("--threads", o->threads, "default: all of the computer")->type_name("T");
   }
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
@@ -111,6 +119,17 @@ void add_machine(CLI::App& app, Chosen& chosen) {
   add_machine_action(machine, chosen, "show", "what a machine file says, with all defaults", "MACHINE");
   add_machine_action(machine, chosen, "screen", "how many virtual machines satisfy the specification", "MACHINE");
   add_machine_action(machine, chosen, "init", "write a machine file to start from", "NAME");
+}
+
+void add_record(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("record", "run a program on one virtual machine and write what it reports, touch by touch");
+  const auto o = chosen_by(command, chosen, record_command);
+  command->add_option("PROGRAM", o->program, "a DMIS program")->required();
+  command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
+  command->add_option("--with", o->with, "let an effect act: EFFECT or EFFECT:parameter=value,... (may be repeated)")
+      ->type_name("EFFECT")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S")->check(not_negative());
+  command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
 }
 
 void add_explain(CLI::App& app, Chosen& chosen) {
@@ -131,9 +150,14 @@ std::pair<const CLI::App*, std::string> innermost(const CLI::App& app) {
   return {at, typed};
 }
 
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
 std::vector<std::string> words_known_to(const CLI::App& app) {
-  std::vector<std::string> words;
-  for (const CLI::App* command : app.get_subcommands({})) words.push_back(command->get_name());
+  std::vector<std::string> words = commands_of(app);
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) words.push_back("--" + name);
   return words;
@@ -142,13 +166,17 @@ std::vector<std::string> words_known_to(const CLI::App& app) {
 UserError usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const auto [command, typed] = innermost(app);
   const std::string see = "see `" + typed + " --help`";
-  const std::vector<std::string> extra = app.remaining(true);
-  if (extra.empty()) return UserError(diagnostic(Code::E0609, error.what(), see));
+  const std::vector<std::string> commands = commands_of(*command), extra = app.remaining(true);
+  if (extra.empty()) {
+    const std::string needs = fmt::format("'{}' needs one of these commands: {}", typed, fmt::join(commands, ", "));
+    return UserError(diagnostic(Code::E0609, commands.empty() ? error.what() : needs, see));
+  }
+  const std::string& word = extra.front();
   const std::vector<std::string> words = words_known_to(*command);
-  const std::string near = nearest_word(extra.front(), {words.begin(), words.end()});
-  const char* kind = extra.front().starts_with('-') ? "option" : words.empty() || command->get_subcommands({}).empty() ? "argument" : "command";
-  return UserError(diagnostic(Code::E0609, "'" + typed + "' has no " + kind + " '" + extra.front() + "'",
-                              near.empty() ? see : "did you mean '" + near + "'? otherwise " + see));
+  const std::string near = nearest_word(word, {words.begin(), words.end()});
+  const char* kind = word.starts_with('-') ? "option" : commands.empty() ? "further argument" : "command";
+  return UserError(diagnostic(Code::E0609, fmt::format("'{}' has no {} '{}'", typed, kind, word),
+                              near.empty() ? see : fmt::format("did you mean '{}'? otherwise {}", near, see)));
 }
 
 }  // namespace
@@ -158,7 +186,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "abbe " ABBE_VERSION);
   app.require_subcommand(1);
   Chosen chosen;
-  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_explain}) add(app, chosen);
+  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_explain}) add(app, chosen);
   const auto print = [](const std::string& text) {
     return [text] {
       print_result(text);
@@ -171,7 +199,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n");
   } catch (const CLI::CallForHelp&) {
-    return print(innermost(app).first->help());
+    return print(app.help());
   } catch (const CLI::ParseError& error) {
     throw usage_error(app, error);
   }

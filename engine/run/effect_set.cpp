@@ -38,6 +38,15 @@ int parameter_index(const Effect& effect, const std::string& name, const std::st
                              did_you_mean(name, names, fmt::format("it has: {}", fmt::join(names, ", ")))));
 }
 
+/// The code of a parameter that is given as a word ("axis": "x").
+double code_of(const EffectParameter& parameter, const std::string& word, const Effect& effect, const std::string& machine) {
+  const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), word);
+  if (found != parameter.choices.end()) return parameter.low + static_cast<double>(found - parameter.choices.begin());
+  throw UserError(diagnostic(Code::E0307,
+                             fmt::format("{}={} of effect '{}' (machine '{}') is not a value it can have", parameter.name, word, effect.name, machine),
+                             parameter.choices.empty() ? "give a number" : fmt::format("give one of: {}", fmt::join(parameter.choices, ", "))));
+}
+
 }  // namespace
 
 EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, const std::string& machine) : use_(use) {
@@ -49,12 +58,12 @@ EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, 
     for (const auto& [name, value] : setting.parameters) {
       const int p = parameter_index(effect, name, machine);
       const EffectParameter& parameter = effect.parameters[p];
-      if (value.value < parameter.low || value.value > parameter.high) {
+      a.value[p] = value.word.empty() ? value.value : code_of(parameter, value.word, effect, machine);
+      if (a.value[p] < parameter.low || a.value[p] > parameter.high) {
         throw UserError(diagnostic(Code::E0307,
                                    fmt::format("{}={:g} of effect '{}' (machine '{}') is not plausible", name, value.value, effect.name, machine),
                                    fmt::format("give a value from {:g} to {:g} {}", parameter.low, parameter.high, parameter.unit)));
       }
-      a.value[p] = value.value;
       a.u[p] = value.u;
       if (value.u != 0 && !parameter.linear) a.linear = false;
     }
@@ -67,9 +76,14 @@ EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<
   lanes.lanes = static_cast<int>(machines.size());
   for (const Active& a : active_) {
     std::vector<double> theta, draws;
-    for (std::uint32_t p = 0; p < a.value.size(); ++p)
-      for (const std::uint32_t m : machines)
-        theta.push_back(a.value[p] + a.u[p] * normal_quantile(uniform_pair({seed, m, a.stream, kParameterSite | p, 0, 0}).a));
+    for (std::uint32_t p = 0; p < a.value.size(); ++p) {
+      const EffectParameter& parameter = a.effect->parameters[p];
+      for (const std::uint32_t m : machines) {
+        const double drawn = a.value[p] + a.u[p] * normal_quantile(uniform_pair({seed, m, a.stream, kParameterSite | p, 0, 0}).a);
+        // A period or a time constant outside its plausible range has no meaning; a size has.
+        theta.push_back(parameter.linear ? drawn : std::clamp(drawn, parameter.low, parameter.high));
+      }
+    }
     if (a.effect->draws_per == DrawsPer::machine)
       for (int k = 0; k < a.effect->draws; ++k)
         for (const std::uint32_t m : machines)

@@ -58,6 +58,14 @@ struct MachineOptions {
 };
 int machine_command(const MachineOptions&);
 
+struct RecordOptions {
+  std::string program, output;              ///< output: where the recording goes, CSV
+  std::optional<std::string> machine;
+  std::optional<std::uint64_t> seed;
+  std::vector<std::string> with;            ///< "EFFECT" or "EFFECT:parameter=value,..."
+};
+int record_command(const RecordOptions&);
+
 struct ExplainOptions {
   std::optional<std::string> word;  ///< a DMIS word, an effect or a message code; none: what there is
   bool markdown = false;            ///< the whole language reference as Markdown

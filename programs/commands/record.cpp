@@ -1,0 +1,76 @@
+// `abbe record`: what one virtual machine reports of a program, touch by touch, with any effects at work.
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/base/files.hpp"
+#include "engine/effects/effect.hpp"
+#include "engine/run/placement.hpp"
+#include "programs/commands/commands.hpp"
+#include "programs/terminal.hpp"
+
+namespace abbe {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+  throw UserError(diagnostic(Code::E0610, fmt::format("--with {}: {}", text, why),
+                             "write --with EFFECT or --with EFFECT:parameter=value,parameter=value; `abbe explain EFFECT` lists the parameters"));
+}
+
+/// "value" as a number, or as the word of a choice.
+EffectSetting::Value parameter_value(const std::string& text) {
+  EffectSetting::Value value;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value.value);
+  if (error != std::errc{} || end != text.data() + text.size()) value.word = text;
+  return value;
+}
+
+/// EFFECT[:name=value,...]. An effect without parameters acts with the typical size of its first one: a size of zero would do nothing.
+EffectSetting effect_setting(const std::string& text) {
+  EffectSetting setting;
+  const std::size_t colon = text.find(':');
+  setting.name = text.substr(0, colon);
+  if (colon == std::string::npos) {
+    if (const Effect* effect = find_effect(setting.name); effect && !effect->parameters.empty())
+      setting.parameters[std::string(effect->parameters[0].name)].value = effect->parameters[0].typical;
+    return setting;
+  }
+  for (std::size_t begin = colon + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    const std::size_t equals = item.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) refuse(text, fmt::format("'{}' is not parameter=value", item));
+    setting.parameters[item.substr(0, equals)] = parameter_value(item.substr(equals + 1));
+    begin = end + 1;
+  }
+  return setting;
+}
+
+std::string describe(const std::vector<std::string>& with) { return with.empty() ? "none" : fmt::format("{}", fmt::join(with, " ")); }
+
+}  // namespace
+
+int record_command(const RecordOptions& options) {
+  const CompiledProgram program = compile_program(options.program);
+  print_messages(program.messages);
+  if (program.has_errors) {
+    throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()),
+                               "correct the program; `abbe check` lists what is wrong"));
+  }
+  const lang::Directives& asked = program.compilation.directives;
+  const std::string machine_name = options.machine.value_or(asked.machine.value_or(kDefaultMachine));
+  Machine machine = read_machine(machine_name);
+  for (const std::string& with : options.with) machine.effects.push_back(effect_setting(with));
+
+  RunOptions run;
+  run.seed = options.seed.value_or(asked.seed.value_or(1));
+  run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
+  Recording recording = record_plan(program.compilation.plan, machine, screened_machines(machine, run.seed, 1, 1), run, program.source);
+  recording.metadata = {{"machine", machine_name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
+                        {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
+  write_whole(options.output, to_csv(recording));
+  return kDone;
+}
+
+}  // namespace abbe

@@ -1,0 +1,67 @@
+"""abbe record: one machine's recording as CSV."""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ABBE = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "examples/programs/sphere_25_points.dmi"
+failures = []
+
+
+def check(condition, what):
+    print(("ok    " if condition else "FAIL  ") + what)
+    if not condition:
+        failures.append(what)
+
+
+def record(folder, *args):
+    out = pathlib.Path(folder) / "rec.csv"
+    run = subprocess.run([ABBE, "record", str(PROGRAM), "-o", str(out), *args], capture_output=True, text=True)
+    return run, out
+
+
+def rows(path):
+    lines = [line for line in path.read_text().splitlines() if not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def normal_error_um(row):
+    return 1000 * sum((float(row[a]) - float(row["t" + a])) * float(row["n" + a]) for a in "xyz")
+
+
+with tempfile.TemporaryDirectory() as folder:
+    run, out = record(folder)
+    check(run.returncode == 0 and run.stdout == "", "writes the file and nothing on stdout")
+    plain = rows(out)
+    check(len(plain) == 25, "one row a touch")
+    check(plain[3]["feature"] == "BALL" and plain[3]["touch"] == "4", "feature and 1-based touch")
+    check(all(c in plain[0] for c in ("time_s", "speed_mm_s", "accel_mm_s2", "ax", "enc_x", "head_A_deg", "visit", "sensor")), "covariates are there")
+    check(float(plain[-1]["time_s"]) > float(plain[0]["time_s"]) > 0, "time goes on")
+    check(max(abs(normal_error_um(r)) for r in plain) < 30, "errors along the normal are those of a machine in order")
+    check("temp_part_C" not in plain[0], "what is not known is not a column")
+
+    run, out = record(folder, "--with", "probe.tip_radius:amplitude_um=2")
+    larger = rows(out)
+    difference = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, larger)]
+    check(all(abs(d - 2) < 0.002 for d in difference), "a tip larger by 2 um reads +2 um everywhere, all else equal")
+
+    run, out = record(folder, "--with", "machine.scale:axis=x,scale_um_per_m=10")
+    check(run.returncode == 0, "a choice may be given by its word")
+
+    run, out = record(folder, "--with", "probe.tip_radius")
+    check(run.returncode == 0 and rows(out) != plain, "an effect without parameters acts with its typical size")
+
+    for arguments, code, text in ((["--with", "probe.tip_radus"], "E0305", "did you mean 'probe.tip_radius'"),
+                                  (["--with", "probe.tip_radius:amplitude=1"], "E0306", "amplitude_um"),
+                                  (["--with", "probe.tip_radius:amplitude_um=1e9"], "E0307", "not plausible"),
+                                  (["--with", "machine.scale:axis=q"], "E0307", "x, y, z"),
+                                  (["--with", "probe.tip_radius:amplitude_um"], "E0610", "parameter=value")):
+        (pathlib.Path(folder) / "rec.csv").unlink(missing_ok=True)
+        run, out = record(folder, *arguments)
+        check(run.returncode == 2 and code in run.stderr and text in run.stderr, f"{' '.join(arguments)}: {code}")
+        check(not out.exists(), "nothing is written then")
+
+sys.exit(1 if failures else 0)
