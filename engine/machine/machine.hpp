@@ -5,7 +5,9 @@
 // Component names follow ISO 230-1: e<motion><axis>, so `eyx` is the straightness error motion of x in y, `ecx` the yaw of x.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -40,9 +42,20 @@ struct ComponentSpec {
   std::vector<double> harmonics;       ///< amplitudes a_n when the file gives them; empty: drawn at random
 };
 
+/// A maximum permissible error of lengths: min(a + k l, b), mm and mm/mm.
+struct LengthMpe {
+  double a_mm = 0, k = 0;
+  double b_mm = std::numeric_limits<double>::infinity();
+  double at(double length_mm) const { return std::min(a_mm + k * length_mm, b_mm); }
+};
+
+/// What the maker states, and how virtual machines are screened with it (engine/machine/acceptance).
 struct Specification {
   std::string standard;                ///< "ISO 10360-2:2001"
-  double mpe_a_mm = 0, mpe_k = 0;      ///< MPE(l) = a + k*l, mm and mm/mm
+  LengthMpe mpe;                       ///< E of the 2001 edition, E0 of the 2009 edition
+  std::optional<LengthMpe> e150_mpe;   ///< 2009 edition: tip 150 mm off the axis of the ram
+  std::optional<double> r0_mpl_mm;     ///< 2009 edition: range of three repeats of a length
+  std::optional<double> form_mpe_mm, size_mpe_mm;  ///< ISO 10360-5, one stylus: P_Form.Sph.1x25, P_Size.Sph.1x25
   double v_min = 1, v_max = 2;         ///< accepted range of the performance indicator v (paper eq. 19)
   double longest_share = 0.66;         ///< longest test length as a share of the line through the volume
 };

@@ -128,18 +128,59 @@ void read_geometry(JsonObject geometry, Machine& machine) {
   machine.squareness_awz_rad = squareness.number_or("awz", 0) * kPpm;
 }
 
-void read_specification(JsonObject object, Specification& spec) {
-  spec.standard = object.text_or("standard", "ISO 10360-2");
-  JsonObject mpe = object.object("mpe");
-  spec.mpe_a_mm = mpe.number("a_um", kNotNegative) * kMmPerUm;
-  spec.mpe_k = mpe.number("k_um_per_m", kNotNegative) * kPpm;
-  if (mpe.has("a_um") && mpe.has("k_um_per_m") && spec.mpe_a_mm == 0 && spec.mpe_k == 0)
+LengthMpe read_length_mpe(JsonObject mpe) {
+  LengthMpe out;
+  out.a_mm = mpe.number("a_um", kNotNegative) * kMmPerUm;
+  out.k = mpe.number("k_um_per_m", kNotNegative) * kPpm;
+  out.b_mm = mpe.number_or("b_um", kInfinity, kPositive) * kMmPerUm;
+  if (mpe.has("a_um") && mpe.has("k_um_per_m") && out.a_mm == 0 && out.k == 0)
     mpe.fault("a_um", Code::E0414,
               "a and k are both 0: no machine has a maximum permissible error of 0",
               "MPE(l) = a + k l, as the data sheet gives it: 5 + 5 um/m is \"a_um\": 5, "
               "\"k_um_per_m\": 5");
+  if (out.b_mm < out.a_mm)
+    mpe.fault("b_um", Code::E0414,
+              fmt::format("b is {:g} um, less than a: MPE(l) = min(a + k l, b) would be b at every "
+                          "length",
+                          out.b_mm / kMmPerUm),
+              "for an MPE that does not grow with the length, set a to it, k to 0 and leave b out");
+  return out;
+}
+
+std::optional<double> read_limit_um(JsonObject& object, std::string_view key) {
+  const double limit_um = object.number_or(key, 0, kPositive);  // 0: not given
+  return limit_um > 0 ? std::optional(limit_um * kMmPerUm) : std::nullopt;
+}
+
+/// E150 and R0 came with the edition of 2009.
+void read_2009(JsonObject& object, Specification& spec) {
+  constexpr std::string_view kEdition = "ISO 10360-2:2009";
+  for (const std::string_view key : {"e150_mpe", "r0_mpl_um"})
+    if (object.has(key) && spec.standard != kEdition)
+      object.fault(
+          key, Code::E0414,
+          fmt::format("\"{}\" belongs to {}, but the standard is \"{}\"", key, kEdition, spec.standard),
+          fmt::format("set \"standard\" to \"{}\", or remove \"{}\"", kEdition, key));
+  if (object.has("e150_mpe")) spec.e150_mpe = read_length_mpe(object.object("e150_mpe"));
+  spec.r0_mpl_mm = read_limit_um(object, "r0_mpl_um");
+}
+
+/// "unlimited" lets machines pass that are better than their specification by any factor, even an error-free one.
+double read_v_max(JsonObject& object) {
+  if (object.kind_of("v_max") != JsonNode::Kind::text) return object.number_or("v_max", 2, kPositive);
+  object.one_of("v_max", object.text("v_max"), {"unlimited"});
+  return kInfinity;
+}
+
+void read_specification(JsonObject object, Specification& spec) {
+  spec.standard = object.text_or("standard", "ISO 10360-2");
+  spec.mpe = read_length_mpe(object.object("mpe"));
+  read_2009(object, spec);
+  JsonObject probing = object.object_or_absent("probing");
+  spec.form_mpe_mm = read_limit_um(probing, "p_form_mpe_um");
+  spec.size_mpe_mm = read_limit_um(probing, "p_size_mpe_um");
   spec.v_min = object.number_or("v_min", 1, kPositive);
-  spec.v_max = object.number_or("v_max", 2, kPositive);
+  spec.v_max = read_v_max(object);
   if (spec.v_min >= spec.v_max)
     object.fault(object.has("v_min") ? "v_min" : "v_max", Code::E0414,
                  fmt::format("v_min is {:g} and v_max {:g}: no machine lies between", spec.v_min,

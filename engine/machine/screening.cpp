@@ -12,18 +12,17 @@ namespace abbe {
 
 namespace {
 
-constexpr int kLines = 7, kLengths = 5;
 constexpr int kBatch = 128;  ///< candidates drawn and tested together
 constexpr std::uint64_t kPatience =
     20'000;  ///< candidates before next to none accepted is called hopeless
 constexpr std::uint64_t kHopeless = 10'000;  ///< one in so many
-constexpr double kShortest_mm = 25;          ///< below 30 mm, as the standard asks
 
-using LengthErrors = std::array<std::array<double, kLengths>, kLines>;
+using Lines = std::vector<TestLine>;
+/// Of one machine, line by line.
+using LengthErrors = std::vector<std::array<double, kLengthsPerLine>>;
 
 /// Length errors of the virtual test on every lane of the block: (d(end) - d(start)) . direction.
-std::vector<LengthErrors> length_errors(const std::array<TestLine, kLines>& lines,
-                                        const GeometryBlock& block) {
+std::vector<LengthErrors> length_errors(const Lines& lines, const GeometryBlock& block) {
   const int n = block.lanes();
   std::vector<int> lane(n);
   for (int i = 0; i < n; ++i) lane[i] = i;
@@ -32,21 +31,24 @@ std::vector<LengthErrors> length_errors(const std::array<TestLine, kLines>& line
   double* const enc[3] = {c, c + n, c + 2 * n};
   double* const tip[3] = {c + 3 * n, c + 4 * n, c + 5 * n};
   double* const d[3] = {c + 6 * n, c + 7 * n, c + 8 * n};
-  for (int k = 0; k < 3; ++k) std::fill_n(tip[k], n, kTestTip[k]);
 
   // The error along the line, at a distance from its start, on every lane.
   const auto error_along = [&](const TestLine& line, double distance_mm, std::vector<double>& out) {
     const Vec3 at = line.start_mm + distance_mm * line.direction;
-    for (int k = 0; k < 3; ++k) std::fill_n(enc[k], n, at[k]), std::fill_n(d[k], n, 0.0);
+    for (int k = 0; k < 3; ++k) {
+      std::fill_n(enc[k], n, at[k]);
+      std::fill_n(tip[k], n, line.tip_mm[k]);
+      std::fill_n(d[k], n, 0.0);
+    }
     block.add_error(n, lane.data(), enc, tip, d);
     for (int i = 0; i < n; ++i) out[i] = dot({d[0][i], d[1][i], d[2][i]}, line.direction);
   };
 
-  std::vector<LengthErrors> errors(n);
+  std::vector<LengthErrors> errors(n, LengthErrors(lines.size()));
   std::vector<double> start(n), end(n);
-  for (int k = 0; k < kLines; ++k) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
     error_along(lines[k], 0, start);
-    for (int m = 0; m < kLengths; ++m) {
+    for (int m = 0; m < kLengthsPerLine; ++m) {
       error_along(lines[k], lines[k].length_mm[m], end);
       for (int i = 0; i < n; ++i) errors[i][k][m] = end[i] - start[i];
     }
@@ -55,14 +57,11 @@ std::vector<LengthErrors> length_errors(const std::array<TestLine, kLines>& line
 }
 
 /// v = min |MPE(l) / (known + factor * drawn)|.
-double indicator(const Specification& spec, const std::array<TestLine, kLines>& lines,
-                 const LengthErrors& known, const LengthErrors& drawn, double factor) {
+double indicator(const Lines& lines, const LengthErrors& known, const LengthErrors& drawn, double factor) {
   double v = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kLines; ++k)
-    for (int m = 0; m < kLengths; ++m) {
-      const double mpe = spec.mpe_a_mm + spec.mpe_k * lines[k].length_mm[m];
-      v = std::min(v, mpe / std::fabs(known[k][m] + factor * drawn[k][m]));
-    }
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (int m = 0; m < kLengthsPerLine; ++m)
+      v = std::min(v, lines[k].mpe_mm[m] / std::fabs(known[k][m] + factor * drawn[k][m]));
   return v;
 }
 
@@ -72,8 +71,8 @@ struct Batch {
   std::vector<LengthErrors> errors;
 };
 
-Batch draw_batch(const Machine& machine, const std::array<TestLine, kLines>& lines,
-                 std::uint64_t seed, std::uint32_t first, int count) {
+Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed, std::uint32_t first,
+                 int count) {
   Batch batch;
   std::vector<const GeometryCoefficients*> pointers;
   for (int i = 0; i < count; ++i)
@@ -115,33 +114,11 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
 
 }  // namespace
 
-std::array<TestLine, 7> test_lines(const Machine& machine) {
-  static constexpr std::string_view names[kLines] = {"x", "y", "z", "d1", "d2", "d3", "d4"};
-  // How a line runs through each travel: away from home (1), towards home (-1), or not at all.
-  static constexpr int runs[kLines][3] = {{1, 0, 0},   {0, 1, 0},   {0, 0, 1},  {1, 1, 1},
-                                          {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
-  std::array<TestLine, kLines> lines;
-  for (int k = 0; k < kLines; ++k) {
-    Vec3 whole, middle;
-    for (int a = 0; a < 3; ++a) {
-      const double travel = machine.axes[a].direction * machine.axes[a].travel_mm;
-      if (runs[k][a] != 0) whole[a] = runs[k][a] * travel;
-      middle[a] = travel / 2;
-    }
-    const double longest = machine.specification.longest_share * norm(whole);
-    const double shortest = std::min(kShortest_mm, longest / kLengths);
-    lines[k] = {names[k], middle - 0.5 * longest * unit(whole), unit(whole), {}};
-    for (int m = 0; m < kLengths; ++m)
-      lines[k].length_mm[m] = shortest + (longest - shortest) * m / (kLengths - 1);
-  }
-  return lines;
-}
-
 TestResult virtual_acceptance_test(const Machine& machine, const GeometryCoefficients& geometry) {
-  const auto lines = test_lines(machine);
+  const Lines lines = test_lines(machine);
   const GeometryCoefficients* const one[] = {&geometry};
   const LengthErrors errors = length_errors(lines, GeometryBlock(machine, one)).front();
-  return {errors, indicator(machine.specification, lines, {}, errors, 1)};
+  return {errors, indicator(lines, LengthErrors(lines.size()), errors, 1)};
 }
 
 VirtualMachines screened_machines(const Machine& machine, std::uint64_t seed, int count,
@@ -151,7 +128,8 @@ VirtualMachines screened_machines(const Machine& machine, std::uint64_t seed, in
 
 VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t seed, int count,
                                        int threads, std::uint32_t first_candidate) {
-  const auto lines = test_lines(machine);
+  const Lines lines = test_lines(machine);
+  const LengthErrors none(lines.size());
   const Specification& spec = machine.specification;
   VirtualMachines out;
   // Batches are drawn `threads` at a time and judged in their order, candidate by candidate, until
@@ -164,7 +142,7 @@ VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t see
     });
     for (Batch& batch : round) {
       for (int i = 0; i < kBatch && out.size() < count; ++i) {
-        const double v = indicator(spec, lines, {}, batch.errors[i], 1);
+        const double v = indicator(lines, none, batch.errors[i], 1);
         ++out.counts.generated;
         if (v < spec.v_min) {
           ++out.counts.failed_mpe;
@@ -203,7 +181,7 @@ std::optional<Diagnostic> screening_warning(const Machine& machine, const Screen
 
 SuggestedFactor suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,
                                      int threads) {
-  const auto lines = test_lines(machine);
+  const Lines lines = test_lines(machine);
   const Specification& spec = machine.specification;
   // Errors grow in proportion to e_max; only the known squarenesses, which every candidate shares,
   // do not.
@@ -217,8 +195,8 @@ SuggestedFactor suggest_e_max_factor(const Machine& machine, std::uint64_t seed,
     drawn[b] = draw_batch(machine, lines, seed, static_cast<std::uint32_t>(b * kBatch),
                           std::min(kBatch, candidates - b * kBatch));
     for (LengthErrors& errors : drawn[b].errors)
-      for (int k = 0; k < kLines; ++k)
-        for (int m = 0; m < kLengths; ++m) errors[k][m] -= known[k][m];
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        for (int m = 0; m < kLengthsPerLine; ++m) errors[k][m] -= known[k][m];
   });
 
   // From 1/100 to 100 in steps of 2 %.
@@ -229,7 +207,7 @@ SuggestedFactor suggest_e_max_factor(const Machine& machine, std::uint64_t seed,
     int accepted = 0;
     for (const Batch& batch : drawn)
       for (const LengthErrors& errors : batch.errors) {
-        const double v = indicator(spec, lines, known, errors, factor_of(step));
+        const double v = indicator(lines, known, errors, factor_of(step));
         accepted += v >= spec.v_min && v <= spec.v_max;
       }
     share[step] = double(accepted) / candidates;

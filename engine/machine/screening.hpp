@@ -1,11 +1,6 @@
-// Virtual machines that satisfy the specification: a virtual ISO 10360-2 test of each candidate (paper section 7,
-// physics.md section 3).
-//
-// The lines run in scale readings through the middle of the travels, over `longest_share` of what the travels allow, centred. The
-// five lengths of a line start at the same end and are evenly spaced from 25 mm (a fifth of the longest on lines under 125 mm). Which end
-// matters: errors are zero at home, so lengths that start there meet smaller ones, and the share accepted moves by some
-// percent. The axes start at home; of each diagonal's two corners the one is taken that makes the four starting points alternate corners
-// of the volume, one of them home: no end of any axis is favoured.
+// Virtual machines that satisfy the specification: a virtual acceptance test of each candidate (paper section 7,
+// physics.md section 3). The lines of the test, seven of E0 and with an E150 stated four more, come from
+// engine/machine/acceptance; a machine is as good as its worst length.
 #pragma once
 
 #include <array>
@@ -14,23 +9,15 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/machine/acceptance/acceptance.hpp"
 #include "engine/machine/geometry.hpp"
 
 namespace abbe {
 
-/// One of the seven lines of the test and its five lengths, as tip positions in scale readings.
-struct TestLine {
-  std::string_view name;          ///< "x", "y", "z", "d1".."d4"
-  Vec3 start_mm, direction;       ///< scale readings of the common first point; unit vector
-  std::array<double, 5> length_mm{};
-};
-std::array<TestLine, 7> test_lines(const Machine&);
-/// The tip of the virtual test, seen from the mount: 300 mm straight down.
-inline constexpr Vec3 kTestTip{0, 0, -300};
-
-/// Errors of indication of the 35 lengths, mm, and the performance indicator v = min |MPE(l) / err| (paper eq. 19).
+/// Errors of indication of all lengths, mm, line by line as in test_lines(), and the performance indicator
+/// v = min |MPE(l) / err| (paper eq. 19).
 struct TestResult {
-  std::array<std::array<double, 5>, 7> error_mm{};
+  std::vector<std::array<double, kLengthsPerLine>> error_mm;
   double v = 0;
 };
 TestResult virtual_acceptance_test(const Machine&, const GeometryCoefficients&);

@@ -27,14 +27,12 @@ int list(const MachineOptions& options) {
   for (const std::string& name : shipped_machines()) {
     const Machine m = read_machine(name);
     const Specification& spec = m.specification;
-    const double a_um = spec.mpe_a_mm * 1e3, k_um_per_m = spec.mpe_k * 1e6;
-    text += fmt::format("{:<20} {:g} x {:g} x {:g} mm, MPE {:g} um + {:g} um/m ({})\n", name,
-                        m.axes[0].travel_mm, m.axes[1].travel_mm, m.axes[2].travel_mm, a_um,
-                        k_um_per_m, spec.standard);
+    text += fmt::format("{:<20} {:g} x {:g} x {:g} mm, MPE {} ({})\n", name, m.axes[0].travel_mm,
+                        m.axes[1].travel_mm, m.axes[2].travel_mm, length_mpe_text(spec.mpe), spec.standard);
     machines.push_back(
         {{"name", name},
          {"travel_mm", {m.axes[0].travel_mm, m.axes[1].travel_mm, m.axes[2].travel_mm}},
-         {"mpe", {{"a_um", a_um}, {"k_um_per_m", k_um_per_m}}},
+         {"mpe", length_mpe_json(spec.mpe)},
          {"standard", spec.standard}});
   }
   print_result(
@@ -58,17 +56,13 @@ int show(const MachineOptions& options) {
   return kDone;
 }
 
-LineReport line_report(const Machine& machine, const TestLine& line, int number,
-                       const std::vector<TestResult>& results) {
-  LineReport out{line, {}, 0, 0, 0};
-  for (int m = 0; m < 5; ++m)
-    out.mpe_mm[m] =
-        machine.specification.mpe_a_mm + machine.specification.mpe_k * line.length_mm[m];
+LineReport line_report(const TestLine& line, std::size_t number, const std::vector<TestResult>& results) {
+  LineReport out{line, 0, 0, 0};
   std::vector<double> worst;
   for (const TestResult& result : results) {
     double share = 0;
-    for (int m = 0; m < 5; ++m)
-      share = std::max(share, std::abs(result.error_mm[number][m]) / out.mpe_mm[m]);
+    for (int m = 0; m < kLengthsPerLine; ++m)
+      share = std::max(share, std::abs(result.error_mm[number][m]) / line.mpe_mm[m]);
     worst.push_back(share);
   }
   std::sort(worst.begin(), worst.end());
@@ -94,8 +88,9 @@ int screen(const MachineOptions& options) {
   for (const GeometryCoefficients& one : machines.geometry)
     results.push_back(virtual_acceptance_test(report.machine, one));
   const auto lines = test_lines(report.machine);
-  for (int k = 0; k < static_cast<int>(lines.size()); ++k)
-    report.lines.push_back(line_report(report.machine, lines[k], k, results));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    report.lines.push_back(line_report(lines[k], k, results));
+  report.probe = probe_checks(report.machine, options.seed);
   progress.show("looking for a factor on e_max");
   report.suggested = suggest_e_max_factor(report.machine, options.seed, kSuggestionCandidates,
                                           thread_count(options));
@@ -103,6 +98,8 @@ int screen(const MachineOptions& options) {
   if (const auto warning =
           screening_warning(report.machine, report.counts, options.seed, thread_count(options)))
     report.messages.push_back(*warning);
+  for (Diagnostic& warning : probe_warnings(report.machine, report.probe))
+    report.messages.push_back(std::move(warning));
   if (options.format != "json") print_messages(report.messages);
   print_result(options.format == "json" ? screening_json(report) : screening_text(report));
   return kDone;

@@ -1,5 +1,6 @@
 // The JSON reports of `abbe machine show` and `abbe machine screen`. Every number is in the unit
 // that its key names.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "programs/commands/machine_report.hpp"
@@ -29,11 +30,15 @@ Json messages(const std::vector<Diagnostic>& list) {
 }
 
 Json specification(const Specification& spec) {
-  return {{"standard", spec.standard},
-          {"mpe", {{"a_um", spec.mpe_a_mm * 1e3}, {"k_um_per_m", spec.mpe_k * 1e6}}},
-          {"v_min", spec.v_min},
-          {"v_max", spec.v_max},
-          {"longest_share", spec.longest_share}};
+  Json out{{"standard", spec.standard}, {"mpe", length_mpe_json(spec.mpe)}};
+  if (spec.e150_mpe) out["e150_mpe"] = length_mpe_json(*spec.e150_mpe);
+  if (spec.r0_mpl_mm) out["r0_mpl_um"] = *spec.r0_mpl_mm * 1e3;
+  if (spec.form_mpe_mm) out["probing"]["p_form_mpe_um"] = *spec.form_mpe_mm * 1e3;
+  if (spec.size_mpe_mm) out["probing"]["p_size_mpe_um"] = *spec.size_mpe_mm * 1e3;
+  out["v_min"] = spec.v_min;
+  out["v_max"] = std::isfinite(spec.v_max) ? Json(spec.v_max) : Json("unlimited");
+  out["longest_share"] = spec.longest_share;
+  return out;
 }
 
 /// The parameters of one error function, and the function of the drawn machine, sampled.
@@ -99,7 +104,28 @@ std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json line_json(const LineReport& report) {
+  const TestLine& line = report.line;
+  Json mpe_um = Json::array();
+  for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
+  return {
+      {"name", line.name},
+      {"test", line.test},
+      {"start_reading_mm", triple(line.start_mm)},
+      {"direction", triple(line.direction)},
+      {"tip_mm", triple(line.tip_mm)},
+      {"length_mm", line.length_mm},
+      {"mpe_um", mpe_um},
+      {"error_over_mpe", {{"median", report.median}, {"p95", report.p95}, {"largest", report.largest}}}};
+}
+
 }  // namespace
+
+Json length_mpe_json(const LengthMpe& mpe) {
+  Json out{{"a_um", mpe.a_mm * 1e3}, {"k_um_per_m", mpe.k * 1e6}};
+  if (std::isfinite(mpe.b_mm)) out["b_um"] = mpe.b_mm * 1e3;
+  return out;
+}
 
 std::string machine_report_json(const MachineReport& report) {
   const Machine& m = report.machine;
@@ -143,17 +169,13 @@ std::string machine_report_json(const MachineReport& report) {
 std::string screening_json(const ScreeningReport& report) {
   const ScreeningCounts& c = report.counts;
   Json lines = Json::array();
-  for (const LineReport& line : report.lines) {
-    Json mpe_um = Json::array();
-    for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
-    lines.push_back({{"name", line.line.name},
-                     {"start_reading_mm", triple(line.line.start_mm)},
-                     {"direction", triple(line.line.direction)},
-                     {"length_mm", line.line.length_mm},
-                     {"mpe_um", mpe_um},
-                     {"error_over_mpe",
-                      {{"median", line.median}, {"p95", line.p95}, {"largest", line.largest}}}});
-  }
+  for (const LineReport& line : report.lines) lines.push_back(line_json(line));
+  Json probe = Json::array();
+  for (const ProbeCheck& check : report.probe)
+    probe.push_back({{"name", check.name},
+                     {"limit_um", check.limit_mm * 1e3},
+                     {"median_um", check.median_mm * 1e3},
+                     {"share_passed", check.share_passed}});
   return dump(
       {{"schema", "abbe.screening/1"},
        {"machine", report.machine.name},
@@ -168,6 +190,7 @@ std::string screening_json(const ScreeningReport& report) {
        {"suggested_e_max_factor",
         {{"factor", report.suggested.factor}, {"share_accepted", report.suggested.share_accepted}}},
        {"lines", lines},
+       {"probe", probe},
        {"messages", messages(report.messages)}});
 }
 

@@ -2,6 +2,7 @@
 // people and as JSON, schemas "abbe.machine_report/1" and "abbe.screening/1".
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +24,6 @@ std::string machine_report_json(const MachineReport&);
 /// How the accepted machines do on one line of the virtual test.
 struct LineReport {
   TestLine line;
-  std::array<double, 5> mpe_mm{};
   double median = 0, p95 = 0,
          largest = 0;  ///< over the machines, of the largest |error / MPE| of the line's lengths
 };
@@ -32,9 +32,13 @@ struct ScreeningReport {
   std::uint64_t seed = 1;
   ScreeningCounts counts;
   std::vector<LineReport> lines;
+  std::vector<ProbeCheck> probe;
   SuggestedFactor suggested;
   std::vector<Diagnostic> messages;
 };
+/// "5 um + 5 um/m", "5 um + 5 um/m, at most 12 um".
+std::string length_mpe_text(const LengthMpe&);
+nlohmann::ordered_json length_mpe_json(const LengthMpe&);
 std::string screening_text(const ScreeningReport&);
 std::string screening_json(const ScreeningReport&);
 

@@ -59,15 +59,28 @@ std::string components_text(const Machine& machine) {
                            machine.squareness_awz_rad * 1e6);
 }
 
+/// What a specification may state beyond E0, a line for each.
+std::string limits_text(const Specification& spec) {
+  std::string out;
+  const auto limit = [&](std::string_view name, const std::optional<double>& mm) {
+    if (mm) out += fmt::format("{:<15}{} at most {:g} um\n", "", name, *mm * 1e3);
+  };
+  if (spec.e150_mpe) out += fmt::format("{:<15}E150: MPE(l) = {}\n", "", length_mpe_text(*spec.e150_mpe));
+  limit("R0", spec.r0_mpl_mm);
+  limit("P_Form.Sph.1x25", spec.form_mpe_mm);
+  limit("P_Size.Sph.1x25", spec.size_mpe_mm);
+  return out;
+}
+
 std::string equipment_text(const Machine& machine) {
   const Specification& spec = machine.specification;
   const HeadSpec& head = machine.head;
   const Vec3 sd_um = 1e3 * machine.probe.sd_mm;
   std::string out = fmt::format(
-      "\nSpecification  {}: MPE(l) = {:g} um + {:g} um/m; accepted {:g} <= v <= {:g}; lines over "
-      "{:g} of the travel\n",
-      spec.standard, spec.mpe_a_mm * 1e3, spec.mpe_k * 1e6, spec.v_min, spec.v_max,
-      spec.longest_share);
+      "\nSpecification  {}: MPE(l) = {}; accepted {:g} <= v <= {:g}; lines over {:g} of the "
+      "travel\n",
+      spec.standard, length_mpe_text(spec.mpe), spec.v_min, spec.v_max, spec.longest_share);
+  out += limits_text(spec);
   out += fmt::format(
       "Head           {}: l_r {:g} mm; repeatability A {:.3g}, B {:.3g} arcsec; turned {:g} deg\n",
       head.model.empty() ? "none" : head.model, head.l_r_mm, head.sd_a_rad * kArcsecPerRad,
@@ -146,7 +159,37 @@ std::string count_line(std::string_view what, std::uint64_t count, const Screeni
                      100 * double(count) / double(counts.generated));
 }
 
+std::string lines_text(const std::vector<LineReport>& lines) {
+  std::string out =
+      "\nLargest |error| / MPE of the accepted machines, by line (the bar is the median machine; "
+      "full width: 1)\n"
+      "  test  line  longest mm   MPE um   median   95 %  largest\n";
+  for (const LineReport& report : lines) {
+    const TestLine& line = report.line;
+    out += fmt::format("  {:<5} {:<5} {:>10.1f} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f}  {}\n", line.test, line.name,
+                       line.length_mm.back(), line.mpe_mm.back() * 1e3, report.median, report.p95, report.largest,
+                       bar(report.median));
+  }
+  return out;
+}
+
+std::string probe_text(const std::vector<ProbeCheck>& checks) {
+  if (checks.empty()) return "";
+  std::string out =
+      "\nThe probe by its standard deviations alone (R0: largest of 35 ranges)\n"
+      "  quantity          limit um  median um  tests passed\n";
+  for (const ProbeCheck& check : checks)
+    out += fmt::format("  {:<16} {:>9.2f} {:>10.2f} {:>11.1f} %\n", check.name, check.limit_mm * 1e3,
+                       check.median_mm * 1e3, 100 * check.share_passed);
+  return out;
+}
+
 }  // namespace
+
+std::string length_mpe_text(const LengthMpe& mpe) {
+  const std::string rising = fmt::format("{:g} um + {:g} um/m", mpe.a_mm * 1e3, mpe.k * 1e6);
+  return std::isfinite(mpe.b_mm) ? fmt::format("{}, at most {:g} um", rising, mpe.b_mm * 1e3) : rising;
+}
 
 std::string machine_report_text(const MachineReport& report) {
   const Machine& machine = report.machine;
@@ -157,9 +200,9 @@ std::string machine_report_text(const MachineReport& report) {
 std::string screening_text(const ScreeningReport& report) {
   const Specification& spec = report.machine.specification;
   const ScreeningCounts& counts = report.counts;
-  std::string out = fmt::format(
-      "{}: virtual test after {}, 35 lengths, MPE(l) = {:g} um + {:g} um/m, seed {}\n\n",
-      report.machine.name, spec.standard, spec.mpe_a_mm * 1e3, spec.mpe_k * 1e6, report.seed);
+  std::string out =
+      fmt::format("{}: virtual test after {}, {} lengths, MPE(l) = {}, seed {}\n\n", report.machine.name, spec.standard,
+                  kLengthsPerLine * report.lines.size(), length_mpe_text(spec.mpe), report.seed);
   out += fmt::format("  {:<34} {:>8}\n", "virtual machines drawn", counts.generated);
   out += count_line(fmt::format("accepted ({:g} <= v <= {:g})", spec.v_min, spec.v_max),
                     counts.used, counts);
@@ -167,15 +210,7 @@ std::string screening_text(const ScreeningReport& report) {
   out += count_line("errors too small", counts.too_small, counts);
   out += fmt::format("\n  best factor on e_max: {:.2f}, accepts {:.1f} %\n",
                      report.suggested.factor, 100 * report.suggested.share_accepted);
-  out +=
-      "\nLargest |error| / MPE of the accepted machines, by line (the bar is the median machine; "
-      "full width: 1)\n"
-      "  line  longest mm   MPE um   median   95 %  largest\n";
-  for (const LineReport& line : report.lines)
-    out += fmt::format("  {:<5} {:>10.1f} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f}  {}\n",
-                       line.line.name, line.line.length_mm[4], line.mpe_mm[4] * 1e3, line.median,
-                       line.p95, line.largest, bar(line.median));
-  return out;
+  return out + lines_text(report.lines) + probe_text(report.probe);
 }
 
 }  // namespace abbe

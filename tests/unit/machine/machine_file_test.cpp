@@ -61,8 +61,8 @@ TEST_CASE("the shipped machine of the paper holds Tables 1 and 2, in mm and rad"
   CHECK(m[Component::exx].e_max == doctest::Approx(7e-3));
   CHECK(m[Component::ezy].curvature == 0.4);
   CHECK(m[Component::ecz].e_max == doctest::Approx(10e-6));
-  CHECK(m.specification.mpe_a_mm == doctest::Approx(5e-3));
-  CHECK(m.specification.mpe_k == doctest::Approx(5e-6));
+  CHECK(m.specification.mpe.a_mm == doctest::Approx(5e-3));
+  CHECK(m.specification.mpe.k == doctest::Approx(5e-6));
   CHECK(m.head.sd_a_rad == doctest::Approx(0.83 / 3600 * kDegree));
   CHECK(m.probe.sd_mm.y == doctest::Approx(0.5e-3));
   const NamedSensor& side = m.sensors.at("A90B90");
@@ -223,6 +223,32 @@ TEST_CASE("a machine without scale positions is usable, with a warning") {
             .empty());
   for (const std::string& name : shipped_machines())
     CHECK(machine_warnings(read_machine(name)).empty());
+}
+
+TEST_CASE("a specification of 2009 states E150, R0 and what the probe does on a sphere") {
+  const Machine m = parse_machine("m.json", small_file("", R"("standard": "ISO 10360-2:2009",
+    "mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 3}, "e150_mpe": {"a_um": 2.5, "k_um_per_m": 4}, "r0_mpl_um": 1.8,
+    "probing": {"p_form_mpe_um": 2.2, "p_size_mpe_um": 1.1})"));
+  const Specification& spec = m.specification;
+  CHECK(spec.mpe.at(100) == doctest::Approx(2.3e-3));
+  CHECK(spec.mpe.at(1000) == 3e-3);
+  REQUIRE((spec.e150_mpe && spec.r0_mpl_mm && spec.form_mpe_mm && spec.size_mpe_mm));
+  CHECK(spec.e150_mpe->at(1000) == doctest::Approx(6.5e-3));
+  CHECK(*spec.r0_mpl_mm == doctest::Approx(1.8e-3));
+  CHECK(*spec.form_mpe_mm == doctest::Approx(2.2e-3));
+  CHECK(*spec.size_mpe_mm == doctest::Approx(1.1e-3));
+  const Specification plain = parse_machine("m.json", small_file()).specification;
+  CHECK(!(plain.e150_mpe || plain.r0_mpl_mm || plain.form_mpe_mm || plain.size_mpe_mm));
+}
+
+TEST_CASE("limits that the edition does not know, or that contradict each other, are refused") {
+  const std::string mpe = R"("mpe": {"a_um": 2, "k_um_per_m": 3})";
+  const std::string old = R"("standard": "ISO 10360-2:2001", )" + mpe;
+  check_fault(small_file("", old + R"(, "e150_mpe": {"a_um": 2, "k_um_per_m": 3})"), Code::E0414, "2009");
+  check_fault(small_file("", old + R"(, "r0_mpl_um": 2)"), Code::E0414, "r0_mpl_um");
+  check_fault(small_file("", R"("mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 1})"), Code::E0414, "b is 1 um");
+  check_fault(small_file("", mpe + R"(, "probing": {"p_form_mpe_um": 0})"), Code::E0406, "p_form_mpe_um");
+  check_fault(small_file("", mpe + R"(, "probing": {"p_form_um": 2})"), Code::E0402, "p_form_um");
 }
 
 }  // namespace abbe
