@@ -62,7 +62,7 @@ class Compiler {
     const bool asks = raw.word == "OUTPUT" || raw.word == "EVAL";
     if (second_program_ && asks) lowering_.fail("it belongs to a second program in the file");
     if (!second_program_ && !after_end_reported_) {
-      lowering_.warn(Code::W0204, raw.word_span,
+      lowering_.warn(Code::W0224, raw.word_span,
                      fmt::format("the program ended in line {}", lowering_.end_line),
                      "move ENDFIL to the end; what follows it is ignored");
       after_end_reported_ = true;
@@ -85,7 +85,7 @@ class Compiler {
 
   bool label_fits(const Statement& statement, const RawStatement& raw) {
     if (raw.label && raw.label->name.size() > kLongestLabel)
-      lowering_.warn(Code::W0103, raw.label->span,
+      lowering_.warn(Code::W0123, raw.label->span,
                      fmt::format("this label has {} characters", raw.label->name.size()),
                      fmt::format("a controller may refuse more than {}", kLongestLabel));
     const std::string given = raw.label ? raw.label->kind : "";
@@ -106,7 +106,7 @@ class Compiler {
   /// Each word is named once: a program may use it a thousand times.
   void not_supported(const std::string& what, Span span) {
     if (!lowering_.reported_words.insert(what).second) return;
-    lowering_.warn(Code::W0101, span,
+    lowering_.warn(Code::W0121, span,
                    fmt::format("{} is not supported yet and is skipped wherever it stands", what),
                    "results are those of a program without it");
   }
@@ -140,10 +140,10 @@ class Compiler {
                                        "end the measurement with ENDMES"));
     }
     if (lowering_.begin_line == 0 && !lowering_.out.plan.operations.empty())
-      lowering_.warn(Code::W0206, {0, 1}, "the program has no DMISMN",
+      lowering_.warn(Code::W0226, {0, 1}, "the program has no DMISMN",
                      "begin it with DMISMN/'name',5.2");
     if (lowering_.begin_line != 0 && lowering_.end_line == 0)
-      lowering_.warn(Code::W0205, last, "the program has no ENDFIL", "end it with ENDFIL");
+      lowering_.warn(Code::W0225, last, "the program has no ENDFIL", "end it with ENDFIL");
     check_expectations(lowering_);
   }
 

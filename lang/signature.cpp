@@ -304,7 +304,8 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
                     const SourceFile& source) {
   const std::string expected = either(mismatch.expected);
   const std::size_t number = mismatch.argument + first + 1;
-  const std::string see = fmt::format("`abbe explain {}` shows all arguments", what);
+  const std::string see = fmt::format("`abbe explain {}` shows all arguments",
+                                      what.substr(what.find_last_of("/,") + 1));
   if (mismatch.argument >= arguments.size()) {
     const Span end{statement.end > statement.begin ? statement.end - 1 : statement.end,
                    statement.end};

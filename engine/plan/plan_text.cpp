@@ -3,6 +3,8 @@
 // identify them, so equal plans give equal texts.
 #include <fmt/format.h>
 
+#include <map>
+
 #include "engine/plan/plan.hpp"
 
 namespace abbe::plan {
@@ -64,7 +66,9 @@ std::string text(const Expression& expression) {
 /// One overload per operation.
 class ActionText {
  public:
-  explicit ActionText(const Plan& plan) : plan_(plan) {}
+  explicit ActionText(const Plan& plan) : plan_(plan) {
+    for (const FeatureDef& f : plan.features) ++definitions_[f.label];
+  }
 
   std::string operator()(const DefineFeature& o) const {
     const FeatureDef& f = plan_[o.feature];
@@ -165,20 +169,20 @@ class ActionText {
   /// The label; with the definition's number when the label is defined more than once.
   std::string name(FeatureId id) const {
     const std::string& label = plan_[id].label;
-    int definitions = 0;
-    for (const FeatureDef& f : plan_.features) definitions += f.label == label ? 1 : 0;
-    return definitions > 1 ? fmt::format("{}#{}", label, id.value) : label;
+    return definitions_.at(label) > 1 ? fmt::format("{}#{}", label, id.value) : label;
   }
 
   const Plan& plan_;
+  std::map<std::string, int> definitions_;  ///< of each label
 };
 
 }  // namespace
 
 std::string to_text(const Plan& plan) {
   std::string out = fmt::format("plan {}\n", plan.name);
+  const ActionText action(plan);
   for (std::size_t i = 0; i < plan.operations.size(); ++i)
-    out += fmt::format("{:4}  {}\n", i, std::visit(ActionText(plan), plan.operations[i].action));
+    out += fmt::format("{:4}  {}\n", i, std::visit(action, plan.operations[i].action));
   return out;
 }
 

@@ -100,7 +100,7 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
                      "add PTMEAS statements");
     } else if (block.touches != block.declared) {
       lowering.warn(
-          Code::W0201, block.count_span,
+          Code::W0221, block.count_span,
           fmt::format("{} touches announced, {} PTMEAS given", block.declared, block.touches),
           "the touches given are measured", std::to_string(block.touches));
     }

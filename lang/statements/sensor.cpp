@@ -41,7 +41,7 @@ Vec3 stylus_direction(double a_rad, double b_rad) {
 void point_head(plan::SensorDef& def, const Vec3& direction) {
   def.head_a_rad = std::acos(std::fmax(-1, std::fmin(1, -direction.z)));
   def.head_b_rad =
-      std::hypot(direction.x, direction.y) > 0 ? std::atan2(direction.y, direction.x) : 0;
+      std::hypot(direction.x, direction.y) > 0 ? std::atan2(direction.y + 0.0, direction.x) : 0;
 }
 
 void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& def) {
@@ -54,7 +54,7 @@ void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& 
   const bool straight_mount = std::fabs(std::fabs(along->z) - 1) < 1e-9;
   if (straight_mount || norm(cross(*along, stylus)) < std::sin(kOneDegree)) return;
   lowering.warn(
-      Code::W0203, match.find("i")->span,
+      Code::W0223, match.find("i")->span,
       "this vector is neither along the ram nor along the stylus that the head angles give",
       "the head angles hold; 0,0,-1 is the usual vector");
 }

@@ -11,14 +11,14 @@ namespace {
 void skip(Lowering&, const RawStatement&, const Match&) {}
 
 void no_effect(Lowering& lowering, const RawStatement& raw, const Match&) {
-  lowering.warn(Code::W0102, raw.span, fmt::format("{} has no effect here yet", raw.word),
+  lowering.warn(Code::W0122, raw.span, fmt::format("{} has no effect here yet", raw.word),
                 "the results are those without it");
 }
 
 }  // namespace
 
 extern const Statement kFilnam, kDisply, kText, kDevice, kOpen, kClose, kVform, kDecpl, kFinpos,
-    kWkplan, kTecomp, kPause;
+    kWkplan, kPause;
 
 const Statement kFilnam = {"FILNAM",
                            "",
@@ -87,11 +87,6 @@ const Statement kWkplan = {
     "WKPLAN/XYPLAN",
     "ISO 22093, WKPLAN",
     skip};
-const Statement kTecomp = {
-    "TECOMP",    "*",
-    "...",       "Temperature compensation. Accepted with a warning: it has no effect yet.",
-    "TECOMP/ON", "ISO 22093, TECOMP",
-    no_effect};
 const Statement kPause = {
     "PAUSE",
     "",

@@ -137,7 +137,7 @@ const Statement kOutput = {
     "OUTPUT",
     "",
     "( feature:feature, { feature:feature }, { tolerance:tolerance } ; frame:frame ; sensor:sensor "
-    "), ...",
+    "), [ report:label ]",
     "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty.",
     "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
     "ISO 22093, OUTPUT",

@@ -28,7 +28,7 @@ void check_kind(Lowering& lowering, const MatchedValue& written, plan::FeatureId
   if (!find_feature_kind(written.text))
     return unknown_kind(lowering, written, lowering.statement->word, "kind of feature",
                         feature_words());
-  lowering.warn(Code::W0202, written.span,
+  lowering.warn(Code::W0222, written.span,
                 fmt::format("F({}) was defined as {}, here it is called {}", def.label,
                             def.kind->word, written.text),
                 "the definition holds", std::string(def.kind->word));

@@ -1,0 +1,115 @@
+#include "lang/reference.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/features/construct.hpp"
+#include "engine/features/feature.hpp"
+#include "engine/tolerances/tolerance.hpp"
+#include "lang/directives.hpp"
+#include "lang/statement.hpp"
+
+namespace abbe::lang {
+
+namespace {
+
+/// One word, whichever table it comes from.
+struct Entry {
+  std::string_view group, word;
+  std::string form;  ///< the statement with its signature
+  std::string_view help, example, source;
+};
+
+constexpr std::string_view kStatements = "Statements", kFeatures = "Features",
+                           kConstructions = "Constructions", kTolerances = "Tolerances",
+                           kDirectives = "Directives";
+
+std::string form_of(const Statement& s) {
+  const std::string label =
+      s.label.empty() || s.label == "*" ? "" : fmt::format("{}(label)=", s.label);
+  return s.signature.empty() ? fmt::format("{}{}", label, s.word)
+                             : fmt::format("{}{}/{}", label, s.word, s.signature);
+}
+
+std::vector<Entry> entries() {
+  std::vector<Entry> out;
+  for (const Statement* s : statements())
+    out.push_back({kStatements, s->word, form_of(*s), s->help, s->example, s->source});
+  for (const FeatureKind* k : feature_kinds())
+    out.push_back({kFeatures, k->word, fmt::format("F(label)=FEAT/{},{}", k->word, k->signature),
+                   k->help, k->example, k->source});
+  for (const Construction* c : constructions())
+    out.push_back({kConstructions, c->word,
+                   fmt::format("CONST/kind,F(label),{},{}", c->word, c->signature), c->help,
+                   c->example, c->source});
+  for (const ToleranceKind* t : tolerance_kinds())
+    out.push_back({kTolerances, t->word, fmt::format("T(label)=TOL/{},{}", t->word, t->signature),
+                   t->help, t->example, t->source});
+  for (const DirectiveHelp& d : directives())
+    out.push_back({kDirectives, d.word, fmt::format("$$! {}", d.form), d.help, "",
+                   "Abbe; a real controller skips it as a comment"});
+  return out;
+}
+
+/// Bars end a cell of a Markdown table.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
+  return out;
+}
+
+}  // namespace
+
+std::optional<std::string> explain_word(std::string_view word) {
+  const std::string wanted = upper(word);
+  std::string out;
+  for (const Entry& e : entries()) {
+    if (upper(e.word) != wanted) continue;
+    out += fmt::format("{}\n  {}\n", e.form, e.help);
+    if (!e.example.empty()) out += fmt::format("  example: {}\n", e.example);
+    out += fmt::format("  source: {}\n", e.source);
+  }
+  if (out.empty() && is_standard_word(wanted))
+    out = fmt::format("{}\n  a word of the standard that is not supported yet\n", wanted);
+  return out.empty() ? std::nullopt : std::optional(out);
+}
+
+std::vector<std::string_view> explained_words() {
+  std::vector<std::string_view> out;
+  for (const Entry& e : entries()) out.push_back(e.word);
+  return out;
+}
+
+std::string list_of_words() {
+  std::string out;
+  std::string_view group;
+  std::size_t column = 0;
+  for (const Entry& e : entries()) {
+    if (e.group != group) {
+      out += fmt::format("{}{}\n ", group.empty() ? "" : "\n\n", e.group);
+      column = 1;
+    } else if (column + e.word.size() > 78) {
+      out += "\n ";
+      column = 1;
+    }
+    out += fmt::format(" {}", e.word);
+    column += e.word.size() + 1;
+    group = e.group;
+  }
+  return out + "\n";
+}
+
+std::string reference_markdown() {
+  std::string out;
+  std::string_view group;
+  for (const Entry& e : entries()) {
+    if (e.group != group)
+      out += fmt::format("{}## {}\n\n| form | meaning | example |\n|---|---|---|\n",
+                         group.empty() ? "" : "\n", e.group);
+    group = e.group;
+    out += fmt::format("| `{}` | {} | {} |\n", cell(e.form), cell(e.help),
+                       e.example.empty() ? "" : fmt::format("`{}`", cell(e.example)));
+  }
+  return out;
+}
+
+}  // namespace abbe::lang

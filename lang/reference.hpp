@@ -1,0 +1,26 @@
+// Help and the language reference, written from the tables that the compiler itself uses:
+// statements, kinds of features, tolerances, constructions, directives. What is not in a table
+// cannot be explained, and what is explained is what compiles.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace abbe::lang {
+
+/// Help for a word of the language (GOTO, CIRCLE, FLAT, INTOF, expect), whatever its case; nothing
+/// for any other word.
+std::optional<std::string> explain_word(std::string_view word);
+
+/// Every word that explain_word knows: for lists and suggestions.
+std::vector<std::string_view> explained_words();
+
+/// The words by group, for people: what `abbe explain` shows without a word.
+std::string list_of_words();
+
+/// The tables of docs/language.md.
+std::string reference_markdown();
+
+}  // namespace abbe::lang

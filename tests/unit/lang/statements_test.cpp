@@ -1,0 +1,139 @@
+// What holds for every statement of the list, and what single statements put into the plan beyond
+// its text.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <set>
+
+#include "engine/features/construct.hpp"
+#include "engine/features/feature.hpp"
+#include "engine/tolerances/tolerance.hpp"
+#include "lang/compile.hpp"
+#include "lang/parser.hpp"
+#include "lang/reference.hpp"
+#include "lang/statement.hpp"
+
+using namespace abbe;
+using namespace abbe::lang;
+
+namespace {
+
+struct Compiled {
+  Compilation result;
+  Sink sink;
+};
+
+Compiled compile_text(const std::string& text) {
+  Compiled out;
+  out.result = compile(SourceFile("test.dmi", text), out.sink);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("every statement explains itself and its example fits its signature") {
+  std::set<std::string_view> words;
+  for (const Statement* s : statements()) {
+    INFO(s->word);
+    CHECK(words.insert(s->word).second);
+    CHECK(find_statement(s->word) == s);
+    CHECK((is_standard_word(s->word) || s->word == "PAUSE"));
+    CHECK(s->help.size() > 10);
+    CHECK_FALSE(s->source.empty());
+    const SourceFile source("example", std::string(s->example));
+    Sink sink;
+    const auto raw = parse_statement(logical_lines(source).at(0), source, sink);
+    REQUIRE(raw.has_value());
+    CHECK(raw->word == s->word);
+    CHECK(std::holds_alternative<Match>(
+        match(parse_signature(s->signature), raw->arguments, Units{})));
+    if (s->label != "*") CHECK((raw->label ? raw->label->kind : "") == s->label);
+  }
+}
+
+TEST_CASE("the signatures that the engine publishes are in the notation") {
+  for (const FeatureKind* k : feature_kinds()) CHECK_NOTHROW(parse_signature(k->signature));
+  for (const Construction* c : constructions()) CHECK_NOTHROW(parse_signature(c->signature));
+  for (const ToleranceKind* t : tolerance_kinds()) CHECK_NOTHROW(parse_signature(t->signature));
+}
+
+TEST_CASE("the help knows every word that compiles") {
+  const std::string markdown = reference_markdown(), list = list_of_words();
+  for (const Statement* s : statements()) {
+    REQUIRE(explain_word(s->word).has_value());
+    CHECK(explain_word(s->word)->find(s->help) != std::string::npos);
+    CHECK(markdown.find(s->word) != std::string::npos);
+    CHECK(list.find(s->word) != std::string::npos);
+  }
+  CHECK(explain_word("circle").has_value());
+  CHECK(explain_word("JUMPTO")->find("not supported yet") != std::string::npos);
+  CHECK_FALSE(explain_word("wibble").has_value());
+}
+
+TEST_CASE("directives reach the compilation") {
+  const Compiled c = compile_text(
+      "$$! machine coord3-mc16  machines 200 seed 18446744073709551615\n$$! workpiece block.json "
+      "place 1 -2.5 3e2\n"
+      "$$! expect accepted between 0.3 0.45\n$$! expect accepted >= 0.3\nUNITS/INCH,ANGDEC\n");
+  CHECK_FALSE(c.sink.has_errors());
+  const Directives& d = c.result.directives;
+  CHECK(d.machine == "coord3-mc16");
+  CHECK(d.machines == 200);
+  CHECK(d.seed == 18446744073709551615u);
+  CHECK(d.workpiece == "block.json");
+  REQUIRE(d.place_mm.has_value());
+  CHECK(*d.place_mm == Vec3{1, -2.5, 300});
+  REQUIRE(d.expectations.size() == 2);
+  CHECK(d.expectations[0].subject == "accepted");
+  CHECK(d.expectations[0].low == 0.3);
+  CHECK(d.expectations[0].high == 0.45);
+  CHECK(d.expectations[0].line == 3);
+  CHECK(d.expectations[0].text == "expect accepted between 0.3 0.45");
+  CHECK_FALSE(d.expectations[1].high.has_value());
+}
+
+TEST_CASE("an operation carries the statement that it came from") {
+  const std::string text = "DMISMN/'spans'\nGO$\nTO/1,2,3 $$ there\nENDFIL\n";
+  const Compiled c = compile_text(text);
+  REQUIRE(c.result.plan.operations.size() == 1);
+  const plan::Operation& o = c.result.plan.operations[0];
+  CHECK(o.line == 2);
+  CHECK(text.substr(o.span.begin, o.span.end - o.span.begin) == "GO$\nTO/1,2,3");
+}
+
+TEST_CASE("messages say what was written and offer the nearest word") {
+  const Compiled c = compile_text("DMISMN/'near'\nPTMAES/CART,1,2,3\nMODE/PRAG\nENDFIL\n");
+  REQUIRE(c.sink.list().size() == 2);
+  CHECK(c.sink.list()[0].help == "did you mean PTMEAS?");
+  CHECK(c.sink.list()[0].replacement == "PTMEAS");
+  CHECK(c.sink.list()[1].message == "argument 1 of MODE is 'PRAG', expected AUTO|PROG|MAN");
+  CHECK(c.sink.list()[1].help == "did you mean PROG?");
+}
+
+TEST_CASE("what is lost says why") {
+  const Compiled c = compile_text(
+      "DMISMN/'lost'\nSNSLCT/SA(P)\nF(A)=FEAT/POINT,CART,0,0,0,0,0\nT(T)=TOL/CORTOL,XAXIS,-1,1\n"
+      "MEAS/POINT,F(A),1\nPTMEAS/CART,0,0,0,0,0,1\nENDMES\nOUTPUT/FA(A),TA(T)\nENDFIL\n");
+  CHECK(c.sink.list().size() == 1);
+  REQUIRE(c.result.lost.size() == 1);
+  CHECK(c.result.lost[0].line == 8);
+  CHECK(c.result.lost[0].feature == "A");
+  CHECK(c.result.lost[0].reason.find("line 3") != std::string::npos);
+  CHECK(c.result.plan.characteristics.empty());
+}
+
+TEST_CASE("a program of fifty thousand lines compiles in a moment") {
+  std::string text = "DMISMN/'long'\nSNSLCT/SA(P)\n";
+  for (int i = 0; i < 10000; ++i)
+    text += fmt::format(
+        "F(P{0})=FEAT/POINT,CART,{0},0,0,0,0,1\nMEAS/POINT,F(P{0}),1\nPTMEAS/"
+        "CART,{0},0,0,0,0,1\nENDMES\nOUTPUT/FA(P{0})\n",
+        i);
+  const auto begin = std::chrono::steady_clock::now();
+  const Compiled c = compile_text(text + "ENDFIL\n");
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  CHECK(c.sink.list().empty());
+  CHECK(c.result.plan.features.size() == 10000);
+  CHECK(seconds.count() < 20);  // about 0.2 s; the bound only catches a quadratic algorithm
+}
