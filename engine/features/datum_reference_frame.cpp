@@ -1,13 +1,15 @@
-// The datum reference frame of a tolerance (ISO 5459:2011): datums take freedoms away one after another.
+// The datum reference frame of a tolerance (ISO 5459:2011): datums take freedoms away one after
+// another.
 //
-// z is the direction of the first datum that has one; x the first direction across z, a datum's own or the direction from
-// the located origin to it. A plane fixes the origin along its normal, an axis across itself, a point, a sphere or the centre
-// of a torus in all directions; a cone is an axis and its apex. What an earlier datum has fixed stays fixed, and a datum that
-// adds nothing has no effect.
+// z is the direction of the first datum that has one; x the first direction across z, a datum's own
+// or the direction from the located origin to it. A plane fixes the origin along its normal, an
+// axis across itself, a point, a sphere or the centre of a torus in all directions; a cone is an
+// axis and its apex. What an earlier datum has fixed stays fixed, and a datum that adds nothing has
+// no effect.
 //
-// The fitted datums have no orientation constraint, so each is used at its own point: a secondary plane at a right angle to
-// the primary passes through its centroid, whatever its own small tilt. A plane at a slant to the earlier datums acts along
-// its own normal.
+// The fitted datums have no orientation constraint, so each is used at its own point: a secondary
+// plane at a right angle to the primary passes through its centroid, whatever its own small tilt. A
+// plane at a slant to the earlier datums acts along its own normal.
 #include <cmath>
 
 #include "engine/base/ids.hpp"
@@ -17,7 +19,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kNearlySquare = 0.95;   // cosine of 17 degrees: meant as a right angle
+constexpr double kNearlySquare = 0.95;  // cosine of 17 degrees: meant as a right angle
 
 /// Axes and origin as far as the datums so far fix them.
 class Frame {
@@ -60,18 +62,22 @@ class Frame {
   void locate(Shape shape, const Element& datum) {
     if (is_spot(shape) || shape == Shape::torus) {
       for (int k = 0; k < 3; ++k)
-        if (const Vec3 row = free_part(column({}, k)); norm(row) > kNearlyParallel) fix(unit(row), datum.point);
+        if (const Vec3 row = free_part(column({}, k)); norm(row) > kNearlyParallel)
+          fix(unit(row), datum.point);
     } else if (shape == Shape::plane) {
       locate_across(datum.direction, datum.point);
     } else {
       const Vec3 u = across(datum.direction);
       locate_across(u, datum.point);
       locate_across(cross(datum.direction, u), datum.point);
-      if (shape == Shape::cone) locate_across(datum.direction, datum.point - datum.size / std::tan(datum.angle) * datum.direction);
+      if (shape == Shape::cone)
+        locate_across(datum.direction,
+                      datum.point - datum.size / std::tan(datum.angle) * datum.direction);
     }
   }
 
-  /// The origin shall lie in the plane through q across the unit vector n, as far as the rows before leave that free.
+  /// The origin shall lie in the plane through q across the unit vector n, as far as the rows
+  /// before leave that free.
   void locate_across(const Vec3& n, const Vec3& q) {
     const Vec3 rest = free_part(n);
     const double share = norm(rest);
@@ -81,7 +87,8 @@ class Frame {
     fix(row, origin_ + dot(n, q - origin_) / share * row);
   }
 
-  /// The coordinate of the origin along the unit vector `row`, at a right angle to the rows before, becomes that of q.
+  /// The coordinate of the origin along the unit vector `row`, at a right angle to the rows before,
+  /// becomes that of q.
   void fix(const Vec3& row, const Vec3& q) {
     origin_ += dot(row, q - origin_) * row;
     rows_[fixed_++] = row;
@@ -101,8 +108,9 @@ class Frame {
   }
 
   bool located_across() const {
-    double inside = 0;   // squared length of the part of the fixed directions across z
-    for (int i = 0; i < fixed_; ++i) inside += dot(perpendicular_part(rows_[i], z_), perpendicular_part(rows_[i], z_));
+    double inside = 0;  // squared length of the part of the fixed directions across z
+    for (int i = 0; i < fixed_; ++i)
+      inside += dot(perpendicular_part(rows_[i], z_), perpendicular_part(rows_[i], z_));
     return inside > 2 - kNearlyParallel;
   }
 
@@ -112,9 +120,11 @@ class Frame {
 
 }  // namespace
 
-Outcome<Rigid> datum_reference_frame(std::span<const Shape> shapes, std::span<const Element> datums) {
+Outcome<Rigid> datum_reference_frame(std::span<const Shape> shapes,
+                                     std::span<const Element> datums) {
   ABBE_CHECK(shapes.size() == datums.size());
-  if (datums.size() > 3) return Outcome<Rigid>::failed("a datum reference frame has at most three datums");
+  if (datums.size() > 3)
+    return Outcome<Rigid>::failed("a datum reference frame has at most three datums");
   Frame frame;
   for (std::size_t i = 0; i < datums.size(); ++i) frame.add(shapes[i], datums[i]);
   return {frame.pose()};

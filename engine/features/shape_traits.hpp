@@ -7,7 +7,9 @@ namespace abbe {
 
 /// Points and spheres: an Element whose direction says nothing about how the feature lies.
 constexpr bool is_spot(Shape s) { return s == Shape::point || s == Shape::sphere; }
-constexpr bool has_axis(Shape s) { return s == Shape::line || s == Shape::cylinder || s == Shape::cone || s == Shape::torus; }
+constexpr bool has_axis(Shape s) {
+  return s == Shape::line || s == Shape::cylinder || s == Shape::cone || s == Shape::torus;
+}
 constexpr bool has_centre(Shape s) {
   return s == Shape::point || s == Shape::circle || s == Shape::sphere || s == Shape::torus;
 }

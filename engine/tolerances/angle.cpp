@@ -1,8 +1,8 @@
-// ANGL: the full angle of a cone. ANGLB: the angle between two features, planes by their normals, others by their directions, a
-// plane and an axis by 90 degrees minus the angle of normal and axis.
+// ANGL: the full angle of a cone. ANGLB: the angle between two features, planes by their normals,
+// others by their directions, a plane and an axis by 90 degrees minus the angle of normal and axis.
 //
-// Two features make an angle and its supplement; which one is meant is not written. It is the one nearer to the nominal value
-// (the middle of the limits with LIMIT), on every machine alike.
+// Two features make an angle and its supplement; which one is meant is not written. It is the one
+// nearer to the nominal value (the middle of the limits with LIMIT), on every machine alike.
 #include <cmath>
 
 #include "engine/tolerances/common.hpp"
@@ -10,7 +10,9 @@
 namespace abbe {
 namespace {
 
-const char* cone_only(const Arguments&, Shapes s) { return s[0] == Shape::cone ? nullptr : "the angle tolerance of one feature is for cones"; }
+const char* cone_only(const Arguments&, Shapes s) {
+  return s[0] == Shape::cone ? nullptr : "the angle tolerance of one feature is for cones";
+}
 
 double nominal_cone(const Arguments&, Elements nominal) { return 2 * nominal[0].angle; }
 
@@ -19,10 +21,14 @@ ToleranceLimits cone_limits(const Arguments& arguments, Elements nominal) {
   return {angle + arguments.number("lower"), angle + arguments.number("upper")};
 }
 
-Outcome<double> cone_angle(const Arguments&, const EvaluationInput& in) { return {2 * in.actual[0].angle}; }
+Outcome<double> cone_angle(const Arguments&, const EvaluationInput& in) {
+  return {2 * in.actual[0].angle};
+}
 
 const char* with_directions(const Arguments&, Shapes s) {
-  return is_spot(s[0]) || is_spot(s[1]) ? "a point or a sphere has no direction to make an angle with" : nullptr;
+  return is_spot(s[0]) || is_spot(s[1])
+             ? "a point or a sphere has no direction to make an angle with"
+             : nullptr;
 }
 
 double expected(const Arguments& arguments) {

@@ -1,6 +1,7 @@
 // What the tolerance kinds share: how a zone becomes a limit, and the signatures of limits.
 //
-// A zone of 0 asks for a value and sets no limit: real programs write POS,2D,0.000,RFS to get a report.
+// A zone of 0 asks for a value and sets no limit: real programs write POS,2D,0.000,RFS to get a
+// report.
 #pragma once
 
 #include "engine/features/shape_traits.hpp"
@@ -9,8 +10,10 @@
 namespace abbe {
 
 // Deviations from a nominal value, or the limits themselves.
-#define ABBE_LENGTH_LIMITS "( NOMINL,nominal:length,lower:length,upper:length ; LIMIT,lower:length,upper:length )"
-#define ABBE_ANGLE_LIMITS "( NOMINL,nominal:angle,lower:angle,upper:angle ; LIMIT,lower:angle,upper:angle )"
+#define ABBE_LENGTH_LIMITS \
+  "( NOMINL,nominal:length,lower:length,upper:length ; LIMIT,lower:length,upper:length )"
+#define ABBE_ANGLE_LIMITS \
+  "( NOMINL,nominal:angle,lower:angle,upper:angle ; LIMIT,lower:angle,upper:angle )"
 // MMC and LMC are read; docs in position.cpp.
 #define ABBE_MATERIAL "[ material:MMC|LMC|RFS ]"
 

@@ -1,5 +1,6 @@
-// CORTOL: the deviation of a coordinate of the feature's point from its nominal, in the current coordinate system: x, y, z, or in
-// the xy plane the distance from z and the polar angle. The angle of a point on z itself is not defined.
+// CORTOL: the deviation of a coordinate of the feature's point from its nominal, in the current
+// coordinate system: x, y, z, or in the xy plane the distance from z and the polar angle. The angle
+// of a point on z itself is not defined.
 #include <cmath>
 
 #include "engine/tolerances/common.hpp"
@@ -11,17 +12,23 @@ constexpr double kOnAxis_mm = 1e-6;
 
 const char* any_feature(const Arguments&, Shapes) { return nullptr; }
 
-ToleranceLimits limits(const Arguments& arguments, Elements) { return {arguments.number("lower"), arguments.number("upper")}; }
+ToleranceLimits limits(const Arguments& arguments, Elements) {
+  return {arguments.number("lower"), arguments.number("upper")};
+}
 
-Unit unit(const Arguments& arguments) { return arguments.text("axis") == "ANGLE" ? Unit::rad : Unit::mm; }
+Unit unit(const Arguments& arguments) {
+  return arguments.text("axis") == "ANGLE" ? Unit::rad : Unit::mm;
+}
 
 Outcome<double> coordinate_deviation(const Arguments& arguments, const EvaluationInput& in) {
   const Vec3 &a = in.actual[0].point, &n = in.nominal[0].point;
   const std::string axis = arguments.text("axis");
   if (axis == "RADIUS") return {std::hypot(a.x, a.y) - std::hypot(n.x, n.y)};
   if (axis == "ANGLE") {
-    if (std::hypot(a.x, a.y) < kOnAxis_mm || std::hypot(n.x, n.y) < kOnAxis_mm) return no_value("a point on the z axis has no polar angle");
-    return {std::atan2(n.x * a.y - n.y * a.x, n.x * a.x + n.y * a.y)};   // from n to a, within half a turn
+    if (std::hypot(a.x, a.y) < kOnAxis_mm || std::hypot(n.x, n.y) < kOnAxis_mm)
+      return no_value("a point on the z axis has no polar angle");
+    return {std::atan2(n.x * a.y - n.y * a.x,
+                       n.x * a.x + n.y * a.y)};  // from n to a, within half a turn
   }
   const int k = axis[0] - 'X';
   return {a[k] - n[k]};
@@ -31,7 +38,9 @@ Outcome<double> coordinate_deviation(const Arguments& arguments, const Evaluatio
 
 extern const ToleranceKind coordinate_tolerance{
     .word = "CORTOL",
-    .signature = "( axis:XAXIS|YAXIS|ZAXIS|RADIUS,lower:length,upper:length ; axis:ANGLE,lower:angle,upper:angle )",
+    .signature =
+        "( axis:XAXIS|YAXIS|ZAXIS|RADIUS,lower:length,upper:length ; "
+        "axis:ANGLE,lower:angle,upper:angle )",
     .help = "deviation of one coordinate of the feature from its nominal",
     .example = "T(X1)=TOL/CORTOL,XAXIS,-0.05,0.05",
     .source = "ISO 22093:2011, TOL/CORTOL",

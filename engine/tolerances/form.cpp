@@ -1,21 +1,28 @@
-// FLAT, STRGHT, CIRLTY, CYLCTY: the spread high - low of the residuals about the least-squares element (reference element LS
-// of ISO 12781, 12780, 12181 and 12180). For a line in space that is the diameter of the enclosing cylinder about it.
-// It is never less than the minimum-zone value.
+// FLAT, STRGHT, CIRLTY, CYLCTY: the spread high - low of the residuals about the least-squares
+// element (reference element LS of ISO 12781, 12780, 12181 and 12180). For a line in space that is
+// the diameter of the enclosing cylinder about it. It is never less than the minimum-zone value.
 #include "engine/tolerances/common.hpp"
 
 namespace abbe {
 namespace {
 
-const char* plane_only(const Arguments&, Shapes s) { return s[0] == Shape::plane ? nullptr : "flatness is for planes"; }
-const char* line_only(const Arguments&, Shapes s) { return s[0] == Shape::line ? nullptr : "straightness is for lines"; }
+const char* plane_only(const Arguments&, Shapes s) {
+  return s[0] == Shape::plane ? nullptr : "flatness is for planes";
+}
+const char* line_only(const Arguments&, Shapes s) {
+  return s[0] == Shape::line ? nullptr : "straightness is for lines";
+}
 const char* round_only(const Arguments&, Shapes s) {
-  return s[0] == Shape::circle || s[0] == Shape::sphere ? nullptr : "circularity is for circles and spheres";
+  return s[0] == Shape::circle || s[0] == Shape::sphere ? nullptr
+                                                        : "circularity is for circles and spheres";
 }
 const char* cylinder_only(const Arguments&, Shapes s) {
   return s[0] == Shape::cylinder ? nullptr : "cylindricity is for cylinders";
 }
 
-Outcome<double> spread(const Arguments&, const EvaluationInput& in) { return {in.actual[0].high - in.actual[0].low}; }
+Outcome<double> spread(const Arguments&, const EvaluationInput& in) {
+  return {in.actual[0].high - in.actual[0].low};
+}
 
 }  // namespace
 
@@ -24,7 +31,7 @@ extern const ToleranceKind flatness_tolerance{
     .signature = "zone:length",
     .help = "flatness: spread of the touches about the least-squares plane",
     .example = "T(F1)=TOL/FLAT,0.05",
-    .source = "ISO 1101:2017, 17.3; ISO 12781-1 (LSPL)",
+    .source = "ISO 1101:2017, clause 17; ISO 12781-1 (LSPL)",
     .unit = Unit::mm,
     .features = 1,
     .applies = plane_only,
@@ -36,9 +43,11 @@ extern const ToleranceKind flatness_tolerance{
 extern const ToleranceKind straightness_tolerance{
     .word = "STRGHT",
     .signature = "zone:length",
-    .help = "straightness: diameter of the cylinder about the least-squares line that holds the touches",
+    .help =
+        "straightness: diameter of the cylinder about the least-squares line that holds the "
+        "touches",
     .example = "T(S1)=TOL/STRGHT,0.02",
-    .source = "ISO 1101:2017, 17.2; ISO 12780-1 (LSLI)",
+    .source = "ISO 1101:2017, clause 17; ISO 12780-1 (LSLI)",
     .unit = Unit::mm,
     .features = 1,
     .applies = line_only,
@@ -52,7 +61,7 @@ extern const ToleranceKind circularity_tolerance{
     .signature = "zone:length",
     .help = "circularity: spread of the touches about the least-squares circle or sphere",
     .example = "T(C1)=TOL/CIRLTY,0.01",
-    .source = "ISO 1101:2017, 17.4; ISO 12181-1 (LSCI)",
+    .source = "ISO 1101:2017, clause 17; ISO 12181-1 (LSCI)",
     .unit = Unit::mm,
     .features = 1,
     .applies = round_only,
@@ -66,7 +75,7 @@ extern const ToleranceKind cylindricity_tolerance{
     .signature = "zone:length",
     .help = "cylindricity: spread of the touches about the least-squares cylinder",
     .example = "T(Y1)=TOL/CYLCTY,0.1",
-    .source = "ISO 1101:2017, 17.5; ISO 12180-1 (LSCY)",
+    .source = "ISO 1101:2017, clause 17; ISO 12180-1 (LSCY)",
     .unit = Unit::mm,
     .features = 1,
     .applies = cylinder_only,

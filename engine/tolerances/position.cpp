@@ -1,15 +1,19 @@
-// POS: the diameter of the smallest zone about the nominal location that holds the actual one, 2 |deviation| (ISO 5458).
+// POS: the diameter of the smallest zone about the nominal location that holds the actual one,
+// 2 |deviation| (ISO 5458).
 //
-// The deviation is the location of the feature in the datum reference frame of this machine's datums, minus that of the nominal
-// in the frame of the true datums; datums not named leave the freedoms of the current coordinate system.
+// The deviation is the location of the feature in the datum reference frame of this machine's
+// datums, minus that of the nominal in the frame of the true datums; datums not named leave the
+// freedoms of the current coordinate system.
 //
-// - 2D: the feature's point, in the plane across the nominal direction (across z of the frame for a sphere)
+// - 2D: the feature's point, in the plane across the nominal direction (a sphere: across z)
 // - 3D, features with a centre: in space
 // - 3D, axes: both ends of the measured axis, distance from the nominal axis, the larger of the two
-// - 3D, planes: a zone of parallel planes about the nominal; the rim of the measured area, with the outermost touches
+// - 3D, planes: a zone of parallel planes about the nominal, with the rim of the measured area and
+//   the outermost touches in it
 //
-// MMC and LMC, on the feature or on datums: the bonus depends on a size tolerance that POS does not name. The value is that of
-// RFS, and the limit the zone at the material condition itself, without bonus: conformity is judged on the safe side.
+// MMC and LMC, on the feature or on datums: the bonus depends on a size tolerance that POS does not
+// name. The value is that of RFS, and the limit the zone at the material condition itself, without
+// bonus: conformity is judged on the safe side.
 #include <algorithm>
 #include <cmath>
 
@@ -23,12 +27,15 @@ bool is_flat_zone(const Arguments& arguments) { return arguments.text("space") =
 
 const char* located(const Arguments& arguments, Shapes shapes) {
   if (arguments.features("datum").size() > 3) return "a position has at most three datums";
-  return shapes[0] == Shape::plane && is_flat_zone(arguments) ? "the position of a plane is written 3D" : nullptr;
+  return shapes[0] == Shape::plane && is_flat_zone(arguments)
+             ? "the position of a plane is written 3D"
+             : nullptr;
 }
 
 double axis_deviation(const Element& actual, const Element& nominal) {
   auto from_nominal_axis = [&](double t) {
-    return norm(perpendicular_part(actual.point + t * actual.direction - nominal.point, nominal.direction));
+    return norm(
+        perpendicular_part(actual.point + t * actual.direction - nominal.point, nominal.direction));
   };
   return std::max(from_nominal_axis(actual.begin), from_nominal_axis(actual.end));
 }
@@ -53,15 +60,19 @@ Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) 
   if (!frame) return no_value(frame.failure);
   const Outcome<Rigid> true_frame = datum_reference_frame(in.datum_shapes, in.true_datums);
   if (!true_frame) return no_value(true_frame.failure);
-  return {2 * deviation(flat, in.shapes[0], inverse(frame.value) * in.actual[0], inverse(true_frame.value) * in.nominal[0])};
+  return {2 * deviation(flat, in.shapes[0], inverse(frame.value) * in.actual[0],
+                        inverse(true_frame.value) * in.nominal[0])};
 }
 
 }  // namespace
 
 extern const ToleranceKind true_position_tolerance{
     .word = "POS",
-    .signature = "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
-    .help = "position: diameter of the zone about the nominal location, in the frame of the datums; MMC and LMC get no bonus",
+    .signature =
+        "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
+    .help =
+        "position: diameter of the zone about the nominal location, in the frame of the datums; "
+        "MMC and LMC get no bonus",
     .example = "T(P1)=TOL/POS,3D,0.1,RFS,DAT(A),DAT(B),DAT(C)",
     .source = "ISO 22093:2011, TOL/POS; ISO 5458; ISO 5459; ASME Y14.5-2018, 10",
     .unit = Unit::mm,

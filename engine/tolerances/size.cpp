@@ -1,4 +1,5 @@
-// DIAM, RAD: the diameter 2 r or the radius r of the fitted feature; limits are deviations from the nominal size.
+// DIAM, RAD: the diameter 2 r or the radius r of the fitted feature; limits are deviations from the
+// nominal size.
 #include "engine/tolerances/common.hpp"
 
 namespace abbe {
@@ -6,7 +7,9 @@ namespace {
 
 const char* round(const Arguments&, Shapes shapes) {
   const Shape s = shapes[0];
-  return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere ? nullptr : "a size tolerance is for circles, cylinders and spheres";
+  return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere
+             ? nullptr
+             : "a size tolerance is for circles, cylinders and spheres";
 }
 
 template <int Factor>

@@ -17,9 +17,11 @@ const char* reason_of(const FitError& error) {
   return "the points of the features admit no best fit";
 }
 
-Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                           const Arguments&) {
   for (const Shape shape : shapes)
-    if (!has_centre(shape)) return cannot("BF takes points, circles, spheres and tori: features with a centre");
+    if (!has_centre(shape))
+      return cannot("BF takes points, circles, spheres and tori: features with a centre");
   FitProblem problem{.shape = result, .points = {}, .normal = {}};
   problem.points.reserve(from.size());
   for (const Element& e : from) problem.points.push_back(e.point);

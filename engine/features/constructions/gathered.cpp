@@ -1,17 +1,20 @@
-// COG: the mean of the points of features, each with the same weight. TR: the same element under a new label.
+// COG: the mean of the points of features, each with the same weight. TR: the same element under a
+// new label.
 #include "engine/features/constructions/tools.hpp"
 
 namespace abbe {
 namespace {
 
-Outcome<Element> centre(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> centre(Shape result, Shapes, Elements from, const Element& nominal,
+                        const Arguments&) {
   if (result != Shape::point) return cannot("COG makes a point");
   Vec3 sum;
   for (const Element& e : from) sum += e.point;
   return {{.point = sum / static_cast<double>(from.size()), .direction = nominal.direction}};
 }
 
-Outcome<Element> transfer(Shape result, Shapes shapes, Elements from, const Element&, const Arguments&) {
+Outcome<Element> transfer(Shape result, Shapes shapes, Elements from, const Element&,
+                          const Arguments&) {
   if (result != shapes[0]) return cannot("TR takes over a feature of the same kind");
   return {from[0]};
 }

@@ -1,10 +1,10 @@
 // INTOF: what two or three features have in common.
 //
-// - line: two planes, n1 x n2; its point is the one nearest to the middle of the points of the planes
-// - point: axis and plane; two axes (the middle of their shortest connection, so that lines measured at different heights
-//   meet); three planes (Cramer's rule)
-// - circle: plane and sphere; plane and cylinder or cone whose axis is square to it within 1 degree, else the section is an
-//   ellipse; the normal is that of the plane
+// - line: two planes, n1 x n2; its point is the one nearest to the middle of the planes' points
+// - point: axis and plane; two axes (the middle of their shortest connection, so that lines
+//   measured at different heights meet); three planes (Cramer's rule)
+// - circle: plane and sphere; plane and cylinder or cone whose axis is square to it within
+//   1 degree, else the section is an ellipse; the normal is that of the plane
 #include <cmath>
 
 #include "engine/features/constructions/tools.hpp"
@@ -23,8 +23,10 @@ Outcome<Element> line_of_planes(const Element& a, const Element& b, const Elemen
 }
 
 Outcome<Element> point_on_plane(const Element& axis, const Element& plane) {
-  if (std::fabs(dot(axis.direction, plane.direction)) < kParallel) return cannot("the line is parallel to the plane");
-  return {{.point = line_meets_plane(axis.point, axis.direction, plane), .direction = plane.direction}};
+  if (std::fabs(dot(axis.direction, plane.direction)) < kParallel)
+    return cannot("the line is parallel to the plane");
+  return {
+      {.point = line_meets_plane(axis.point, axis.direction, plane), .direction = plane.direction}};
 }
 
 Outcome<Element> point_of_axes(const Element& a, const Element& b, const Element& nominal) {
@@ -40,13 +42,16 @@ Outcome<Element> point_of_planes(Elements p, const Element& nominal) {
   const Vec3 yz = cross(p[1].direction, p[2].direction), zx = cross(p[2].direction, p[0].direction),
              xy = cross(p[0].direction, p[1].direction);
   const double volume = dot(p[0].direction, yz);
-  if (std::fabs(volume) < kParallel) return cannot("two of the planes are parallel, or all three run along one direction");
+  if (std::fabs(volume) < kParallel)
+    return cannot("two of the planes are parallel, or all three run along one direction");
   auto height = [&](int i) { return dot(p[i].direction, p[i].point - p[0].point); };
-  return {{.point = p[0].point + (height(1) * zx + height(2) * xy) / volume, .direction = nominal.direction}};
+  return {{.point = p[0].point + (height(1) * zx + height(2) * xy) / volume,
+           .direction = nominal.direction}};
 }
 
-Outcome<Element> section(const Element& plane, Shape shape, const Element& body, const Element& nominal) {
-  constexpr double kSquare = 0.0175;   // sine of 1 degree
+Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
+                         const Element& nominal) {
+  constexpr double kSquare = 0.0175;  // sine of 1 degree
   Element circle;
   circle.direction = plane.direction;
   if (shape == Shape::sphere) {
@@ -55,10 +60,12 @@ Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
     circle.point = body.point - height * plane.direction;
     circle.size = std::sqrt(body.size * body.size - height * height);
   } else {
-    if (norm(cross(body.direction, plane.direction)) > kSquare) return cannot("the section is not a circle: the plane is not square to the axis");
+    if (norm(cross(body.direction, plane.direction)) > kSquare)
+      return cannot("the section is not a circle: the plane is not square to the axis");
     circle.point = line_meets_plane(body.point, body.direction, plane);
     circle.size = body.size;
-    if (shape == Shape::cone) circle.size += dot(circle.point - body.point, body.direction) * std::tan(body.angle);
+    if (shape == Shape::cone)
+      circle.size += dot(circle.point - body.point, body.direction) * std::tan(body.angle);
     if (!(circle.size > 0)) return cannot("the plane lies beyond the apex of the cone");
   }
   return {in_sense_of(nominal, circle)};
@@ -69,15 +76,21 @@ Outcome<Element> intersect_two(Shape result, Shapes shapes, Elements from, const
   const int first = shapes[0] == Shape::plane ? 0 : 1, second = 1 - first;
   const Shape other = shapes[second];
   if (result == Shape::line && planes == 2) return line_of_planes(from[0], from[1], nominal);
-  if (result == Shape::point && planes == 1 && has_axis(other)) return point_on_plane(from[second], from[first]);
-  if (result == Shape::point && has_axis(shapes[0]) && has_axis(shapes[1])) return point_of_axes(from[0], from[1], nominal);
-  if (result == Shape::circle && planes == 1 && (other == Shape::sphere || other == Shape::cylinder || other == Shape::cone))
+  if (result == Shape::point && planes == 1 && has_axis(other))
+    return point_on_plane(from[second], from[first]);
+  if (result == Shape::point && has_axis(shapes[0]) && has_axis(shapes[1]))
+    return point_of_axes(from[0], from[1], nominal);
+  if (result == Shape::circle && planes == 1 &&
+      (other == Shape::sphere || other == Shape::cylinder || other == Shape::cone))
     return section(from[first], other, from[second], nominal);
-  return cannot("INTOF makes a line of two planes, a point of two lines, of a line and a plane or of three planes, or a circle "
-                "of a plane and a cylinder, cone or sphere");
+  return cannot(
+      "INTOF makes a line of two planes, a point of two lines, of a line and a plane or of three "
+      "planes, or a circle "
+      "of a plane and a cylinder, cone or sphere");
 }
 
-Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                           const Arguments&) {
   if (from.size() == 2) return intersect_two(result, shapes, from, nominal);
   for (const Shape shape : shapes)
     if (shape != Shape::plane) return cannot("INTOF of three features takes three planes");
@@ -90,7 +103,9 @@ Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Ele
 extern const Construction intersection_method{
     .word = "INTOF",
     .signature = "from:feature,from:feature,[from:feature]",
-    .help = "intersection: line of two planes; point of two axes, axis and plane, or three planes; circle of plane and round surface",
+    .help =
+        "intersection: line of two planes; point of two axes, axis and plane, or three planes; "
+        "circle of plane and round surface",
     .example = "CONST/LINE,F(L1),INTOF,FA(P1),FA(P2)",
     .source = "ISO 22093:2011, CONST INTOF",
     .construct = construct,

@@ -1,8 +1,9 @@
 // MIDPT, MIDLI, MIDPL: halfway between two features.
 //
-// Of the two bisectors of a pair of lines or planes the one in the acute angle is meant; where they cross at 45 degrees or
-// more, the one nearer to the nominal. It is found where both are cut by what stands across the bisector (or runs along it)
-// through the middle of their points, which needs no intersection and so holds for parallel pairs too.
+// Of the two bisectors of a pair of lines or planes the one in the acute angle is meant; where they
+// cross at 45 degrees or more, the one nearer to the nominal. It is found where both are cut by
+// what stands across the bisector (or runs along it) through the middle of their points, which
+// needs no intersection and so holds for parallel pairs too.
 #include <cmath>
 
 #include "engine/features/constructions/tools.hpp"
@@ -14,17 +15,21 @@ namespace {
 Vec3 bisector(const Vec3& a, const Vec3& b, const Vec3& nominal) {
   const double cosine = dot(a, b);
   bool same = cosine > 0;
-  if (std::fabs(cosine) < std::sqrt(0.5)) same = std::fabs(dot(unit(a + b), nominal)) >= std::fabs(dot(unit(a - b), nominal));
+  if (std::fabs(cosine) < std::sqrt(0.5))
+    same = std::fabs(dot(unit(a + b), nominal)) >= std::fabs(dot(unit(a - b), nominal));
   return unit(same ? a + b : a - b);
 }
 
-Outcome<Element> middle_point(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> middle_point(Shape result, Shapes, Elements from, const Element& nominal,
+                              const Arguments&) {
   if (result != Shape::point) return cannot("MIDPT makes a point");
   return {{.point = 0.5 * (from[0].point + from[1].point), .direction = nominal.direction}};
 }
 
-Outcome<Element> middle_line(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
-  if (result != Shape::line || !has_axis(shapes[0]) || !has_axis(shapes[1])) return cannot("MIDLI makes a line of two lines or axes");
+Outcome<Element> middle_line(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                             const Arguments&) {
+  if (result != Shape::line || !has_axis(shapes[0]) || !has_axis(shapes[1]))
+    return cannot("MIDLI makes a line of two lines or axes");
   const Vec3 d = bisector(from[0].direction, from[1].direction, nominal.direction);
   const Element across{.point = 0.5 * (from[0].point + from[1].point), .direction = d};
   const Vec3 a = line_meets_plane(from[0].point, from[0].direction, across);
@@ -32,11 +37,14 @@ Outcome<Element> middle_line(Shape result, Shapes shapes, Elements from, const E
   return {in_sense_of(nominal, {.point = 0.5 * (a + b), .direction = d})};
 }
 
-Outcome<Element> middle_plane(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
-  if (result != Shape::plane || shapes[0] != Shape::plane || shapes[1] != Shape::plane) return cannot("MIDPL makes a plane of two planes");
+Outcome<Element> middle_plane(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                              const Arguments&) {
+  if (result != Shape::plane || shapes[0] != Shape::plane || shapes[1] != Shape::plane)
+    return cannot("MIDPL makes a plane of two planes");
   const Vec3 n = bisector(from[0].direction, from[1].direction, nominal.direction);
   const Vec3 middle = 0.5 * (from[0].point + from[1].point);
-  const Vec3 point = 0.5 * (line_meets_plane(middle, n, from[0]) + line_meets_plane(middle, n, from[1]));
+  const Vec3 point =
+      0.5 * (line_meets_plane(middle, n, from[0]) + line_meets_plane(middle, n, from[1]));
   return {in_sense_of(nominal, {.point = point, .direction = n})};
 }
 

@@ -1,11 +1,12 @@
-// MOVEPT: the point of a feature, moved by a vector in the current coordinate system, or by a distance along the direction of
-// another feature. OFFSET: a plane moved along its normal.
+// MOVEPT: the point of a feature, moved by a vector in the current coordinate system, or by a
+// distance along the direction of another feature. OFFSET: a plane moved along its normal.
 #include "engine/features/constructions/tools.hpp"
 
 namespace abbe {
 namespace {
 
-Outcome<Element> move_point(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
+Outcome<Element> move_point(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                            const Arguments& arguments) {
   if (result != Shape::point) return cannot("MOVEPT makes a point");
   Vec3 by{arguments.number("dx"), arguments.number("dy"), arguments.number("dz")};
   if (from.size() == 2) {
@@ -15,8 +16,10 @@ Outcome<Element> move_point(Shape result, Shapes shapes, Elements from, const El
   return {{.point = from[0].point + by, .direction = nominal.direction}};
 }
 
-Outcome<Element> offset(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
-  if (result != Shape::plane || shapes[0] != Shape::plane) return cannot("OFFSET makes a plane of a plane");
+Outcome<Element> offset(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                        const Arguments& arguments) {
+  if (result != Shape::plane || shapes[0] != Shape::plane)
+    return cannot("OFFSET makes a plane of a plane");
   Element moved = from[0];
   moved.point += arguments.number("distance") * moved.direction;
   moved.low = moved.high = 0;
@@ -28,7 +31,9 @@ Outcome<Element> offset(Shape result, Shapes shapes, Elements from, const Elemen
 extern const Construction moved_point_method{
     .word = "MOVEPT",
     .signature = "from:feature,( from:feature,distance:length ; dx:length,dy:length,dz:length )",
-    .help = "the point of a feature moved by dx, dy, dz, or by a distance along the direction of a second feature",
+    .help =
+        "the point of a feature moved by dx, dy, dz, or by a distance along the direction of a "
+        "second feature",
     .example = "CONST/POINT,F(P),MOVEPT,FA(A),10,0,-5",
     .source = "ISO 22093:2011, CONST MOVEPT",
     .construct = move_point,

@@ -4,17 +4,23 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> project_point(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> project_point(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                               const Arguments&) {
   if (result != Shape::point) return cannot("PROJPT makes a point");
   const Element& onto = from[1];
   if (shapes[1] == Shape::plane)
-    return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point), .direction = onto.direction}};
-  if (has_axis(shapes[1])) return {{.point = foot_on_line(onto.point, onto.direction, from[0].point), .direction = nominal.direction}};
+    return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point),
+             .direction = onto.direction}};
+  if (has_axis(shapes[1]))
+    return {{.point = foot_on_line(onto.point, onto.direction, from[0].point),
+             .direction = nominal.direction}};
   return cannot("PROJPT projects onto a plane, a line or an axis");
 }
 
-Outcome<Element> project_line(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
-  if (result != Shape::line || !has_axis(shapes[0]) || shapes[1] != Shape::plane) return cannot("PROJLI projects a line or an axis onto a plane");
+Outcome<Element> project_line(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                              const Arguments&) {
+  if (result != Shape::line || !has_axis(shapes[0]) || shapes[1] != Shape::plane)
+    return cannot("PROJLI projects a line or an axis onto a plane");
   const Element &line = from[0], &plane = from[1];
   const Vec3 shadow = perpendicular_part(line.direction, plane.direction);
   const double cosine = norm(shadow);
@@ -30,7 +36,8 @@ Outcome<Element> project_line(Shape result, Shapes shapes, Elements from, const 
 extern const Construction projected_point_method{
     .word = "PROJPT",
     .signature = "from:feature,from:feature",
-    .help = "the point or centre of the first feature, projected onto the plane or axis of the second",
+    .help =
+        "the point or centre of the first feature, projected onto the plane or axis of the second",
     .example = "CONST/POINT,F(P),PROJPT,FA(A),FA(PL)",
     .source = "ISO 22093:2011, CONST PROJPT",
     .construct = project_point,

@@ -1,8 +1,10 @@
-// PERPTO and PARTO: a line or plane through the point of one feature, at a right angle or parallel to another.
+// PERPTO and PARTO: a line or plane through the point of one feature, at a right angle or parallel
+// to another.
 //
-// A line perpendicular to an axis through a point runs from the point to its foot on the axis; when the point lies on the axis
-// there is no such foot and the construction fails. A plane perpendicular to a plane needs a direction to turn about, so its
-// second feature must be a line or an axis: the plane contains it.
+// A line perpendicular to an axis through a point runs from the point to its foot on the axis; when
+// the point lies on the axis there is no such foot and the construction fails. A plane
+// perpendicular to a plane needs a direction to turn about, so its second feature must be a line or
+// an axis: the plane contains it.
 #include "engine/features/constructions/tools.hpp"
 
 namespace abbe {
@@ -14,27 +16,35 @@ Outcome<Element> made(const Element& nominal, const Vec3& point, const Vec3& dir
   return {in_sense_of(nominal, {.point = point, .direction = direction})};
 }
 
-Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                               const Arguments&) {
   const Element &to = from[0], &through = from[1];
   const bool to_plane = shapes[0] == Shape::plane, to_axis = has_axis(shapes[0]);
-  if ((result == Shape::line && to_plane) || (result == Shape::plane && to_axis)) return made(nominal, through.point, to.direction);
+  if ((result == Shape::line && to_plane) || (result == Shape::plane && to_axis))
+    return made(nominal, through.point, to.direction);
   if (result == Shape::line && to_axis) {
     const Vec3 across = foot_on_line(to.point, to.direction, through.point) - through.point;
-    if (!(norm(across) > kNoDistance_mm)) return cannot("the point lies on the line to which the new one should be perpendicular");
+    if (!(norm(across) > kNoDistance_mm))
+      return cannot("the point lies on the line to which the new one should be perpendicular");
     return made(nominal, through.point, unit(across));
   }
   if (result == Shape::plane && to_plane && has_axis(shapes[1])) {
     const Vec3 n = cross(to.direction, through.direction);
-    if (norm(n) < kParallel) return cannot("the line is perpendicular to the plane, so that no single plane contains it");
+    if (norm(n) < kParallel)
+      return cannot("the line is perpendicular to the plane, so that no single plane contains it");
     return made(nominal, through.point, unit(n));
   }
-  return cannot("PERPTO makes a line perpendicular to a plane or line, or a plane perpendicular to a line, or to a plane through a line");
+  return cannot(
+      "PERPTO makes a line perpendicular to a plane or line, or a plane perpendicular to a line, "
+      "or to a plane through a line");
 }
 
-Outcome<Element> parallel_to(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> parallel_to(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                             const Arguments&) {
   const bool planes = result == Shape::plane && shapes[0] == Shape::plane;
   const bool lines = result == Shape::line && has_axis(shapes[0]);
-  if (!planes && !lines) return cannot("PARTO makes a plane parallel to a plane or a line parallel to a line");
+  if (!planes && !lines)
+    return cannot("PARTO makes a plane parallel to a plane or a line parallel to a line");
   return made(nominal, from[1].point, from[0].direction);
 }
 

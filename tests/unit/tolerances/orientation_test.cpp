@@ -8,11 +8,17 @@ namespace {
 
 constexpr double kTilt = 1e-3;
 const double kSine = std::sin(kTilt);
-const Vec3 kLeaningX{std::sin(kTilt), 0, std::cos(kTilt)};   // z, leaning to x
-const Element kUp = at({5, 5, 5}), kAlongX = at({1, 2, 3}, {1, 0, 0}), kAlongY = at({1, 2, 3}, {0, 1, 0});
+const Vec3 kLeaningX{std::sin(kTilt), 0, std::cos(kTilt)};  // z, leaning to x
+const Element kUp = at({5, 5, 5}), kAlongX = at({1, 2, 3}, {1, 0, 0}),
+              kAlongY = at({1, 2, 3}, {0, 1, 0});
 
-double width(const char* word, Shape shape, const Element& feature, Shape datum_shape, const Element& datum, double angle = 0) {
-  return Evaluation(word).number("angle", angle).feature(shape, feature).datum(datum_shape, datum).value();
+double width(const char* word, Shape shape, const Element& feature, Shape datum_shape,
+             const Element& datum, double angle = 0) {
+  return Evaluation(word)
+      .number("angle", angle)
+      .feature(shape, feature)
+      .datum(datum_shape, datum)
+      .value();
 }
 
 }  // namespace
@@ -21,8 +27,10 @@ TEST_CASE("Perpendicularity") {
   const Element axis = spanning(at({}, kLeaningX), -10, 40);
   CHECK(width("PERP", Shape::cylinder, axis, Shape::plane, kUp) == Approx(50 * kSine));
   CHECK(width("PERP", Shape::cylinder, axis, Shape::cylinder, kAlongX) == Approx(50 * kSine));
-  CHECK(width("PERP", Shape::cylinder, axis, Shape::cylinder, kAlongY) == Approx(0));   // free to lean in the zone of planes
-  const Element wall = spread(spanning(at({}, {std::cos(kTilt), 0, std::sin(kTilt)}), -30, 30), -0.002, 0.003);
+  CHECK(width("PERP", Shape::cylinder, axis, Shape::cylinder, kAlongY) ==
+        Approx(0));  // free to lean in the zone of planes
+  const Element wall =
+      spread(spanning(at({}, {std::cos(kTilt), 0, std::sin(kTilt)}), -30, 30), -0.002, 0.003);
   CHECK(width("PERP", Shape::plane, wall, Shape::plane, kUp) == Approx(60 * kSine + 0.005));
   CHECK(width("PERP", Shape::plane, wall, Shape::line, kAlongX) == Approx(60 * kSine + 0.005));
 }
@@ -34,7 +42,8 @@ TEST_CASE("Parallelism") {
   CHECK(width("PARLEL", Shape::plane, top, Shape::cylinder, kAlongY) == Approx(0.005));
   const Element axis = spanning(at({}, kLeaningX), 0, 50);
   CHECK(width("PARLEL", Shape::cone, axis, Shape::cylinder, kUp) == Approx(50 * kSine));
-  CHECK(width("PARLEL", Shape::line, spread(axis, -0.004, 0.004), Shape::plane, kAlongX) == Approx(50 * kSine + 0.008));
+  CHECK(width("PARLEL", Shape::line, spread(axis, -0.004, 0.004), Shape::plane, kAlongX) ==
+        Approx(50 * kSine + 0.008));
 }
 
 TEST_CASE("Angularity") {
@@ -42,21 +51,28 @@ TEST_CASE("Angularity") {
     const double a = degrees * kPi / 180 + kTilt;
     return spanning(at({}, {std::sin(a), 0, std::cos(a)}), -25, 25);
   };
-  CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, kPi / 6) == Approx(50 * kSine));
-  CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, 5 * kPi / 6) == Approx(50 * kSine));   // the same angle, seen from behind
+  CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, kPi / 6) ==
+        Approx(50 * kSine));
+  CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, 5 * kPi / 6) ==
+        Approx(50 * kSine));  // the same angle, seen from behind
   // An axis at 60 degrees to the plane leans by 30 from its normal.
-  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::plane, kUp, kPi / 3) == Approx(50 * kSine));
-  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::line, kUp, kPi / 6) == Approx(50 * kSine));
+  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::plane, kUp, kPi / 3) ==
+        Approx(50 * kSine));
+  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::line, kUp, kPi / 6) ==
+        Approx(50 * kSine));
 }
 
 TEST_CASE("Orientations that cannot be evaluated") {
   for (const char* word : {"PERP", "PARLEL", "ANGLR"}) {
-    CHECK(Evaluation(word).feature(Shape::circle, kUp).refusal() == "an orientation tolerance is for planes, lines, cylinders and cones");
+    CHECK(Evaluation(word).feature(Shape::circle, kUp).refusal() ==
+          "an orientation tolerance is for planes, lines, cylinders and cones");
     CHECK(Evaluation(word).feature(Shape::plane, kUp).refusal().empty());
     CHECK(Evaluation(word).feature(Shape::plane, kUp).datum(Shape::plane, kUp).failure() ==
           "the extent of the feature is not known, so that its orientation has no zone");
-    CHECK(Evaluation(word).feature(Shape::plane, spanning(kUp, -1, 1)).datum(Shape::point, kUp).failure() ==
-          "a point or a sphere is no datum for an orientation");
+    CHECK(Evaluation(word)
+              .feature(Shape::plane, spanning(kUp, -1, 1))
+              .datum(Shape::point, kUp)
+              .failure() == "a point or a sphere is no datum for an orientation");
     CHECK(*Evaluation(word).number("zone", 0.02).feature(Shape::plane, kUp).limits().upper == 0.02);
     CHECK(Evaluation(word).feature(Shape::plane, kUp).nominal_value() == 0);
   }
@@ -72,22 +88,32 @@ TEST_CASE("ANGL is the full angle of a cone") {
   CHECK(*e.limits().lower == Approx(0.59));
   CHECK(*e.limits().upper == Approx(0.62));
   CHECK(unit_of(*e.kind, e.arguments) == Unit::rad);
-  CHECK(Evaluation("ANGL").feature(Shape::cylinder, kUp).refusal() == "the angle tolerance of one feature is for cones");
+  CHECK(Evaluation("ANGL").feature(Shape::cylinder, kUp).refusal() ==
+        "the angle tolerance of one feature is for cones");
 }
 
 TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
   auto angle = [](double nominal, Shape s, const Element& a, Shape t, const Element& b) {
     Evaluation e("ANGLB");
-    return e.number("nominal", nominal).number("lower", -0.01).number("upper", 0.01).feature(s, a).feature(t, b).value();
+    return e.number("nominal", nominal)
+        .number("lower", -0.01)
+        .number("upper", 0.01)
+        .feature(s, a)
+        .feature(t, b)
+        .value();
   };
-  const Element at60 = at({}, {0.5, 0, std::sqrt(0.75)});   // 60 degrees from x, 30 from z
+  const Element at60 = at({}, {0.5, 0, std::sqrt(0.75)});  // 60 degrees from x, 30 from z
   CHECK(angle(kPi / 3, Shape::line, kAlongX, Shape::line, at60) == Approx(kPi / 3));
   CHECK(angle(2 * kPi / 3, Shape::line, kAlongX, Shape::line, at60) == Approx(2 * kPi / 3));
   CHECK(angle(kPi / 6, Shape::plane, kUp, Shape::plane, at60) == Approx(kPi / 6));
   CHECK(angle(kPi / 3, Shape::plane, kUp, Shape::cylinder, at60) == Approx(kPi / 3));
-  CHECK(angle(kPi / 2, Shape::plane, kUp, Shape::cylinder, at({}, kLeaningX)) == Approx(kPi / 2 - kTilt));
+  CHECK(angle(kPi / 2, Shape::plane, kUp, Shape::cylinder, at({}, kLeaningX)) ==
+        Approx(kPi / 2 - kTilt));
   Evaluation limit("ANGLB");
-  limit.number("lower", 1.9).number("upper", 2.3).feature(Shape::line, kAlongX).feature(Shape::line, at60);
+  limit.number("lower", 1.9)
+      .number("upper", 2.3)
+      .feature(Shape::line, kAlongX)
+      .feature(Shape::line, at60);
   CHECK(limit.value() == Approx(2 * kPi / 3));
   CHECK(limit.nominal_value() == Approx(2.1));
   CHECK(*limit.limits().lower == 1.9);

@@ -12,7 +12,8 @@ Evaluation position(const char* space, double zone = 0.1) {
   return e;
 }
 
-const Element kTop = at({40, 30, 0}), kSide = at({0, 10, -5}, {-1, 0, 0}), kFront = at({25, 0, -5}, {0, -1, 0});
+const Element kTop = at({40, 30, 0}), kSide = at({0, 10, -5}, {-1, 0, 0}),
+              kFront = at({25, 0, -5}, {0, -1, 0});
 
 }  // namespace
 
@@ -22,8 +23,11 @@ TEST_CASE("Position in space and in the plane across the nominal direction") {
   CHECK(position("3D").feature(Shape::circle, actual, nominal).value() == Approx(0.26));
   CHECK(position("2D").feature(Shape::circle, actual, nominal).value() == Approx(0.10));
   const Element along_y = at({10, 20, 30}, {0, 1, 0});
-  CHECK(position("2D").feature(Shape::cylinder, at({10.03, 25, 30.04}, {0, 1, 0}), along_y).value() == Approx(0.10));
-  CHECK(position("2D").feature(Shape::sphere, actual, along_y).value() == Approx(0.10));   // a sphere has no direction: z
+  CHECK(
+      position("2D").feature(Shape::cylinder, at({10.03, 25, 30.04}, {0, 1, 0}), along_y).value() ==
+      Approx(0.10));
+  CHECK(position("2D").feature(Shape::sphere, actual, along_y).value() ==
+        Approx(0.10));  // a sphere has no direction: z
 }
 
 TEST_CASE("An axis is out of position by its worse end") {
@@ -33,17 +37,24 @@ TEST_CASE("An axis is out of position by its worse end") {
   CHECK(position("3D").feature(Shape::cylinder, straight, nominal).value() == Approx(0.10));
   // 0.02 off at the point, and turned by 1e-3 the same way: 0.02 + 15e-3 at the far end.
   const Element tilted = spanning(at({10.02, 20, 5}, {std::sin(tilt), 0, std::cos(tilt)}), -10, 15);
-  CHECK(position("3D").feature(Shape::cylinder, tilted, nominal).value() == Approx(2 * (0.02 + 15 * std::sin(tilt))));
+  CHECK(position("3D").feature(Shape::cylinder, tilted, nominal).value() ==
+        Approx(2 * (0.02 + 15 * std::sin(tilt))));
   CHECK(position("2D").feature(Shape::cylinder, tilted, nominal).value() == Approx(0.04));
 }
 
 TEST_CASE("A plane is out of position by its worst corner") {
   const Element nominal = at({0, 0, 50});
-  CHECK(position("3D").feature(Shape::plane, spread(at({7, 8, 50.02}), -0.001, 0.005), nominal).value() == Approx(0.05));
-  CHECK(position("3D").feature(Shape::plane, spread(at({7, 8, 49.98}), -0.001, 0.005), nominal).value() == Approx(0.042));
+  CHECK(position("3D")
+            .feature(Shape::plane, spread(at({7, 8, 50.02}), -0.001, 0.005), nominal)
+            .value() == Approx(0.05));
+  CHECK(position("3D")
+            .feature(Shape::plane, spread(at({7, 8, 49.98}), -0.001, 0.005), nominal)
+            .value() == Approx(0.042));
   const Element tilted = spanning(at({0, 0, 50.01}, {1e-3, 0, 1}), -20, 20);
-  CHECK(position("3D").feature(Shape::plane, tilted, nominal).value() == Approx(0.06).epsilon(1e-5));
-  CHECK(position("2D").feature(Shape::plane, nominal).refusal() == "the position of a plane is written 3D");
+  CHECK(position("3D").feature(Shape::plane, tilted, nominal).value() ==
+        Approx(0.06).epsilon(1e-5));
+  CHECK(position("2D").feature(Shape::plane, nominal).refusal() ==
+        "the position of a plane is written 3D");
 }
 
 TEST_CASE("Datums carry the frame of the position") {
@@ -61,33 +72,61 @@ TEST_CASE("Datums carry the frame of the position") {
   }
   SUBCASE("an error of a datum becomes an error of position") {
     const Element side_too_far = at({0.02, 10, -5}, {-1, 0, 0});
-    CHECK(position("3D").feature(Shape::sphere, nominal).datum(Shape::plane, kTop).datum(Shape::plane, side_too_far, kSide).datum(Shape::plane, kFront).value() == Approx(0.04));
-    // A primary tilted by 1e-4 about y through its centroid turns the sphere by 1e-4 (x and z from where the datums cross).
+    CHECK(position("3D")
+              .feature(Shape::sphere, nominal)
+              .datum(Shape::plane, kTop)
+              .datum(Shape::plane, side_too_far, kSide)
+              .datum(Shape::plane, kFront)
+              .value() == Approx(0.04));
+    // A primary tilted by 1e-4 about y through its centroid turns the sphere by 1e-4 (x and z from
+    // where the datums cross).
     const Element tilted_top = at({40, 30, 0}, {1e-4, 0, 1});
     const double dz = 1e-4 * (60 - 40), dx = 1e-4 * (-10 - -5);
-    CHECK(position("3D").feature(Shape::sphere, nominal).datum(Shape::plane, tilted_top, kTop).datum(Shape::plane, kSide).datum(Shape::plane, kFront).value() ==
-          Approx(2 * std::hypot(dz, dx)).epsilon(1e-3));
+    CHECK(position("3D")
+              .feature(Shape::sphere, nominal)
+              .datum(Shape::plane, tilted_top, kTop)
+              .datum(Shape::plane, kSide)
+              .datum(Shape::plane, kFront)
+              .value() == Approx(2 * std::hypot(dz, dx)).epsilon(1e-3));
   }
   SUBCASE("freedoms without a datum are those of the coordinate system") {
-    CHECK(position("3D").feature(Shape::sphere, at({60, 40, -9.99}), nominal).datum(Shape::plane, at({40, 30, 0.01}), kTop).value() == Approx(0).scale(1));
-    CHECK(position("3D").feature(Shape::sphere, at({60.02, 40, -10}), nominal).datum(Shape::plane, kTop).value() == Approx(0.04));
+    CHECK(position("3D")
+              .feature(Shape::sphere, at({60, 40, -9.99}), nominal)
+              .datum(Shape::plane, at({40, 30, 0.01}), kTop)
+              .value() == Approx(0).scale(1));
+    CHECK(position("3D")
+              .feature(Shape::sphere, at({60.02, 40, -10}), nominal)
+              .datum(Shape::plane, kTop)
+              .value() == Approx(0.04));
   }
-  CHECK(position("3D").feature(Shape::sphere, nominal).datum(Shape::plane, kTop).datum(Shape::plane, kTop).datum(Shape::plane, kTop).datum(Shape::plane, kTop).refusal() ==
-        "a position has at most three datums");
+  CHECK(position("3D")
+            .feature(Shape::sphere, nominal)
+            .datum(Shape::plane, kTop)
+            .datum(Shape::plane, kTop)
+            .datum(Shape::plane, kTop)
+            .datum(Shape::plane, kTop)
+            .refusal() == "a position has at most three datums");
 }
 
 TEST_CASE("Limits of a position") {
   CHECK(*position("3D", 0.1).feature(Shape::point, at({})).limits().upper == 0.1);
   CHECK_FALSE(position("2D", 0).feature(Shape::point, at({})).limits().upper);
   // Without the size tolerance there is no bonus to give.
-  CHECK(*position("3D", 0.1).word("material", "MMC").feature(Shape::cylinder, sized(at({}), 8.1), sized(at({}), 8)).limits().upper == 0.1);
+  CHECK(*position("3D", 0.1)
+             .word("material", "MMC")
+             .feature(Shape::cylinder, sized(at({}), 8.1), sized(at({}), 8))
+             .limits()
+             .upper == 0.1);
   CHECK(position("3D", 0.1).feature(Shape::point, at({})).nominal_value() == 0);
 }
 
 TEST_CASE("CORTOL reports deviations of coordinates") {
   auto deviation = [](const char* axis) {
     Evaluation e("CORTOL");
-    e.word("axis", axis).number("lower", -0.1).number("upper", 0.2).feature(Shape::circle, at({3.01, 3.98, 7.5}), at({3, 4, 7}));
+    e.word("axis", axis)
+        .number("lower", -0.1)
+        .number("upper", 0.2)
+        .feature(Shape::circle, at({3.01, 3.98, 7.5}), at({3, 4, 7}));
     return e;
   };
   CHECK(deviation("XAXIS").value() == Approx(0.01));
