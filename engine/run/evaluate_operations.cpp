@@ -9,16 +9,18 @@ void BlockRun::operator()(const plan::Construct& construct) {
   for (const plan::FeatureId id : construct.from) shapes.push_back(executor.plan_[id].kind->shape);
   std::vector<Element> from(shapes.size());
   for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    const Lane& twin = twin_of(lane);
+    const Rigid X_DW = inverse(lane.X_WD);
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       const Element* element = actual(i, construct.from[k]);
       if (!element) return "";
-      from[k] = *element;
+      from[k] = X_DW * *element;
     }
-    Lane& lane = block.lanes[i];
-    const Outcome<Element> made =
-        construct.method->construct(shape, shapes, from, twin_of(lane).nominal[construct.result.value], construct.arguments);
+    const Element nominal = inverse(twin.X_WD) * twin.nominal[construct.result.value];
+    const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, construct.arguments);
     if (!made) return made.failure;
-    lane.actual[construct.result.value] = made.value;
+    lane.actual[construct.result.value] = lane.X_WD * made.value;
     lane.has_actual[construct.result.value] = 1;
     return "";
   });
