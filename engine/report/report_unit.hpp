@@ -14,7 +14,8 @@ struct ReportUnit {
 };
 
 inline ReportUnit report_unit(const plan::Plan& plan, plan::CharacteristicId id) {
-  return plan[plan[id].tolerance].kind->unit == Unit::rad ? ReportUnit{"deg", 180 / std::numbers::pi} : ReportUnit{};
+  const plan::ToleranceDef& tolerance = plan[plan[id].tolerance];
+  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad ? ReportUnit{"deg", 180 / std::numbers::pi} : ReportUnit{};
 }
 
 }  // namespace abbe

@@ -69,7 +69,8 @@ std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
     const Samples& samples = result.samples[i];
     if (samples.value.size() < 2) continue;
     CharacteristicReport report = characteristic_report(plan, samples, result.machines);
-    report.contributions = contributions(alone, i, plan[plan[samples.characteristic].tolerance].kind->unit);
+    const plan::ToleranceDef& tolerance = plan[plan[samples.characteristic].tolerance];
+    report.contributions = contributions(alone, i, unit_of(*tolerance.kind, tolerance.arguments));
     reports.push_back(std::move(report));
   }
   return reports;
