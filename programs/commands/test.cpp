@@ -46,20 +46,41 @@ void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectatio
   for (const lang::Expectation& e : expectations) suite.cases.push_back({e.text, e.line, reason, false});
 }
 
-/// An expectation that cannot be read must fail, not vanish.
-void add_unreadable(TestSuite& suite, const CompiledProgram& program) {
-  for (const Diagnostic& d : program.messages)
-    if (d.severity() == Severity::error && d.source_line.find("$$!") != std::string::npos)
-      suite.cases.push_back({d.source_line, d.place.line, fmt::format("{} {}", info(d.code).name, d.message), false});
+/// Errors of a program by where they stand: in its `$$!` directives, or in its statements.
+struct Errors {
+  std::vector<Diagnostic> directives;
+  bool in_statements = false;
+};
+
+Errors errors_of(const CompiledProgram& program) {
+  Errors errors;
+  for (const Diagnostic& d : program.messages) {
+    if (d.severity() != Severity::error) continue;
+    const std::size_t directive = d.source_line.find("$$!");
+    if (directive < static_cast<std::size_t>(d.place.column))
+      errors.directives.push_back(d);
+    else
+      errors.in_statements = true;
+  }
+  return errors;
+}
+
+/// A directive that cannot be read must fail, not vanish. Expectations that were read are judged by themselves.
+void fail_unreadable(TestSuite& suite, const Errors& errors, const std::vector<lang::Expectation>& expectations) {
+  for (const Diagnostic& d : errors.directives) {
+    const bool read = std::any_of(expectations.begin(), expectations.end(), [&](const auto& e) { return e.line == d.place.line; });
+    if (!read) suite.cases.push_back({d.source_line, d.place.line, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help), false});
+  }
 }
 
 TestSuite test_program(const std::string& path, const StudySettings& settings, ProgressLine& progress) {
   const CompiledProgram program = compile_program(path);
   const auto& expectations = program.compilation.directives.expectations;
+  const Errors errors = errors_of(program);
   TestSuite suite{path, {}};
-  add_unreadable(suite, program);
+  fail_unreadable(suite, errors, expectations);
   if (expectations.empty()) return suite;
-  if (program.has_errors) {
+  if (errors.in_statements) {
     fail_all(suite, expectations, "the program has errors; `abbe check` lists them");
     return suite;
   }
@@ -70,7 +91,6 @@ TestSuite test_program(const std::string& path, const StudySettings& settings, P
       suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
     }
   } catch (const UserError& error) {
-    suite.cases.clear();
     fail_all(suite, expectations, error.what());
   }
   return suite;

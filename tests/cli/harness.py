@@ -1,0 +1,67 @@
+"""Shared by the command-line tests. A test file is tests/cli/NAME_test.py, called with the path of abbe; it defines classes derived
+from harness.Case and ends with harness.main()."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# A length of 100 mm along x in the middle of the machine coord3-mc16, between two touches.
+LENGTH = """DMISMN/'a length',4.0
+UNITS/MM,ANGDEC
+S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,300.0,4.0
+SNSLCT/S(P)
+D(M)=DATSET/MCS
+D(R)=TRANS/XORIG,800,YORIG,500,ZORIG,-700
+F(A)=FEAT/POINT,CART,0,0,0,-1,0,0
+MEAS/POINT,F(A),1
+PTMEAS/CART,0,0,0,-1,0,0
+ENDMES
+F(B)=FEAT/POINT,CART,100,0,0,1,0,0
+MEAS/POINT,F(B),1
+PTMEAS/CART,100,0,0,1,0,0
+ENDMES
+T(LEN)=TOL/DISTB,NOMINL,100.0,-0.01,0.01,PT2PT
+OUTPUT/FA(A),FA(B),TA(LEN)
+ENDFIL
+"""
+
+
+class Case(unittest.TestCase):
+    abbe_path = ""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def abbe(self, *args, code=0, stdout=subprocess.PIPE):
+        """Runs abbe in the temporary folder and checks the exit code."""
+        done = subprocess.run([self.abbe_path, *map(str, args)], cwd=self.folder, stdout=stdout, stderr=subprocess.PIPE, text=True,
+                              errors="replace", timeout=120)
+        self.assertEqual(done.returncode, code, f"exit code of abbe {args}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def refused(self, message_code, *args):
+        """Exit code 2, the message on stderr, nothing on stdout. Returns stderr."""
+        done = self.abbe(*args, code=2)
+        self.assertIn(message_code, done.stderr)
+        self.assertEqual(done.stdout, "")
+        return done.stderr
+
+    def run_json(self, *args):
+        return json.loads(self.abbe("run", *args, "--format", "json").stdout)
+
+
+def main():
+    Case.abbe_path = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

@@ -1,0 +1,131 @@
+"""abbe run: figures, formats, files, and input that cannot be used."""
+import csv
+import json
+import statistics
+
+import harness
+from harness import LENGTH
+
+KEYS = {"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost", "influences", "messages"}
+CHARACTERISTIC_KEYS = {"feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal", "reference", "mean", "u", "lcl", "ucl",
+                       "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "contributions", "trapped"}
+
+
+class Figures(harness.Case):
+    def setUp(self):
+        super().setUp()
+        self.write("length.dmi", LENGTH)
+
+    def test_json_has_the_published_keys(self):
+        report = self.run_json("length.dmi", "--machines", 200)
+        self.assertEqual(report["schema"], "abbe.run/1")
+        self.assertLessEqual(KEYS, report.keys())
+        self.assertEqual(report["machines"]["used"], 200)
+        self.assertEqual(report["machines"]["share_accepted"], 200 / report["machines"]["generated"])
+        self.assertEqual(sum(report["machines"][k] for k in ("used", "failed_mpe", "too_small")), report["machines"]["generated"])
+        self.assertEqual(len(report["characteristics"]), 1)
+        length = report["characteristics"][0]
+        self.assertLessEqual(CHARACTERISTIC_KEYS, length.keys())
+        self.assertEqual((length["feature"], length["tolerance"], length["kind"], length["unit"], length["line"]),
+                         (["A", "B"], "LEN", "DISTB", "mm", 16))
+        self.assertIn({"name": "geometry", "status": "modelled"}, report["influences"])
+        self.assertIn({"name": "operator", "status": "not modelled"}, report["influences"])
+
+    def test_figures_agree_with_each_other_and_with_the_samples(self):
+        report = self.run_json("length.dmi", "--machines", 500, "--csv", "samples.csv")
+        length = report["characteristics"][0]
+        with open(self.folder / "samples.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        values = sorted(float(row["value"]) for row in rows)
+        self.assertEqual([int(row["machine"]) for row in rows], list(range(500)))
+        self.assertEqual({row["characteristic"] for row in rows}, {"FA(A),FA(B),TA(LEN)"})
+        self.assertAlmostEqual(length["mean"], statistics.fmean(values), delta=1e-12)
+        self.assertAlmostEqual(length["u"], statistics.stdev(values), delta=1e-12)
+        # JCGM 101, 7.7.1: M = 500, q = 475, r = int(25/2 + 1/2) = 13.
+        self.assertEqual(length["interval95"]["symmetric"], [values[12], values[487]])
+        self.assertAlmostEqual(length["lcl"], values[12] - length["reference"], delta=1e-12)
+        low, high = length["tolerance_limits"]
+        self.assertEqual(length["conformance_probability"], sum(low <= v <= high for v in values) / 500)
+        self.assertAlmostEqual(sum(length["contributions"].values()), 1, delta=1e-12)
+        self.assertEqual(length["contributions"]["head"], 0)   # one head position: indexing shifts both touches alike
+        self.assertAlmostEqual(length["reference"], 100, delta=1e-9)
+
+    def test_the_result_depends_on_the_seed_and_not_on_threads(self):
+        def text(*options):
+            return self.abbe("run", "length.dmi", "--machines", 300, "--format", "json", *options).stdout
+        self.assertEqual(text("--threads", 1), text("--threads", 3))
+        self.assertNotEqual(text("--seed", 1), text("--seed", 2))
+
+    def test_directives_settle_what_the_command_line_leaves_open(self):
+        self.write("directed.dmi", "$$! machines 60\n$$! seed 9\n$$! machine coord3-mc16\n" + LENGTH)
+        report = self.run_json("directed.dmi")
+        self.assertEqual((report["machines"]["used"], report["seed"]), (60, 9))
+        report = self.run_json("directed.dmi", "--machines", 70, "--seed", 10)
+        self.assertEqual((report["machines"]["used"], report["seed"]), (70, 10))
+
+    def test_digits_choose_the_number_of_machines(self):
+        report = self.run_json("length.dmi", "--digits", 1)
+        self.assertGreaterEqual(report["machines"]["used"], 20000)
+        self.assertEqual(report["machines"]["used"] % 10000, 0)
+        length = report["characteristics"][0]
+        self.assertLess(length["monte_carlo_error"]["u"], 0.05 * length["u"])
+
+    def test_text_is_a_table(self):
+        done = self.abbe("run", "length.dmi", "--machines", 200)
+        self.assertIn("LEN (DISTB)", done.stdout)
+        self.assertIn("200 virtual machines used of", done.stdout)
+        self.assertIn("Monte Carlo error of u:", done.stdout)
+        self.assertIn("W0416", done.stdout)   # the paper's machine: fewer than half pass
+        self.assertNotIn("\x1b", done.stdout + done.stderr)
+
+
+class Refusals(harness.Case):
+    def test_settings_out_of_range(self):
+        self.write("length.dmi", LENGTH)
+        for options in (["--machines", 0], ["--machines", -5], ["--machines", 1], ["--threads", -1], ["--digits", 3]):
+            self.assertIn(str(options[1]), self.refused("E0603", "run", "length.dmi", *options))
+
+    def test_a_program_with_errors_is_not_run(self):
+        self.write("wrong.dmi", LENGTH.replace("T(LEN)=TOL", "T(LEN)=TLO"))
+        message = self.refused("E0604", "run", "wrong.dmi")
+        self.assertIn("wrong.dmi:15:", message)
+        self.assertIn("--only-valid", message)
+        self.refused("E0604", "run", "wrong.dmi", "--format", "json", "--csv", "samples.csv")
+        self.assertFalse((self.folder / "samples.csv").exists())
+
+    def test_only_valid_says_what_is_lost(self):
+        second = "T(TWO)=TOL/DISTB,NOMINL,100.0,-0.01,0.01,XAXIS\nOUTPUT/FA(A),FA(B),TA(TWO)\nENDFIL"
+        self.write("wrong.dmi", LENGTH.replace("T(LEN)=TOL", "T(LEN)=TLO").replace("ENDFIL", second))
+        report = self.run_json("wrong.dmi", "--only-valid", "--machines", 50)
+        self.assertEqual([c["tolerance"] for c in report["characteristics"]], ["TWO"])
+        self.assertEqual([lost["line"] for lost in report["lost"]], [16])
+        self.assertTrue(report["lost"][0]["reason"])
+        self.assertIn("error", [m["severity"] for m in report["messages"]])
+
+    def test_a_program_without_characteristics(self):
+        self.write("empty.dmi", LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)\n", ""))
+        report = self.run_json("empty.dmi", "--machines", 50)
+        self.assertEqual(report["characteristics"], [])
+        self.assertIn("W0606", [m["code"] for m in report["messages"]])
+
+    def test_files(self):
+        self.write("length.dmi", LENGTH)
+        self.refused("E0601", "run", "missing.dmi")
+        self.refused("E0602", "run", "length.dmi", "--machines", 20, "--csv", "no/such/folder/samples.csv")
+        self.assertIn("coord3-mc16", self.refused("E0411", "run", "length.dmi", "--machine", "coord3-mc61"))
+        with open("/dev/full", "w") as full:
+            self.assertIn("E0602", self.abbe("run", "length.dmi", "--machines", 20, code=2, stdout=full).stderr)
+
+    def test_touches_outside_the_travel(self):
+        self.write("outside.dmi", LENGTH.replace("XORIG,800", "XORIG,1550"))
+        self.assertIn("outside.dmi:13:", self.refused("E0302", "run", "outside.dmi"))
+
+
+class Texts(harness.Case):
+    def test_latin_1_labels_do_not_break_json(self):
+        self.write("latin.dmi", LENGTH.replace("(LEN)", "(L\u00e4nge)").encode("latin-1"))
+        done = self.abbe("run", "latin.dmi", "--machines", 20, "--format", "json")
+        self.assertEqual(len(json.loads(done.stdout)["characteristics"]), 1)
+
+
+harness.main()

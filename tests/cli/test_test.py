@@ -1,0 +1,105 @@
+"""abbe test: expectations, what they are about, JUnit."""
+import xml.etree.ElementTree as ElementTree
+
+import harness
+from harness import LENGTH
+
+
+class Expectations(harness.Case):
+    def program(self, *expectations, name="length.dmi", text=LENGTH):
+        lines = [f"$$! expect {e}\n" for e in expectations]
+        return self.write(name, "$$! machines 100\n" + "".join(lines) + text)
+
+    def test_all_quantities(self):
+        self.program("TA(LEN) u between 0.0002 0.005", "TA(LEN) u95 between 0.0004 0.01", "TA(LEN) lcl <= 0", "TA(LEN) ucl >= 0",
+                     "TA(LEN) mean between 99.99 100.01", "TA(LEN) value between 99.999999 100.000001", "TA(LEN) conformance >= 0.9",
+                     "FA(B) TA(len) u >= 0", "accepted between 0.2 0.6")
+        done = self.abbe("test", "length.dmi")
+        self.assertEqual(done.stdout.splitlines()[-1], "9 passed, 0 failed")
+        self.assertEqual([line[:2] for line in done.stdout.splitlines()[:-1]], ["ok"] * 9)
+        self.assertIn("length.dmi:2: TA(LEN) u = ", done.stdout)
+
+    def test_u95_is_half_the_symmetric_interval(self):
+        self.write("plain.dmi", LENGTH)
+        low, high = self.run_json("plain.dmi", "--machines", 100)["characteristics"][0]["interval95"]["symmetric"]
+        half = (high - low) / 2
+        self.program(f"TA(LEN) u95 between {half * 0.999999:.12f} {half * 1.000001:.12f}")
+        self.abbe("test", "length.dmi")
+
+    def test_a_failure_is_exit_code_1(self):
+        self.program("TA(LEN) u <= 0.000001", "TA(LEN) u >= 0")
+        done = self.abbe("test", "length.dmi", code=1)
+        self.assertRegex(done.stdout, r"FAIL +length.dmi:2: TA\(LEN\) u = 0.00\d+, is not <= 1e-06\n")
+        self.assertIn("1 passed, 1 failed", done.stdout)
+
+    def test_unknown_characteristics_fail_with_a_suggestion(self):
+        self.program("TA(LENN) u >= 0", "FA(C) TA(LEN) u >= 0", "TA(LEN) occurrence 2 u >= 0")
+        done = self.abbe("test", "length.dmi", code=1)
+        self.assertIn("0 passed, 3 failed", done.stdout)
+        self.assertIn("E0608", done.stdout)
+        self.assertIn("did you mean TA(LEN)?", done.stdout)
+        self.assertIn("FA(C) with TA(LEN)", done.stdout)
+        self.assertIn("occurrence 2", done.stdout)
+
+    def test_expectations_that_cannot_be_read_fail(self):
+        self.program("TA(LEN) q95 >= 0", "TA(LEN) u >= 0")
+        done = self.abbe("test", "length.dmi", code=1)
+        self.assertIn("FAIL  length.dmi:2:", done.stdout)
+        self.assertIn("1 passed, 1 failed", done.stdout)
+
+    def test_a_program_with_errors_fails(self):
+        self.program("TA(LEN) u >= 0", text=LENGTH.replace("T(LEN)=TOL", "T(LEN)=TLO"))
+        self.assertIn("has errors", self.abbe("test", "length.dmi", code=1).stdout)
+
+    def test_a_program_that_cannot_run_fails_and_the_others_go_on(self):
+        self.program("TA(LEN) u >= 0", name="a.dmi", text=LENGTH.replace("XORIG,800", "XORIG,1550"))
+        self.program("TA(LEN) u >= 0", name="b.dmi")
+        done = self.abbe("test", ".", code=1)
+        self.assertIn("outside the travel", done.stdout)
+        self.assertIn("1 passed, 1 failed", done.stdout)
+
+    def test_folders_are_searched(self):
+        self.program("TA(LEN) u >= 0", name="one/a.dmi")
+        self.program("TA(LEN) u >= 0", name="one/two/b.DMI")
+        self.write("one/c.dmi", LENGTH)
+        self.write("one/d.txt", "$$! expect TA(LEN) u <= 0\n")
+        self.assertIn("2 passed, 0 failed", self.abbe("test", "one").stdout)
+
+    def test_settings_of_the_command_line_win(self):
+        self.program("accepted >= 0")
+        self.abbe("test", "length.dmi", "--machines", 50, "--seed", 3)
+        self.assertIn("0 virtual machines", self.abbe("test", "length.dmi", "--machines", 0, code=1).stdout)
+
+    def test_nothing_to_test(self):
+        self.write("length.dmi", LENGTH)
+        self.refused("E0607", "test", ".")
+        self.refused("E0601", "test", "missing.dmi")
+
+
+class JUnit(harness.Case):
+    def test_results_as_xml(self):
+        folder = "a&b <'\"> \u00e4"
+        text = "$$! machines 50\n$$! expect TA(LEN) u <= 0\n$$! expect TA(LEN) u >= 0\n" + LENGTH
+        self.write(f"{folder}/length.dmi", text)
+        self.abbe("test", folder, "--junit", "out.xml", code=1)
+        root = ElementTree.parse(self.folder / "out.xml").getroot()
+        self.assertEqual((root.tag, root.get("tests"), root.get("failures")), ("testsuites", "2", "1"))
+        suite = root.find("testsuite")
+        self.assertEqual(suite.get("name"), f"{folder}/length.dmi")
+        failed, passed = suite.findall("testcase")
+        self.assertIn("u <= 0", failed.get("name"))
+        self.assertIn("is not <= 0", failed.find("failure").get("message"))
+        self.assertIsNone(passed.find("failure"))
+        self.assertEqual(passed.get("line"), "3")
+
+    def test_bytes_that_are_not_utf_8(self):
+        self.write("length.dmi", b"$$! machines 50\n$$! expect TA(\xe4\x01) u <= 0\n" + LENGTH.encode())
+        self.abbe("test", "length.dmi", "--junit", "out.xml", code=1)
+        ElementTree.parse(self.folder / "out.xml")
+
+    def test_a_file_that_cannot_be_written(self):
+        self.write("length.dmi", "$$! machines 50\n$$! expect TA(LEN) u >= 0\n" + LENGTH)
+        self.assertIn("E0602", self.abbe("test", "length.dmi", "--junit", "no/such/out.xml", code=2).stderr)
+
+
+harness.main()

@@ -1,0 +1,127 @@
+#include "engine/report/run_report.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/base/ids.hpp"
+#include "engine/report/influences.hpp"
+#include "engine/report/study.hpp"
+#include "sample_plan.hpp"
+
+using namespace abbe;
+using namespace abbe::test;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// 1000 values around 500 in steps of `step`.
+std::vector<double> ramp(double middle, double step) {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) values.push_back(middle + (i - 499.5) * step);
+  return values;
+}
+
+const CharacteristicReport::Contribution* contribution(const CharacteristicReport& c, const std::string& name) {
+  for (const auto& k : c.contributions)
+    if (k.name == name) return &k;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("limits are relative to the error-free value, conformance is a share") {
+  const RunResult run = run_of({samples(0, 500, {499.999, 500.0002}, ramp(500, 1e-6))}, 1003);
+  const auto reports = characteristic_reports(length_and_angle(), run, {});
+  REQUIRE(reports.size() == 1);
+  const CharacteristicReport& c = reports[0];
+  CHECK(c.features == std::vector<std::string>{"A", "B"});
+  CHECK(c.tolerance == "LEN");
+  CHECK(c.kind == "DISTB");
+  CHECK(c.unit == "mm");
+  CHECK(c.line == 41);
+  CHECK(c.lcl == doctest::Approx(-475.5e-6).epsilon(1e-9));  // 25th of 1000
+  CHECK(c.ucl == doctest::Approx(474.5e-6).epsilon(1e-9));   // 975th
+  CHECK(*c.conformance_probability == 0.7);                  // i - 499.5 <= 200: 700 of 1000
+  CHECK(c.trapped == 3);
+}
+
+TEST_CASE("angles leave in degrees") {
+  const RunResult run = run_of({samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))}, 1000);
+  const CharacteristicReport c = characteristic_reports(length_and_angle(), run, {}).at(0);
+  CHECK(c.unit == "deg");
+  CHECK(c.reference == doctest::Approx(90).epsilon(1e-14));
+  CHECK(c.nominal == doctest::Approx(90).epsilon(1e-14));
+  CHECK(*c.upper == doctest::Approx(91).epsilon(1e-14));
+  CHECK_FALSE(c.lower);
+  CHECK(c.summary.u == doctest::Approx(1e-3 * std::sqrt(1000 * 1001 / 12.0)).epsilon(1e-9));  // of n equal steps
+  CHECK(c.lcl == doctest::Approx(-0.4755).epsilon(1e-9));
+}
+
+TEST_CASE("shares of variance sum to one and ignore rounding") {
+  const auto alone = [](double step) { return run_of({samples(0, 500, {}, ramp(500, step))}, 1000); };
+  const std::vector<ContributorRun> runs{{"geometry", alone(2e-6)}, {"head", alone(1e-13)}, {"probe", alone(1e-6)}};
+  const CharacteristicReport c = characteristic_reports(length_and_angle(), alone(3e-6), runs).at(0);
+  CHECK(contribution(c, "geometry")->share == doctest::Approx(0.8).epsilon(1e-6));
+  CHECK(contribution(c, "probe")->share == doctest::Approx(0.2).epsilon(1e-6));
+  CHECK(contribution(c, "head")->share == 0);  // u = 3e-11 mm is rounding
+  CHECK_FALSE(c.conformance_probability);      // no limits, no probability
+}
+
+TEST_CASE("when nothing varies every share is zero, not NaN") {
+  const RunResult constant = run_of({samples(0, 500, {}, std::vector<double>(1000, 500.0))}, 1000);
+  const CharacteristicReport c = characteristic_reports(length_and_angle(), constant, {{"geometry", constant}, {"probe", constant}}).at(0);
+  CHECK(contribution(c, "geometry")->share == 0);
+  CHECK(contribution(c, "probe")->share == 0);
+}
+
+TEST_CASE("shares are unknown, not zero, when a contributor alone reaches nothing") {
+  const RunResult all = run_of({samples(0, 500, {}, ramp(500, 1e-6))}, 1000);
+  const RunResult none = run_of({samples(0, 500, {}, {500.0})}, 1000);
+  CHECK(characteristic_reports(length_and_angle(), all, {{"geometry", all}, {"probe", none}}).at(0).contributions.empty());
+}
+
+TEST_CASE("a characteristic that fewer than two machines reached has no figures") {
+  const RunResult run = run_of({samples(0, 500, {}, {500.0}), samples(1, 1, {}, {1.0, 1.1})}, 1000);
+  const auto reports = characteristic_reports(length_and_angle(), run, {});
+  REQUIRE(reports.size() == 1);
+  CHECK(reports[0].tolerance == "ANG");
+}
+
+TEST_CASE("runs of different plans are refused") {
+  const RunResult one = run_of({samples(0, 500, {}, ramp(500, 1e-6))}, 1000);
+  CHECK_THROWS_AS(characteristic_reports(length_and_angle(), one, {{"probe", run_of({}, 1000)}}), InternalError);
+}
+
+TEST_CASE("influences are declared; an effect of the machine file makes its influence modelled") {
+  const auto status = [](const Machine& machine, const std::string& name) {
+    for (const Influence& influence : influences(machine))
+      if (influence.name == name) return influence.status;
+    return std::string("missing");
+  };
+  Machine machine;
+  CHECK(status(machine, "geometry") == "modelled");
+  CHECK(status(machine, "head indexing") == "modelled");
+  CHECK(status(machine, "probe repeatability") == "modelled");
+  CHECK(status(machine, "operator") == "not modelled");
+  CHECK(status(machine, "part temperature") == "not modelled");
+  CHECK(status(machine, "vibration and outliers") == "not modelled");
+  machine.effects = {{"thermal.part_expansion", {}}, {"noise.outliers", {}}};
+  CHECK(status(machine, "part temperature") == "modelled");
+  CHECK(status(machine, "vibration and outliers") == "modelled");
+  CHECK(status(machine, "thermal drift") == "not modelled");
+}
+
+TEST_CASE("samples as CSV: every machine, labels quoted, angles in degrees") {
+  Study study;
+  study.result = run_of({samples(0, 500, {}, {500.25}), samples(1, 90 * kDegree, {}, {90 * kDegree, 45 * kDegree})}, 2);
+  study.result.samples[0].machine = {1};
+  study.candidates = {0, 7};
+  CHECK(samples_csv(length_and_angle(), study) ==
+        "machine,candidate,characteristic,occurrence,unit,reference,value\r\n"
+        "1,7,\"FA(A),FA(B),TA(LEN)\",1,mm,500,500.25\r\n"
+        "0,0,\"FA(A),TA(ANG)\",1,deg,90,90\r\n"
+        "1,7,\"FA(A),TA(ANG)\",1,deg,90,45\r\n");
+}
