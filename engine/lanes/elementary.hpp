@@ -41,6 +41,23 @@ template <class... Rest>
   return k * kLn2High - ((half_f2 - (s * (half_f2 + tail) + k * kLn2Low)) - f);
 }
 
+/// e to the power x, for |x| < 700.
+[[gnu::always_inline]] inline double exp_bounded(double x) {
+  // x = k ln 2 + r with |r| <= ln 2 / 2; ln 2 in two parts, so that k ln 2 is exact. The Taylor
+  // polynomial of degree 13 leaves less than 5e-18.
+  constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
+  constexpr double kLog2e = 1.44269504088896338700, kRound = 0x1.8p52;
+  const double rounded = x * kLog2e + kRound, k = rounded - kRound;
+  const double r = (x - k * kLn2High) - k * kLn2Low;
+  const double e_r =
+      polynomial(r, 1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,
+                 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600.0,
+                 1.0 / 6227020800.0);
+  // The low bits of `rounded` hold k; 2^k is written into the exponent.
+  const std::uint64_t power = (std::bit_cast<std::uint64_t>(rounded) + 1023) << 52;
+  return e_r * std::bit_cast<double>(power);
+}
+
 struct SinCos {
   double sin, cos;
 };
