@@ -98,6 +98,8 @@ struct DefineFeature { FeatureId feature; };
 struct SelectSensor { SensorId sensor; };
 /// PRCOMP: with compensation a touch yields the surface point, without it the centre of the tip.
 struct SetCompensation { bool on = true; };
+/// TECOMP: whether the controller takes out the thermal expansion that it reckons with (workpiece file, "compensation").
+struct SetTemperatureCompensation { bool on = true; };
 /// Settings of the motion model. Lengths mm, speeds mm/s, accelerations mm/s^2.
 enum class MotionSetting { approach, search, retract, clearance, depth, positioning_speed, measuring_speed, scan_speed,
                            positioning_acceleration, measuring_acceleration, fly_radius };
@@ -140,7 +142,7 @@ struct Jump { int target = 0; };
 /// Goes to `target` on the lanes where the condition is 0.
 struct JumpUnless { Expression condition; int target = 0; };
 
-using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
+using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
                             SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Obtain, Assign, Jump, JumpUnless>;
 
 struct Operation {

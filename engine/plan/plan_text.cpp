@@ -93,6 +93,9 @@ class ActionText {
   std::string operator()(const SetCompensation& o) const {
     return fmt::format("compensation {}", o.on ? "on" : "off");
   }
+  std::string operator()(const SetTemperatureCompensation& o) const {
+    return fmt::format("temperature compensation {}", o.on ? "on" : "off");
+  }
   std::string operator()(const SetMotion& o) const {
     return fmt::format("set {} {}{}", name_of(o.setting, kSettings), text(o.value),
                        o.percent ? " percent" : "");

@@ -15,6 +15,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/run/effect_set.hpp"
 #include "engine/run/motion.hpp"
+#include "engine/run/part.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/sensor.hpp"
 
@@ -46,6 +47,7 @@ struct Lane {
   std::uint32_t indexings = 0;        ///< how often the head was indexed so far
   double head_error_a_rad = 0, head_error_b_rad = 0;
   bool compensation = true;
+  bool temperature_compensation = false;
   std::uint64_t fuel_used = 0;
   std::vector<Vec3> points;           ///< of the measurement it is in: surface points, or tip centres without compensation; W
   std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
@@ -53,6 +55,7 @@ struct Lane {
   std::vector<Element> nominal;       ///< by FeatureId, in W; twins only
   std::optional<Motion> motion;       ///< twins only: their machines move with them
   TouchMotion last_touch;             ///< twins only
+  std::optional<Vec3> fixed_point;    ///< twins only: the first point touched, from which the part expands; W
   std::vector<Rigid> frames;          ///< X_WD by FrameId
   std::vector<double> columns;        ///< by ColumnId
   std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
@@ -65,6 +68,7 @@ struct Block {
   int machines = 0;
   GeometryBlock geometry;
   EffectSet::LaneParameters effects;
+  std::vector<Part::Draw> parts;      ///< by machine
   std::uint64_t touches = 0;
 
   int reference() const { return machines; }

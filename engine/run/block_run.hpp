@@ -21,6 +21,7 @@ class BlockRun {
   void operator()(const plan::DefineFeature&);
   void operator()(const plan::SelectSensor&);
   void operator()(const plan::SetCompensation&);
+  void operator()(const plan::SetTemperatureCompensation&);
   void operator()(const plan::SetMotion&);
   void operator()(const plan::Move&);
   void operator()(const plan::BeginMeasure&);
@@ -59,11 +60,14 @@ class BlockRun {
   int operation = 0;
   TouchBatch touch_batch;
   std::vector<Mat3> R_WR;              // by slot of touch_batch
+  std::vector<PlaceOnPart> places;     // by slot of touch_batch, when a workpiece is given
   std::vector<double> points_buffer;   // columns handed to the fits
 
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
   void add_effects(const plan::Touch&, int machines);
+  void put_on_part(const plan::Touch&, const Lane& twin, int slot);
+  void add_part(int machines);
   void observe_touch(const plan::Touch&, int slot);
   RecordingRow recording_row(const plan::Touch&, int slot) const;
   void fit_twins(plan::FeatureId);

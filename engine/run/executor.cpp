@@ -7,7 +7,8 @@
 namespace abbe {
 
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
-    : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name) {
+    : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name),
+      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()) {
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = static_cast<int>(sensors_.size());
@@ -21,6 +22,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   Lane start;
   start.X_WD = {Mat3{}, options_.placement_mm};
   start.twin = count;
+  start.temperature_compensation = part_.given() && part_.workpiece().compensated;
   start.actual.resize(plan_.features.size());
   start.has_actual.assign(plan_.features.size(), 0);
   start.frames.resize(plan_.frames.size());
@@ -28,8 +30,11 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.visits.assign(plan_.operations.size(), 0);
 
   const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);
-  Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index), 0};
-  for (int i = 0; i < count; ++i) block.lanes[i].machine_index = index[i];
+  Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index), {}, 0};
+  for (int i = 0; i < count; ++i) {
+    block.lanes[i].machine_index = index[i];
+    if (part_.given()) block.parts.push_back(part_.draw({options_.seed, index[i]}));
+  }
   block.lanes[count].nominal.resize(plan_.features.size());
   block.lanes[count].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
   return block;

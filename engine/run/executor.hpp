@@ -46,6 +46,7 @@ class Executor {
   const RunOptions& options_;
   std::vector<Sensor> sensors_;      ///< by SensorId
   EffectSet effects_;
+  Part part_;
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

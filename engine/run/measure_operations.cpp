@@ -41,6 +41,10 @@ void BlockRun::operator()(const plan::SetCompensation& set) {
   for (const int i : active) block.lanes[i].compensation = set.on;
 }
 
+void BlockRun::operator()(const plan::SetTemperatureCompensation& set) {
+  for (const int i : active) block.lanes[i].temperature_compensation = set.on;
+}
+
 void BlockRun::operator()(const plan::SetMotion& set) {
   for (const int i : active)
     if (block.is_twin(i)) apply(block.lanes[i].motion->settings(), set, executor.machine_);
@@ -105,6 +109,7 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   touch_batch.machine[slot] = lane.machine_index;
   touch_batch.visit[slot] = lane.visits[operation]++;
   R_WR[slot] = sensor.R_WR;
+  if (executor.part_.given()) put_on_part(touch, twin, slot);
   return true;
 }
 
@@ -126,6 +131,7 @@ void BlockRun::add_errors(int machines) {
 void BlockRun::operator()(const plan::Touch& touch) {
   touch_batch.resize(static_cast<int>(active.size()));
   R_WR.resize(active.size());
+  places.resize(active.size());
   int n = 0, machines = 0;
   for (const int lane : active) {
     if (!block.lanes[lane].running || !prepare_touch(n, lane, touch)) continue;
@@ -135,6 +141,7 @@ void BlockRun::operator()(const plan::Touch& touch) {
   touch_batch.n = n;
   add_errors(machines);
   add_effects(touch, machines);
+  if (executor.part_.given()) add_part(machines);
   find_contact(touch_batch);
   block.touches += static_cast<std::uint64_t>(machines);
   for (int i = 0; i < n; ++i) {

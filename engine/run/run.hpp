@@ -10,6 +10,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/effect_use.hpp"
+#include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
 
@@ -17,6 +18,7 @@ namespace abbe {
 struct Contributors {
   bool geometry = true, head = true, probe = true;
   std::optional<Component> only_component;  ///< of the geometry, that error function alone
+  bool part = true;                         ///< what is uncertain of the workpiece, and its temperatures
   bool effects = true;
   std::optional<int> only_effect;           ///< of the effects, that one alone: index into the machine's list
 };
@@ -28,6 +30,7 @@ struct RunOptions {
   Contributors contributors;
   EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;              ///< where the program's machine coordinate system lies in W (directive `place`)
+  const Workpiece* workpiece = nullptr;  ///< the true part; none: exactly nominal, at 20 degrees C
 };
 
 /// The values of one characteristic, at its `occurrence`-th evaluation, on every machine. Values are mm or rad.

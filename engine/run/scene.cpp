@@ -25,6 +25,18 @@ StylusScene stylus_scene(const Sensor& sensor) {
   return s;
 }
 
+/// What stands in the columns of a recording that nobody logged stays empty.
+void log_covariates(const Workpiece& w, RecordingRow& row) {
+  const Temperatures t = w.temperatures(*row.time_s);
+  const auto logged = [](bool known, double value) { return known ? std::optional(value) : std::nullopt; };
+  row.temp_part_C = logged(w.knows.part, t.part);
+  row.temp_x_C = logged(w.knows.scale[0], t.scale[0]);
+  row.temp_y_C = logged(w.knows.scale[1], t.scale[1]);
+  row.temp_z_C = logged(w.knows.scale[2], t.scale[2]);
+  row.temp_air_C = logged(w.knows.air, t.air);
+  row.load_kg = logged(w.knows.load, w.load_kg);
+}
+
 }  // namespace
 
 void BlockRun::add_effects(const plan::Touch& touch, int machines) {
@@ -58,6 +70,10 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     scene.settled_s = motion.settled_s;
     std::copy(motion.sense, motion.sense + 3, scene.sense);
     std::copy(motion.since_reversal_mm, motion.since_reversal_mm + 3, scene.since_reversal_mm);
+    if (executor.part_.given()) {
+      scene.temperature = executor.part_.workpiece().temperatures(motion.time_s);
+      scene.load_kg = executor.part_.workpiece().load_kg;
+    }
     scene.touch = static_cast<int>(executor.site_[operation]);
     scene.feature = touch.feature.value;
     scene.visit = static_cast<int>(twin.indexings);
@@ -69,6 +85,30 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     group->second.scene = &scene;
     executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.seed,
                           executor.site_[operation], touch_batch);
+  }
+}
+
+void BlockRun::put_on_part(const plan::Touch& touch, const Lane& twin, int slot) {
+  const Mat3& R_WD = twin.X_WD.R;
+  const Vec3 normal = touch_batch.surface_normal.get(slot);
+  places[slot] = {touch.feature, touch_batch.surface.get(slot), normal, twin.nominal[touch.feature.value], R_WD.cx, R_WD.cy};
+  touch_batch.surface.set(slot, places[slot].point + executor.part_.known_offset_mm(places[slot]) * normal);
+}
+
+void BlockRun::add_part(int machines) {
+  const Part& part = executor.part_;
+  for (int slot = machines; slot < touch_batch.n; ++slot) {
+    Lane& twin = block.lanes[touch_batch.lane[slot]];
+    if (!twin.fixed_point) twin.fixed_point = touch_batch.surface.get(slot);
+  }
+  if (!executor.options_.contributors.part) return;
+  for (int slot = 0; slot < machines; ++slot) {
+    const Lane& lane = block.lanes[touch_batch.lane[slot]];
+    const Lane& twin = twin_of(lane);
+    const Temperatures estimate = part.workpiece().temperatures(twin.last_touch.time_s);
+    const Vec3 d = part.error(block.parts[touch_batch.lane[slot]], places[slot], touch_batch.surface.get(slot) - *twin.fixed_point, estimate,
+                              lane.temperature_compensation, executor.site_[operation]);
+    touch_batch.error.set(slot, touch_batch.error.get(slot) + d);
   }
 }
 
@@ -101,6 +141,7 @@ RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
   row.accel_mm_s2 = twin.last_touch.acceleration_mm_s2;
   row.travel = twin.last_touch.travel;
   row.reading_mm = touch_batch.reading.get(slot) + along;
+  if (executor.part_.given()) log_covariates(executor.part_.workpiece(), row);
   return row;
 }
 

@@ -1,0 +1,163 @@
+#include "engine/run/part.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/lanes/elementary.hpp"
+#include "engine/lanes/random.hpp"
+
+namespace abbe {
+
+namespace {
+
+std::string upper(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return out;
+}
+
+bool is_round(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::cone; }
+bool has_diameter(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::sphere; }
+
+/// Features that the plan touches, by label in upper case.
+std::vector<std::string_view> touched_labels(const plan::Plan& plan) {
+  std::vector<std::string_view> labels;
+  for (const plan::Operation& op : plan.operations)
+    if (const auto* touch = std::get_if<plan::Touch>(&op.action)) labels.push_back(plan[touch->feature].label);
+  std::sort(labels.begin(), labels.end());
+  labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+  return labels;
+}
+
+Diagnostic no_such_surface(const Workpiece& w, const Surface& surface, const plan::Plan& plan) {
+  const std::vector<std::string_view> labels = touched_labels(plan);
+  const std::string near = nearest_word(surface.label, labels);
+  return diagnostic_at(w.source, surface.label_span, Code::E0423,
+                       fmt::format("the program measures no feature '{}'", surface.label),
+                       near.empty() ? fmt::format("it measures: {}", fmt::join(labels, ", ")) : fmt::format("did you mean '{}'?", near));
+}
+
+/// The offset along the outward normal; that of a bore points to its axis.
+Uncertain offset_of(const Surface& surface, const plan::FeatureDef& def) {
+  const double per_diameter = def.inner ? -0.5 : 0.5;
+  if (surface.diameter_deviation_mm) return per_diameter * *surface.diameter_deviation_mm;
+  if (!surface.diameter_mm) return surface.offset_mm;
+  Uncertain deviation = *surface.diameter_mm;
+  deviation.value -= 2 * def.nominal.size;
+  return per_diameter * deviation;
+}
+
+struct CosSin {
+  double cos = 1, sin = 0;
+};
+/// Cosine and sine of n phi from those of phi: powers of a complex number, without libm.
+CosSin times(int n, CosSin phi) {
+  CosSin out;
+  for (; n > 0; --n) out = {out.cos * phi.cos - out.sin * phi.sin, out.sin * phi.cos + out.cos * phi.sin};
+  return out;
+}
+
+/// The angle of a touch about the axis of its feature; on the axis itself it is 0.
+CosSin angle_about_axis(const PlaceOnPart& at) {
+  const Vec3 axis = at.nominal.direction;
+  Vec3 from = perpendicular_part(at.x_axis, axis);
+  if (norm(from) < 1e-6) from = perpendicular_part(at.y_axis, axis);
+  const Vec3 radial = perpendicular_part(at.point - at.nominal.point, axis);
+  if (norm(radial) == 0) return {};
+  const Vec3 e = unit(from), r = unit(radial);
+  return {dot(r, e), dot(r, cross(axis, e))};
+}
+
+}  // namespace
+
+Part::Part(const Workpiece& workpiece, const plan::Plan& plan) : workpiece_(&workpiece), surface_of_(plan.features.size(), -1) {
+  std::vector<Diagnostic> errors;
+  const std::vector<std::string_view> touched = touched_labels(plan);
+  for (const Surface& surface : workpiece.surfaces) {
+    surfaces_.push_back({&surface, surface.offset_mm});
+    bool found = false;
+    for (int f = 0; f < static_cast<int>(plan.features.size()); ++f) {
+      if (upper(plan.features[f].label) != upper(surface.label)) continue;
+      if (std::find(touched.begin(), touched.end(), plan.features[f].label) == touched.end()) continue;
+      if (!found) resolve(surface, {f}, plan, errors);
+      found = true;
+      surface_of_[f] = static_cast<int>(surfaces_.size()) - 1;
+    }
+    if (!found) errors.push_back(no_such_surface(workpiece, surface, plan));
+  }
+  if (!errors.empty()) throw UserError(std::move(errors));
+}
+
+void Part::resolve(const Surface& surface, plan::FeatureId feature, const plan::Plan& plan, std::vector<Diagnostic>& errors) {
+  const plan::FeatureDef& def = plan[feature];
+  const auto refuse = [&](std::string_view what, std::string help) {
+    errors.push_back(diagnostic_at(workpiece_->source, surface.label_span, Code::E0424,
+                                   fmt::format("feature '{}' is a {} and has no {}", def.label, def.kind->word, what), std::move(help)));
+  };
+  if ((surface.diameter_mm || surface.diameter_deviation_mm) && !has_diameter(def.kind->shape))
+    refuse("diameter", "give \"offset_um\", how far its surface lies out of the material");
+  if (!surface.form.empty() && !is_round(def.kind->shape))
+    refuse("undulations", "\"form\" is for circles, cylinders and cones; \"random_form_um\" is for every surface");
+  surfaces_.back().offset_mm = offset_of(surface, def);
+}
+
+double Part::known_offset_mm(const PlaceOnPart& at) const {
+  const int index = given() ? surface_of_[at.feature.value] : -1;
+  if (index < 0) return 0;
+  const Resolved& resolved = surfaces_[index];
+  double offset = resolved.offset_mm.value;
+  for (const FormHarmonic& h : resolved.surface->form) {
+    if (!h.phase_half_turns) continue;
+    const CosSin angle = times(h.undulations, angle_about_axis(at));
+    const SinCos phase = sin_cos_pi(*h.phase_half_turns);
+    offset += h.amplitude_mm.value * (angle.cos * phase.cos - angle.sin * phase.sin);
+  }
+  return offset;
+}
+
+Part::Draw Part::draw(DrawFor who) const {
+  Draw d{who, {}, {}};
+  if (!given()) return d;
+  d.thermal = draw_thermal(*workpiece_, who);
+  for (const Resolved& resolved : surfaces_) {
+    const std::string name = "surfaces." + upper(resolved.surface->label);
+    Draw::Surface s;
+    s.offset_mm = deviation(resolved.offset_mm, name + ".offset", who);
+    const Uncertain& random = resolved.surface->random_form_mm;
+    s.random_sd_mm = random.value + deviation(random, name + ".random_form", who);
+    for (std::size_t k = 0; k < resolved.surface->form.size(); ++k) {
+      const FormHarmonic& h = resolved.surface->form[k];
+      const std::string harmonic = fmt::format("{}.form.{}", name, k);
+      double amplitude = deviation(h.amplitude_mm, harmonic + ".amplitude", who);
+      if (!h.phase_half_turns) amplitude += h.amplitude_mm.value;
+      const SinCos phase = sin_cos_pi(h.phase_half_turns ? *h.phase_half_turns : 2 * uniform_pair_for(harmonic + ".phase", who).a);
+      s.form.push_back({h.undulations, amplitude * phase.cos, -amplitude * phase.sin});
+    }
+    d.surfaces.push_back(std::move(s));
+  }
+  return d;
+}
+
+Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed, const Temperatures& estimate, bool compensated,
+                 std::uint32_t site) const {
+  constexpr std::uint32_t kRandomForm = stream_of("workpiece.random_form");
+  const Vec3 strained = strain(*workpiece_, draw.thermal, estimate, compensated);
+  Vec3 d{strained.x * from_fixed.x, strained.y * from_fixed.y, strained.z * from_fixed.z};
+  const int index = surface_of_[at.feature.value];
+  if (index < 0) return d;
+  const Draw::Surface& s = draw.surfaces[index];
+  double proud = s.offset_mm;
+  for (const auto& h : s.form) {
+    if (h.cos_mm == 0 && h.sin_mm == 0) continue;
+    const CosSin angle = times(h.undulations, angle_about_axis(at));
+    proud += h.cos_mm * angle.cos + h.sin_mm * angle.sin;
+  }
+  // The form is the part's: a touch that is repeated finds it again, so the visit is not in the address.
+  if (s.random_sd_mm != 0)
+    proud += s.random_sd_mm * normal_quantile(uniform_pair({draw.who.seed, draw.who.machine, kRandomForm, site, 0, 0}).a);
+  return d + proud * at.normal;
+}
+
+}  // namespace abbe
