@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <thread>
 
 #include "engine/run/placement.hpp"
@@ -18,6 +19,27 @@ int thread_count(int asked) {
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+/// A file that a directive names: its path is as seen from the program.
+std::string beside(const CompiledProgram& program, const std::string& path) {
+  return (std::filesystem::path(program.source.name()).parent_path() / path).string();
+}
+
+/// A directive names a file or a shipped machine.
+Machine machine_of(const CompiledProgram& program, const StudySettings& settings) {
+  if (settings.machine) return read_machine(*settings.machine);
+  const std::string asked = program.compilation.directives.machine.value_or(kDefaultMachine);
+  const std::string file = beside(program, asked);
+  return read_machine(std::filesystem::exists(file) ? file : asked);
+}
+
+/// The workpiece that is asked for.
+std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const StudySettings& settings) {
+  if (settings.workpiece) return read_workpiece(*settings.workpiece);
+  const std::optional<std::string>& asked = program.compilation.directives.workpiece;
+  if (!asked) return std::nullopt;
+  return read_workpiece(beside(program, *asked));
+}
+
 }  // namespace
 
 CompiledProgram compile_program(const std::string& path) {
@@ -30,9 +52,12 @@ CompiledProgram compile_program(const std::string& path) {
 Study study_program(const CompiledProgram& program, const StudySettings& settings, const Progress& progress) {
   const lang::Directives& asked = program.compilation.directives;
   const plan::Plan& plan = program.compilation.plan;
-  const Machine machine = read_machine(settings.machine.value_or(asked.machine.value_or(kDefaultMachine)));
+  const Machine machine = machine_of(program, settings);
+
+  const std::optional<Workpiece> workpiece = workpiece_of(program, settings);
 
   StudyOptions options;
+  options.workpiece = workpiece ? &*workpiece : nullptr;
   options.seed = settings.seed.value_or(asked.seed.value_or(options.seed));
   options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
   options.digits = settings.digits;

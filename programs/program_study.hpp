@@ -1,6 +1,6 @@
 // From a program file to a report: read, compile, settle what is asked for, study. The commands `run` and `test` share it.
 //
-// A program may carry settings in its directives (`$$! machine`, `$$! machines`, `$$! seed`, `$$! place`); the command line
+// A program may carry settings in its directives (`$$! machine`, `$$! workpiece`, `$$! machines`, `$$! seed`, `$$! place`); the command line
 // wins over them, and the documented defaults fill the rest.
 #pragma once
 
@@ -19,6 +19,7 @@ inline constexpr int kDefaultMachines = 1000;
 /// What the command line may settle of a study; what is left out is up to the program and the defaults.
 struct StudySettings {
   std::optional<std::string> machine;  ///< file or shipped name
+  std::optional<std::string> workpiece;  ///< file
   std::optional<int> machines;
   std::optional<int> digits;           ///< significant digits of u that must be stable; chooses the number of machines
   std::optional<std::uint64_t> seed;

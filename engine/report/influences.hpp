@@ -6,11 +6,12 @@
 
 #include "engine/machine/machine.hpp"
 #include "engine/report/run_report.hpp"
+#include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
 
-/// The declaration for a machine: an influence that is not modelled by itself is when the machine file switches on an effect
-/// that describes it.
-std::vector<Influence> influences(const Machine&);
+/// The declaration for a machine and, when there is one, a workpiece file: an influence that is not modelled by itself is when
+/// the machine file switches on an effect that describes it, or the workpiece file describes it.
+std::vector<Influence> influences(const Machine&, const Workpiece* workpiece = nullptr);
 
 }  // namespace abbe

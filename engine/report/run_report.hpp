@@ -43,6 +43,7 @@ struct LostCharacteristic {
 
 struct RunReport {
   std::string program, machine, version;
+  std::optional<std::string> workpiece;   ///< its name; none: exactly nominal, at 20 degrees C
   std::uint64_t seed = 1;
   ScreeningCounts machines;
   std::vector<CharacteristicReport> characteristics;

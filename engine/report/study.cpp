@@ -26,15 +26,20 @@ struct NamedContributors {
   Contributors contributors;
 };
 
-std::vector<NamedContributors> each_alone(const Machine& machine) {
+std::vector<NamedContributors> each_alone(const Machine& machine, bool workpiece) {
   const auto only = [](bool geometry, bool head, bool probe, bool effects) {
     Contributors c;
+    c.part = false;
     c.geometry = geometry, c.head = head, c.probe = probe, c.effects = effects;
     return c;
   };
   std::vector<NamedContributors> list{{"geometry", only(true, false, false, false)},
                                       {"head", only(false, true, false, false)},
                                       {"probe", only(false, false, true, false)}};
+  if (workpiece) {
+    list.push_back({"part", only(false, false, false, false)});
+    list.back().contributors.part = true;
+  }
   for (int i = 0; i < static_cast<int>(machine.effects.size()); ++i) {
     list.push_back({machine.effects[i].name, only(false, false, false, true)});
     list.back().contributors.only_effect = i;
@@ -55,7 +60,7 @@ class StudyRun {
     step("running the program");
     append(machines, run(machines, {}));
     std::vector<ContributorRun> alone;
-    for (const NamedContributors& c : each_alone(machine_)) {
+    for (const NamedContributors& c : each_alone(machine_, options_.workpiece != nullptr)) {
       step(c.name + " alone");
       alone.push_back({c.name, run(machines, c.contributors)});
     }
@@ -75,6 +80,7 @@ class StudyRun {
     options.threads = options_.threads;
     options.contributors = contributors;
     options.placement_mm = options_.placement_mm;
+    options.workpiece = options_.workpiece;
     return run_plan(plan_, machine_, machines, options, source_);
   }
 
@@ -123,7 +129,7 @@ class StudyRun {
   }
 
   void run_until_stable() {
-    for (int blocks = 1; blocks < kMaxBlocks && !stable(); ++blocks) {
+    for (int blocks = 1; blocks < options_.max_blocks && !stable(); ++blocks) {
       step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines, *options_.digits));
       const VirtualMachines machines = more_screened_machines(machine_, options_.seed, kBlockMachines, options_.threads,
                                                               study_.candidates.back() + 1);
@@ -142,9 +148,10 @@ class StudyRun {
     RunReport& report = study_.report;
     report.program = source_.name();
     report.machine = machine_.name;
+    if (options_.workpiece) report.workpiece = options_.workpiece->name;
     report.seed = options_.seed;
     report.characteristics = characteristic_reports(plan_, study_.result, alone);
-    report.influences = influences(machine_);
+    report.influences = influences(machine_, options_.workpiece);
     report.traps = study_.result.traps;
     add_unreached();
     if (report.machines.share_accepted() < 0.5) warn_of_screening();

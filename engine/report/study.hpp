@@ -23,18 +23,18 @@ namespace abbe {
 /// Called between the steps of a study with what begins now; may be empty.
 using Progress = std::function<void(std::string_view step)>;
 
+/// JCGM 101:2008, 7.9.4 b: M = max(J, 10^4), where J = 100/(1-p) = 2000.
+inline constexpr int kBlockMachines = 10'000;
+
 struct StudyOptions {
   std::uint64_t seed = 1;
   int machines = 1000;            ///< at least 2; without meaning when `digits` is set
   std::optional<int> digits;      ///< 1 or 2 significant digits of u that must be stable
+  int max_blocks = 100;           ///< blocks after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
   int threads = 1;
   Vec3 placement_mm;              ///< RunOptions::placement_mm
+  const Workpiece* workpiece = nullptr;  ///< RunOptions::workpiece
 };
-
-/// JCGM 101:2008, 7.9.4 b: M = max(J, 10^4), where J = 100/(1-p) = 2000.
-inline constexpr int kBlockMachines = 10'000;
-/// Blocks after which an adaptive study gives up: the 10^6 trials of JCGM 101:2008, 7.2.2.
-inline constexpr int kMaxBlocks = 100;
 
 struct Study {
   RunReport report;                        ///< without the version and what the compilation lost and said: the caller adds them

@@ -67,6 +67,7 @@ std::string write_json(const RunReport& r) {
       {"schema", "abbe.run/1"},
       {"program", r.program},
       {"machine", r.machine},
+      {"workpiece", r.workpiece ? Json(*r.workpiece) : Json()},
       {"seed", r.seed},
       {"version", r.version},
       {"machines",

@@ -130,6 +130,7 @@ std::string write_text(const RunReport& r) {
   const ScreeningCounts& m = r.machines;
   std::string out = fmt::format("{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n\n", r.program,
                                 r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
+  if (r.workpiece) out.insert(out.size() - 1, fmt::format("workpiece {}\n", *r.workpiece));
   out += characteristics_table(r);
   if (!r.characteristics.empty()) out += legend(r);
   const std::string remarks = trapped_machines(r) + lost_characteristics(r) + general_messages(r);
