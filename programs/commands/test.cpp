@@ -91,6 +91,7 @@ TestSuite test_program(const std::string& path, const StudySettings& settings, P
       suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
     }
   } catch (const UserError& error) {
+    print_messages(error.diagnostics());
     fail_all(suite, expectations, error.what());
   }
   return suite;

@@ -1,0 +1,148 @@
+#include "engine/report/study.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/stats/summary.hpp"
+#include "tests/unit/run/plan_builder.hpp"
+
+using namespace abbe;
+using namespace abbe::test;
+
+namespace {
+
+const SourceFile& no_source() {
+  static const SourceFile source("length.dmi", "");
+  return source;
+}
+
+const Machine& machine() {
+  static const Machine m = read_machine("coord3-mc16");
+  return m;
+}
+
+Arguments distance() {
+  Arguments a;
+  a.add_text("mode", "NOMINL");
+  a.add_number("nominal", 200);
+  a.add_number("lower", -0.005);
+  a.add_number("upper", 0.005);
+  a.add_text("axis", "YAXIS");
+  return a;
+}
+
+/// A length of 200 mm along y between two touches with one head position.
+plan::Plan length() {
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  const auto p = b.point({800, 400, -500}, {0, -1, 0});
+  const auto q = b.point({800, 600, -500}, {0, 1, 0});
+  b.evaluate({p, q}, "DISTB", distance());
+  return b.plan;
+}
+
+StudyOptions few(int machines) {
+  StudyOptions options;
+  options.machines = machines;
+  options.threads = 2;
+  return options;
+}
+
+bool has(const std::vector<Diagnostic>& messages, Code code) {
+  return std::any_of(messages.begin(), messages.end(), [&](const Diagnostic& d) { return d.code == code; });
+}
+
+}  // namespace
+
+TEST_CASE("a study reports figures, shares, counts and the machine's weak spot") {
+  const Study study = run_study(length(), machine(), few(400), no_source());
+  const RunReport& r = study.report;
+  CHECK(r.program == "length.dmi");
+  CHECK(r.machine == "coord3-mc16");
+  CHECK(r.machines.used == 400);
+  CHECK(study.candidates.size() == 400);
+  REQUIRE(r.characteristics.size() == 1);
+  const CharacteristicReport& c = r.characteristics[0];
+  CHECK(c.summary.n == 400);
+  CHECK(c.reference == doctest::Approx(200).epsilon(1e-12));
+  CHECK(c.summary.u == summarize(study.result.samples[0].value).u);
+  REQUIRE(c.contributions.size() == 3);
+  CHECK(c.contributions[0].share + c.contributions[2].share == doctest::Approx(1).epsilon(1e-12));
+  CHECK(c.contributions[1].share == 0);  // one head position shifts both touches alike
+  CHECK(has(r.messages, Code::W0416));   // fewer than half of the paper's candidates pass
+}
+
+TEST_CASE("the probe's share is the variance of two touches") {
+  const Study study = run_study(length(), machine(), few(2000), no_source());
+  const CharacteristicReport& c = study.report.characteristics.at(0);
+  // Contributors are independent and act linearly: u^2 = V(geometry) + V(probe), V(probe) = 2 sd^2. Of 2000 machines the sample
+  // variance of the probe scatters by sqrt(2 / 1999) = 3.2 %, and the sum of the variances differs from u^2 by twice their
+  // sample covariance, at most 1 / sqrt(1999) = 2.2 % of u^2. Four standard errors together: false-alarm rate 6e-5.
+  const double expected = 2 * machine().probe.sd_mm.y * machine().probe.sd_mm.y / (c.summary.u * c.summary.u);
+  CHECK(std::fabs(c.contributions[2].share / expected - 1) <= 4 * std::hypot(0.032, 0.022));
+}
+
+TEST_CASE("threads change no bit of a study") {
+  StudyOptions one = few(150);
+  one.threads = 1;
+  const Study a = run_study(length(), machine(), one, no_source());
+  const Study b = run_study(length(), machine(), few(150), no_source());
+  CHECK(a.result.samples[0].value == b.result.samples[0].value);
+  CHECK(a.report.characteristics[0].contributions[0].share == b.report.characteristics[0].contributions[0].share);
+}
+
+TEST_CASE("an adaptive study continues where a fixed one ends, and says when it gives up") {
+  StudyOptions options = few(0);
+  options.digits = 2;
+  options.max_blocks = 2;
+  const Study study = run_study(length(), machine(), options, no_source());
+  const Samples& all = study.result.samples.at(0);
+  REQUIRE(study.result.machines == 2 * kBlockMachines);
+  CHECK(study.report.machines.used == 2 * kBlockMachines);
+  CHECK(std::is_sorted(study.candidates.begin(), study.candidates.end()));
+  CHECK(std::adjacent_find(study.candidates.begin(), study.candidates.end()) == study.candidates.end());
+  CHECK(all.machine.front() == 0);
+  CHECK(all.machine.back() == 2 * kBlockMachines - 1);
+
+  // The same 20 000 machines at once give the same values: blocks of trials are only a way of counting.
+  const Study whole = run_study(length(), machine(), few(2 * kBlockMachines), no_source());
+  CHECK(whole.result.samples[0].value == all.value);
+  CHECK(whole.report.machines.generated == study.report.machines.generated);
+
+  options.max_blocks = 1;
+  CHECK(has(run_study(length(), machine(), options, no_source()).report.messages, Code::W0605));
+}
+
+TEST_CASE("a characteristic that next to no machine reaches is lost, with the reason") {
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  const auto y = b.column();
+  const auto p = b.point({800, 400, -500}, {0, -1, 0});
+  b.append(plan::Obtain{y, p, plan::Quantity::y});
+  // Every machine with an error loops without end; only the error-free one reads exactly 400.
+  const int loop = static_cast<int>(b.plan.operations.size());
+  b.append(plan::JumpUnless{{plan::PushColumn{y}, plan::PushConstant{400}, plan::Op2::subtract, plan::Op1::abs,
+                             plan::PushConstant{1e-9}, plan::Op2::less}, loop});
+  b.evaluate({p, p}, "DISTB", distance());
+  const Study study = run_study(b.plan, machine(), few(5), no_source());
+  CHECK(study.report.characteristics.empty());
+  REQUIRE(study.report.lost.size() == 1);
+  CHECK(study.report.lost[0].feature == "F0, F0");
+  CHECK(study.report.lost[0].reason.starts_with("0 of 5 machines reached it; the first stopped at line"));
+  CHECK(study.report.traps.size() == 5);
+}
+
+TEST_CASE("settings that make no sense are refused") {
+  CHECK_THROWS_AS(run_study(length(), machine(), few(1), no_source()), UserError);   // E0603
+  StudyOptions options = few(100);
+  options.digits = 3;
+  CHECK_THROWS_AS(run_study(length(), machine(), options, no_source()), UserError);
+}
+
+TEST_CASE("the steps of a study are announced") {
+  std::vector<std::string> steps;
+  run_study(length(), machine(), few(20), no_source(), [&](std::string_view step) { steps.emplace_back(step); });
+  CHECK(std::find(steps.begin(), steps.end(), "probe alone") != steps.end());
+}
