@@ -157,17 +157,19 @@ void read_2009(JsonObject& object, Specification& spec) {
   constexpr std::string_view kEdition = "ISO 10360-2:2009";
   for (const std::string_view key : {"e150_mpe", "r0_mpl_um"})
     if (object.has(key) && spec.standard != kEdition)
-      object.fault(
-          key, Code::E0414,
-          fmt::format("\"{}\" belongs to {}, but the standard is \"{}\"", key, kEdition, spec.standard),
-          fmt::format("set \"standard\" to \"{}\", or remove \"{}\"", kEdition, key));
+      object.fault(key, Code::E0414,
+                   fmt::format("\"{}\" belongs to {}, but the standard is \"{}\"", key, kEdition,
+                               spec.standard),
+                   fmt::format("set \"standard\" to \"{}\", or remove \"{}\"", kEdition, key));
   if (object.has("e150_mpe")) spec.e150_mpe = read_length_mpe(object.object("e150_mpe"));
   spec.r0_mpl_mm = read_limit_um(object, "r0_mpl_um");
 }
 
-/// "unlimited" lets machines pass that are better than their specification by any factor, even an error-free one.
+/// "unlimited" lets machines pass that are better than their specification by any factor, even an
+/// error-free one.
 double read_v_max(JsonObject& object) {
-  if (object.kind_of("v_max") != JsonNode::Kind::text) return object.number_or("v_max", 2, kPositive);
+  if (object.kind_of("v_max") != JsonNode::Kind::text)
+    return object.number_or("v_max", 2, kPositive);
   object.one_of("v_max", object.text("v_max"), {"unlimited"});
   return kInfinity;
 }

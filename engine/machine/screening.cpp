@@ -57,7 +57,8 @@ std::vector<LengthErrors> length_errors(const Lines& lines, const GeometryBlock&
 }
 
 /// v = min |MPE(l) / (known + factor * drawn)|.
-double indicator(const Lines& lines, const LengthErrors& known, const LengthErrors& drawn, double factor) {
+double indicator(const Lines& lines, const LengthErrors& known, const LengthErrors& drawn,
+                 double factor) {
   double v = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < lines.size(); ++k)
     for (int m = 0; m < kLengthsPerLine; ++m)
@@ -71,8 +72,8 @@ struct Batch {
   std::vector<LengthErrors> errors;
 };
 
-Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed, std::uint32_t first,
-                 int count) {
+Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed,
+                 std::uint32_t first, int count) {
   Batch batch;
   std::vector<const GeometryCoefficients*> pointers;
   for (int i = 0; i < count; ++i)

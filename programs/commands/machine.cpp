@@ -28,7 +28,8 @@ int list(const MachineOptions& options) {
     const Machine m = read_machine(name);
     const Specification& spec = m.specification;
     text += fmt::format("{:<20} {:g} x {:g} x {:g} mm, MPE {} ({})\n", name, m.axes[0].travel_mm,
-                        m.axes[1].travel_mm, m.axes[2].travel_mm, length_mpe_text(spec.mpe), spec.standard);
+                        m.axes[1].travel_mm, m.axes[2].travel_mm, length_mpe_text(spec.mpe),
+                        spec.standard);
     machines.push_back(
         {{"name", name},
          {"travel_mm", {m.axes[0].travel_mm, m.axes[1].travel_mm, m.axes[2].travel_mm}},
@@ -56,7 +57,8 @@ int show(const MachineOptions& options) {
   return kDone;
 }
 
-LineReport line_report(const TestLine& line, std::size_t number, const std::vector<TestResult>& results) {
+LineReport line_report(const TestLine& line, std::size_t number,
+                       const std::vector<TestResult>& results) {
   LineReport out{line, 0, 0, 0};
   std::vector<double> worst;
   for (const TestResult& result : results) {

@@ -108,15 +108,15 @@ Json line_json(const LineReport& report) {
   const TestLine& line = report.line;
   Json mpe_um = Json::array();
   for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
-  return {
-      {"name", line.name},
-      {"test", line.test},
-      {"start_reading_mm", triple(line.start_mm)},
-      {"direction", triple(line.direction)},
-      {"tip_mm", triple(line.tip_mm)},
-      {"length_mm", line.length_mm},
-      {"mpe_um", mpe_um},
-      {"error_over_mpe", {{"median", report.median}, {"p95", report.p95}, {"largest", report.largest}}}};
+  return {{"name", line.name},
+          {"test", line.test},
+          {"start_reading_mm", triple(line.start_mm)},
+          {"direction", triple(line.direction)},
+          {"tip_mm", triple(line.tip_mm)},
+          {"length_mm", line.length_mm},
+          {"mpe_um", mpe_um},
+          {"error_over_mpe",
+           {{"median", report.median}, {"p95", report.p95}, {"largest", report.largest}}}};
 }
 
 }  // namespace

@@ -65,7 +65,8 @@ std::string limits_text(const Specification& spec) {
   const auto limit = [&](std::string_view name, const std::optional<double>& mm) {
     if (mm) out += fmt::format("{:<15}{} at most {:g} um\n", "", name, *mm * 1e3);
   };
-  if (spec.e150_mpe) out += fmt::format("{:<15}E150: MPE(l) = {}\n", "", length_mpe_text(*spec.e150_mpe));
+  if (spec.e150_mpe)
+    out += fmt::format("{:<15}E150: MPE(l) = {}\n", "", length_mpe_text(*spec.e150_mpe));
   limit("R0", spec.r0_mpl_mm);
   limit("P_Form.Sph.1x25", spec.form_mpe_mm);
   limit("P_Size.Sph.1x25", spec.size_mpe_mm);
@@ -166,9 +167,9 @@ std::string lines_text(const std::vector<LineReport>& lines) {
       "  test  line  longest mm   MPE um   median   95 %  largest\n";
   for (const LineReport& report : lines) {
     const TestLine& line = report.line;
-    out += fmt::format("  {:<5} {:<5} {:>10.1f} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f}  {}\n", line.test, line.name,
-                       line.length_mm.back(), line.mpe_mm.back() * 1e3, report.median, report.p95, report.largest,
-                       bar(report.median));
+    out += fmt::format("  {:<5} {:<5} {:>10.1f} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f}  {}\n",
+                       line.test, line.name, line.length_mm.back(), line.mpe_mm.back() * 1e3,
+                       report.median, report.p95, report.largest, bar(report.median));
   }
   return out;
 }
@@ -179,8 +180,8 @@ std::string probe_text(const std::vector<ProbeCheck>& checks) {
       "\nThe probe by its standard deviations alone (R0: largest of 35 ranges)\n"
       "  quantity          limit um  median um  tests passed\n";
   for (const ProbeCheck& check : checks)
-    out += fmt::format("  {:<16} {:>9.2f} {:>10.2f} {:>11.1f} %\n", check.name, check.limit_mm * 1e3,
-                       check.median_mm * 1e3, 100 * check.share_passed);
+    out += fmt::format("  {:<16} {:>9.2f} {:>10.2f} {:>11.1f} %\n", check.name,
+                       check.limit_mm * 1e3, check.median_mm * 1e3, 100 * check.share_passed);
   return out;
 }
 
@@ -188,7 +189,8 @@ std::string probe_text(const std::vector<ProbeCheck>& checks) {
 
 std::string length_mpe_text(const LengthMpe& mpe) {
   const std::string rising = fmt::format("{:g} um + {:g} um/m", mpe.a_mm * 1e3, mpe.k * 1e6);
-  return std::isfinite(mpe.b_mm) ? fmt::format("{}, at most {:g} um", rising, mpe.b_mm * 1e3) : rising;
+  return std::isfinite(mpe.b_mm) ? fmt::format("{}, at most {:g} um", rising, mpe.b_mm * 1e3)
+                                 : rising;
 }
 
 std::string machine_report_text(const MachineReport& report) {
@@ -200,9 +202,9 @@ std::string machine_report_text(const MachineReport& report) {
 std::string screening_text(const ScreeningReport& report) {
   const Specification& spec = report.machine.specification;
   const ScreeningCounts& counts = report.counts;
-  std::string out =
-      fmt::format("{}: virtual test after {}, {} lengths, MPE(l) = {}, seed {}\n\n", report.machine.name, spec.standard,
-                  kLengthsPerLine * report.lines.size(), length_mpe_text(spec.mpe), report.seed);
+  std::string out = fmt::format(
+      "{}: virtual test after {}, {} lengths, MPE(l) = {}, seed {}\n\n", report.machine.name,
+      spec.standard, kLengthsPerLine * report.lines.size(), length_mpe_text(spec.mpe), report.seed);
   out += fmt::format("  {:<34} {:>8}\n", "virtual machines drawn", counts.generated);
   out += count_line(fmt::format("accepted ({:g} <= v <= {:g})", spec.v_min, spec.v_max),
                     counts.used, counts);

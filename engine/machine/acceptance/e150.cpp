@@ -1,8 +1,10 @@
 // E150: the tip stands 150 mm off the axis of the ram, across the plane of the line.
 //
-// A tip below the ram has next to no lever for the roll of the ram, so E0 cannot see that error. An offset of 150 mm across
-// the plane of a vertical face diagonal turns the roll into an error along the diagonal, of one sign for either side. The
-// standard has one of the two opposite directions tested; a virtual test costs nothing, so both are.
+// A tip below the ram has next to no lever for the roll of the ram, so E0 cannot see that error. An
+// offset of 150 mm across the plane of a vertical face diagonal turns the roll into an error along
+// the diagonal, of one sign for either side. The standard has one of the two opposite directions
+// tested; a virtual test costs nothing, so both are. The carriages run over the middle of their
+// travels for either side, as for E0; the tip is then 150 mm off the middle.
 #include "engine/machine/acceptance/acceptance.hpp"
 
 namespace abbe {
@@ -20,7 +22,8 @@ std::vector<TestLine> lines(const Machine& machine) {
   std::vector<TestLine> out;
   if (const auto& mpe = machine.specification.e150_mpe)
     for (const auto& [name, runs, across] : all)
-      out.push_back(central_line(machine, "E150", name, runs, kTestTip + kOffset_mm * across, *mpe));
+      out.push_back(
+          central_line(machine, "E150", name, runs, kTestTip + kOffset_mm * across, *mpe));
   return out;
 }
 
@@ -28,7 +31,9 @@ std::vector<TestLine> lines(const Machine& machine) {
 
 extern const AcceptanceTest length_e150_test{
     .name = "E150",
-    .help = "five lengths on the diagonals of the yz and xz planes, with the tip 150 mm to either side of the plane",
+    .help =
+        "five lengths on the diagonals of the yz and xz planes, with the tip 150 mm to either side "
+        "of the plane",
     .source = "ISO 10360-2:2009 (E150)",
     .lines = lines,
 };

@@ -1,9 +1,11 @@
-// Form and size by one stylus: 25 touches on a sphere. Form is the range of the 25 distances from the centre of the
-// least-squares sphere, size the error of its diameter.
+// Form and size by one stylus: 25 touches on a sphere. Form is the range of the 25 distances from
+// the centre of the least-squares sphere, size the error of its diameter.
 //
-// The touches carry the probe's noise alone: over a sphere of some 30 mm the geometric errors hardly change. With errors of a
-// few um on such a sphere the fit is linear: touch i with unit normal n_i and radial error e_i gives
-//   e_i = n_i . c + r + residual_i     in the least-squares sense,  c error of the centre, r of the radius,
+// The touches carry the probe's noise alone: over a sphere of some 30 mm the geometric errors
+// hardly change. With errors of a few um on such a sphere the fit is linear: touch i with unit
+// normal n_i and radial error e_i gives
+//   e_i = n_i . c + r + residual_i     in the least-squares sense,  c error of the centre, r of the
+//   radius,
 // so neither form nor size depends on the size of the sphere.
 #include <algorithm>
 #include <cmath>
@@ -18,10 +20,11 @@ namespace abbe {
 namespace {
 
 constexpr int kTouches = 25, kUnknowns = 4;
-constexpr int kTests = 10'000;  ///< the share passed is known to 0.5 % (one standard deviation) or better
+constexpr int kTests =
+    10'000;  ///< the share passed is known to 0.5 % (one standard deviation) or better
 
-/// The pattern that the standard proposes: the pole, then 4, 8, 4 and 8 touches on circles 22.5 degrees apart down to the
-/// equator, each circle turned by 22.5 degrees against the one above.
+/// The pattern that the standard proposes: the pole, then 4, 8, 4 and 8 touches on circles 22.5
+/// degrees apart down to the equator, each circle turned by 22.5 degrees against the one above.
 std::array<Vec3, kTouches> pattern() {
   constexpr int counts[] = {1, 4, 8, 4, 8};
   std::array<Vec3, kTouches> normal;
@@ -30,7 +33,8 @@ std::array<Vec3, kTouches> pattern() {
     for (int k = 0; k < counts[circle]; ++k) {
       const double polar = circle * kPi / 8;
       const double azimuth = 2 * kPi * k / counts[circle] + std::max(0, circle - 1) * kPi / 8;
-      normal[i++] = {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
+      normal[i++] = {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                     std::cos(polar)};
     }
   return normal;
 }
@@ -38,7 +42,8 @@ std::array<Vec3, kTouches> pattern() {
 double unknown_of(const Vec3& n, int j) { return j < 3 ? n[j] : 1; }
 
 /// gain[i]: what a unit error of touch i does to the centre (x, y, z) and the radius.
-std::array<std::array<double, kUnknowns>, kTouches> fit_gain(const std::array<Vec3, kTouches>& normal) {
+std::array<std::array<double, kUnknowns>, kTouches> fit_gain(
+    const std::array<Vec3, kTouches>& normal) {
   SymmetricSystem<double, kUnknowns> system;
   for (const Vec3& n : normal)
     for (int j = 0; j < kUnknowns; ++j)
@@ -54,7 +59,8 @@ std::array<std::array<double, kUnknowns>, kTouches> fit_gain(const std::array<Ve
 }
 
 /// Radial errors of kTests tests, [touch][test].
-std::vector<std::vector<double>> radial_errors(const Machine& machine, const std::array<Vec3, kTouches>& normal,
+std::vector<std::vector<double>> radial_errors(const Machine& machine,
+                                               const std::array<Vec3, kTouches>& normal,
                                                std::uint64_t seed) {
   const Mat3 R_RW = transpose(head_rotation(0, machine.head.mounting_rad));
   const Vec3 sd = machine.probe.sd_mm;
@@ -66,16 +72,19 @@ std::vector<std::vector<double>> radial_errors(const Machine& machine, const std
     constexpr std::uint32_t kStream = stream_of("acceptance.form_and_size");
     const auto site = static_cast<std::uint32_t>(i);
     normal_pairs(kTests, seed, test.data(), kStream, site, visit.data(), 0, x.data(), y.data());
-    normal_pairs(kTests, seed, test.data(), kStream, site, visit.data(), 1, z.data(), unused.data());
+    normal_pairs(kTests, seed, test.data(), kStream, site, visit.data(), 1, z.data(),
+                 unused.data());
     const Vec3 n_R = R_RW * normal[i];
-    for (int t = 0; t < kTests; ++t) error[i][t] = n_R.x * sd.x * x[t] + n_R.y * sd.y * y[t] + n_R.z * sd.z * z[t];
+    for (int t = 0; t < kTests; ++t)
+      error[i][t] = n_R.x * sd.x * x[t] + n_R.y * sd.y * y[t] + n_R.z * sd.z * z[t];
   }
   return error;
 }
 
 ProbeCheck judge(std::string_view name, double limit_mm, std::vector<double> values_mm) {
   std::sort(values_mm.begin(), values_mm.end());
-  const auto passed = std::upper_bound(values_mm.begin(), values_mm.end(), limit_mm) - values_mm.begin();
+  const auto passed =
+      std::upper_bound(values_mm.begin(), values_mm.end(), limit_mm) - values_mm.begin();
   return {name, limit_mm, values_mm[kTests / 2], double(passed) / kTests};
 }
 
@@ -99,8 +108,10 @@ std::vector<ProbeCheck> check(const Machine& machine, std::uint64_t seed) {
     size[t] = std::fabs(2 * x[3]);
   }
   std::vector<ProbeCheck> checks;
-  if (spec.form_mpe_mm) checks.push_back(judge("P_Form.Sph.1x25", *spec.form_mpe_mm, std::move(form)));
-  if (spec.size_mpe_mm) checks.push_back(judge("P_Size.Sph.1x25", *spec.size_mpe_mm, std::move(size)));
+  if (spec.form_mpe_mm)
+    checks.push_back(judge("P_Form.Sph.1x25", *spec.form_mpe_mm, std::move(form)));
+  if (spec.size_mpe_mm)
+    checks.push_back(judge("P_Size.Sph.1x25", *spec.size_mpe_mm, std::move(size)));
   return checks;
 }
 
@@ -108,7 +119,9 @@ std::vector<ProbeCheck> check(const Machine& machine, std::uint64_t seed) {
 
 extern const AcceptanceTest form_and_size_test{
     .name = "form and size",
-    .help = "25 touches on a sphere: range of the radial distances and error of the diameter, by the repeatability of the probe",
+    .help =
+        "25 touches on a sphere: range of the radial distances and error of the diameter, by the "
+        "repeatability of the probe",
     .source = "ISO 10360-5:2020 (P_Form.Sph.1x25, P_Size.Sph.1x25)",
     .probe = check,
 };

@@ -1,9 +1,11 @@
 // R0: every length of E0 is measured three times, and the range of the three may not exceed R0,MPL.
 //
-// A length is the difference of two touches along the line, so by the probe alone its standard deviation is
+// A length is the difference of two touches along the line, so by the probe alone its standard
+// deviation is
 //   s = sqrt(2 u' S u),   u the direction of the line, S the covariance of a touch.
-// The range of three normal values over s has a known distribution W, and all 35 lengths are independent. So the share of
-// tests that pass is the product of W(limit / s) over the 35 lengths: no simulation. The median is that of the largest range.
+// The range of three normal values over s has a known distribution W, and all 35 lengths are
+// independent. So the share of tests that pass is the product of W(limit / s) over the 35 lengths:
+// no simulation. The median is that of the largest range.
 #include <algorithm>
 #include <cmath>
 
@@ -51,8 +53,9 @@ std::vector<ProbeCheck> check(const Machine& machine, std::uint64_t) {
 }  // namespace
 
 double range_of_three_cdf(double r) {
-  // 3 int phi(x) (Phi(x + r) - Phi(x))^2 dx, x the smallest of the three. The integrand is smooth and vanishes at both ends,
-  // where the trapezoidal rule converges faster than any power of the step.
+  // 3 int phi(x) (Phi(x + r) - Phi(x))^2 dx, x the smallest of the three. The integrand is smooth
+  // and vanishes at both ends, where the trapezoidal rule converges faster than any power of the
+  // step.
   constexpr double kEnd = 9, kStep = 1.0 / 16;
   double sum = 0;
   for (double x = -kEnd; x <= kEnd; x += kStep) {

@@ -75,13 +75,15 @@ TEST_CASE("a machine is tested for what its file states, and for nothing else") 
   CHECK(lines[9].length_mm[4] == doctest::Approx(0.66 * std::hypot(1600, 800)));
 }
 
-// A ram that rolls by s per mm of z, and a mount on the axis of the ram. The tip on the axis stays where it is; one that
-// stands r off it along x moves by r s z along y, one along y by -r s z along x.
+// A ram that rolls by s per mm of z, and a mount on the axis of the ram. The tip on the axis stays
+// where it is; one that stands r off it along x moves by r s z along y, one along y by -r s z along
+// x.
 TEST_CASE("E0 cannot see the roll of the ram, E150 can") {
   Machine machine = machine_2009();
   machine.mount_offset_mm = {0, 0, -400};
   const double s = 40e-9;  // 40 um/m over a metre
-  const TestResult result = virtual_acceptance_test(machine, linear_error(machine, Component::ecz, s));
+  const TestResult result =
+      virtual_acceptance_test(machine, linear_error(machine, Component::ecz, s));
   const auto lines = test_lines(machine);
   for (int k = 0; k < 7; ++k)
     for (const double error : result.error_mm[k]) CHECK(std::fabs(error) < 1e-12);
@@ -140,7 +142,8 @@ TEST_CASE("an MPE with a cap is min(a + k l, b)") {
 }
 
 TEST_CASE("the range of three normal values") {
-  // Upper percentage points of the studentised range for three means and infinitely many degrees of freedom.
+  // Upper percentage points of the studentised range for three means and infinitely many degrees of
+  // freedom.
   CHECK(range_of_three_cdf(3.3145) == doctest::Approx(0.95).epsilon(1e-4));
   CHECK(range_of_three_cdf(4.1203) == doctest::Approx(0.99).epsilon(1e-4));
   CHECK(range_of_three_cdf(0) == 0);
@@ -155,7 +158,8 @@ TEST_CASE("R0 follows from the standard deviations along the lines") {
   machine.specification.r0_mpl_mm = 3e-3;
   const ProbeCheck equal = only_check(machine);
   CHECK(equal.name == "R0");
-  CHECK(equal.share_passed == doctest::Approx(std::pow(range_of_three_cdf(3e-3 / (std::sqrt(2.0) * 0.5e-3)), 35)));
+  CHECK(equal.share_passed ==
+        doctest::Approx(std::pow(range_of_three_cdf(3e-3 / (std::sqrt(2.0) * 0.5e-3)), 35)));
   machine.specification.r0_mpl_mm = equal.median_mm;
   CHECK(only_check(machine).share_passed == doctest::Approx(0.5));
   // Noise along x only: nothing on the lines y and z, and u_x of it on the others.
@@ -164,21 +168,24 @@ TEST_CASE("R0 follows from the standard deviations along the lines") {
   double share = 1;
   for (const TestLine& line : test_lines(machine))
     if (line.test == "E0" && line.direction.x != 0)
-      share *= std::pow(range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.x))), 5);
+      share *= std::pow(
+          range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.x))), 5);
   CHECK(only_check(machine).share_passed == doctest::Approx(share));
   // A head turned by a quarter exchanges x and y.
   machine.head.mounting_rad = kPi / 2;
   share = 1;
   for (const TestLine& line : test_lines(machine))
     if (line.test == "E0" && line.direction.y != 0)
-      share *= std::pow(range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.y))), 5);
+      share *= std::pow(
+          range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.y))), 5);
   CHECK(only_check(machine).share_passed == doctest::Approx(share));
   machine.probe.sd_mm = {};
   CHECK(only_check(machine).share_passed == 1);
 }
 
-// The error of the diameter is normal with 2 s sqrt(radius_variance()). A share of 10 000 tests has a standard deviation of
-// 0.5 % or less; four of them are a false alarm of 6 in 100 000. The seeds are fixed.
+// The error of the diameter is normal with 2 s sqrt(radius_variance()). A share of 10 000 tests has
+// a standard deviation of 0.5 % or less; four of them are a false alarm of 6 in 100 000. The seeds
+// are fixed.
 TEST_CASE("the size of a sphere has the variance that the pattern gives it") {
   Machine machine = read_machine("coord3-mc16");
   const double sd = 2 * 0.5e-3 * std::sqrt(radius_variance());
@@ -191,15 +198,16 @@ TEST_CASE("the size of a sphere has the variance that the pattern gives it") {
   }
 }
 
-TEST_CASE("the form of a sphere grows with the noise, and does not depend on the seed beyond chance") {
+TEST_CASE(
+    "the form of a sphere grows with the noise, and does not depend on the seed beyond chance") {
   Machine machine = read_machine("coord3-mc16");
   machine.specification.form_mpe_mm = 2e-3;
   const ProbeCheck once = only_check(machine, 1), again = only_check(machine, 2);
   CHECK(once.name == "P_Form.Sph.1x25");
   CHECK(once.share_passed != again.share_passed);
   CHECK(std::fabs(once.share_passed - again.share_passed) < 0.03);  // 4 sqrt(2) 0.5 %
-  // 21 of 25 residuals are free. The range of n independent values is 3.78 (n = 21) to 3.93 (n = 25) standard deviations,
-  // which for a residual is on average sqrt(21 / 25) of the noise.
+  // 21 of 25 residuals are free. The range of n independent values is 3.78 (n = 21) to 3.93 (n =
+  // 25) standard deviations, which for a residual is on average sqrt(21 / 25) of the noise.
   CHECK(once.median_mm > 3.4 * 0.5e-3 * std::sqrt(21 / 25.0));
   CHECK(once.median_mm < 4.0 * 0.5e-3);
   machine.probe.sd_mm = 2 * machine.probe.sd_mm;

@@ -244,10 +244,13 @@ TEST_CASE("a specification of 2009 states E150, R0 and what the probe does on a 
 TEST_CASE("limits that the edition does not know, or that contradict each other, are refused") {
   const std::string mpe = R"("mpe": {"a_um": 2, "k_um_per_m": 3})";
   const std::string old = R"("standard": "ISO 10360-2:2001", )" + mpe;
-  check_fault(small_file("", old + R"(, "e150_mpe": {"a_um": 2, "k_um_per_m": 3})"), Code::E0414, "2009");
+  check_fault(small_file("", old + R"(, "e150_mpe": {"a_um": 2, "k_um_per_m": 3})"), Code::E0414,
+              "2009");
   check_fault(small_file("", old + R"(, "r0_mpl_um": 2)"), Code::E0414, "r0_mpl_um");
-  check_fault(small_file("", R"("mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 1})"), Code::E0414, "b is 1 um");
-  check_fault(small_file("", mpe + R"(, "probing": {"p_form_mpe_um": 0})"), Code::E0406, "p_form_mpe_um");
+  check_fault(small_file("", R"("mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 1})"), Code::E0414,
+              "b is 1 um");
+  check_fault(small_file("", mpe + R"(, "probing": {"p_form_mpe_um": 0})"), Code::E0406,
+              "p_form_mpe_um");
   check_fault(small_file("", mpe + R"(, "probing": {"p_form_um": 2})"), Code::E0402, "p_form_um");
 }
 
