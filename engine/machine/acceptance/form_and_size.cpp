@@ -1,11 +1,10 @@
 // Form and size by one stylus: 25 touches on a sphere. Form is the range of the 25 distances from
 // the centre of the least-squares sphere, size the error of its diameter.
 //
-// The touches carry the probe's noise alone: over a sphere of some 30 mm the geometric errors
-// hardly change. With errors of a few um on such a sphere the fit is linear: touch i with unit
-// normal n_i and radial error e_i gives
-//   e_i = n_i . c + r + residual_i     in the least-squares sense,  c error of the centre, r of the
-//   radius,
+// The touches carry the probe's noise alone: over a sphere of some 30 mm the geometric errors hardly
+// change. With errors of a few um on such a sphere the fit is linear: touch i with unit normal n_i
+// and radial error e_i gives, in the least-squares sense,
+//   e_i = n_i . c + r + residual_i,   c error of the centre, r of the radius,
 // so neither form nor size depends on the size of the sphere.
 #include <algorithm>
 #include <cmath>
