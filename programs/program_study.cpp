@@ -24,23 +24,21 @@ std::string beside(const CompiledProgram& program, const std::string& path) {
   return (std::filesystem::path(program.source.name()).parent_path() / path).string();
 }
 
-/// A directive names a file or a shipped machine.
-Machine machine_of(const CompiledProgram& program, const StudySettings& settings) {
-  if (settings.machine) return read_machine(*settings.machine);
+}  // namespace
+
+std::string machine_name(const CompiledProgram& program, const std::optional<std::string>& chosen) {
+  if (chosen) return *chosen;
   const std::string asked = program.compilation.directives.machine.value_or(kDefaultMachine);
   const std::string file = beside(program, asked);
-  return read_machine(std::filesystem::exists(file) ? file : asked);
+  return std::filesystem::exists(file) ? file : asked;
 }
 
-/// The workpiece that is asked for.
-std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const StudySettings& settings) {
-  if (settings.workpiece) return read_workpiece(*settings.workpiece);
+std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std::optional<std::string>& chosen) {
+  if (chosen) return read_workpiece(*chosen);
   const std::optional<std::string>& asked = program.compilation.directives.workpiece;
   if (!asked) return std::nullopt;
   return read_workpiece(beside(program, *asked));
 }
-
-}  // namespace
 
 CompiledProgram compile_program(const std::string& path) {
   SourceFile source = read_source(path);
@@ -52,9 +50,9 @@ CompiledProgram compile_program(const std::string& path) {
 Study study_program(const CompiledProgram& program, const StudySettings& settings, const Progress& progress) {
   const lang::Directives& asked = program.compilation.directives;
   const plan::Plan& plan = program.compilation.plan;
-  const Machine machine = machine_of(program, settings);
+  const Machine machine = read_machine(machine_name(program, settings.machine));
 
-  const std::optional<Workpiece> workpiece = workpiece_of(program, settings);
+  const std::optional<Workpiece> workpiece = workpiece_of(program, settings.workpiece);
 
   StudyOptions options;
   options.workpiece = workpiece ? &*workpiece : nullptr;

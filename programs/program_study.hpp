@@ -41,6 +41,13 @@ struct CompiledProgram {
 };
 CompiledProgram compile_program(const std::string& path);
 
+/// The machine to use, as read_machine takes it: what the command line chose, else what the program asks for (a file beside the
+/// program or a shipped machine), else the default.
+std::string machine_name(const CompiledProgram&, const std::optional<std::string>& chosen);
+/// The workpiece to use: the file that the command line chose, else the one that the program asks for, its path as seen from the
+/// program. Nothing when neither names one. Throws UserError as read_workpiece does.
+std::optional<Workpiece> workpiece_of(const CompiledProgram&, const std::optional<std::string>& chosen);
+
 /// Studies a compiled program. Throws UserError: no usable machine, or the error-free machine cannot run the program.
 Study study_program(const CompiledProgram&, const StudySettings&, const Progress& progress = {});
 

@@ -59,15 +59,17 @@ int record_command(const RecordOptions& options) {
                                "correct the program; `abbe check` lists what is wrong"));
   }
   const lang::Directives& asked = program.compilation.directives;
-  const std::string machine_name = options.machine.value_or(asked.machine.value_or(kDefaultMachine));
-  Machine machine = read_machine(machine_name);
+  const std::string name = machine_name(program, options.machine);
+  Machine machine = read_machine(name);
+  const std::optional<Workpiece> workpiece = workpiece_of(program, options.workpiece);
   for (const std::string& with : options.with) machine.effects.push_back(effect_setting(with));
 
   RunOptions run;
+  run.workpiece = workpiece ? &*workpiece : nullptr;
   run.seed = options.seed.value_or(asked.seed.value_or(1));
   run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   Recording recording = record_plan(program.compilation.plan, machine, screened_machines(machine, run.seed, 1, 1), run, program.source);
-  recording.metadata = {{"machine", machine_name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
+  recording.metadata = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
   write_whole(options.output, to_csv(recording));
   return kDone;
