@@ -12,7 +12,9 @@ namespace abbe {
 namespace {
 
 bool same_label(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::toupper(x) == std::toupper(y);
+  });
 }
 
 std::string bounds(const lang::Expectation& e) {
@@ -34,7 +36,8 @@ std::optional<double> figure(const CharacteristicReport& c, const std::string& q
 
 bool names(const lang::Expectation& e, const CharacteristicReport& c) {
   const auto is_it = [&](const std::string& feature) { return same_label(feature, e.feature); };
-  return same_label(c.tolerance, e.subject) && (e.occurrence == 0 || e.occurrence == c.occurrence) &&
+  return same_label(c.tolerance, e.subject) &&
+         (e.occurrence == 0 || e.occurrence == c.occurrence) &&
          (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), is_it));
 }
 
@@ -44,17 +47,20 @@ Verdict unknown(const lang::Expectation& e, const RunReport& report) {
   std::string what = fmt::format("TA({})", e.subject);
   if (!e.feature.empty()) what = fmt::format("FA({}) with ", e.feature) + what;
   if (e.occurrence > 0) what += fmt::format(", occurrence {}", e.occurrence);
-  const bool label_known = std::any_of(tolerances.begin(), tolerances.end(), [&](auto t) { return same_label(t, e.subject); });
+  const bool label_known = std::any_of(tolerances.begin(), tolerances.end(),
+                                       [&](auto t) { return same_label(t, e.subject); });
   const std::string near = label_known ? "" : nearest_word(e.subject, tolerances);
   const Diagnostic d = diagnostic(Code::E0608, "the program evaluates no " + what,
-                                  near.empty() ? "see the characteristics that `abbe run` lists" : "did you mean TA(" + near + ")?");
+                                  near.empty() ? "see the characteristics that `abbe run` lists"
+                                               : "did you mean TA(" + near + ")?");
   return {false, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help)};
 }
 
 Verdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
   if (!value) return {false, name + ": there is none, because the tolerance has no limits"};
   const bool inside = (!e.low || *value >= *e.low) && (!e.high || *value <= *e.high);
-  return {inside, fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};
+  return {inside,
+          fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};
 }
 
 }  // namespace
@@ -65,7 +71,8 @@ Verdict judge(const lang::Expectation& e, const RunReport& report) {
   std::optional<Verdict> verdict;
   for (const CharacteristicReport& c : report.characteristics) {
     if (!names(e, c)) continue;
-    const Verdict next = compare(e, fmt::format("TA({}) {}", c.tolerance, e.quantity), figure(c, e.quantity));
+    const Verdict next =
+        compare(e, fmt::format("TA({}) {}", c.tolerance, e.quantity), figure(c, e.quantity));
     if (!next.passed) return next;
     if (!verdict) verdict = next;
   }

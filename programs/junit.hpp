@@ -1,4 +1,5 @@
-// Test results as JUnit XML, the form that continuous-integration servers read (testsuites / testsuite / testcase / failure).
+// Test results as JUnit XML, the form that continuous-integration servers read (testsuites /
+// testsuite / testcase / failure).
 #pragma once
 
 #include <string>
@@ -8,9 +9,9 @@
 namespace abbe {
 
 struct TestCase {
-  std::string name;       ///< the expectation as written
+  std::string name;  ///< the expectation as written
   int line = 0;
-  std::string outcome;    ///< the figure and its bounds, or why there is none
+  std::string outcome;  ///< the figure and its bounds, or why there is none
   bool passed = false;
 };
 
@@ -22,8 +23,8 @@ struct TestSuite {
 
 std::string junit_xml(const std::vector<TestSuite>& suites);
 
-/// Text that may stand in an attribute or element: the five characters of XML as entities; bytes that are not UTF-8 and
-/// characters that XML 1.0 forbids become U+FFFD.
+/// Text that may stand in an attribute or element: the five characters of XML as entities; bytes
+/// that are not UTF-8 and characters that XML 1.0 forbids become U+FFFD.
 std::string xml_escaped(std::string_view text);
 
 }  // namespace abbe

@@ -1,4 +1,5 @@
-// What a command says beside its result: messages and progress, on stderr. The result alone goes to stdout.
+// What a command says beside its result: messages and progress, on stderr. The result alone goes to
+// stdout.
 #pragma once
 
 #include <string>
@@ -12,10 +13,12 @@ namespace abbe {
 /// The messages as `render` writes them, on stderr.
 void print_messages(const std::vector<Diagnostic>& messages);
 
-/// The result of a command, on stdout. Throws UserError when it cannot be written (a full disk, a closed pipe).
+/// The result of a command, on stdout. Throws UserError when it cannot be written (a full disk, a
+/// closed pipe).
 void print_result(std::string_view text);
 
-/// One line on stderr that is written over and over; nothing at all when stderr is not a terminal. Gone when destroyed.
+/// One line on stderr that is written over and over; nothing at all when stderr is not a terminal.
+/// Gone when destroyed.
 class ProgressLine {
  public:
   ProgressLine();

@@ -1,5 +1,5 @@
-// The unit in which a characteristic is reported: mm as inside the engine, degrees for angles. The only place of that
-// conversion on the way out.
+// The unit in which a characteristic is reported: mm as inside the engine, degrees for angles. The
+// only place of that conversion on the way out.
 #pragma once
 
 #include <numbers>
@@ -15,7 +15,9 @@ struct ReportUnit {
 
 inline ReportUnit report_unit(const plan::Plan& plan, plan::CharacteristicId id) {
   const plan::ToleranceDef& tolerance = plan[plan[id].tolerance];
-  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad ? ReportUnit{"deg", 180 / std::numbers::pi} : ReportUnit{};
+  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad
+             ? ReportUnit{"deg", 180 / std::numbers::pi}
+             : ReportUnit{};
 }
 
 }  // namespace abbe

@@ -7,12 +7,13 @@ namespace abbe {
 
 namespace {
 
-/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that length, in rad.
+/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that
+/// length, in rad.
 double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-9 : 1e-12; }
 
 /// Shares of variance; empty when a contributor's own run left too few values to tell.
-std::vector<CharacteristicReport::Contribution> contributions(const std::vector<ContributorRun>& alone, std::size_t sample,
-                                                              Unit unit) {
+std::vector<CharacteristicReport::Contribution> contributions(
+    const std::vector<ContributorRun>& alone, std::size_t sample, Unit unit) {
   std::vector<CharacteristicReport::Contribution> list;
   double total = 0;
   for (const ContributorRun& run : alone) {
@@ -32,13 +33,15 @@ std::optional<double> scaled(std::optional<double> value, double factor) {
   return value ? std::optional(*value * factor) : std::nullopt;
 }
 
-CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples, int machines) {
+CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples,
+                                           int machines) {
   const plan::CharacteristicDef& definition = plan[samples.characteristic];
   const plan::ToleranceDef& tolerance = plan[definition.tolerance];
   const auto [unit, factor] = report_unit(plan, samples.characteristic);
 
   CharacteristicReport report;
-  for (const plan::FeatureId feature : definition.features) report.features.push_back(plan[feature].label);
+  for (const plan::FeatureId feature : definition.features)
+    report.features.push_back(plan[feature].label);
   report.tolerance = tolerance.label;
   report.kind = tolerance.kind->word;
   report.unit = unit;
@@ -54,16 +57,19 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.lower = scaled(samples.limits.lower, factor);
   report.upper = scaled(samples.limits.upper, factor);
   if (report.lower || report.upper)
-    report.conformance_probability = conformance_probability(samples.value, samples.limits.lower, samples.limits.upper);
+    report.conformance_probability =
+        conformance_probability(samples.value, samples.limits.lower, samples.limits.upper);
   report.trapped = machines - static_cast<int>(samples.value.size());
   return report;
 }
 
 }  // namespace
 
-std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan, const RunResult& result,
+std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
+                                                         const RunResult& result,
                                                          const std::vector<ContributorRun>& alone) {
-  for (const ContributorRun& run : alone) ABBE_CHECK(run.result.samples.size() == result.samples.size());
+  for (const ContributorRun& run : alone)
+    ABBE_CHECK(run.result.samples.size() == result.samples.size());
   std::vector<CharacteristicReport> reports;
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
     const Samples& samples = result.samples[i];

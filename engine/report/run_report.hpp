@@ -1,8 +1,10 @@
-// Everything a report of `abbe run` may show, as plain data. Writers (engine/report/writers) turn it into text, JSON, ...
+// Everything a report of `abbe run` may show, as plain data. Writers (engine/report/writers) turn
+// it into text, JSON, ...
 //
-// The figures of one characteristic follow GUM and JCGM 101: the value of the error-free machine as reference, the mean and
-// standard uncertainty u of the values of all virtual machines, and the 95 % limits, which are given relative to the reference
-// as Table 3 of the paper prints them (LCL, UCL).
+// The figures of one characteristic follow GUM and JCGM 101: the value of the error-free machine as
+// reference, the mean and standard uncertainty u of the values of all virtual machines, and the 95
+// % limits, which are given relative to the reference as Table 3 of the paper prints them (LCL,
+// UCL).
 #pragma once
 
 #include <cstdint>
@@ -23,17 +25,21 @@ struct CharacteristicReport {
   std::string tolerance, kind, unit;
   int line = 0, occurrence = 1;
   double nominal = 0, reference = 0;
-  Summary summary;                        ///< of the values
-  double lcl = 0, ucl = 0;                ///< limits of the 95 % interval minus reference
-  std::optional<double> lower, upper;     ///< tolerance limits of the value
+  Summary summary;                     ///< of the values
+  double lcl = 0, ucl = 0;             ///< limits of the 95 % interval minus reference
+  std::optional<double> lower, upper;  ///< tolerance limits of the value
   std::optional<double> conformance_probability;
-  struct Contribution { std::string name; double share = 0; };
-  std::vector<Contribution> contributions;  ///< shares of variance, sum 1; all 0 when nothing varies, empty when unknown
-  int trapped = 0;                        ///< machines that did not reach it
+  struct Contribution {
+    std::string name;
+    double share = 0;
+  };
+  std::vector<Contribution>
+      contributions;  ///< shares of variance, sum 1; all 0 when nothing varies, empty when unknown
+  int trapped = 0;    ///< machines that did not reach it
 };
 
 struct Influence {
-  std::string name, status;               ///< "modelled", "bounded", "not modelled"
+  std::string name, status;  ///< "modelled", "bounded", "not modelled"
 };
 
 struct LostCharacteristic {
@@ -43,7 +49,7 @@ struct LostCharacteristic {
 
 struct RunReport {
   std::string program, machine, version;
-  std::optional<std::string> workpiece;   ///< its name; none: exactly nominal, at 20 degrees C
+  std::optional<std::string> workpiece;  ///< its name; none: exactly nominal, at 20 degrees C
   std::uint64_t seed = 1;
   ScreeningCounts machines;
   std::vector<CharacteristicReport> characteristics;
@@ -53,14 +59,17 @@ struct RunReport {
   std::vector<Diagnostic> messages;
 };
 
-/// The run in which only one contributor acted, on the same machines and with the same random numbers.
+/// The run in which only one contributor acted, on the same machines and with the same random
+/// numbers.
 struct ContributorRun {
   std::string name;
   RunResult result;
 };
-/// Turns samples into the figures of the report; angles become degrees here. Characteristics that fewer than two machines
-/// reached have no figures and are left out. A contributor's share is the variance of its own run over the sum of those
-/// variances; variances of rounding, below (1e-9 mm)^2 or (1e-12 rad)^2, count as 0.
-std::vector<CharacteristicReport> characteristic_reports(const plan::Plan&, const RunResult&, const std::vector<ContributorRun>& alone);
+/// Turns samples into the figures of the report; angles become degrees here. Characteristics that
+/// fewer than two machines reached have no figures and are left out. A contributor's share is the
+/// variance of its own run over the sum of those variances; variances of rounding, below (1e-9
+/// mm)^2 or (1e-12 rad)^2, count as 0.
+std::vector<CharacteristicReport> characteristic_reports(const plan::Plan&, const RunResult&,
+                                                         const std::vector<ContributorRun>& alone);
 
 }  // namespace abbe

@@ -13,11 +13,15 @@ namespace {
 
 void check_options(const StudyOptions& options) {
   if (!options.digits && options.machines < 2)
-    throw UserError(diagnostic(Code::E0603, fmt::format("{} virtual machines were asked for; expected at least 2", options.machines),
-                               "a standard uncertainty needs two values; 1000 machines give it to about 2 %"));
+    throw UserError(diagnostic(
+        Code::E0603,
+        fmt::format("{} virtual machines were asked for; expected at least 2", options.machines),
+        "a standard uncertainty needs two values; 1000 machines give it to about 2 %"));
   if (options.digits && *options.digits != 1 && *options.digits != 2)
-    throw UserError(diagnostic(Code::E0603, fmt::format("{} significant digits of u were asked for; expected 1 or 2", *options.digits),
-                               "each further digit needs a hundred times as many machines"));
+    throw UserError(diagnostic(
+        Code::E0603,
+        fmt::format("{} significant digits of u were asked for; expected 1 or 2", *options.digits),
+        "each further digit needs a hundred times as many machines"));
 }
 
 /// Every contributor acting alone, by the name under which its share is reported.
@@ -50,13 +54,15 @@ std::vector<NamedContributors> each_alone(const Machine& machine, bool workpiece
 /// One study in the making: what all its steps share.
 class StudyRun {
  public:
-  StudyRun(const plan::Plan& plan, const Machine& machine, const StudyOptions& options, const SourceFile& source, const Progress& progress)
+  StudyRun(const plan::Plan& plan, const Machine& machine, const StudyOptions& options,
+           const SourceFile& source, const Progress& progress)
       : plan_(plan), machine_(machine), options_(options), source_(source), progress_(progress) {}
 
   Study run() {
     const int count = options_.digits ? kBlockMachines : options_.machines;
     step("drawing virtual machines");
-    const VirtualMachines machines = screened_machines(machine_, options_.seed, count, options_.threads);
+    const VirtualMachines machines =
+        screened_machines(machine_, options_.seed, count, options_.threads);
     step("running the program");
     append(machines, run(machines, {}));
     std::vector<ContributorRun> alone;
@@ -125,18 +131,22 @@ class StudyRun {
 
   /// Characteristics that no block could summarise do not count: they are reported as lost.
   bool stable() const {
-    return std::all_of(trials_.begin(), trials_.end(), [](const AdaptiveTrials& t) { return t.blocks() == 0 || t.stable(); });
+    return std::all_of(trials_.begin(), trials_.end(),
+                       [](const AdaptiveTrials& t) { return t.blocks() == 0 || t.stable(); });
   }
 
   void run_until_stable() {
     for (int blocks = 1; blocks < options_.max_blocks && !stable(); ++blocks) {
-      step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines, *options_.digits));
-      const VirtualMachines machines = more_screened_machines(machine_, options_.seed, kBlockMachines, options_.threads,
-                                                              study_.candidates.back() + 1);
+      step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines,
+                       *options_.digits));
+      const VirtualMachines machines = more_screened_machines(
+          machine_, options_.seed, kBlockMachines, options_.threads, study_.candidates.back() + 1);
       append(machines, run(machines, {}));
     }
     if (!stable())
-      message(Code::W0605, fmt::format("after {} machines the figures are not yet stable to {} digits", study_.result.machines, *options_.digits),
+      message(Code::W0605,
+              fmt::format("after {} machines the figures are not yet stable to {} digits",
+                          study_.result.machines, *options_.digits),
               "see the Monte Carlo errors, or ask for --digits 1");
   }
 
@@ -156,7 +166,8 @@ class StudyRun {
     add_unreached();
     if (report.machines.share_accepted() < 0.5) warn_of_screening();
     if (study_.result.samples.empty())
-      message(Code::W0606, "the program evaluates no characteristic", "add an OUTPUT or EVAL statement with a feature and a tolerance");
+      message(Code::W0606, "the program evaluates no characteristic",
+              "add an OUTPUT or EVAL statement with a feature and a tolerance");
   }
 
   /// Characteristics without figures, because fewer than two machines reached them.
@@ -164,11 +175,14 @@ class StudyRun {
     for (const Samples& samples : study_.result.samples) {
       if (samples.value.size() >= 2) continue;
       const plan::CharacteristicDef& definition = plan_[samples.characteristic];
-      std::string reason = fmt::format("{} of {} machines reached it", samples.value.size(), study_.result.machines);
+      std::string reason =
+          fmt::format("{} of {} machines reached it", samples.value.size(), study_.result.machines);
       if (const auto& traps = study_.result.traps; !traps.empty())
-        reason += fmt::format("; the first stopped at line {}: {}", traps.front().line, traps.front().reason);
+        reason += fmt::format("; the first stopped at line {}: {}", traps.front().line,
+                              traps.front().reason);
       std::string features;
-      for (const plan::FeatureId f : definition.features) features += (features.empty() ? "" : ", ") + plan_[f].label;
+      for (const plan::FeatureId f : definition.features)
+        features += (features.empty() ? "" : ", ") + plan_[f].label;
       study_.report.lost.push_back({definition.line, features, reason});
     }
   }
@@ -177,11 +191,15 @@ class StudyRun {
     step("looking for a factor on e_max");
     constexpr int kCandidates = 1000;
     const double share = study_.report.machines.share_accepted();
-    const SuggestedFactor suggested = suggest_e_max_factor(machine_, options_.seed, kCandidates, options_.threads);
-    message(Code::W0416,
-            fmt::format("only {:.1f} % of the generated machines satisfy the specification of '{}'", 100 * share, machine_.name),
-            fmt::format("with every e_max multiplied by {:.2f} about {:.0f} % would; see `abbe machine screen`", suggested.factor,
-                        100 * suggested.share_accepted));
+    const SuggestedFactor suggested =
+        suggest_e_max_factor(machine_, options_.seed, kCandidates, options_.threads);
+    message(
+        Code::W0416,
+        fmt::format("only {:.1f} % of the generated machines satisfy the specification of '{}'",
+                    100 * share, machine_.name),
+        fmt::format(
+            "with every e_max multiplied by {:.2f} about {:.0f} % would; see `abbe machine screen`",
+            suggested.factor, 100 * suggested.share_accepted));
   }
 
   const plan::Plan& plan_;
@@ -190,13 +208,13 @@ class StudyRun {
   const SourceFile& source_;
   const Progress& progress_;
   Study study_;
-  std::vector<AdaptiveTrials> trials_;   ///< one per entry of result.samples
+  std::vector<AdaptiveTrials> trials_;  ///< one per entry of result.samples
 };
 
 }  // namespace
 
-Study run_study(const plan::Plan& plan, const Machine& machine, const StudyOptions& options, const SourceFile& source,
-                const Progress& progress) {
+Study run_study(const plan::Plan& plan, const Machine& machine, const StudyOptions& options,
+                const SourceFile& source, const Progress& progress) {
   check_options(options);
   return StudyRun(plan, machine, options, source, progress).run();
 }

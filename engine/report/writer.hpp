@@ -1,4 +1,5 @@
-// One format of the report of `abbe run`. A format is one file in engine/report/writers and one line in its all.cpp.
+// One format of the report of `abbe run`. A format is one file in engine/report/writers and one
+// line in its all.cpp.
 #pragma once
 
 #include <span>
@@ -10,7 +11,7 @@
 namespace abbe {
 
 struct ReportWriter {
-  std::string_view name;       ///< what --format takes: "text", "json"
+  std::string_view name;  ///< what --format takes: "text", "json"
   std::string_view help;
   std::string (*write)(const RunReport&);
 };

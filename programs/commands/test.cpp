@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 
 bool is_program(const fs::path& path) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension == ".dmi";
 }
 
@@ -33,8 +34,10 @@ std::vector<std::string> programs_of(const std::vector<std::string>& paths) {
       continue;
     }
     std::vector<std::string> below;
-    for (const auto& entry : fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
-      if (entry.is_regular_file() && is_program(entry.path())) below.push_back(entry.path().string());
+    for (const auto& entry :
+         fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
+      if (entry.is_regular_file() && is_program(entry.path()))
+        below.push_back(entry.path().string());
     std::sort(below.begin(), below.end());
     found.insert(found.end(), below.begin(), below.end());
   }
@@ -42,8 +45,10 @@ std::vector<std::string> programs_of(const std::vector<std::string>& paths) {
 }
 
 /// Every expectation of a program that cannot be run fails for the same reason.
-void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectations, const std::string& reason) {
-  for (const lang::Expectation& e : expectations) suite.cases.push_back({e.text, e.line, reason, false});
+void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectations,
+              const std::string& reason) {
+  for (const lang::Expectation& e : expectations)
+    suite.cases.push_back({e.text, e.line, reason, false});
 }
 
 /// Errors of a program by where they stand: in its `$$!` directives, or in its statements.
@@ -65,15 +70,22 @@ Errors errors_of(const CompiledProgram& program) {
   return errors;
 }
 
-/// A directive that cannot be read must fail, not vanish. Expectations that were read are judged by themselves.
-void fail_unreadable(TestSuite& suite, const Errors& errors, const std::vector<lang::Expectation>& expectations) {
+/// A directive that cannot be read must fail, not vanish. Expectations that were read are judged by
+/// themselves.
+void fail_unreadable(TestSuite& suite, const Errors& errors,
+                     const std::vector<lang::Expectation>& expectations) {
   for (const Diagnostic& d : errors.directives) {
-    const bool read = std::any_of(expectations.begin(), expectations.end(), [&](const auto& e) { return e.line == d.place.line; });
-    if (!read) suite.cases.push_back({d.source_line, d.place.line, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help), false});
+    const bool read = std::any_of(expectations.begin(), expectations.end(),
+                                  [&](const auto& e) { return e.line == d.place.line; });
+    if (!read)
+      suite.cases.push_back({d.source_line, d.place.line,
+                             fmt::format("{} {}; {}", info(d.code).name, d.message, d.help),
+                             false});
   }
 }
 
-TestSuite test_program(const std::string& path, const StudySettings& settings, ProgressLine& progress) {
+TestSuite test_program(const std::string& path, const StudySettings& settings,
+                       ProgressLine& progress) {
   const CompiledProgram program = compile_program(path);
   const auto& expectations = program.compilation.directives.expectations;
   const Errors errors = errors_of(program);
@@ -85,7 +97,9 @@ TestSuite test_program(const std::string& path, const StudySettings& settings, P
     return suite;
   }
   try {
-    const Study study = study_program(program, settings, [&](std::string_view step) { progress.show(fmt::format("{}: {}", path, step)); });
+    const Study study = study_program(program, settings, [&](std::string_view step) {
+      progress.show(fmt::format("{}: {}", path, step));
+    });
     for (const lang::Expectation& e : expectations) {
       const Verdict verdict = judge(e, study.report);
       suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
@@ -108,13 +122,15 @@ int test_command(const TestOptions& options) {
     if (suite.cases.empty()) continue;
     for (const TestCase& c : suite.cases) {
       ++(c.passed ? passed : failed);
-      print_result(fmt::format("{}  {}:{}: {}\n", c.passed ? "ok  " : "FAIL", path, c.line, c.outcome));
+      print_result(
+          fmt::format("{}  {}:{}: {}\n", c.passed ? "ok  " : "FAIL", path, c.line, c.outcome));
     }
     suites.push_back(std::move(suite));
   }
   if (suites.empty())
-    throw UserError(diagnostic(Code::E0607, "no program with an expectation was found",
-                               "write a line such as `$$! expect TA(LEN) u95 between 0.003 0.005` into a .dmi file"));
+    throw UserError(diagnostic(
+        Code::E0607, "no program with an expectation was found",
+        "write a line such as `$$! expect TA(LEN) u95 between 0.003 0.005` into a .dmi file"));
   if (options.junit) write_whole(*options.junit, junit_xml(suites));
   print_result(fmt::format("{} passed, {} failed\n", passed, failed));
   return failed ? kNo : kDone;

@@ -1,5 +1,6 @@
-// The report for programs, schema "abbe.run/1". A key once published stays; every number is in the unit that its key, or the
-// characteristic's "unit", names. JSON has no NaN: what has no value is null.
+// The report for programs, schema "abbe.run/1". A key once published stays; every number is in the
+// unit that its key, or the characteristic's "unit", names. JSON has no NaN: what has no value is
+// null.
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,12 +12,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
-Json pair(std::optional<double> low, std::optional<double> high) { return Json::array({number(low), number(high)}); }
+Json number(std::optional<double> value) {
+  return value && std::isfinite(*value) ? Json(*value) : Json();
+}
+Json pair(std::optional<double> low, std::optional<double> high) {
+  return Json::array({number(low), number(high)});
+}
 
 Json contributions(const CharacteristicReport& c) {
   Json out = Json::object();
-  for (const auto& contribution : c.contributions) out[contribution.name] = number(contribution.share);
+  for (const auto& contribution : c.contributions)
+    out[contribution.name] = number(contribution.share);
   return out;
 }
 
@@ -35,9 +41,13 @@ Json characteristic(const CharacteristicReport& c) {
           {"lcl", number(c.lcl)},
           {"ucl", number(c.ucl)},
           {"interval95",
-           {{"symmetric", pair(s.symmetric.low, s.symmetric.high)}, {"shortest", pair(s.shortest.low, s.shortest.high)}}},
+           {{"symmetric", pair(s.symmetric.low, s.symmetric.high)},
+            {"shortest", pair(s.shortest.low, s.shortest.high)}}},
           {"monte_carlo_error",
-           {{"mean", number(s.mean_error)}, {"u", number(s.u_error)}, {"lcl", number(s.low_error)}, {"ucl", number(s.high_error)}}},
+           {{"mean", number(s.mean_error)},
+            {"u", number(s.u_error)},
+            {"lcl", number(s.low_error)},
+            {"ucl", number(s.high_error)}}},
           {"tolerance_limits", pair(c.lower, c.upper)},
           {"conformance_probability", number(c.conformance_probability)},
           {"contributions", contributions(c)},
@@ -77,8 +87,14 @@ std::string write_json(const RunReport& r) {
         {"too_small", m.too_small},
         {"share_accepted", number(m.share_accepted())}}},
       {"characteristics", list(r.characteristics, characteristic)},
-      {"lost", list(r.lost, [](const auto& l) { return Json{{"line", l.line}, {"feature", l.feature}, {"reason", l.reason}}; })},
-      {"influences", list(r.influences, [](const auto& i) { return Json{{"name", i.name}, {"status", i.status}}; })},
+      {"lost", list(r.lost,
+                    [](const auto& l) {
+                      return Json{{"line", l.line}, {"feature", l.feature}, {"reason", l.reason}};
+                    })},
+      {"influences", list(r.influences,
+                          [](const auto& i) {
+                            return Json{{"name", i.name}, {"status", i.status}};
+                          })},
       {"messages", list(r.messages, message)}};
   // Labels keep the bytes of the program, which may be Latin-1: what is not UTF-8 is replaced.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,7 +1,7 @@
 // The report for a person: one line per characteristic, then what limits its meaning.
 //
-// u is rounded to two significant digits and the other figures of its line to the same place, but mm and degrees keep at least
-// four decimals. Decimal points stand below each other.
+// u is rounded to two significant digits and the other figures of its line to the same place, but
+// mm and degrees keep at least four decimals. Decimal points stand below each other.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,8 +28,10 @@ int decimals_for(double u) {
 /// A number with `decimals`, followed by blanks up to the width of `most` decimals.
 std::string aligned(std::optional<double> value, int decimals, int most, const char* sign = "-") {
   if (!value) return "-" + std::string(most + 1, ' ');
-  const double rounded = std::fabs(*value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : *value;  // no "-0.0000"
-  const std::string number = *sign == '+' ? fmt::format("{:+.{}f}", rounded, decimals) : fmt::format("{:.{}f}", rounded, decimals);
+  const double rounded =
+      std::fabs(*value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : *value;  // no "-0.0000"
+  const std::string number = *sign == '+' ? fmt::format("{:+.{}f}", rounded, decimals)
+                                          : fmt::format("{:.{}f}", rounded, decimals);
   return number + std::string(most - decimals, ' ');
 }
 
@@ -51,8 +53,9 @@ std::vector<std::string> contributor_names(const RunReport& r) {
 
 std::vector<Table::Column> columns(const std::vector<std::string>& contributors) {
   using enum Table::Align;
-  std::vector<Table::Column> list{{"line"}, {"feature", left}, {"tolerance", left}, {"unit", left}, {"value"}, {"u"}, {"LCL"}, {"UCL"},
-                                  {"lower"}, {"upper"}, {"conforms"}};
+  std::vector<Table::Column> list{
+      {"line"}, {"feature", left}, {"tolerance", left}, {"unit", left}, {"value"},   {"u"},
+      {"LCL"},  {"UCL"},           {"lower"},           {"upper"},      {"conforms"}};
   for (const std::string& name : contributors) list.push_back({name});
   return list;
 }
@@ -76,9 +79,13 @@ std::string characteristics_table(const RunReport& r) {
                                    aligned(c.ucl, decimals, most, "+"),
                                    aligned(c.lower, kFewestDecimals, most),
                                    aligned(c.upper, kFewestDecimals, most),
-                                   c.conformance_probability ? fmt::format("{:.1f} %", 100 * *c.conformance_probability) : "-"};
+                                   c.conformance_probability
+                                       ? fmt::format("{:.1f} %", 100 * *c.conformance_probability)
+                                       : "-"};
     for (std::size_t k = 0; k < contributors.size(); ++k)
-      cells.push_back(k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-");
+      cells.push_back(k < c.contributions.size()
+                          ? fmt::format("{:.0f} %", 100 * c.contributions[k].share)
+                          : "-");
     table.add(std::move(cells));
   }
   return table.to_text();
@@ -89,8 +96,10 @@ std::string legend(const RunReport& r) {
   for (const auto& c : r.characteristics)
     if (c.summary.u > 0) worst = std::max(worst, c.summary.u_error / c.summary.u);
   return fmt::format(
-      "\nvalue: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % and 97.5 %) minus value;\n"
-      "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the variance.\n"
+      "\nvalue: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
+      "and 97.5 %) minus value;\n"
+      "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the "
+      "variance.\n"
       "Monte Carlo error of u: {:.1f} % (standard error, the largest of the table).\n",
       100 * worst);
 }
@@ -101,13 +110,15 @@ std::string trapped_machines(const RunReport& r) {
   for (const Trap& trap : r.traps) ++stopped[{trap.line, trap.reason}];
   std::string out;
   for (const auto& [where, count] : stopped)
-    out += fmt::format("{} of {} machines stopped at line {}: {}\n", count, r.machines.used, where.first, where.second);
+    out += fmt::format("{} of {} machines stopped at line {}: {}\n", count, r.machines.used,
+                       where.first, where.second);
   return out;
 }
 
 std::string lost_characteristics(const RunReport& r) {
   std::string out;
-  for (const LostCharacteristic& l : r.lost) out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
+  for (const LostCharacteristic& l : r.lost)
+    out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
   return out;
 }
 
@@ -128,8 +139,9 @@ std::string not_modelled(const RunReport& r) {
 
 std::string write_text(const RunReport& r) {
   const ScreeningCounts& m = r.machines;
-  std::string out = fmt::format("{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n\n", r.program,
-                                r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
+  std::string out = fmt::format(
+      "{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n\n",
+      r.program, r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
   if (r.workpiece) out.insert(out.size() - 1, fmt::format("workpiece {}\n", *r.workpiece));
   out += characteristics_table(r);
   if (!r.characteristics.empty()) out += legend(r);

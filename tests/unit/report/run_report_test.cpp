@@ -24,7 +24,8 @@ std::vector<double> ramp(double middle, double step) {
   return values;
 }
 
-const CharacteristicReport::Contribution* contribution(const CharacteristicReport& c, const std::string& name) {
+const CharacteristicReport::Contribution* contribution(const CharacteristicReport& c,
+                                                       const std::string& name) {
   for (const auto& k : c.contributions)
     if (k.name == name) return &k;
   return nullptr;
@@ -49,21 +50,28 @@ TEST_CASE("limits are relative to the error-free value, conformance is a share")
 }
 
 TEST_CASE("angles leave in degrees") {
-  const RunResult run = run_of({samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))}, 1000);
+  const RunResult run = run_of(
+      {samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))},
+      1000);
   const CharacteristicReport c = characteristic_reports(length_and_angle(), run, {}).at(0);
   CHECK(c.unit == "deg");
   CHECK(c.reference == doctest::Approx(90).epsilon(1e-14));
   CHECK(c.nominal == doctest::Approx(90).epsilon(1e-14));
   CHECK(*c.upper == doctest::Approx(91).epsilon(1e-14));
   CHECK_FALSE(c.lower);
-  CHECK(c.summary.u == doctest::Approx(1e-3 * std::sqrt(1000 * 1001 / 12.0)).epsilon(1e-9));  // of n equal steps
+  CHECK(c.summary.u ==
+        doctest::Approx(1e-3 * std::sqrt(1000 * 1001 / 12.0)).epsilon(1e-9));  // of n equal steps
   CHECK(c.lcl == doctest::Approx(-0.4755).epsilon(1e-9));
 }
 
 TEST_CASE("shares of variance sum to one and ignore rounding") {
-  const auto alone = [](double step) { return run_of({samples(0, 500, {}, ramp(500, step))}, 1000); };
-  const std::vector<ContributorRun> runs{{"geometry", alone(2e-6)}, {"head", alone(1e-13)}, {"probe", alone(1e-6)}};
-  const CharacteristicReport c = characteristic_reports(length_and_angle(), alone(3e-6), runs).at(0);
+  const auto alone = [](double step) {
+    return run_of({samples(0, 500, {}, ramp(500, step))}, 1000);
+  };
+  const std::vector<ContributorRun> runs{
+      {"geometry", alone(2e-6)}, {"head", alone(1e-13)}, {"probe", alone(1e-6)}};
+  const CharacteristicReport c =
+      characteristic_reports(length_and_angle(), alone(3e-6), runs).at(0);
   CHECK(contribution(c, "geometry")->share == doctest::Approx(0.8).epsilon(1e-6));
   CHECK(contribution(c, "probe")->share == doctest::Approx(0.2).epsilon(1e-6));
   CHECK(contribution(c, "head")->share == 0);  // u = 3e-11 mm is rounding
@@ -72,7 +80,10 @@ TEST_CASE("shares of variance sum to one and ignore rounding") {
 
 TEST_CASE("when nothing varies every share is zero, not NaN") {
   const RunResult constant = run_of({samples(0, 500, {}, std::vector<double>(1000, 500.0))}, 1000);
-  const CharacteristicReport c = characteristic_reports(length_and_angle(), constant, {{"geometry", constant}, {"probe", constant}}).at(0);
+  const CharacteristicReport c =
+      characteristic_reports(length_and_angle(), constant,
+                             {{"geometry", constant}, {"probe", constant}})
+          .at(0);
   CHECK(contribution(c, "geometry")->share == 0);
   CHECK(contribution(c, "probe")->share == 0);
 }
@@ -80,7 +91,9 @@ TEST_CASE("when nothing varies every share is zero, not NaN") {
 TEST_CASE("shares are unknown, not zero, when a contributor alone reaches nothing") {
   const RunResult all = run_of({samples(0, 500, {}, ramp(500, 1e-6))}, 1000);
   const RunResult none = run_of({samples(0, 500, {}, {500.0})}, 1000);
-  CHECK(characteristic_reports(length_and_angle(), all, {{"geometry", all}, {"probe", none}}).at(0).contributions.empty());
+  CHECK(characteristic_reports(length_and_angle(), all, {{"geometry", all}, {"probe", none}})
+            .at(0)
+            .contributions.empty());
 }
 
 TEST_CASE("a characteristic that fewer than two machines reached has no figures") {
@@ -92,7 +105,8 @@ TEST_CASE("a characteristic that fewer than two machines reached has no figures"
 
 TEST_CASE("runs of different plans are refused") {
   const RunResult one = run_of({samples(0, 500, {}, ramp(500, 1e-6))}, 1000);
-  CHECK_THROWS_AS(characteristic_reports(length_and_angle(), one, {{"probe", run_of({}, 1000)}}), InternalError);
+  CHECK_THROWS_AS(characteristic_reports(length_and_angle(), one, {{"probe", run_of({}, 1000)}}),
+                  InternalError);
 }
 
 TEST_CASE("influences are declared; an effect of the machine file makes its influence modelled") {
@@ -116,7 +130,9 @@ TEST_CASE("influences are declared; an effect of the machine file makes its infl
 
 TEST_CASE("samples as CSV: every machine, labels quoted, angles in degrees") {
   Study study;
-  study.result = run_of({samples(0, 500, {}, {500.25}), samples(1, 90 * kDegree, {}, {90 * kDegree, 45 * kDegree})}, 2);
+  study.result = run_of(
+      {samples(0, 500, {}, {500.25}), samples(1, 90 * kDegree, {}, {90 * kDegree, 45 * kDegree})},
+      2);
   study.result.samples[0].machine = {1};
   study.candidates = {0, 7};
   CHECK(samples_csv(length_and_angle(), study) ==

@@ -1,4 +1,5 @@
-// A plan with a length and an angle, and runs of it with given values: enough for the reports, without any machine.
+// A plan with a length and an angle, and runs of it with given values: enough for the reports,
+// without any machine.
 #pragma once
 
 #include <string>
@@ -35,8 +36,15 @@ inline plan::Plan length_and_angle() {
   return plan;
 }
 
-inline Samples samples(int characteristic, double reference, ToleranceLimits limits, std::vector<double> values) {
-  Samples s{plan::CharacteristicId{characteristic}, 1, reference, reference, limits, std::move(values), {}};
+inline Samples samples(int characteristic, double reference, ToleranceLimits limits,
+                       std::vector<double> values) {
+  Samples s{plan::CharacteristicId{characteristic},
+            1,
+            reference,
+            reference,
+            limits,
+            std::move(values),
+            {}};
   for (std::uint32_t i = 0; i < s.value.size(); ++i) s.machine.push_back(i);
   return s;
 }

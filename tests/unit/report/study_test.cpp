@@ -51,7 +51,8 @@ StudyOptions few(int machines) {
 }
 
 bool has(const std::vector<Diagnostic>& messages, Code code) {
-  return std::any_of(messages.begin(), messages.end(), [&](const Diagnostic& d) { return d.code == code; });
+  return std::any_of(messages.begin(), messages.end(),
+                     [&](const Diagnostic& d) { return d.code == code; });
 }
 
 }  // namespace
@@ -77,10 +78,12 @@ TEST_CASE("a study reports figures, shares, counts and the machine's weak spot")
 TEST_CASE("the probe's share is the variance of two touches") {
   const Study study = run_study(length(), machine(), few(2000), no_source());
   const CharacteristicReport& c = study.report.characteristics.at(0);
-  // Contributors are independent and act linearly: u^2 = V(geometry) + V(probe), V(probe) = 2 sd^2. Of 2000 machines the sample
-  // variance of the probe scatters by sqrt(2 / 1999) = 3.2 %, and the sum of the variances differs from u^2 by twice their
-  // sample covariance, at most 1 / sqrt(1999) = 2.2 % of u^2. Four standard errors together: false-alarm rate 6e-5.
-  const double expected = 2 * machine().probe.sd_mm.y * machine().probe.sd_mm.y / (c.summary.u * c.summary.u);
+  // Contributors are independent and act linearly: u^2 = V(geometry) + V(probe), V(probe) = 2 sd^2.
+  // Of 2000 machines the sample variance of the probe scatters by sqrt(2 / 1999) = 3.2 %, and the
+  // sum of the variances differs from u^2 by twice their sample covariance, at most 1 / sqrt(1999)
+  // = 2.2 % of u^2. Four standard errors together: false-alarm rate 6e-5.
+  const double expected =
+      2 * machine().probe.sd_mm.y * machine().probe.sd_mm.y / (c.summary.u * c.summary.u);
   CHECK(std::fabs(c.contributions[2].share / expected - 1) <= 4 * std::hypot(0.032, 0.022));
 }
 
@@ -90,7 +93,8 @@ TEST_CASE("threads change no bit of a study") {
   const Study a = run_study(length(), machine(), one, no_source());
   const Study b = run_study(length(), machine(), few(150), no_source());
   CHECK(a.result.samples[0].value == b.result.samples[0].value);
-  CHECK(a.report.characteristics[0].contributions[0].share == b.report.characteristics[0].contributions[0].share);
+  CHECK(a.report.characteristics[0].contributions[0].share ==
+        b.report.characteristics[0].contributions[0].share);
 }
 
 TEST_CASE("an adaptive study continues where a fixed one ends, and says when it gives up") {
@@ -102,11 +106,13 @@ TEST_CASE("an adaptive study continues where a fixed one ends, and says when it 
   REQUIRE(study.result.machines == 2 * kBlockMachines);
   CHECK(study.report.machines.used == 2 * kBlockMachines);
   CHECK(std::is_sorted(study.candidates.begin(), study.candidates.end()));
-  CHECK(std::adjacent_find(study.candidates.begin(), study.candidates.end()) == study.candidates.end());
+  CHECK(std::adjacent_find(study.candidates.begin(), study.candidates.end()) ==
+        study.candidates.end());
   CHECK(all.machine.front() == 0);
   CHECK(all.machine.back() == 2 * kBlockMachines - 1);
 
-  // The same 20 000 machines at once give the same values: blocks of trials are only a way of counting.
+  // The same 20 000 machines at once give the same values: blocks of trials are only a way of
+  // counting.
   const Study whole = run_study(length(), machine(), few(2 * kBlockMachines), no_source());
   CHECK(whole.result.samples[0].value == all.value);
   CHECK(whole.report.machines.generated == study.report.machines.generated);
@@ -123,19 +129,21 @@ TEST_CASE("a characteristic that next to no machine reaches is lost, with the re
   b.append(plan::Obtain{y, p, plan::Quantity::y});
   // Every machine with an error loops without end; only the error-free one reads exactly 400.
   const int loop = static_cast<int>(b.plan.operations.size());
-  b.append(plan::JumpUnless{{plan::PushColumn{y}, plan::PushConstant{400}, plan::Op2::subtract, plan::Op1::abs,
-                             plan::PushConstant{1e-9}, plan::Op2::less}, loop});
+  b.append(plan::JumpUnless{{plan::PushColumn{y}, plan::PushConstant{400}, plan::Op2::subtract,
+                             plan::Op1::abs, plan::PushConstant{1e-9}, plan::Op2::less},
+                            loop});
   b.evaluate({p, p}, "DISTB", distance());
   const Study study = run_study(b.plan, machine(), few(5), no_source());
   CHECK(study.report.characteristics.empty());
   REQUIRE(study.report.lost.size() == 1);
   CHECK(study.report.lost[0].feature == "F0, F0");
-  CHECK(study.report.lost[0].reason.starts_with("0 of 5 machines reached it; the first stopped at line"));
+  CHECK(study.report.lost[0].reason.starts_with(
+      "0 of 5 machines reached it; the first stopped at line"));
   CHECK(study.report.traps.size() == 5);
 }
 
 TEST_CASE("settings that make no sense are refused") {
-  CHECK_THROWS_AS(run_study(length(), machine(), few(1), no_source()), UserError);   // E0603
+  CHECK_THROWS_AS(run_study(length(), machine(), few(1), no_source()), UserError);  // E0603
   StudyOptions options = few(100);
   options.digits = 3;
   CHECK_THROWS_AS(run_study(length(), machine(), options, no_source()), UserError);
@@ -143,6 +151,7 @@ TEST_CASE("settings that make no sense are refused") {
 
 TEST_CASE("the steps of a study are announced") {
   std::vector<std::string> steps;
-  run_study(length(), machine(), few(20), no_source(), [&](std::string_view step) { steps.emplace_back(step); });
+  run_study(length(), machine(), few(20), no_source(),
+            [&](std::string_view step) { steps.emplace_back(step); });
   CHECK(std::find(steps.begin(), steps.end(), "probe alone") != steps.end());
 }

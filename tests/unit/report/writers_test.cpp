@@ -22,7 +22,8 @@ CharacteristicReport length() {
   c.summary.n = 1000;
   c.summary.mean = 500.00002, c.summary.u = 0.00203;
   c.summary.symmetric = {499.996, 500.0042}, c.summary.shortest = {499.9961, 500.0041};
-  c.summary.mean_error = 6.4e-5, c.summary.u_error = 4.5e-5, c.summary.low_error = 1.7e-4, c.summary.high_error = 1.8e-4;
+  c.summary.mean_error = 6.4e-5, c.summary.u_error = 4.5e-5, c.summary.low_error = 1.7e-4,
+  c.summary.high_error = 1.8e-4;
   c.lcl = -0.0040, c.ucl = 0.0042;
   c.lower = 499.99, c.upper = 500.01;
   c.conformance_probability = 0.998;
@@ -35,11 +36,13 @@ RunReport report() {
   r.program = "block.dmi", r.machine = "coord3-mc16", r.version = "0.1.0", r.seed = 7;
   r.machines = {2711, 1640, 71, 1000};
   r.characteristics = {length()};
-  r.influences = {{"geometry", "modelled"}, {"part temperature", "not modelled"}, {"operator", "not modelled"}};
+  r.influences = {
+      {"geometry", "modelled"}, {"part temperature", "not modelled"}, {"operator", "not modelled"}};
   r.lost = {{77, "BORE", "the statement has errors"}};
   r.traps = {{3, 10, 84, "no points"}, {8, 10, 84, "no points"}, {9, 4, 12, "endless loop"}};
-  r.messages = {diagnostic(Code::W0416, "only 36.9 % pass", "see `abbe machine screen`"),
-                diagnostic_at(SourceFile("block.dmi", "FOO/1\n"), {0, 3}, Code::E0604, "about a place")};
+  r.messages = {
+      diagnostic(Code::W0416, "only 36.9 % pass", "see `abbe machine screen`"),
+      diagnostic_at(SourceFile("block.dmi", "FOO/1\n"), {0, 3}, Code::E0604, "about a place")};
   return r;
 }
 
@@ -64,29 +67,43 @@ TEST_CASE("writers are found by name") {
 
 TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   const Json j = Json::parse(written("json", report()));
-  const std::vector<std::string> published{"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost",
+  const std::vector<std::string> published{"schema",     "program",  "machine",         "seed",
+                                           "version",    "machines", "characteristics", "lost",
                                            "influences", "messages"};
   std::vector<std::string> found = keys(j);
-  std::erase_if(found, [&](const std::string& key) { return std::find(published.begin(), published.end(), key) == published.end(); });
+  std::erase_if(found, [&](const std::string& key) {
+    return std::find(published.begin(), published.end(), key) == published.end();
+  });
   CHECK(found == published);
   CHECK(j["schema"] == "abbe.run/1");
   CHECK(j["seed"] == 7);
-  CHECK(j["machines"] == Json{{"used", 1000}, {"generated", 2711}, {"failed_mpe", 1640}, {"too_small", 71},
+  CHECK(j["machines"] == Json{{"used", 1000},
+                              {"generated", 2711},
+                              {"failed_mpe", 1640},
+                              {"too_small", 71},
                               {"share_accepted", 1000.0 / 2711}});
   const Json& c = j["characteristics"][0];
-  CHECK(keys(c) == std::vector<std::string>{"feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal", "reference", "mean", "u",
-                                            "lcl", "ucl", "interval95", "monte_carlo_error", "tolerance_limits",
-                                            "conformance_probability", "contributions", "trapped"});
+  CHECK(keys(c) == std::vector<std::string>{
+                       "feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal",
+                       "reference", "mean", "u", "lcl", "ucl", "interval95", "monte_carlo_error",
+                       "tolerance_limits", "conformance_probability", "contributions", "trapped"});
   CHECK(c["feature"] == Json{"END1", "END2"});
   CHECK(c["u"] == 0.00203);
-  CHECK(c["interval95"] == Json{{"symmetric", {499.996, 500.0042}}, {"shortest", {499.9961, 500.0041}}});
-  CHECK(c["monte_carlo_error"] == Json{{"mean", 6.4e-5}, {"u", 4.5e-5}, {"lcl", 1.7e-4}, {"ucl", 1.8e-4}});
+  CHECK(c["interval95"] ==
+        Json{{"symmetric", {499.996, 500.0042}}, {"shortest", {499.9961, 500.0041}}});
+  CHECK(c["monte_carlo_error"] ==
+        Json{{"mean", 6.4e-5}, {"u", 4.5e-5}, {"lcl", 1.7e-4}, {"ucl", 1.8e-4}});
   CHECK(c["tolerance_limits"] == Json{499.99, 500.01});
   CHECK(c["contributions"] == Json{{"geometry", 0.62}, {"head", 0.0}, {"probe", 0.38}});
-  CHECK(j["lost"][0] == Json{{"line", 77}, {"feature", "BORE"}, {"reason", "the statement has errors"}});
+  CHECK(j["lost"][0] ==
+        Json{{"line", 77}, {"feature", "BORE"}, {"reason", "the statement has errors"}});
   CHECK(j["influences"][1] == Json{{"name", "part temperature"}, {"status", "not modelled"}});
-  CHECK(j["messages"][0] == Json{{"code", "W0416"}, {"severity", "warning"}, {"line", nullptr}, {"column", nullptr},
-                                 {"message", "only 36.9 % pass"}, {"help", "see `abbe machine screen`"}});
+  CHECK(j["messages"][0] == Json{{"code", "W0416"},
+                                 {"severity", "warning"},
+                                 {"line", nullptr},
+                                 {"column", nullptr},
+                                 {"message", "only 36.9 % pass"},
+                                 {"help", "see `abbe machine screen`"}});
   CHECK(j["messages"][1]["line"] == 1);
   CHECK(j["messages"][1]["column"] == 1);
 }
@@ -109,13 +126,18 @@ TEST_CASE("JSON never holds NaN or bytes that are not UTF-8") {
 TEST_CASE("the text report reads at a glance") {
   CHECK(written("text", report()) ==
         "block.dmi\n"
-        "machine coord3-mc16: 1000 virtual machines used of 2711 generated (36.9 % accepted), seed 7\n"
+        "machine coord3-mc16: 1000 virtual machines used of 2711 generated (36.9 % accepted), seed "
+        "7\n"
         "\n"
-        "line  feature     tolerance    unit     value       u      LCL      UCL     lower     upper  conforms  geometry  head  probe\n"
-        "  41  END1, END2  LEN (DISTB)  mm    500.0000  0.0020  -0.0040  +0.0042  499.9900  500.0100    99.8 %      62 %   0 %   38 %\n"
+        "line  feature     tolerance    unit     value       u      LCL      UCL     lower     "
+        "upper  conforms  geometry  head  probe\n"
+        "  41  END1, END2  LEN (DISTB)  mm    500.0000  0.0020  -0.0040  +0.0042  499.9900  "
+        "500.0100    99.8 %      62 %   0 %   38 %\n"
         "\n"
-        "value: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % and 97.5 %) minus value;\n"
-        "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the variance.\n"
+        "value: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
+        "and 97.5 %) minus value;\n"
+        "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of "
+        "the variance.\n"
         "Monte Carlo error of u: 2.2 % (standard error, the largest of the table).\n"
         "\n"
         "1 of 1000 machines stopped at line 12: endless loop\n"
@@ -136,10 +158,10 @@ TEST_CASE("figures are rounded to two digits of u and decimal points stand below
   fine.contributions.clear();
   fine.occurrence = 2;
   const std::string text = written("text", r);
-  CHECK(text.find("  41  END1, END2  LEN (DISTB)     mm    500.0000   0.0020   -0.0040   +0.0042   499.9900   500.0100     99.8 %      62 %   0 %   38 %\n") !=
-        std::string::npos);
-  CHECK(text.find("  41  END1, END2  LEN (DISTB) #2  mm    500.00000  0.00010  -0.00019  +0.00000    -        500.0100          -         -     -      -\n") !=
-        std::string::npos);
+  CHECK(text.find("  41  END1, END2  LEN (DISTB)     mm    500.0000   0.0020   -0.0040   +0.0042   "
+                  "499.9900   500.0100     99.8 %      62 %   0 %   38 %\n") != std::string::npos);
+  CHECK(text.find("  41  END1, END2  LEN (DISTB) #2  mm    500.00000  0.00010  -0.00019  +0.00000  "
+                  "  -        500.0100          -         -     -      -\n") != std::string::npos);
 }
 
 TEST_CASE("a report without characteristics says so") {
