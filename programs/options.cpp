@@ -56,6 +56,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   for (const ReportWriter* writer : report_writers()) formats.emplace_back(writer->name);
   add_format(command, o->format, formats);
   command->add_option("--csv", o->csv, "write every value of every machine to this file")->type_name("C.csv");
+  command->add_option("--dmo", o->dmo, "write the DMIS result file of the error-free machine")->type_name("D.dmo");
 }
 
 void add_check(CLI::App& app, Chosen& chosen) {

@@ -134,6 +134,8 @@ struct RotateFrame { FrameId result; Axis axis{}; FeatureId to; AxisDirection to
 struct RecallFrame { FrameId frame; };
 
 struct Evaluate { CharacteristicId characteristic; };
+/// OUTPUT: these features, in the current frame, and what was evaluated of them just before go to the result file.
+struct Output { std::vector<FeatureId> features; std::vector<CharacteristicId> characteristics; };
 /// What OBTAIN can read of a measured feature, in the current frame: mm, unit vector components, rad.
 enum class Quantity { x, y, z, i, j, k, radius, minor_radius, half_angle, length, form };
 struct Obtain { ColumnId column; FeatureId feature; Quantity quantity{}; };
@@ -143,7 +145,7 @@ struct Jump { int target = 0; };
 struct JumpUnless { Expression condition; int target = 0; };
 
 using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
-                            SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Obtain, Assign, Jump, JumpUnless>;
+                            SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, Obtain, Assign, Jump, JumpUnless>;
 
 struct Operation {
   Action action;

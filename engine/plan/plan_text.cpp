@@ -145,6 +145,12 @@ class ActionText {
   std::string operator()(const RecallFrame& o) const {
     return fmt::format("recall frame {}", plan_[o.frame].label);
   }
+  std::string operator()(const Output& o) const {
+    std::string out = "output";
+    for (const FeatureId f : o.features) out += fmt::format(" {}", name(f));
+    for (const CharacteristicId c : o.characteristics) out += fmt::format(" {}", plan_[plan_[c].tolerance].label);
+    return out;
+  }
   std::string operator()(const Evaluate& o) const {
     const CharacteristicDef& c = plan_[o.characteristic];
     const ToleranceDef& t = plan_[c.tolerance];

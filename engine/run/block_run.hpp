@@ -34,6 +34,7 @@ class BlockRun {
   void operator()(const plan::RotateFrame&);
   void operator()(const plan::RecallFrame&);
   void operator()(const plan::Evaluate&);
+  void operator()(const plan::Output&);
   void operator()(const plan::Obtain&);
   void operator()(const plan::Assign&);
   void operator()(const plan::Jump&);

@@ -1,4 +1,6 @@
 // Handlers of constructions, coordinate systems, evaluations and control flow.
+#include <algorithm>
+
 #include "engine/run/block_run.hpp"
 
 namespace abbe {
@@ -130,6 +132,22 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
                            tolerance.kind->nominal(tolerance.arguments, nominals), tolerance.kind->limits(tolerance.arguments, nominals)});
     return "";
   });
+}
+
+void BlockRun::operator()(const plan::Output& output) {
+  const Lane& lane = block.lanes[0];
+  if (!observed || active.empty() || active.front() != 0 || !lane.running) return;
+  OutputRecord record{operation, {}, {}};
+  for (const plan::FeatureId feature : output.features) {
+    const Element* element = actual(0, feature);
+    if (!element) return;
+    record.features.push_back(inverse(lane.X_WD) * *element);
+  }
+  for (const plan::CharacteristicId id : output.characteristics) {
+    const auto latest = std::find_if(lane.values.rbegin(), lane.values.rend(), [&](const Value& v) { return v.characteristic == id; });
+    if (latest != lane.values.rend()) record.values.push_back({id, latest->value, latest->limits});
+  }
+  observed->outputs.push_back(std::move(record));
 }
 
 namespace {

@@ -31,6 +31,7 @@ class Executor {
     bool touch = false;                ///< else the target of a move
   };
   struct Observed {
+    std::vector<OutputRecord> outputs; ///< of lane 0, which is the reference when there are no machines
     std::vector<Stop> stops;           ///< of the reference: where the program asks the machine to go
     std::vector<RecordingRow> rows;    ///< of lane 0: what it reported; coordinates of the program's machine system
   };

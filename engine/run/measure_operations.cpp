@@ -1,8 +1,10 @@
 // Handlers of sensors, motion, touches and fits.
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "engine/features/fit.hpp"
+#include "engine/features/solve.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/run/block_run.hpp"
 
@@ -152,6 +154,32 @@ void BlockRun::operator()(const plan::Touch& touch) {
   }
 }
 
+namespace {
+
+/// The same element with its direction turned round.
+Element reversed(Element e, Shape shape) {
+  e.direction = -e.direction;
+  e.begin = -std::exchange(e.end, -e.begin);
+  if (shape == Shape::plane) e.low = -std::exchange(e.high, -e.low);
+  return e;
+}
+
+/// The fit of an error-free machine. Nominals in real programs are often dummies, so the best element is looked for from the points alone;
+/// but few points may suit several elements equally well, and then the nominal settles which one is meant.
+FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const Element& nominal) {
+  FitProblem problem{shape, points, std::nullopt};
+  if (shape == Shape::circle) problem.normal = nominal.direction;
+  FitSolution anywhere = fit_points(problem), near_nominal = fit_points_from(problem, nominal);
+  constexpr double kSameFit_mm = 1e-7;
+  const bool nominal_is_meant = !near_nominal.error && (anywhere.error || near_nominal.rms <= anywhere.rms + kSameFit_mm);
+  FitSolution& solution = nominal_is_meant ? near_nominal : anywhere;
+  // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its open side by itself.
+  if (shape != Shape::cone && dot(solution.element.direction, nominal.direction) < 0) solution.element = reversed(solution.element, shape);
+  return std::move(solution);
+}
+
+}  // namespace
+
 void BlockRun::fit_twins(plan::FeatureId feature) {
   const FeatureKind& kind = *executor.plan_[feature].kind;
   for_active([&](int i) -> std::string {
@@ -166,18 +194,9 @@ void BlockRun::fit_twins(plan::FeatureId feature) {
       kind.fit_lanes({points_buffer.data(), static_cast<int>(lane.points.size()), 1, 1}, &nominal, &result, &failure);
       if (failure) return failure;
     } else {
-      FitProblem problem{kind.shape, lane.points, std::nullopt};
-      if (kind.shape == Shape::circle) problem.normal = nominal.direction;
-      FitSolution solution = fit_points(problem);
+      FitSolution solution = fit_error_free(kind.shape, lane.points, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
-      // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its open side by itself.
-      if (kind.shape != Shape::cone && dot(result.direction, nominal.direction) < 0) {
-        result.direction = -result.direction;
-        std::swap(result.begin, result.end);
-        result.begin = -result.begin, result.end = -result.end;
-        if (kind.shape == Shape::plane) std::swap(result.low, result.high), result.low = -result.low, result.high = -result.high;
-      }
     }
     lane.has_actual[feature.value] = 1;
     return "";

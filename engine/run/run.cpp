@@ -96,10 +96,15 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
   if (!errors.empty()) throw UserError(std::move(errors));
 }
 
+struct ReferenceRun {
+  Lane lane;
+  std::vector<OutputRecord> outputs;
+};
+
 /// Runs the error-free machine alone and refuses what no machine could do.
-Lane reference_lane(const Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+ReferenceRun reference_run(const Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
   Block block = executor.make_block({}, 0, 0);
-  const Executor::Observed observed = executor.observe(block);
+  Executor::Observed observed = executor.observe(block);
   Lane lane = std::move(block.lanes[block.reference()]);
   if (!lane.trap.reason.empty()) {
     throw UserError(diagnostic_at(source, plan.operations[lane.trap.operation].span, Code::E0304,
@@ -107,7 +112,7 @@ Lane reference_lane(const Executor& executor, const plan::Plan& plan, const Mach
                                   "correct the statement; `abbe check` lists everything that it finds in the program"));
   }
   check_travel(observed.stops, plan, machine, source);
-  return lane;
+  return {std::move(lane), std::move(observed.outputs)};
 }
 
 using Key = std::pair<int, int>;  // characteristic, visit
@@ -117,10 +122,12 @@ using Key = std::pair<int, int>;  // characteristic, visit
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
                    const SourceFile& source) {
   const Executor executor(plan, machine, options, source);
-  const Lane reference = reference_lane(executor, plan, machine, source);
+  ReferenceRun reference_ran = reference_run(executor, plan, machine, source);
+  const Lane& reference = reference_ran.lane;
 
   RunResult result;
   result.machines = machines.size();
+  result.reference_outputs = std::move(reference_ran.outputs);
   result.cycle_time_s = reference.motion->time_s();
   std::map<Key, std::size_t> slot;
   for (const Value& v : reference.values) {
@@ -149,7 +156,7 @@ Recording record_plan(const plan::Plan& plan, const Machine& machine, const Virt
                       const SourceFile& source) {
   ABBE_CHECK(one.size() == 1);
   const Executor executor(plan, machine, options, source);
-  reference_lane(executor, plan, machine, source);
+  reference_run(executor, plan, machine, source);
   Block block = executor.make_block(one, 0, 1);
   Recording recording;
   recording.rows = executor.observe(block).rows;

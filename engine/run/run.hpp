@@ -52,10 +52,23 @@ struct Trap {
   std::string reason;
 };
 
+/// What one OUTPUT statement reports of one machine: elements in the coordinate system current there, mm, and values, mm or rad.
+struct OutputRecord {
+  int operation = 0;                    ///< index into the plan
+  std::vector<Element> features;
+  struct Evaluated {
+    plan::CharacteristicId characteristic;
+    double value = 0;
+    ToleranceLimits limits;
+  };
+  std::vector<Evaluated> values;
+};
+
 struct RunResult {
   std::vector<Samples> samples;   ///< in the order in which the error-free machine evaluated them
   std::vector<Trap> traps;        ///< by machine
   int machines = 0;
+  std::vector<OutputRecord> reference_outputs;  ///< of the error-free machine
   std::uint64_t touches = 0;      ///< executed on virtual machines
   double cycle_time_s = 0;        ///< of the program on the error-free machine (motion.hpp)
 };

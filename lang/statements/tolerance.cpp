@@ -86,6 +86,14 @@ void evaluate(Lowering& lowering, const RawStatement& raw,
   lowering.emit(plan::Evaluate{id});
 }
 
+/// What goes to the result file: the features, and the characteristics evaluated from `first` on.
+void emit_output(Lowering& lowering, const std::vector<plan::FeatureId>& features, std::size_t first) {
+  plan::Output out{features, {}};
+  for (std::size_t k = first; k < lowering.out.plan.characteristics.size(); ++k)
+    out.characteristics.push_back({static_cast<int>(k)});
+  lowering.emit(out);
+}
+
 /// Every tolerance is tried by itself, so that one mistake does not take the others away.
 void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   std::vector<plan::FeatureId> features;
@@ -100,6 +108,7 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty())
     lowering.fail(lowering.doubt());
   const std::string feature = features.empty() ? "" : match.find("feature")->label.name;
+  const std::size_t first_characteristic = lowering.out.plan.characteristics.size();
   const bool features_failed = lowering.failed;
   const std::string features_failure = lowering.failure;
   bool any_failed = features_failed;
@@ -115,6 +124,8 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
     if (!any_failed) first_failure = lowering.failure;
     any_failed = true;
   }
+  if (raw.word == "OUTPUT" && !features.empty() && !features_failed)
+    emit_output(lowering, features, first_characteristic);
   if (tolerances.empty() && any_failed)
     lowering.out.lost.push_back({raw.line, feature, first_failure});
   lowering.failed = any_failed;

@@ -24,6 +24,7 @@ struct RunCommandOptions {
   StudyRequest request;
   std::string format = "text";     ///< a name of report_writers()
   std::optional<std::string> csv;  ///< where every sample goes
+  std::optional<std::string> dmo;  ///< where the result file of the error-free machine goes
 };
 int run_command(const RunCommandOptions&);
 

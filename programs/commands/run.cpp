@@ -1,9 +1,11 @@
-// `abbe run`: a program on many virtual machines, and the uncertainty of everything that it evaluates.
+// `abbe run`: a program on many virtual machines, and the uncertainty of everything that it
+// evaluates.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "engine/base/files.hpp"
+#include "engine/report/dmis_result.hpp"
 #include "engine/report/writer.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
@@ -13,11 +15,14 @@ namespace abbe {
 namespace {
 
 void refuse_errors(const CompiledProgram& program) {
-  const auto errors = std::count_if(program.messages.begin(), program.messages.end(),
-                                    [](const Diagnostic& d) { return d.severity() == Severity::error; });
-  throw UserError(diagnostic(Code::E0604,
-                             fmt::format("'{}' has {} error{} and was not run", program.source.name(), errors, errors == 1 ? "" : "s"),
-                             "correct the program, or leave those statements out with --only-valid"));
+  const auto errors =
+      std::count_if(program.messages.begin(), program.messages.end(),
+                    [](const Diagnostic& d) { return d.severity() == Severity::error; });
+  throw UserError(
+      diagnostic(Code::E0604,
+                 fmt::format("'{}' has {} error{} and was not run", program.source.name(), errors,
+                             errors == 1 ? "" : "s"),
+                 "correct the program, or leave those statements out with --only-valid"));
 }
 
 }  // namespace
@@ -29,8 +34,10 @@ int run_command(const RunCommandOptions& options) {
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
 
   ProgressLine line;
-  const Study study = study_program(program, options.request.settings, [&](std::string_view step) { line.show(step); });
+  const Study study = study_program(program, options.request.settings,
+                                    [&](std::string_view step) { line.show(step); });
   if (options.csv) write_whole(*options.csv, samples_csv(program.compilation.plan, study));
+  if (options.dmo) write_whole(*options.dmo, dmis_result(program.compilation.plan, study.result.reference_outputs));
   print_result(writer->write(study.report));
   return kDone;
 }
