@@ -8,7 +8,7 @@
 //
 //   normal             u * quantile(a)                                                    6.4.7
 //   student_t          u * sqrt(dof (a^(-2/dof) - 1)) cos(2 pi b)                         6.4.9
-//                      (R. W. Bailey, Mathematics of Computation 62, 1994, 779-781: exact for any dof)
+//                      (exact for any dof: R. W. Bailey, Math. of Computation 62, 1994, 779-781)
 //   rectangular        w (2 a - 1)                                                        6.4.2
 //   triangular         w (a + b - 1)                                                      6.4.5
 //   arcsine            w sin(pi (a - 1/2)), the U-shaped distribution of a cycle          6.4.6
@@ -22,7 +22,13 @@
 namespace abbe {
 
 enum class Distribution {
-  normal, student_t, rectangular, triangular, arcsine, trapezoidal, curvilinear_trapezoid
+  normal,
+  student_t,
+  rectangular,
+  triangular,
+  arcsine,
+  trapezoidal,
+  curvilinear_trapezoid
 };
 
 /// One independent part of what is not known of a quantity, in the unit of that quantity.

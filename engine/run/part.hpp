@@ -1,8 +1,9 @@
 // The true part in a run: a workpiece resolved against the features of a plan.
 //
-// Two layers. What is known of the part (best estimates of sizes, forms of known phase) moves the true surface itself, so the
-// error-free machine sees it and the reference is the true value. What is not known, and what temperature does, reaches virtual
-// machines only, as errors d with measured = true + d (engine/workpiece/workpiece.hpp).
+// Two layers. What is known of the part (best estimates of sizes, forms of known phase) moves the
+// true surface itself, so the error-free machine sees it and the reference is the true value. What
+// is not known, and what temperature does, reaches virtual machines only, as errors d with measured
+// = true + d (engine/workpiece/workpiece.hpp).
 #pragma once
 
 #include <optional>
@@ -16,22 +17,24 @@ namespace abbe {
 /// Where a touch lies on the part, for one error-free machine. W.
 struct PlaceOnPart {
   plan::FeatureId feature;
-  Vec3 point, normal;        ///< of the nominal surface
-  Element nominal;           ///< of the feature
-  Vec3 x_axis, y_axis;       ///< of the coordinate system in force
+  Vec3 point, normal;   ///< of the nominal surface
+  Element nominal;      ///< of the feature
+  Vec3 x_axis, y_axis;  ///< of the coordinate system in force
 };
 
 class Part {
  public:
   /// The part of the nominal geometry, at 20 degrees C, exactly known.
   Part() = default;
-  /// Throws UserError: a surface that the plan never touches (E0423), a size or form that its kind cannot have (E0424).
+  /// Throws UserError: a surface that the plan never touches (E0423), a size or form that its kind
+  /// cannot have (E0424).
   Part(const Workpiece&, const plan::Plan&);
 
   bool given() const { return workpiece_ != nullptr; }
   const Workpiece& workpiece() const { return *workpiece_; }
 
-  /// How far the true surface lies beyond the nominal one, along its outward normal, as far as it is known. mm.
+  /// How far the true surface lies beyond the nominal one, along its outward normal, as far as it
+  /// is known. mm.
   double known_offset_mm(const PlaceOnPart&) const;
 
   /// Everything that one virtual machine has of the part.
@@ -39,30 +42,33 @@ class Part {
     DrawFor who;
     ThermalDraw thermal;
     struct Surface {
-      double offset_mm = 0;                    ///< beyond the best estimate
+      double offset_mm = 0;  ///< beyond the best estimate
       double random_sd_mm = 0;
-      struct Harmonic { int undulations = 0; double cos_mm = 0, sin_mm = 0; };
-      std::vector<Harmonic> form;              ///< beyond what is known
+      struct Harmonic {
+        int undulations = 0;
+        double cos_mm = 0, sin_mm = 0;
+      };
+      std::vector<Harmonic> form;  ///< beyond what is known
     };
-    std::vector<Surface> surfaces;             ///< in the order of the workpiece
+    std::vector<Surface> surfaces;  ///< in the order of the workpiece
   };
   Draw draw(DrawFor) const;
 
-  /// d of a touch on a virtual machine, mm in W. `from_fixed`: the true surface point seen from the first one touched; `site`:
-  /// ordinal of the touch in the plan.
-  Vec3 error(const Draw&, const PlaceOnPart&, const Vec3& from_fixed, const Temperatures& estimate, bool compensated,
-             std::uint32_t site) const;
+  /// d of a touch on a virtual machine, mm in W. `from_fixed`: the true surface point seen from the
+  /// first one touched; `site`: ordinal of the touch in the plan.
+  Vec3 error(const Draw&, const PlaceOnPart&, const Vec3& from_fixed, const Temperatures& estimate,
+             bool compensated, std::uint32_t site) const;
 
  private:
   struct Resolved {
     const Surface* surface = nullptr;
-    Uncertain offset_mm;       ///< whatever way the file gave it
+    Uncertain offset_mm;  ///< whatever way the file gave it
   };
   void resolve(const Surface&, plan::FeatureId, const plan::Plan&, std::vector<Diagnostic>&);
 
   const Workpiece* workpiece_ = nullptr;
-  std::vector<Resolved> surfaces_;             ///< in the order of the workpiece
-  std::vector<int> surface_of_;                ///< by feature; -1 where nothing is said
+  std::vector<Resolved> surfaces_;  ///< in the order of the workpiece
+  std::vector<int> surface_of_;     ///< by feature; -1 where nothing is said
 };
 
 }  // namespace abbe

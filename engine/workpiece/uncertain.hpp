@@ -4,7 +4,7 @@
 //   838                                                  known exactly
 //   {"value": 838, "u": 32, "dof": 16}                   normal; with "dof" Student's t
 //   {"value": 0, "half_width": 1, "distribution": "rectangular"}
-//   {"value": 838, "components": [{"u": 25, "dof": 18}, {"half_width": 10, "distribution": "arcsine"}]}
+//   {"value": 838, "components": [{"u": 25, "dof": 18}, {"u": 6, "dof": 24}]}
 // Components are independent and add; so a budget of GUM type can be written down as it stands.
 //
 // Random numbers: each component of each quantity has its own address, the hash of
@@ -44,8 +44,9 @@ double deviation(const Uncertain&, std::string_view name, DrawFor for_whom);
 /// The pair of uniform numbers of a quantity that is not an Uncertain, such as an unknown phase.
 UniformPair uniform_pair_for(std::string_view name, DrawFor for_whom);
 
-/// The quantity under `key`, in the unit of the key; `otherwise` when the file does not have it. Reports contradictions
-/// (E0421) and values outside `range`, which holds for the best estimate.
-Uncertain read_uncertain(JsonObject&, std::string_view key, double otherwise = 0, const NumberRange& range = kAnyNumber);
+/// The quantity under `key`, in the unit of the key; `otherwise` when the file does not have it.
+/// Reports contradictions (E0421) and values outside `range`, which holds for the best estimate.
+Uncertain read_uncertain(JsonObject&, std::string_view key, double otherwise = 0,
+                         const NumberRange& range = kAnyNumber);
 
 }  // namespace abbe
