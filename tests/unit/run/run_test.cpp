@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/run/placement.hpp"
 #include "tests/unit/run/plan_builder.hpp"
 
 using namespace abbe;
@@ -136,4 +137,66 @@ TEST_CASE("what no machine can do is an error at its operation: touching without
   } catch (const UserError& e) {
     CHECK(e.diagnostics()[0].code == Code::E0304);
   }
+}
+
+TEST_CASE("a sensor that the machine file does not have is refused with the nearest name") {
+  PlanBuilder b;
+  plan::SensorDef def;
+  def.label = "STAR2O";
+  def.from_machine_file = true;
+  b.plan.sensors.push_back(def);
+  b.append(plan::SelectSensor{{0}});
+  Machine machine = read_machine("coord3-mc16");
+  machine.sensors["STAR20"] = {0, 0, {0, 0, -100}, 2, 0, "", 0, 0};
+  try {
+    run_plan(b.plan, machine, screened_machines(machine, 1, 1, 1), {}, no_source());
+    FAIL("no error");
+  } catch (const UserError& e) {
+    CHECK(e.diagnostics()[0].code == Code::E0301);
+    CHECK(e.diagnostics()[0].help.find("STAR20") != std::string::npos);
+  }
+}
+
+TEST_CASE("a program of another machine is moved into the z travel, and only there") {
+  const Machine machine = read_machine("coord3-mc16");
+  const auto placed = [&](const Vec3& point) {
+    PlanBuilder b;
+    b.append(plan::SelectSensor{b.sensor(0, 0, 100)});
+    b.point(point, {0, 0, 1});
+    return find_placement(b.plan, machine, no_source());
+  };
+  // The tip is 100 mm below the mount and the touch 2 mm above the point: 40 mm needs the reading 142, outside [-800, 0].
+  const Placement moved = placed({800, 400, 40});
+  CHECK(moved.shift_mm == Vec3{0, 0, -542});
+  REQUIRE(moved.message);
+  CHECK(moved.message->code == Code::W0303);
+  CHECK(placed({800, 400, -500}).shift_mm == Vec3{});
+  CHECK_FALSE(placed({800, 400, -500}).message);
+  CHECK_FALSE(placed({5000, 400, -500}).message);
+  CHECK_FALSE(placed({800, 400, 9000}).message);
+}
+
+TEST_CASE("recording a machine that cannot go on is an error at its place") {
+  // The square root of the error along y: some machines have a negative one, the error-free machine has exactly 0.
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 100)});
+  const auto p = b.point({800, 400, -500}, {0, -1, 0});
+  const plan::ColumnId y = b.column();
+  b.append(plan::Obtain{y, p, plan::Quantity::y});
+  b.append(plan::Assign{y, {plan::PushColumn{y}, plan::PushConstant{400}, plan::Op2::subtract, plan::Op1::sqrt}});
+  const Machine machine = read_machine("coord3-mc16");
+  int refused = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RunOptions options;
+    options.seed = seed;
+    try {
+      const Recording recording = record_plan(b.plan, machine, screened_machines(machine, seed, 1, 1), options, no_source());
+      CHECK(recording.rows.size() == 1);
+    } catch (const UserError& e) {
+      CHECK(e.diagnostics()[0].code == Code::E0308);
+      ++refused;
+    }
+  }
+  CHECK(refused > 2);
+  CHECK(refused < 18);
 }
