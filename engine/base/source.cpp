@@ -36,9 +36,9 @@ std::string_view SourceFile::line(int one_based) const {
 }
 
 SourceFile read_source(const std::string& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
-  errno = 0;
   // Opening a directory succeeds on Linux; reading it then fails, which is caught here too.
   if (!file || (file.peek() != std::ifstream::traits_type::eof() && !(text << file.rdbuf())) || file.bad()) {
     const char* cause = errno != 0 ? std::strerror(errno) : "it cannot be read";

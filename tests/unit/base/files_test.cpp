@@ -42,6 +42,7 @@ TEST_CASE("a file that cannot be read says why") {
   } catch (const UserError& error) {
     CHECK(error.diagnostics()[0].code == Code::E0601);
     CHECK(error.diagnostics()[0].message.find("no such file.dmi") != std::string::npos);
+    CHECK(error.diagnostics()[0].message.find("No such file or directory") != std::string::npos);
   }
   CHECK_THROWS_AS(read_source("."), UserError);
 }
