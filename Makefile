@@ -6,7 +6,7 @@ JOBS  ?= $(shell nproc)
 all: build
 
 setup:            ## installs the Debian packages that are missing
-	@tools/setup
+	@.ci/setup
 
 build: setup      ## builds everything into $(BUILD)
 	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null

@@ -1,6 +1,6 @@
 // One loop over lanes, compiled for several x86-64 levels. A kernel is a plain scalar functor f(i);
 // for_lanes runs it for i = 0..n-1 and the compiler vectorises it. Because contraction is off (see
-// cmake/abbe_layer.cmake) every level gives the same bits: one portable program is also a fast one.
+// CMakeLists.txt) every level gives the same bits: one portable program is also a fast one.
 //
 // `flatten` inlines the functor into each clone however long it is. Called, it would be compiled for
 // the baseline only.

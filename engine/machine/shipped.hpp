@@ -1,4 +1,4 @@
-// The machine files of examples/machines, embedded into the program (cmake/abbe_embed.cmake):
+// The machine files of examples/machines, embedded into the program (embed.cmake):
 // `--machine coord3-mc16` works from any folder and without installed data.
 #pragma once
 
