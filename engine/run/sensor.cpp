@@ -47,11 +47,10 @@ Sensor resolve_sensor(const plan::SensorDef& definition, const Machine& machine,
   const Mat3 R_mounting = rotation({0, 0, 1}, turn);
   Sensor s;
   s.name = def.label;
-  if (named) {
-    s.shaft_diameter_mm = named->shaft_diameter_mm;
-    s.young_MPa = 1000 * named->young_GPa;
-    s.cte_per_K = 1e-6 * named->cte_ppm_per_K;
-  }
+  // SNSDEF says nothing of the stylus: a shaft of tungsten carbide half as thick as the ball is what one would screw in.
+  s.shaft_diameter_mm = named && named->shaft_diameter_mm > 0 ? named->shaft_diameter_mm : def.radius_mm;
+  s.young_MPa = named ? 1000 * named->young_GPa : 620e3;
+  s.cte_per_K = named ? 1e-6 * named->cte_ppm_per_K : 5e-6;
   s.length_mm = norm(def.tip_in_r);
   s.indexed = def.indexed;
   s.radius_mm = def.radius_mm;

@@ -18,7 +18,7 @@ struct Sensor {
   double head_a_rad = 0, head_b_rad = 0;
   Vec3 to_head{0, 0, 1};           ///< unit vector from the tip towards the head, W
   double length_mm = 0;            ///< from the head's centre (or the mounting point) to the tip
-  double shaft_diameter_mm = 0, young_MPa = 0, cte_per_K = 0;  ///< of the stylus; 0 where the machine file says nothing
+  double shaft_diameter_mm = 0, young_MPa = 0, cte_per_K = 0;  ///< of the stylus: the machine file's, or a usual one
 };
 
 /// Resolves a sensor of the program against the machine. Throws UserError when the machine file has no sensor of that name.
