@@ -160,6 +160,7 @@ class StudyRun {
     report.machine = machine_.name;
     if (options_.workpiece) report.workpiece = options_.workpiece->name;
     report.seed = options_.seed;
+    report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics = characteristic_reports(plan_, study_.result, alone);
     report.influences = influences(machine_, options_.workpiece);
     report.traps = study_.result.traps;

@@ -75,8 +75,16 @@ class Figures(harness.Case):
         self.assertIn("LEN (DISTB)", done.stdout)
         self.assertIn("200 virtual machines used of", done.stdout)
         self.assertIn("Monte Carlo error of u:", done.stdout)
+        self.assertRegex(done.stdout, r"\nestimated cycle time (\d+ min )?\d+ s\n")
         self.assertIn("W0416", done.stdout)   # the paper's machine: fewer than half pass
         self.assertNotIn("\x1b", done.stdout + done.stderr)
+
+
+    def test_a_longer_program_takes_longer(self):
+        self.write("long.dmi", LENGTH.replace("F(B)=FEAT", "GOTO/0,0,300\nGOTO/-5,0,0\nF(B)=FEAT"))
+        short, long = (self.run_json(name, "--machines", 20)["cycle_time_s"] for name in ("length.dmi", "long.dmi"))
+        self.assertGreater(short, 0)
+        self.assertGreater(long, short + 1)
 
 
 class Refusals(harness.Case):

@@ -80,6 +80,7 @@ std::string write_json(const RunReport& r) {
       {"workpiece", r.workpiece ? Json(*r.workpiece) : Json()},
       {"seed", r.seed},
       {"version", r.version},
+      {"cycle_time_s", number(r.cycle_time_s)},
       {"machines",
        {{"used", m.used},
         {"generated", m.generated},

@@ -137,13 +137,25 @@ std::string not_modelled(const RunReport& r) {
   return names.empty() ? "" : "Not modelled: " + joined(names) + ".\n";
 }
 
-std::string write_text(const RunReport& r) {
+/// "3 min 12 s", "12 s".
+std::string duration(double seconds) {
+  const long whole = std::lround(seconds);
+  return whole < 60 ? fmt::format("{} s", whole)
+                    : fmt::format("{} min {} s", whole / 60, whole % 60);
+}
+
+/// What was run, on what.
+std::string header(const RunReport& r) {
   const ScreeningCounts& m = r.machines;
   std::string out = fmt::format(
-      "{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n\n",
+      "{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n",
       r.program, r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
-  if (r.workpiece) out.insert(out.size() - 1, fmt::format("workpiece {}\n", *r.workpiece));
-  out += characteristics_table(r);
+  if (r.workpiece) out += fmt::format("workpiece {}\n", *r.workpiece);
+  return out + fmt::format("estimated cycle time {}\n", duration(r.cycle_time_s));
+}
+
+std::string write_text(const RunReport& r) {
+  std::string out = header(r) + "\n" + characteristics_table(r);
   if (!r.characteristics.empty()) out += legend(r);
   const std::string remarks = trapped_machines(r) + lost_characteristics(r) + general_messages(r);
   if (!remarks.empty()) out += "\n" + remarks;

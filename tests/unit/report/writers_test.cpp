@@ -34,6 +34,7 @@ CharacteristicReport length() {
 RunReport report() {
   RunReport r;
   r.program = "block.dmi", r.machine = "coord3-mc16", r.version = "0.1.0", r.seed = 7;
+  r.cycle_time_s = 191.6;
   r.machines = {2711, 1640, 71, 1000};
   r.characteristics = {length()};
   r.influences = {
@@ -77,6 +78,7 @@ TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   CHECK(found == published);
   CHECK(j["schema"] == "abbe.run/1");
   CHECK(j["seed"] == 7);
+  CHECK(j["cycle_time_s"] == 191.6);
   CHECK(j["machines"] == Json{{"used", 1000},
                               {"generated", 2711},
                               {"failed_mpe", 1640},
@@ -128,6 +130,7 @@ TEST_CASE("the text report reads at a glance") {
         "block.dmi\n"
         "machine coord3-mc16: 1000 virtual machines used of 2711 generated (36.9 % accepted), seed "
         "7\n"
+        "estimated cycle time 3 min 12 s\n"
         "\n"
         "line  feature     tolerance    unit     value       u      LCL      UCL     lower     "
         "upper  conforms  geometry  head  probe\n"
@@ -146,6 +149,14 @@ TEST_CASE("the text report reads at a glance") {
         "warning W0416: only 36.9 % pass\n"
         "  help: see `abbe machine screen`\n"
         "Not modelled: part temperature, operator.\n");
+}
+
+TEST_CASE("a short cycle is told in seconds") {
+  RunReport r = report();
+  r.cycle_time_s = 59.4;
+  CHECK(written("text", r).find("\nestimated cycle time 59 s\n") != std::string::npos);
+  r.cycle_time_s = 59.6;
+  CHECK(written("text", r).find("\nestimated cycle time 1 min 0 s\n") != std::string::npos);
 }
 
 TEST_CASE("figures are rounded to two digits of u and decimal points stand below each other") {
