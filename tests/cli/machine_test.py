@@ -1,0 +1,68 @@
+"""abbe machine: list, show, screen, init, and what a machine file may not say."""
+import json
+
+import harness
+
+SHIPPED = ["coord3-mc16", "moving-table-700", "precision-500"]
+
+
+class Machine(harness.Case):
+    def machine(self, *args):
+        return self.abbe("machine", *args).stdout
+
+    def machine_json(self, *args):
+        return json.loads(self.machine(*args, "--format", "json"))
+
+    def test_list_names_the_shipped_machines(self):
+        self.assertEqual([m["name"] for m in self.machine_json("list")["machines"]], SHIPPED)
+        for name in SHIPPED:
+            self.assertIn(name, self.machine("list"))
+
+    def test_show_prints_the_paper_s_tables(self):
+        shown = self.machine_json("show", "coord3-mc16")
+        self.assertEqual(shown["schema"], "abbe.machine_report/1")
+        self.assertEqual(shown["axes"]["x"]["offset_mm"], [-120, 1400, -950])
+        text = self.machine("show", "coord3-mc16")
+        for piece in ("-1410", "exx  s 0.8   c 0.1        7 um/m", "PH10M", "MPE(l) = 5 um + 5 um/m"):
+            self.assertIn(piece, text)
+
+    def test_screen_accepts_the_share_that_the_paper_s_parameters_give(self):
+        screening = self.machine_json("screen", "coord3-mc16", "--machines", "1000")
+        counts = screening["machines"]
+        # 1000 of some 2650: the share has a standard error of 0.9 %. An independent implementation finds 37 to 39 %.
+        self.assertTrue(0.34 < counts["share_accepted"] < 0.42, counts)
+        self.assertEqual(counts["used"] + counts["failed_mpe"] + counts["too_small"], counts["generated"])
+        self.assertEqual([m["code"] for m in screening["messages"]], ["W0416"])
+        self.assertGreater(screening["suggested_e_max_factor"]["share_accepted"], 0.6)
+
+    def test_screening_does_not_depend_on_threads(self):
+        one, two = (self.machine_json("screen", "precision-500", "--machines", "200", "--threads", t) for t in ("1", "2"))
+        self.assertEqual(one, two)
+
+    def test_init_writes_a_file_that_can_be_used_and_overwrites_none(self):
+        self.machine("init", "mine.json")
+        before = (self.folder / "mine.json").read_text()
+        self.assertEqual(json.loads(before)["schema"], "abbe.machine/1")
+        self.machine("show", "mine.json")
+        self.refused("E0602", "machine", "init", "mine.json")
+        self.assertEqual((self.folder / "mine.json").read_text(), before)
+        self.assertEqual(json.loads(self.machine("init", "mine"))["name"], "mine")
+
+    def test_what_a_machine_file_may_not_say(self):
+        text = self.machine("init", "bad")
+        for old, new, code, words in (('"travel_mm": 1600', '"travel_mm": -1600', "E0406", "greater than 0"),
+                                      ('"harmonics"', '"harmonicz"', "E0402", 'did you mean "harmonics"'),
+                                      ('"a_um": 5, "k_um_per_m": 5', '"a_um": 0, "k_um_per_m": 0', "E041", "MPE"),
+                                      ('"v_min": 1', '"v_min": 3', "E041", "v_min"),
+                                      ('["x", "y", "z"]', '["x", "y", "y"]', "E041", "y")):
+            self.assertIn(old, text)
+            path = self.write("bad.json", text.replace(old, new, 1))
+            message = self.refused(code, "machine", "show", path.name)
+            self.assertIn("bad.json:", message)
+            self.assertIn(words, message)
+
+    def test_a_machine_that_is_not_there(self):
+        self.assertIn('did you mean "coord3-mc16"', self.refused("E0411", "machine", "show", "coord3-mc17"))
+
+
+harness.main()
