@@ -81,3 +81,11 @@ TEST_CASE("statements without a slash, variables and jump targets") {
   REQUIRE(target.target.has_value());
   CHECK(target.target->name == "AGAIN");
 }
+
+TEST_CASE("a statement may be cut into thousands of lines") {
+  std::string text = "GOTO/1,$\n";
+  for (int i = 0; i < 5000; ++i) text += "          $\n";
+  const RawStatement raw = parse(text + "2,3");
+  REQUIRE(raw.arguments.size() == 3);
+  CHECK(raw.arguments[1].number == 2);
+}
