@@ -41,6 +41,14 @@ void add_format(CLI::App* command, std::string& format, std::vector<std::string>
   command->add_option("--format", format, "of the result on stdout")->check(CLI::IsMember(std::move(names)))->capture_default_str();
 }
 
+/// The effects of the machine file, as GUM F.2.4.5 or as GUM 3.2.4 wants them.
+void add_effects(CLI::App* command, EffectUse& use) {
+  const auto take = [&use](const std::string& word) { use = word == name(EffectUse::corrected) ? EffectUse::corrected : EffectUse::left_in; };
+  command->add_option_function<std::string>("--effects", take,
+                                            "of the machine file: left-in (an error of every result; default) or corrected (only their uncertainty)")
+      ->check(CLI::IsMember({std::string(name(EffectUse::left_in)), std::string(name(EffectUse::corrected))}));
+}
+
 void add_run(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("run", "run a program on virtual machines and report uncertainties");
   const auto o = chosen_by(command, chosen, run_command);
@@ -51,6 +59,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   command->add_option("--digits", settings.digits, "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
       ->type_name("D")
       ->excludes("--machines");
+  add_effects(command, settings.effect_use);
   command->add_flag("--only-valid", o->request.only_valid, "leave out statements with errors, and say what is lost");
   std::vector<std::string> formats;
   for (const ReportWriter* writer : report_writers()) formats.emplace_back(writer->name);

@@ -85,6 +85,7 @@ class StudyRun {
     options.seed = options_.seed;
     options.threads = options_.threads;
     options.contributors = contributors;
+    options.effect_use = options_.effect_use;
     options.placement_mm = options_.placement_mm;
     options.workpiece = options_.workpiece;
     return run_plan(plan_, machine_, machines, options, source_);
@@ -159,6 +160,7 @@ class StudyRun {
     report.program = source_.name();
     report.machine = machine_.name;
     if (options_.workpiece) report.workpiece = options_.workpiece->name;
+    if (!machine_.effects.empty()) report.effect_use = options_.effect_use;
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics = characteristic_reports(plan_, study_.result, alone);

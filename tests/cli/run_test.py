@@ -87,6 +87,38 @@ class Figures(harness.Case):
         self.assertGreater(long, short + 1)
 
 
+def with_effects(effects):
+    """The machine of the other tests with `effects`, as the text of a machine file."""
+    machine = json.loads((harness.ROOT / "examples/machines/coord3-mc16.json").read_text())
+    return json.dumps(machine | {"name": "with effects", "effects": effects})
+
+
+class Effects(harness.Case):
+    def setUp(self):
+        super().setUp()
+        self.write("length.dmi", LENGTH)
+        self.write("tip.json", with_effects([{"name": "probe.tip_radius", "parameters": {"amplitude_um": {"value": 2, "u": 0.5}}}]))
+
+    def test_left_in_or_corrected(self):
+        def report(*options):
+            return self.run_json("length.dmi", "--machine", "tip.json", "--machines", 200, *options)
+        plain, left_in, corrected = report(), report("--effects", "left-in"), report("--effects", "corrected")
+        self.assertEqual(plain, left_in)
+        self.assertEqual((left_in["effects_use"], corrected["effects_use"]), ("left-in", "corrected"))
+        left_in, corrected = left_in["characteristics"][0], corrected["characteristics"][0]
+        self.assertAlmostEqual(left_in["mean"] - corrected["mean"], 0.004, delta=1e-8)   # 2 um at either end
+        self.assertAlmostEqual(left_in["u"], corrected["u"], delta=1e-9)
+        done = self.abbe("run", "length.dmi", "--machine", "tip.json", "--machines", 20, "--effects", "corrected")
+        self.assertIn("\neffects corrected\n", done.stdout)
+
+    def test_without_effects_nothing_is_named(self):
+        self.assertIsNone(self.run_json("length.dmi", "--machines", 20, "--effects", "corrected")["effects_use"])
+        self.assertNotIn("\neffects", self.abbe("run", "length.dmi", "--machines", 20).stdout)
+
+    def test_another_word_is_refused(self):
+        self.assertIn("corrected", self.refused("E0609", "run", "length.dmi", "--effects", "removed"))
+
+
 class Refusals(harness.Case):
     def test_settings_out_of_range(self):
         self.write("length.dmi", LENGTH)

@@ -78,6 +78,7 @@ std::string write_json(const RunReport& r) {
       {"program", r.program},
       {"machine", r.machine},
       {"workpiece", r.workpiece ? Json(*r.workpiece) : Json()},
+      {"effects_use", r.effect_use ? Json(name(*r.effect_use)) : Json()},
       {"seed", r.seed},
       {"version", r.version},
       {"cycle_time_s", number(r.cycle_time_s)},

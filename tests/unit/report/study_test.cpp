@@ -142,6 +142,30 @@ TEST_CASE("a characteristic that next to no machine reaches is lost, with the re
   CHECK(study.report.traps.size() == 5);
 }
 
+TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncertainty") {
+  // A tip 2 um larger than assumed in radius moves both touches outwards: the length reads 4 um long.
+  Machine with = machine();
+  with.effects = {{"probe.tip_radius", {{"amplitude_um", {2, 0.5, ""}}}}};
+  StudyOptions options = few(400);
+  const auto figures = [&](const Machine& m) {
+    const Study study = run_study(length(), m, options, no_source());
+    CHECK(study.report.effect_use.has_value() == !m.effects.empty());
+    if (study.report.effect_use) CHECK(*study.report.effect_use == options.effect_use);
+    return study.report.characteristics.at(0);
+  };
+  const CharacteristicReport left_in = figures(with);
+  options.effect_use = EffectUse::corrected;
+  const CharacteristicReport corrected = figures(with), without = figures(machine());
+  CHECK(left_in.summary.mean - corrected.summary.mean == doctest::Approx(0.004).epsilon(1e-6));
+  CHECK(left_in.summary.u == doctest::Approx(corrected.summary.u).epsilon(1e-9));
+  // 2 x 0.5 um of the parameter, independent of all else: the mean of 400 draws lies within 4 of its errors.
+  CHECK(std::fabs(corrected.summary.mean - without.summary.mean) < 4 * 0.001 / std::sqrt(400));
+  CHECK(corrected.summary.u > without.summary.u);
+  CHECK(left_in.contributions.back().name == "probe.tip_radius");
+  CHECK(left_in.contributions.back().share ==
+        doctest::Approx(corrected.contributions.back().share).epsilon(1e-9));
+}
+
 TEST_CASE("settings that make no sense are refused") {
   CHECK_THROWS_AS(run_study(length(), machine(), few(1), no_source()), UserError);  // E0603
   StudyOptions options = few(100);

@@ -151,6 +151,17 @@ TEST_CASE("the text report reads at a glance") {
         "Not modelled: part temperature, operator.\n");
 }
 
+TEST_CASE("how effects are used is told when there are any") {
+  RunReport r = report();
+  CHECK(Json::parse(written("json", r))["effects_use"].is_null());
+  CHECK(written("text", r).find("effects ") == std::string::npos);
+  r.effect_use = EffectUse::corrected;
+  CHECK(Json::parse(written("json", r))["effects_use"] == "corrected");
+  CHECK(written("text", r).find("\neffects corrected\n") != std::string::npos);
+  r.effect_use = EffectUse::left_in;
+  CHECK(Json::parse(written("json", r))["effects_use"] == "left-in");
+}
+
 TEST_CASE("a short cycle is told in seconds") {
   RunReport r = report();
   r.cycle_time_s = 59.4;
