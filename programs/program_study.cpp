@@ -59,6 +59,7 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.seed = settings.seed.value_or(asked.seed.value_or(options.seed));
   options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
   options.digits = settings.digits;
+  options.budget = settings.budget;
   options.effect_use = settings.effect_use;
   options.threads = thread_count(settings.threads);
 

@@ -1,31 +1,19 @@
 #include "engine/report/run_report.hpp"
 
 #include "engine/base/ids.hpp"
+#include "engine/report/budget.hpp"
 #include "engine/report/report_unit.hpp"
 
 namespace abbe {
 
 namespace {
 
-/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that
-/// length, in rad.
-double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-9 : 1e-12; }
-
 /// Shares of variance; empty when a contributor's own run left too few values to tell.
 std::vector<CharacteristicReport::Contribution> contributions(
     const std::vector<ContributorRun>& alone, std::size_t sample, Unit unit) {
   std::vector<CharacteristicReport::Contribution> list;
-  double total = 0;
-  for (const ContributorRun& run : alone) {
-    const std::vector<double>& value = run.result.samples[sample].value;
-    if (value.size() < 2) return {};
-    const double u = summarize(value).u;
-    const double variance = u < smallest_u(unit) ? 0 : u * u;
-    list.push_back({run.name, variance});
-    total += variance;
-  }
-  if (total > 0)
-    for (auto& contribution : list) contribution.share /= total;
+  for (const auto& line : variance_budget(alone, sample, unit, 1))
+    list.push_back({line.name, line.share});
   return list;
 }
 
@@ -67,7 +55,8 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
 
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
                                                          const RunResult& result,
-                                                         const std::vector<ContributorRun>& alone) {
+                                                         const std::vector<ContributorRun>& alone,
+                                                         const BudgetRuns* budget) {
   for (const ContributorRun& run : alone)
     ABBE_CHECK(run.result.samples.size() == result.samples.size());
   std::vector<CharacteristicReport> reports;
@@ -76,7 +65,15 @@ std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
     if (samples.value.size() < 2) continue;
     CharacteristicReport report = characteristic_report(plan, samples, result.machines);
     const plan::ToleranceDef& tolerance = plan[plan[samples.characteristic].tolerance];
-    report.contributions = contributions(alone, i, unit_of(*tolerance.kind, tolerance.arguments));
+    const Unit unit = unit_of(*tolerance.kind, tolerance.arguments);
+    report.contributions = contributions(alone, i, unit);
+    if (budget) {
+      const double factor = report_unit(plan, samples.characteristic).factor;
+      report.budget = variance_budget(budget->alone, i, unit, factor);
+      report.alignment_split =
+          alignment_split(samples, budget->alignment.samples.at(i), budget->feature.samples.at(i),
+                          unit, factor);
+    }
     reports.push_back(std::move(report));
   }
   return reports;

@@ -35,6 +35,12 @@ struct CharacteristicReport {
   };
   std::vector<Contribution>
       contributions;  ///< shares of variance, sum 1; all 0 when nothing varies, empty when unknown
+  struct BudgetLine {
+    std::string name;
+    double share = 0, u = 0;  ///< share of the variance; standard uncertainty in `unit`
+  };
+  std::vector<BudgetLine> budget;           ///< each source alone, shares sum to 1; empty: not asked for
+  std::vector<BudgetLine> alignment_split;  ///< "alignment", "feature" and what is left (budget.hpp)
   int trapped = 0;    ///< machines that did not reach it
 };
 
@@ -67,11 +73,17 @@ struct ContributorRun {
   std::string name;
   RunResult result;
 };
+/// The further runs that a budget needs, on the same machines and with the same random numbers.
+struct BudgetRuns {
+  std::vector<ContributorRun> alone;  ///< each source
+  RunResult alignment, feature;       ///< errors only on touches of the one or the other kind
+};
 /// Turns samples into the figures of the report; angles become degrees here. Characteristics that
 /// fewer than two machines reached have no figures and are left out. A contributor's share is the
 /// variance of its own run over the sum of those variances; variances of rounding, below (1e-9
 /// mm)^2 or (1e-12 rad)^2, count as 0.
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan&, const RunResult&,
-                                                         const std::vector<ContributorRun>& alone);
+                                                         const std::vector<ContributorRun>& alone,
+                                                         const BudgetRuns* budget = nullptr);
 
 }  // namespace abbe

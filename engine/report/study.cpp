@@ -70,8 +70,10 @@ class StudyRun {
       step(c.name + " alone");
       alone.push_back({c.name, run(machines, c.contributors)});
     }
+    std::optional<BudgetRuns> budget;
+    if (options_.budget) budget = budget_runs(machines, alone);
     if (options_.digits) run_until_stable();
-    write_report(alone);
+    write_report(alone, budget ? &*budget : nullptr);
     return std::move(study_);
   }
 
@@ -89,6 +91,27 @@ class StudyRun {
     options.placement_mm = options_.placement_mm;
     options.workpiece = options_.workpiece;
     return run_plan(plan_, machine_, machines, options, source_);
+  }
+
+  /// The geometry goes by its error functions; the other sources have run alone already.
+  BudgetRuns budget_runs(const VirtualMachines& machines,
+                         const std::vector<ContributorRun>& alone) const {
+    BudgetRuns runs;
+    Contributors only = each_alone(machine_, false).front().contributors;
+    for (int k = 0; k < kComponents; ++k) {
+      only.only_component = static_cast<Component>(k);
+      const std::string component(name(*only.only_component));
+      step(component + " alone");
+      runs.alone.push_back({component, run(machines, only)});
+    }
+    runs.alone.insert(runs.alone.end(), alone.begin() + 1, alone.end());
+    Contributors some;
+    step("alignment against features");
+    some.touches = ErroneousTouches::alignment;
+    runs.alignment = run(machines, some);
+    some.touches = ErroneousTouches::feature;
+    runs.feature = run(machines, some);
+    return runs;
   }
 
   /// Joins a further run to the result; its machines are counted on from those already there.
@@ -155,7 +178,7 @@ class StudyRun {
     study_.report.messages.push_back(diagnostic(code, std::move(text), std::move(help)));
   }
 
-  void write_report(const std::vector<ContributorRun>& alone) {
+  void write_report(const std::vector<ContributorRun>& alone, const BudgetRuns* budget) {
     RunReport& report = study_.report;
     report.program = source_.name();
     report.machine = machine_.name;
@@ -163,7 +186,7 @@ class StudyRun {
     if (!machine_.effects.empty()) report.effect_use = options_.effect_use;
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
-    report.characteristics = characteristic_reports(plan_, study_.result, alone);
+    report.characteristics = characteristic_reports(plan_, study_.result, alone, budget);
     report.influences = influences(machine_, options_.workpiece);
     report.traps = study_.result.traps;
     add_unreached();

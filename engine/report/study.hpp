@@ -37,6 +37,7 @@ struct StudyOptions {
   int max_blocks =
       100;  ///< blocks after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
   int threads = 1;
+  bool budget = false;  ///< also each error function alone, and the alignment against the features
   EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;                     ///< RunOptions::placement_mm
   const Workpiece* workpiece = nullptr;  ///< RunOptions::workpiece

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/run/alignment_features.hpp"
 #include "engine/run/block_run.hpp"
 
 namespace abbe {
 
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
     : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name),
-      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()) {
+      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()), aligns_(alignment_features(plan)) {
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = static_cast<int>(sensors_.size());
@@ -38,6 +39,11 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   block.lanes[count].nominal.resize(plan_.features.size());
   block.lanes[count].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
   return block;
+}
+
+bool Executor::errors_act_on(plan::FeatureId feature) const {
+  const ErroneousTouches touches = options_.contributors.touches;
+  return touches == ErroneousTouches::all || (touches == ErroneousTouches::alignment) == (aligns_[feature.value] != 0);
 }
 
 GeometryBlock Executor::acting_geometry(const VirtualMachines& machines, int first, int count) const {

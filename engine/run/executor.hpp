@@ -40,6 +40,8 @@ class Executor {
 
  private:
   friend class BlockRun;
+  /// Whether touches of this feature have errors in this run.
+  bool errors_act_on(plan::FeatureId) const;
   GeometryBlock acting_geometry(const VirtualMachines& machines, int first, int count) const;
 
   const plan::Plan& plan_;
@@ -48,6 +50,7 @@ class Executor {
   std::vector<Sensor> sensors_;      ///< by SensorId
   EffectSet effects_;
   Part part_;
+  std::vector<char> aligns_;         ///< alignment_features
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

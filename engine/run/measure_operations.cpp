@@ -144,6 +144,8 @@ void BlockRun::operator()(const plan::Touch& touch) {
   add_errors(machines);
   add_effects(touch, machines);
   if (executor.part_.given()) add_part(machines);
+  if (!executor.errors_act_on(touch.feature))
+    for (int slot = 0; slot < machines; ++slot) touch_batch.error.set(slot, {});
   find_contact(touch_batch);
   block.touches += static_cast<std::uint64_t>(machines);
   for (int i = 0; i < n; ++i) {

@@ -14,6 +14,9 @@
 
 namespace abbe {
 
+/// Which touches have errors: those of features that coordinate systems are built from (alignment_features.hpp), or the others.
+enum class ErroneousTouches { all, alignment, feature };
+
 /// Which sources of error act in a run. Switching one off changes no random number of the others.
 struct Contributors {
   bool geometry = true, head = true, probe = true;
@@ -21,6 +24,7 @@ struct Contributors {
   bool part = true;                         ///< what is uncertain of the workpiece, and its temperatures
   bool effects = true;
   std::optional<int> only_effect;           ///< of the effects, that one alone: index into the machine's list
+  ErroneousTouches touches = ErroneousTouches::all;
 };
 
 struct RunOptions {

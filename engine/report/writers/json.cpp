@@ -26,9 +26,16 @@ Json contributions(const CharacteristicReport& c) {
   return out;
 }
 
+Json budget(const std::vector<CharacteristicReport::BudgetLine>& lines) {
+  Json out = Json::array();
+  for (const auto& line : lines)
+    out.push_back({{"name", line.name}, {"share", number(line.share)}, {"u", number(line.u)}});
+  return out;
+}
+
 Json characteristic(const CharacteristicReport& c) {
   const Summary& s = c.summary;
-  return {{"feature", c.features},
+  Json out = {{"feature", c.features},
           {"tolerance", c.tolerance},
           {"kind", c.kind},
           {"unit", c.unit},
@@ -52,6 +59,9 @@ Json characteristic(const CharacteristicReport& c) {
           {"conformance_probability", number(c.conformance_probability)},
           {"contributions", contributions(c)},
           {"trapped", c.trapped}};
+  if (!c.budget.empty()) out["budget"] = budget(c.budget);
+  if (!c.alignment_split.empty()) out["alignment_split"] = budget(c.alignment_split);
+  return out;
 }
 
 Json message(const Diagnostic& d) {

@@ -1,0 +1,32 @@
+// The uncertainty budget of one characteristic: which source, and which touches, its variance comes
+// from.
+//
+// Sources are taken one at a time: the variance of the run in which only that one acts, over the
+// sum of these variances. Touches are taken together with their correlations: with y = y_a + y_f,
+// the deviations that errors of the alignment's touches and of the others cause by themselves,
+// var(y) = cov(y_a, y) + cov(y_f, y), so cov(y_a, y)/var(y) is the share of the alignment. It may be
+// negative, or above 1, where the two compensate each other. What the sum leaves open is the
+// interaction of the two: zero as long as the characteristic is linear in the errors.
+#pragma once
+
+#include "engine/report/report_unit.hpp"
+#include "engine/report/run_report.hpp"
+
+namespace abbe {
+
+/// An interaction below this share is left out.
+inline constexpr double kSmallestInteraction = 0.01;
+
+/// Of the sample with this index; `factor` turns its unit into that of the report. Empty when a
+/// source's own run left too few values to tell. Variances of rounding count as 0.
+std::vector<CharacteristicReport::BudgetLine> variance_budget(
+    const std::vector<ContributorRun>& alone, std::size_t sample, Unit unit, double factor);
+
+/// "alignment", "feature" and, when it is not small, "interaction", from the machines that reached
+/// the characteristic in all three runs. Empty when fewer than two did.
+std::vector<CharacteristicReport::BudgetLine> alignment_split(const Samples& all,
+                                                              const Samples& alignment,
+                                                              const Samples& feature, Unit unit,
+                                                              double factor);
+
+}  // namespace abbe
