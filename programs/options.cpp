@@ -142,6 +142,7 @@ void add_record(CLI::App& app, Chosen& chosen) {
       ->type_name("EFFECT")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S")->check(not_negative());
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
+  command->add_option("--dmo", o->dmo, "write the DMIS result file of the recorded machine")->type_name("D.dmo");
 }
 
 void add_explain(CLI::App& app, Chosen& chosen) {

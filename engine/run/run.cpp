@@ -152,20 +152,22 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   return result;
 }
 
-Recording record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,
-                      const SourceFile& source) {
+MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,
+                          const SourceFile& source) {
   ABBE_CHECK(one.size() == 1);
   const Executor executor(plan, machine, options, source);
   reference_run(executor, plan, machine, source);
   Block block = executor.make_block(one, 0, 1);
-  Recording recording;
-  recording.rows = executor.observe(block).rows;
+  Executor::Observed observed = executor.observe(block);
   const LaneTrap& trap = block.lanes[0].trap;
   if (!trap.reason.empty()) {
     throw UserError(diagnostic_at(source, plan.operations[trap.operation].span, Code::E0308,
                                   "the recorded machine cannot go on here: " + trap.reason, "choose another seed or smaller effects"));
   }
-  return recording;
+  MachineRecord record;
+  record.recording.rows = std::move(observed.rows);
+  record.outputs = std::move(observed.outputs);
+  return record;
 }
 
 }  // namespace abbe

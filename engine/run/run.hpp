@@ -82,8 +82,13 @@ struct RunResult {
 /// sensor, degenerate fit): then no machine can.
 RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& machines, const RunOptions&, const SourceFile& source);
 
-/// Runs the plan on the one machine of `one` and returns what it reports at every touch: tip centres in the program's machine
-/// coordinates, with targets, normals, motion and raw readings. Throws UserError as run_plan does, and when that machine is trapped.
-Recording record_plan(const plan::Plan&, const Machine&, const VirtualMachines& one, const RunOptions&, const SourceFile& source);
+/// What one machine reports: at every touch, and at every OUTPUT statement.
+struct MachineRecord {
+  Recording recording;                  ///< tip centres in the program's machine coordinates, targets, normals, motion, raw readings
+  std::vector<OutputRecord> outputs;
+};
+
+/// Runs the plan on the one machine of `one` and returns what it reports. Throws UserError as run_plan does, and when that machine is trapped.
+MachineRecord record_plan(const plan::Plan&, const Machine&, const VirtualMachines& one, const RunOptions&, const SourceFile& source);
 
 }  // namespace abbe

@@ -61,6 +61,7 @@ int machine_command(const MachineOptions&);
 
 struct RecordOptions {
   std::string program, output;              ///< output: where the recording goes, CSV
+  std::optional<std::string> dmo;           ///< where the result file of the recorded machine goes
   std::optional<std::string> machine, workpiece;
   std::optional<std::uint64_t> seed;
   std::vector<std::string> with;            ///< "EFFECT" or "EFFECT:parameter=value,..."

@@ -5,6 +5,7 @@
 
 #include "engine/base/files.hpp"
 #include "engine/effects/effect.hpp"
+#include "engine/report/dmis_result.hpp"
 #include "engine/run/placement.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
@@ -68,10 +69,12 @@ int record_command(const RecordOptions& options) {
   run.workpiece = workpiece ? &*workpiece : nullptr;
   run.seed = options.seed.value_or(asked.seed.value_or(1));
   run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
-  Recording recording = record_plan(program.compilation.plan, machine, screened_machines(machine, run.seed, 1, 1), run, program.source);
-  recording.metadata = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
+  const plan::Plan& plan = program.compilation.plan;
+  MachineRecord record = record_plan(plan, machine, screened_machines(machine, run.seed, 1, 1), run, program.source);
+  record.recording.metadata = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
-  write_whole(options.output, to_csv(recording));
+  write_whole(options.output, to_csv(record.recording));
+  if (options.dmo) write_whole(*options.dmo, dmis_result(plan, record.outputs));
   return kDone;
 }
 

@@ -54,6 +54,17 @@ with tempfile.TemporaryDirectory() as folder:
     run, out = record(folder, "--with", "probe.tip_radius")
     check(run.returncode == 0 and rows(out) != plain, "an effect without parameters acts with its typical size")
 
+    # The result file is that of the recorded machine: a tip larger by 2 um makes its sphere larger by 4 um.
+    def diameter(*arguments):
+        dmo = pathlib.Path(folder) / "rec.dmo"
+        run, out = record(folder, "--dmo", str(dmo), *arguments)
+        check(run.returncode == 0, "--dmo: " + " ".join(arguments))
+        (line,) = (line for line in dmo.read_text().splitlines() if line.startswith("FA(BALL) = FEAT/SPHERE"))
+        return float(line.split(",")[-1])
+
+    check(abs(diameter("--with", "probe.tip_radius:amplitude_um=2") - diameter() - 0.004) < 2e-5, "the result file has the errors of the machine")
+    check(diameter() != diameter("--seed", "2"), "another seed is another machine")
+
     for arguments, code, text in ((["--with", "probe.tip_radus"], "E0305", "did you mean 'probe.tip_radius'"),
                                   (["--with", "probe.tip_radius:amplitude=1"], "E0306", "amplitude_um"),
                                   (["--with", "probe.tip_radius:amplitude_um=1e9"], "E0307", "not plausible"),

@@ -50,7 +50,7 @@ std::vector<double> errors(const Effect& effect, double size) {
   RunOptions options;
   options.workpiece = &warm;
   std::vector<double> r;
-  for (const RecordingRow& row : record_plan(plan, machine, one, options, no_source()).rows) r.push_back(dot(*row.normal, row.position_mm - *row.target_mm));
+  for (const RecordingRow& row : record_plan(plan, machine, one, options, no_source()).recording.rows) r.push_back(dot(*row.normal, row.position_mm - *row.target_mm));
   return r;
 }
 

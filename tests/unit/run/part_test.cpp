@@ -225,7 +225,7 @@ TEST_CASE("a logged temperature acts at the time of the touch") {
   options.contributors.geometry = options.contributors.head = options.contributors.probe = false;
   const auto rows =
       record_plan(length(), machine, screened_machines(machine, 1, 1, 1), options, no_source())
-          .rows;
+          .recording.rows;
   w.log.time_s = {*rows[0].time_s, *rows[1].time_s};
   w.log.temperature_C[TemperatureLog::part] = {20, 21};
   for (const double v : lengths(w, 2)) CHECK(v == doctest::Approx(500.005).epsilon(1e-12));
@@ -255,7 +255,7 @@ TEST_CASE("a recording has the temperatures and the load that the file gives, an
   options.workpiece = &w;
   const RecordingRow row =
       record_plan(length(), machine, screened_machines(machine, 1, 1, 1), options, no_source())
-          .rows.at(1);
+          .recording.rows.at(1);
   CHECK(row.temp_part_C == 21);
   CHECK(row.temp_air_C == 19);
   CHECK(row.load_kg == 30);

@@ -190,7 +190,7 @@ TEST_CASE("recording a machine that cannot go on is an error at its place") {
     RunOptions options;
     options.seed = seed;
     try {
-      const Recording recording = record_plan(b.plan, machine, screened_machines(machine, seed, 1, 1), options, no_source());
+      const Recording recording = record_plan(b.plan, machine, screened_machines(machine, seed, 1, 1), options, no_source()).recording;
       CHECK(recording.rows.size() == 1);
     } catch (const UserError& e) {
       CHECK(e.diagnostics()[0].code == Code::E0308);
