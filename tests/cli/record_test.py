@@ -1,6 +1,7 @@
 """abbe record: one machine's recording as CSV."""
 import csv
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -53,6 +54,17 @@ with tempfile.TemporaryDirectory() as folder:
 
     run, out = record(folder, "--with", "probe.tip_radius")
     check(run.returncode == 0 and rows(out) != plain, "an effect without parameters acts with its typical size")
+
+    # Every effect that `abbe explain` lists, with its first parameter in the middle of its range.
+    def explained(*words):
+        return subprocess.run([ABBE, "explain", *words], capture_output=True, text=True).stdout.splitlines()
+
+    names = [line.split()[0] for line in explained() if re.match(r"  [a-z]+\.[a-z_]+ ", line)]
+    check(len(names) > 30, f"{len(names)} effects are listed")
+    for name in names:
+        parameter, low, high = next(m.groups() for m in map(re.compile(r"  (\w+) \[.*; (\S+) to (\S+)$").match, explained(name)) if m)
+        run, out = record(folder, "--with", f"{name}:{parameter}={(float(low) + float(high)) / 2:g}")
+        check(run.returncode == 0 and len(rows(out)) == 25, f"{name}:{parameter}")
 
     # The result file is that of the recorded machine: a tip larger by 2 um makes its sphere larger by 4 um.
     def diameter(*arguments):
