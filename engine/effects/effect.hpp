@@ -121,6 +121,7 @@ struct Effect {
   std::span<const EffectParameter> parameters;
   DrawsPer draws_per = DrawsPer::none;
   int draws = 0;              ///< how many numbers each time
+  bool linear_in_draws = false;  ///< for given parameters; no displacement when all draws are zero
   /// d of one touch, mm in W. theta: parameter values in the units of `parameters`, in their order; z: the draws.
   Vec3 (*displace)(const TouchScene&, const double* theta, const double* z) = nullptr;
 };

@@ -6,6 +6,7 @@
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/lanes/random.hpp"
+#include "engine/lanes/weighted_sum.hpp"
 
 namespace abbe {
 
@@ -47,12 +48,26 @@ double code_of(const EffectParameter& parameter, const std::string& word, const 
                              parameter.choices.empty() ? "give a number" : fmt::format("give one of: {}", fmt::join(parameter.choices, ", "))));
 }
 
+/// `count` standard normal numbers for every machine: [draw][machine].
+std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vector<std::uint32_t>& machine, std::uint32_t stream,
+                                   std::uint32_t site, const std::vector<std::uint32_t>& visit) {
+  const std::size_t n = machine.size();
+  std::vector<double> z((count + 1) / 2 * 2 * n);
+  for (int pair = 0; 2 * pair < count; ++pair) {
+    double* first = z.data() + 2 * pair * n;
+    normal_pairs(static_cast<int>(n), seed, machine.data(), stream, site, visit.data(), static_cast<std::uint32_t>(pair), first, first + n);
+  }
+  return z;
+}
+
 }  // namespace
 
-EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, const std::string& machine) : use_(use) {
+EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, const std::string& machine) {
   for (const EffectSetting& setting : settings) {
     const Effect& effect = registered(setting.name, machine);
-    Active a{&effect, stream_of(effect.name), {}, {}, effect.draws_per == DrawsPer::none};
+    Active a{&effect, stream_of(effect.name), {}, {}, false, false, {}};
+    // What an effect draws at random cannot be corrected.
+    a.corrected = use == EffectUse::corrected && effect.draws_per == DrawsPer::none;
     for (const EffectParameter& p : effect.parameters) a.value.push_back(p.standard);
     a.u.assign(effect.parameters.size(), 0.0);
     for (const auto& [name, value] : setting.parameters) {
@@ -65,10 +80,52 @@ EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, 
                                    fmt::format("give a value from {:g} to {:g} {}", parameter.low, parameter.high, parameter.unit)));
       }
       a.u[p] = value.u;
-      if (value.u != 0 && !parameter.linear) a.linear = false;
     }
+    a.linear = is_linear(a);
+    if (a.linear) a.components = components_of(a);
     active_.push_back(std::move(a));
   }
+}
+
+bool EffectSet::is_linear(const Active& a) {
+  for (std::size_t p = 0; p < a.u.size(); ++p)
+    if (a.u[p] != 0 && !a.effect->parameters[p].linear) return false;
+  return a.effect->draws == 0 || a.effect->linear_in_draws;
+}
+
+std::vector<EffectSet::Component> EffectSet::components_of(const Active& a) {
+  std::vector<double> zero = a.value, certain = a.value;
+  for (std::size_t p = 0; p < zero.size(); ++p) {
+    if (a.effect->parameters[p].linear) zero[p] = 0;
+    if (a.u[p] != 0) certain[p] = 0;
+  }
+  std::vector<Component> components;
+  for (std::size_t p = 0; p < zero.size(); ++p) {
+    if (a.u[p] == 0) continue;
+    components.push_back({zero, static_cast<int>(p)});
+    components.back().theta[p] = 1;
+  }
+  // Where all certain sizes are zero, they do nothing. (An effect may have no linear parameter: then nothing is uncertain either.)
+  if (!a.corrected && (components.empty() || certain != zero)) components.push_back({certain, -1});
+  return components;
+}
+
+std::vector<double> EffectSet::weights(const Active& a, const std::vector<double>& theta, const std::vector<double>& machine_draws,
+                                       int lanes) {
+  std::vector<double> weights;
+  for (const Component& component : a.components) {
+    std::vector<double> column(lanes, 1.0);
+    if (component.parameter >= 0) {
+      const double* of_parameter = theta.data() + static_cast<std::size_t>(component.parameter) * lanes;
+      for (int i = 0; i < lanes; ++i) column[i] = of_parameter[i] - (a.corrected ? a.value[component.parameter] : 0);
+    }
+    if (a.effect->draws_per == DrawsPer::machine) {
+      for (int i = 0; i < a.effect->draws * lanes; ++i) weights.push_back(column[i % lanes] * machine_draws[i]);
+    } else {
+      weights.insert(weights.end(), column.begin(), column.end());
+    }
+  }
+  return weights;
 }
 
 EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<std::uint32_t>& machines) const {
@@ -85,65 +142,96 @@ EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<
       }
     }
     if (a.effect->draws_per == DrawsPer::machine)
-      for (int k = 0; k < a.effect->draws; ++k)
-        for (const std::uint32_t m : machines)
-          draws.push_back(normal_quantile(uniform_pair({seed, m, a.stream, kMachineSite, 0, static_cast<std::uint32_t>(k)}).a));
+      draws = normal_numbers(a.effect->draws, seed, machines, a.stream, kMachineSite, std::vector<std::uint32_t>(machines.size()));
+    lanes.weights.push_back(weights(a, theta, draws, lanes.lanes));
     lanes.theta.push_back(std::move(theta));
     lanes.machine_draws.push_back(std::move(draws));
   }
   return lanes;
 }
 
-void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std::uint64_t seed, std::uint32_t site, TouchBatch& batch) const {
-  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) {
-    if (active_[e].linear)
-      add_linear(active_[e], group, lanes.theta[e], lanes.lanes, batch);
-    else
-      add_sampled(e, group, lanes, seed, site, batch);
-  }
-}
-
-void EffectSet::add_linear(const Active& a, const Group& group, const std::vector<double>& theta, int lanes, TouchBatch& batch) const {
-  const auto add_column = [&](const Vec3& per_unit, auto size_of) {
-    for (const int slot : group.slots) batch.error.set(slot, batch.error.get(slot) + size_of(batch.lane[slot]) * per_unit);
-  };
-  if (use_ == EffectUse::left_in) add_column(a.effect->displace(*group.scene, a.value.data(), nullptr), [](int) { return 1.0; });
-  double unit[kMostNumbers];
-  ABBE_CHECK(a.value.size() <= kMostNumbers);
-  for (std::size_t p = 0; p < a.value.size(); ++p) {
-    if (a.u[p] == 0) continue;
-    for (std::size_t q = 0; q < a.value.size(); ++q) unit[q] = q == p ? 1.0 : a.effect->parameters[q].linear ? 0.0 : a.value[q];
-    const double* column = theta.data() + p * static_cast<std::size_t>(lanes);
-    add_column(a.effect->displace(*group.scene, unit, nullptr), [&](int lane) { return column[lane] - a.value[p]; });
-  }
-}
-
-void EffectSet::add_sampled(int k, const Group& group, const LaneParameters& lanes, std::uint64_t seed, std::uint32_t site,
-                            TouchBatch& batch) const {
-  const Active& a = active_[k];
-  const int parameters = static_cast<int>(a.value.size()), draws = a.effect->draws;
-  ABBE_CHECK(parameters <= kMostNumbers && draws <= kMostNumbers);
-  double theta[kMostNumbers], z[kMostNumbers] = {};
-  // A correction takes out the estimate; what an effect draws at random cannot be corrected.
-  const bool subtract = use_ == EffectUse::corrected && a.effect->draws_per == DrawsPer::none;
-  const Vec3 estimate = subtract ? a.effect->displace(*group.scene, a.value.data(), z) : Vec3{};
-  for (std::size_t i = 0; i < group.slots.size(); ++i) {
-    const int slot = group.slots[i], lane = batch.lane[slot];
-    for (int p = 0; p < parameters; ++p) theta[p] = lanes.theta[k][static_cast<std::size_t>(p) * lanes.lanes + lane];
-    for (int j = 0; j < draws; ++j) {
-      const auto number = static_cast<std::uint32_t>(j);
-      switch (a.effect->draws_per) {
-        case DrawsPer::none: break;
-        case DrawsPer::machine: z[j] = lanes.machine_draws[k][static_cast<std::size_t>(j) * lanes.lanes + lane]; break;
-        case DrawsPer::visit:
-          z[j] = normal_quantile(uniform_pair({seed, batch.machine[slot], a.stream, kVisitSite, group.indexings[i], number}).a);
-          break;
-        case DrawsPer::touch:
-          z[j] = normal_quantile(uniform_pair({seed, batch.machine[slot], a.stream, site, batch.visit[slot], number}).a);
-          break;
-      }
+/// The machines of a group, in its order, and what the effects add to them.
+struct EffectSet::Sum {
+  Sum(const Group& g, const TouchBatch& batch, int lane_count) : group(g), n(static_cast<int>(g.slots.size())), lanes(lane_count) {
+    for (const int slot : g.slots) {
+      lane.push_back(batch.lane[slot]);
+      machine.push_back(batch.machine[slot]);
+      visit.push_back(batch.visit[slot]);
     }
-    batch.error.set(slot, batch.error.get(slot) + a.effect->displace(*group.scene, theta, z) - estimate);
+    for (auto& c : error.column) c.assign(n, 0.0);
+  }
+  /// Row `row` of a table [row][lane], for the machines of the group.
+  const double* row_of(const std::vector<double>& table, std::size_t row) {
+    const double* by_lane = table.data() + row * static_cast<std::size_t>(lanes);
+    if (lane.back() - lane.front() == n - 1) return by_lane + lane.front();  // lanes ascend
+    std::vector<double> gathered(n);
+    for (int i = 0; i < n; ++i) gathered[i] = by_lane[lane[i]];
+    return keep(std::move(gathered));
+  }
+  const double* keep(std::vector<double> column) { return columns.emplace_back(std::move(column)).data(); }
+
+  const Group& group;
+  int n, lanes;
+  std::vector<int> lane;
+  std::vector<std::uint32_t> machine, visit;
+  Columns3 error;                            ///< of the sampled effects
+  std::vector<WeightedVector> terms;         ///< of the linear effects
+  std::vector<std::vector<double>> columns;  ///< that outlive the terms which point to them
+};
+
+void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std::uint64_t seed, std::uint32_t site,
+                    TouchBatch& batch) const {
+  if (group.slots.empty()) return;
+  Sum sum(group, batch, lanes.lanes);
+  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) {
+    const Active& a = active_[e];
+    std::vector<double> draws;
+    if (a.effect->draws_per == DrawsPer::touch) draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
+    if (a.effect->draws_per == DrawsPer::visit)
+      draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
+    if (a.linear)
+      add_linear(a, lanes.weights[e], draws, sum);
+    else
+      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, sum);
+  }
+  auto& [x, y, z] = sum.error.column;
+  add_weighted(sum.n, sum.terms, x.data(), y.data(), z.data());
+  for (int i = 0; i < sum.n; ++i) batch.error.set(group.slots[i], batch.error.get(group.slots[i]) + sum.error.get(i));
+}
+
+void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, const std::vector<double>& draws, Sum& sum) {
+  const bool by_machine = a.effect->draws_per == DrawsPer::machine;
+  const int terms = std::max(1, a.effect->draws);
+  ABBE_CHECK(terms <= kMostNumbers);
+  double unit[kMostNumbers] = {};
+  for (std::size_t q = 0; q < a.components.size(); ++q) {
+    for (int j = 0; j < terms; ++j) {
+      unit[j] = 1;
+      const Vec3 vector = a.effect->displace(*sum.group.scene, a.components[q].theta.data(), unit);
+      unit[j] = 0;
+      if (vector == Vec3{}) continue;
+      const double* weight = sum.row_of(weights, by_machine ? q * terms + j : q);
+      if (!draws.empty()) {
+        std::vector<double> product(weight, weight + sum.n);
+        for (int i = 0; i < sum.n; ++i) product[i] *= draws[static_cast<std::size_t>(j) * sum.n + i];
+        weight = sum.keep(std::move(product));
+      }
+      sum.terms.push_back({vector, weight});
+    }
+  }
+}
+
+void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws, Sum& sum) {
+  const std::size_t parameters = a.value.size(), numbers = a.effect->draws;
+  ABBE_CHECK(parameters <= kMostNumbers && numbers <= kMostNumbers);
+  const bool by_machine = a.effect->draws_per == DrawsPer::machine;
+  double values[kMostNumbers], z[kMostNumbers] = {};
+  const TouchScene& scene = *sum.group.scene;
+  const Vec3 estimate = a.corrected ? a.effect->displace(scene, a.value.data(), z) : Vec3{};
+  for (int i = 0; i < sum.n; ++i) {
+    for (std::size_t p = 0; p < parameters; ++p) values[p] = theta[p * sum.lanes + sum.lane[i]];
+    for (std::size_t j = 0; j < numbers; ++j) z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
+    sum.error.set(i, sum.error.get(i) + a.effect->displace(scene, values, z) - estimate);
   }
 }
 

@@ -1,8 +1,10 @@
 // The effects that act in a run: the settings of the machine file resolved against the registry, their parameters drawn for every
 // virtual machine, and their displacements added to touches.
 //
-// Cost: the scene of a touch is the same for all machines on one path, so an effect that is linear in its uncertain parameters is
-// evaluated once per parameter and touch, not once per machine.
+// Cost: the scene of a touch is the same for all machines on one path. So an effect that is linear in what differs between machines
+// (its uncertain parameters, its draws) is evaluated once per touch for each of these, not once per machine:
+//   d = D(certain) + sum over the uncertain parameters p of theta_p D(unit p),   D(.) = sum over the draws j of z_j D(., unit j)
+// leaves a sum of vectors with weights by machine (lanes/weighted_sum.hpp). Other effects are sampled machine by machine.
 #pragma once
 
 #include <cstdint>
@@ -27,15 +29,17 @@ class EffectSet {
   int size() const { return static_cast<int>(active_.size()); }
   const Effect& effect(int k) const { return *active_[k].effect; }
 
-  /// Parameters of every lane of a block: by effect, then [parameter][lane].
+  /// What differs between the lanes of a block: parameters by effect, then [parameter][lane], and what follows from them.
   struct LaneParameters {
     std::vector<std::vector<double>> theta;
     std::vector<std::vector<double>> machine_draws;  ///< by effect, [draw][lane], for DrawsPer::machine
+    /// By effect; of linear ones [component][lane], for DrawsPer::machine [component][draw][lane].
+    std::vector<std::vector<double>> weights;
     int lanes = 0;
   };
   LaneParameters draw(std::uint64_t seed, const std::vector<std::uint32_t>& machines) const;
 
-  /// Where and for whom one touch happens: the slots [first, last) of the batch share the scene.
+  /// Where and for whom one touch happens: the slots of the batch that share a scene.
   struct Group {
     const TouchScene* scene = nullptr;
     std::vector<int> slots;                  ///< of the batch, machines only
@@ -45,17 +49,28 @@ class EffectSet {
   void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
 
  private:
+  /// One term of a linear effect: its displacement at these parameters times a weight by machine.
+  struct Component {
+    std::vector<double> theta;
+    int parameter = -1;      ///< uncertain, 1 in theta, its value is the weight; -1: the certain ones together, weight 1
+  };
   struct Active {
     const Effect* effect = nullptr;
     std::uint32_t stream = 0;
     std::vector<double> value, u;
-    bool linear = false;     ///< no draws of its own, and only linear parameters are uncertain
+    bool linear = false;     ///< in all that differs between machines
+    bool corrected = false;  ///< the estimate is taken out
+    std::vector<Component> components;  ///< of a linear effect; none when nothing remains of it
   };
-  void add_linear(const Active&, const Group&, const std::vector<double>& theta, int lanes, TouchBatch&) const;
-  void add_sampled(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
+  struct Sum;                ///< of the effects on one group
+  static bool is_linear(const Active&);
+  static std::vector<Component> components_of(const Active&);
+  static std::vector<double> weights(const Active&, const std::vector<double>& theta, const std::vector<double>& machine_draws,
+                                     int lanes);
+  static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&);
+  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws, Sum&);
 
   std::vector<Active> active_;
-  EffectUse use_ = EffectUse::left_in;
 };
 
 }  // namespace abbe

@@ -85,6 +85,7 @@ constinit const Effect kHeadAxisErrors{
     .parameters = kParameters,
     .draws_per = DrawsPer::machine,
     .draws = 2 * kDrawsPerAxis,
+    .linear_in_draws = true,
     .displace = displace,
 };
 

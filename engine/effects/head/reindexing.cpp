@@ -46,6 +46,7 @@ constinit const Effect kHeadReindexing{
     .parameters = kParameters,
     .draws_per = DrawsPer::visit,
     .draws = 2,
+    .linear_in_draws = true,
     .displace = displace,
 };
 

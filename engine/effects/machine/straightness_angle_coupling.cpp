@@ -95,6 +95,7 @@ constinit const Effect kStraightnessAngleCoupling{
     .parameters = kParameters,
     .draws_per = DrawsPer::machine,
     .draws = 2 * 2 * kHarmonics,
+    .linear_in_draws = true,
     .displace = displace,
 };
 

@@ -89,6 +89,7 @@ constinit const Effect kUnequalNoise{
     .parameters = kParameters,
     .draws_per = DrawsPer::touch,
     .draws = 1,
+    .linear_in_draws = true,
     .displace = displace,
 };
 

@@ -57,6 +57,7 @@ constinit const Effect kVibration{
     .parameters = kParameters,
     .draws_per = DrawsPer::touch,
     .draws = 1,
+    .linear_in_draws = true,
     .displace = displace,
 };
 

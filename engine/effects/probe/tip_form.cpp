@@ -97,6 +97,7 @@ constinit const Effect kTipForm{
     .parameters = kParameters,
     .draws_per = DrawsPer::machine,
     .draws = kTerms,
+    .linear_in_draws = true,
     .displace = displace,
 };
 

@@ -230,6 +230,23 @@ TEST_CASE("registry: the displacement is linear in all linear parameters jointly
   });
 }
 
+TEST_CASE("registry: the displacement is linear in the draws of every effect that says so") {
+  for_all_effects([](const Effect& effect, const TouchScene& scene,
+                     const std::vector<double>& theta, const std::vector<double>& a,
+                     Numbers& random) {
+    CHECK(!(effect.linear_in_draws && effect.draws == 0));
+    if (!effect.linear_in_draws) return;
+    const double s = random.between(-2, 2), t = random.between(-2, 2);
+    const std::vector<double> b = random_draws(effect, random);
+    std::vector<double> mixed = a;
+    for (std::size_t j = 0; j < a.size(); ++j) mixed[j] = s * a[j] + t * b[j];
+    const Vec3 of_a = displace(effect, scene, theta, a), of_b = displace(effect, scene, theta, b);
+    CHECK(close(displace(effect, scene, theta, mixed), s * of_a + t * of_b,
+                4 * (norm(of_a) + norm(of_b)) + 1e-9));
+    CHECK(displace(effect, scene, theta, std::vector<double>(a.size())) == Vec3{});
+  });
+}
+
 TEST_CASE("registry: finite on any plausible scene and values, and the same when asked again") {
   for_all_effects([](const Effect& effect, const TouchScene& scene,
                      const std::vector<double>& theta, const std::vector<double>& z, Numbers&) {

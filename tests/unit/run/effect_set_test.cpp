@@ -1,0 +1,170 @@
+// EffectSet::add against the plain evaluation of every effect, lane by lane.
+#include "engine/run/effect_set.hpp"
+
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "engine/lanes/random.hpp"
+#include "tests/unit/effects/random_scene.hpp"
+
+using namespace abbe;
+using effects_test::Numbers;
+using effects_test::random_scene;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 7;
+constexpr std::uint32_t kSite = 3, kVisitSite = 0x20000000u;
+constexpr int kMachines = 11;
+
+enum class Uncertain { nothing, sizes, everything };
+
+/// Every parameter inside its range (so that no value needs to be cut there), some of them uncertain.
+EffectSetting setting_of(const Effect& effect, Uncertain uncertain) {
+  EffectSetting setting{std::string(effect.name), {}};
+  for (const EffectParameter& p : effect.parameters) {
+    const double value = p.choices.empty() ? 0.5 * (p.typical + p.standard) : p.standard;
+    const bool doubtful =
+        uncertain == Uncertain::everything ? p.choices.empty() : uncertain == Uncertain::sizes && p.linear;
+    const double u = doubtful ? 1e-3 * (p.high - p.low) : 0;
+    setting.parameters[std::string(p.name)] = {std::clamp(value, p.low, p.high), u, ""};
+  }
+  return setting;
+}
+
+std::vector<EffectSetting> all_settings(Uncertain uncertain) {
+  std::vector<EffectSetting> settings;
+  for (const Effect* effect : effects()) settings.push_back(setting_of(*effect, uncertain));
+  return settings;
+}
+
+std::vector<std::uint32_t> machines_from(std::uint32_t first, int count) {
+  std::vector<std::uint32_t> machines(count);
+  std::iota(machines.begin(), machines.end(), first);
+  return machines;
+}
+
+/// A touch of some lanes of a block.
+struct Case {
+  TouchScene scene;
+  TouchBatch batch;
+  EffectSet::Group group;
+};
+
+/// Machine m is on its visit m % 3, its head in indexing m % 2.
+Case case_of(const TouchScene& scene, const std::vector<int>& lanes, const std::vector<std::uint32_t>& machines) {
+  Case c{scene, {}, {}};
+  c.batch.resize(static_cast<int>(lanes.size()));
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const std::uint32_t m = machines[lanes[i]];
+    c.batch.lane[i] = lanes[i];
+    c.batch.machine[i] = m;
+    c.batch.visit[i] = m % 3;
+    c.batch.error.set(static_cast<int>(i), {});
+    c.group.slots.push_back(static_cast<int>(i));
+    c.group.indexings.push_back(m % 2);
+  }
+  return c;
+}
+
+/// Draw j of a visit or a touch, by its address.
+double draw(const Effect& effect, std::uint32_t machine, std::uint32_t site, std::uint32_t visit, std::uint32_t j) {
+  const UniformPair u = uniform_pair({kSeed, machine, stream_of(effect.name), site, visit, j / 2});
+  return normal_quantile(j % 2 == 0 ? u.a : u.b);
+}
+
+/// Effect k of the set on one slot, as effect.hpp describes it.
+Vec3 plain(const EffectSet& set, int k, const EffectSet::LaneParameters& drawn, const Case& c, int slot,
+           const EffectSetting* taken_out) {
+  const Effect& effect = set.effect(k);
+  const auto lane = static_cast<std::size_t>(c.batch.lane[slot]), width = static_cast<std::size_t>(drawn.lanes);
+  std::vector<double> theta, z, estimate;
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+    theta.push_back(drawn.theta[k][p * width + lane]);
+    if (taken_out) estimate.push_back(taken_out->parameters.at(std::string(effect.parameters[p].name)).value);
+  }
+  for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(effect.draws); ++j) {
+    const std::uint32_t m = c.batch.machine[slot];
+    z.push_back(effect.draws_per == DrawsPer::machine ? drawn.machine_draws[k][j * width + lane]
+                : effect.draws_per == DrawsPer::visit ? draw(effect, m, kVisitSite, c.group.indexings[slot], j)
+                                                      : draw(effect, m, kSite, c.batch.visit[slot], j));
+  }
+  const Vec3 d = effect.displace(c.scene, theta.data(), z.data());
+  const bool subtract = taken_out && effect.draws_per == DrawsPer::none;
+  return subtract ? d - effect.displace(c.scene, estimate.data(), z.data()) : d;
+}
+
+void compare_with_plain(Uncertain uncertain, EffectUse use, const std::vector<int>& lanes) {
+  const std::vector<EffectSetting> settings = all_settings(uncertain);
+  const EffectSet set(settings, use, "test");
+  const auto machines = machines_from(100, kMachines);
+  const auto drawn = set.draw(kSeed, machines);
+  Numbers random(1);
+  for (int scene = 0; scene < 10; ++scene) {
+    const TouchScene where = random_scene(random);
+    Case all = case_of(where, lanes, machines);
+    all.group.scene = &all.scene;
+    set.add(-1, all.group, drawn, kSeed, kSite, all.batch);
+    std::vector<Vec3> total(lanes.size());
+    double largest = 0;
+    for (int k = 0; k < set.size(); ++k) {
+      CAPTURE(set.effect(k).name);
+      Case one = case_of(where, lanes, machines);
+      one.group.scene = &one.scene;
+      set.add(k, one.group, drawn, kSeed, kSite, one.batch);
+      for (int slot = 0; slot < one.batch.n; ++slot) {
+        const Vec3 expected = plain(set, k, drawn, one, slot, use == EffectUse::corrected ? &settings[k] : nullptr);
+        CHECK(norm(one.batch.error.get(slot) - expected) <= 1e-15 * std::fmax(1, norm(expected)));
+        total[slot] += expected;
+        largest = std::fmax(largest, norm(expected));
+      }
+    }
+    for (int slot = 0; slot < all.batch.n; ++slot)
+      CHECK(norm(all.batch.error.get(slot) - total[slot]) <= 1e-15 * std::fmax(1, 10 * largest));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("effect set: every effect is what displace() says, lane by lane") {
+  const std::vector<int> together = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, middle = {4, 5, 6}, scattered = {0, 3, 4, 7, 10}, one = {9};
+  for (const Uncertain uncertain : {Uncertain::nothing, Uncertain::sizes, Uncertain::everything})
+    for (const EffectUse use : {EffectUse::left_in, EffectUse::corrected})
+      for (const auto* lanes : {&together, &middle, &scattered, &one}) {
+        CAPTURE(static_cast<int>(uncertain));
+        CAPTURE(static_cast<int>(use));
+        CAPTURE(lanes->size());
+        compare_with_plain(uncertain, use, *lanes);
+      }
+}
+
+TEST_CASE("effect set: a machine has the same errors in any block, to the bit") {
+  const EffectSet set(all_settings(Uncertain::sizes), EffectUse::left_in, "test");
+  Numbers random(2);
+  const TouchScene where = random_scene(random);
+  const auto errors = [&](std::uint32_t first, int count) {
+    const auto machines = machines_from(first, count);
+    std::vector<int> lanes(count);
+    std::iota(lanes.begin(), lanes.end(), 0);
+    Case c = case_of(where, lanes, machines);
+    c.group.scene = &c.scene;
+    set.add(-1, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch);
+    return c.batch.error;
+  };
+  const Columns3 whole = errors(100, kMachines), left = errors(100, 4), right = errors(104, kMachines - 4);
+  for (int i = 0; i < kMachines; ++i) CHECK(whole.get(i) == (i < 4 ? left.get(i) : right.get(i - 4)));
+}
+
+TEST_CASE("effect set: numbers do not depend on which other effects exist") {
+  const std::vector<EffectSetting> settings = all_settings(Uncertain::everything);
+  const auto machines = machines_from(100, kMachines);
+  const auto together = EffectSet(settings, EffectUse::left_in, "test").draw(kSeed, machines);
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    CAPTURE(settings[k].name);
+    const auto alone = EffectSet({settings[k]}, EffectUse::left_in, "test").draw(kSeed, machines);
+    CHECK(alone.theta[0] == together.theta[k]);
+    CHECK(alone.machine_draws[0] == together.machine_draws[k]);
+    CHECK(alone.weights[0] == together.weights[k]);
+  }
+}
