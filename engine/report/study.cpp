@@ -190,7 +190,7 @@ class StudyRun {
     report.influences = influences(machine_, options_.workpiece);
     report.traps = study_.result.traps;
     add_unreached();
-    if (report.machines.share_accepted() < 0.5) warn_of_screening();
+    warn_of_screening();
     if (study_.result.samples.empty())
       message(Code::W0606, "the program evaluates no characteristic",
               "add an OUTPUT or EVAL statement with a feature and a tolerance");
@@ -215,17 +215,8 @@ class StudyRun {
 
   void warn_of_screening() {
     step("looking for a factor on e_max");
-    constexpr int kCandidates = 1000;
-    const double share = study_.report.machines.share_accepted();
-    const SuggestedFactor suggested =
-        suggest_e_max_factor(machine_, options_.seed, kCandidates, options_.threads);
-    message(
-        Code::W0416,
-        fmt::format("only {:.1f} % of the generated machines satisfy the specification of '{}'",
-                    100 * share, machine_.name),
-        fmt::format(
-            "with every e_max multiplied by {:.2f} about {:.0f} % would; see `abbe machine screen`",
-            suggested.factor, 100 * suggested.share_accepted));
+    if (auto warning = screening_warning(machine_, study_.report.machines, options_.seed, options_.threads))
+      study_.report.messages.push_back(std::move(*warning));
   }
 
   const plan::Plan& plan_;

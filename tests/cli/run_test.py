@@ -6,7 +6,7 @@ import statistics
 import harness
 from harness import LENGTH
 
-KEYS = {"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost", "influences", "messages"}
+KEYS = {"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost", "traps", "influences", "messages"}
 CHARACTERISTIC_KEYS = {"feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal", "reference", "mean", "u", "lcl", "ucl",
                        "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "contributions", "trapped"}
 

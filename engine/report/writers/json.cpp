@@ -103,6 +103,10 @@ std::string write_json(const RunReport& r) {
                     [](const auto& l) {
                       return Json{{"line", l.line}, {"feature", l.feature}, {"reason", l.reason}};
                     })},
+      {"traps", list(r.traps,
+                     [](const Trap& t) {
+                       return Json{{"machine", t.machine}, {"line", t.line}, {"reason", t.reason}};
+                     })},
       {"influences", list(r.influences,
                           [](const auto& i) {
                             return Json{{"name", i.name}, {"status", i.status}};

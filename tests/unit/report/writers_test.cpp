@@ -100,6 +100,8 @@ TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   CHECK(j["lost"][0] ==
         Json{{"line", 77}, {"feature", "BORE"}, {"reason", "the statement has errors"}});
   CHECK(j["influences"][1] == Json{{"name", "part temperature"}, {"status", "not modelled"}});
+  CHECK(j["traps"].size() == 3);
+  CHECK(j["traps"][2] == Json{{"machine", 9}, {"line", 12}, {"reason", "endless loop"}});
   CHECK(j["messages"][0] == Json{{"code", "W0416"},
                                  {"severity", "warning"},
                                  {"line", nullptr},
