@@ -20,7 +20,6 @@ CONFINED = {
     "tao/pegtl": ["lang/parser.cpp"],
     "CLI/": ["programs/options.cpp"],
     "Eigen/": ["engine/math/", "engine/features/"],
-    "boost/": ["engine/math/"],
 }
 
 
