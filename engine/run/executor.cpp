@@ -63,6 +63,17 @@ GeometryBlock Executor::acting_geometry(const VirtualMachines& machines, int fir
 
 void Executor::run(Block& block) const { BlockRun(*this, block).run(); }
 
+void Executor::know(std::vector<KnownFit> fits) {
+  for (KnownFit& fit : fits) known_fits_.emplace(fit.operation, std::move(fit));
+}
+
+const Element* Executor::known_fit(int operation, const std::vector<Vec3>& points) const {
+  const auto [first, last] = known_fits_.equal_range(operation);
+  for (auto it = first; it != last; ++it)
+    if (it->second.points == points) return &it->second.element;
+  return nullptr;
+}
+
 Executor::Observed Executor::observe(Block& block) const {
   Observed observed;
   BlockRun(*this, block, &observed).run();

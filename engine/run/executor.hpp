@@ -3,6 +3,7 @@
 // Lanes never see each other, so any order of work gives the same result.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "engine/recording/recording.hpp"
@@ -30,16 +31,26 @@ class Executor {
     int operation = 0;
     bool touch = false;                ///< else the target of a move
   };
+  /// The fit of an error-free machine at one EndMeasure operation.
+  struct KnownFit {
+    int operation = 0;
+    std::vector<Vec3> points;
+    Element element;
+  };
   struct Observed {
+    std::vector<KnownFit> fits;        ///< of the twins
     std::vector<OutputRecord> outputs; ///< of lane 0, which is the reference when there are no machines
     std::vector<Stop> stops;           ///< of the reference: where the program asks the machine to go
     std::vector<RecordingRow> rows;    ///< of lane 0: what it reported; coordinates of the program's machine system
   };
+  /// Makes the fits of the reference known, so that not every block has to make them again. Changes no result.
+  void know(std::vector<KnownFit> fits);
   /// Runs a block as run() does and keeps what is observed.
   Observed observe(Block&) const;
 
  private:
   friend class BlockRun;
+  const Element* known_fit(int operation, const std::vector<Vec3>& points) const;
   /// Whether touches of this feature have errors in this run.
   bool errors_act_on(plan::FeatureId) const;
   GeometryBlock acting_geometry(const VirtualMachines& machines, int first, int count) const;
@@ -47,6 +58,7 @@ class Executor {
   const plan::Plan& plan_;
   const Machine& machine_;
   const RunOptions& options_;
+  std::multimap<int, KnownFit> known_fits_;  ///< by operation
   std::vector<Sensor> sensors_;      ///< by SensorId
   EffectSet effects_;
   Part part_;

@@ -171,9 +171,14 @@ Element reversed(Element e, Shape shape) {
 FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const Element& nominal) {
   FitProblem problem{shape, points, std::nullopt};
   if (shape == Shape::circle) problem.normal = nominal.direction;
-  FitSolution anywhere = fit_points(problem), near_nominal = fit_points_from(problem, nominal);
   constexpr double kSameFit_mm = 1e-7;
-  const bool nominal_is_meant = !near_nominal.error && (anywhere.error || near_nominal.rms <= anywhere.rms + kSameFit_mm);
+  FitSolution near_nominal = fit_points_from(problem, nominal), anywhere;
+  // Nothing fits better than exactly; only a part with form error makes it worth looking elsewhere.
+  bool nominal_is_meant = !near_nominal.error && near_nominal.rms <= kSameFit_mm;
+  if (!nominal_is_meant) {
+    anywhere = fit_points(problem);
+    nominal_is_meant = !near_nominal.error && (anywhere.error || near_nominal.rms <= anywhere.rms + kSameFit_mm);
+  }
   FitSolution& solution = nominal_is_meant ? near_nominal : anywhere;
   // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its open side by itself.
   if (shape != Shape::cone && dot(solution.element.direction, nominal.direction) < 0) solution.element = reversed(solution.element, shape);
@@ -195,10 +200,13 @@ void BlockRun::fit_twins(plan::FeatureId feature) {
       for (const Vec3& p : lane.points) points_buffer.insert(points_buffer.end(), {p.x, p.y, p.z});
       kind.fit_lanes({points_buffer.data(), static_cast<int>(lane.points.size()), 1, 1}, &nominal, &result, &failure);
       if (failure) return failure;
+    } else if (const Element* known = executor.known_fit(operation, lane.points)) {
+      result = *known;
     } else {
       FitSolution solution = fit_error_free(kind.shape, lane.points, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
+      if (observed) observed->fits.push_back({operation, lane.points, result});
     }
     lane.has_actual[feature.value] = 1;
     return "";

@@ -102,7 +102,7 @@ struct ReferenceRun {
 };
 
 /// Runs the error-free machine alone and refuses what no machine could do.
-ReferenceRun reference_run(const Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
   Block block = executor.make_block({}, 0, 0);
   Executor::Observed observed = executor.observe(block);
   Lane lane = std::move(block.lanes[block.reference()]);
@@ -112,6 +112,7 @@ ReferenceRun reference_run(const Executor& executor, const plan::Plan& plan, con
                                   "correct the statement; `abbe check` lists everything that it finds in the program"));
   }
   check_travel(observed.stops, plan, machine, source);
+  executor.know(std::move(observed.fits));
   return {std::move(lane), std::move(observed.outputs)};
 }
 
@@ -121,7 +122,7 @@ using Key = std::pair<int, int>;  // characteristic, visit
 
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
                    const SourceFile& source) {
-  const Executor executor(plan, machine, options, source);
+  Executor executor(plan, machine, options, source);
   ReferenceRun reference_ran = reference_run(executor, plan, machine, source);
   const Lane& reference = reference_ran.lane;
 
@@ -155,7 +156,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
 MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,
                           const SourceFile& source) {
   ABBE_CHECK(one.size() == 1);
-  const Executor executor(plan, machine, options, source);
+  Executor executor(plan, machine, options, source);
   reference_run(executor, plan, machine, source);
   Block block = executor.make_block(one, 0, 1);
   Executor::Observed observed = executor.observe(block);
