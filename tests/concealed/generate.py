@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Makes a round of concealed cases. usage: generate.py --round development|rehearsal|final --out DIR [--scale 0.1] [--secret HEX] [--jobs 2]
+
+DIR/SEAL.txt     hashes of the truths, written before the data
+DIR/cases/NNNN/  machine.json, recording.csv and, for a known machine, calibration.csv
+DIR/sealed/      secret.txt and the truths NNNN.json; keep it away from those who answer until they have answered
+"""
+import os
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")   # the same bytes on every machine, and cases run side by side
+import argparse
+import concurrent.futures
+import pathlib
+import secrets
+import sys
+
+try:
+    import cases
+    from seal import generator, seal, to_bytes
+except ModuleNotFoundError as missing:
+    sys.exit(f"generate: needs {missing.name} (Debian: python3-numpy)")
+
+PUBLIC = "development round of the concealed cases"
+
+
+def write_case(job):
+    secret, number, spec, root = job
+    data, truth = cases.make(secret, number, spec)
+    raw = to_bytes(truth)
+    folder = root / "cases.tmp" / number
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, text in data.items():
+        (folder / name).write_text(text)
+    (root / "sealed" / f"{number}.json").write_bytes(raw)
+    return number, seal(secret, number, raw)
+
+
+def numbered(secret, counts, final):
+    """Cases in random order: the number tells nothing."""
+    specs = cases.plan(counts, final)
+    order = generator(secret, "order").permutation(len(specs))
+    return [(f"{i + 1:04d}", specs[k]) for i, k in enumerate(order)]
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--round", choices=("development", "rehearsal", "final"), required=True)
+    parser.add_argument("--out", type=pathlib.Path, required=True)
+    parser.add_argument("--scale", type=float, default=1.0)
+    parser.add_argument("--secret", help="hexadecimal; makes a published round again")
+    parser.add_argument("--jobs", type=int, default=1)
+    given = parser.parse_args(argv)
+    if (given.out / "cases").exists():
+        parser.error(f"{given.out}/cases exists already: choose another folder")
+    secret = given.secret or (PUBLIC if given.round == "development" else secrets.token_hex(16))
+    secret = f"{given.round} {secret}"
+    counts = {kind: max(1, round(n * given.scale)) for kind, n in cases.COUNTS.items()}
+    (given.out / "sealed").mkdir(parents=True, exist_ok=True)
+    (given.out / "sealed" / "secret.txt").write_text(secret + "\n")
+    jobs = [(secret, number, spec, given.out) for number, spec in numbered(secret, counts, given.round == "final")]
+    with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
+        seals = list(pool.map(write_case, jobs, chunksize=4))
+    head = f"# SHA-256(salt || truth) of every case of the {given.round} round\n"
+    (given.out / "SEAL.txt").write_text(head + "".join(f"{n} {h}\n" for n, h in sorted(seals)))
+    (given.out / "cases.tmp").rename(given.out / "cases")
+    print(f"{len(jobs)} cases in {given.out}/cases; truths in {given.out}/sealed")
+
+
+if __name__ == "__main__":
+    main()

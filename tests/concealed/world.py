@@ -1,0 +1,75 @@
+"""One machine measures: everything that acts on a recording, added up; and the size of an effect for a wanted signal-to-noise ratio."""
+import numpy as np
+
+import machine as cmm
+from effects import noise
+
+LADDER = (2, 3, 4.5, 6, 9, 15)
+IMPLAUSIBLE = 3   # times the range that the literature gives
+
+
+def placed(scene, rng):
+    """The true part is not where the alignment says: 3 um and 10 urad for each placement; um along the normal."""
+    out = np.zeros(scene.size)
+    for k in np.unique(scene.setup):
+        mine = scene.setup == k
+        centre = scene.target[mine] - scene.target.mean(0)
+        move = rng.normal(0, 3, 3) + cmm.rotate(np.tile(rng.normal(0, 1e-5, 3), (mine.sum(), 1)), centre) * 1e3 - centre * 1e3
+        out[mine] = np.sum(scene.normal[mine] * move, 1)
+    return out
+
+
+def along_normal(scene, carriages, change=None):
+    """n . d of geometry, with a Change on top of it, through the exact kinematics."""
+    total = dict(carriages)
+    for axis, (move, turn) in (change.carriages if change else {}).items():
+        total[axis] = (total[axis][0] + move, total[axis][1] + turn)
+    d = cmm.tip_error(scene.machine, scene.reading, scene.tip, total)
+    return np.sum(scene.normal * d, 1) + (np.sum(scene.normal * change.tip, 1) + change.along if change else 0)
+
+
+def indexing(scene, rng):
+    """Two angles for every indexing visit, exactly turned."""
+    index = np.unique(scene.visit, return_inverse=True)[1]
+    error = rng.normal(0, scene.machine.head_sd, (index.max() + 1, 2))[index]
+    turned = np.einsum("nij,nj->ni", cmm.head_rotation(scene.a + error[:, 0], scene.b + error[:, 1]), scene.tip_in_r)
+    return np.sum(scene.normal * (turned - scene.arm), 1) * 1e3
+
+
+def qualified(scene, rng, sd=0.3):
+    """Each stylus was qualified on the reference sphere with its own small error of place; um."""
+    offset = rng.normal(0, sd, (len(scene.styli), 3))
+    return np.sum(scene.normal * offset[scene.sensor], 1)
+
+
+class Baseline:
+    """A recording without any effect: residuals r in um, and what effects need to be added to it."""
+
+    def __init__(self, scene, geometry, rng, kind="white", noise_scale=1.0):
+        self.scene, self.kind = scene, kind
+        self.carriages = geometry.carriages(scene.machine, scene.reading)
+        self.geometric = along_normal(scene, self.carriages)
+        self.noise = noise.probe_noise(scene, rng, kind, noise_scale)
+        self.r = self.geometric + indexing(scene, rng) + qualified(scene, rng) + placed(scene, rng) + self.noise
+        scene.raw = scene.reading + self.r[:, None] * 1e-3 * scene.normal
+
+    def signature(self, effect, parameters):
+        """What the effect adds to r."""
+        return along_normal(self.scene, self.carriages, effect.change(self.scene, parameters)) - self.geometric
+
+
+def scaled(effect, baseline, null, parameters, target):
+    """Parameters and signature for which the signal-to-noise ratio is the target; None when that takes an implausible size."""
+    p = dict(parameters)
+    for _ in range(4):
+        d = baseline.signature(effect, p)
+        s = null.snr(d)
+        if s < 1e-6:
+            return None
+        if abs(s / target - 1) < 1e-6:
+            break
+        for key in effect.scale:
+            p[key] = p[key] * target / s
+        if max(abs(p[key]) for key in effect.scale[:1]) > IMPLAUSIBLE * effect.largest:
+            return None
+    return p, baseline.signature(effect, p)
