@@ -14,6 +14,8 @@ namespace abbe::lang {
 namespace {
 
 constexpr std::size_t kLongestLabel = 64;
+/// Free text begins with short words that are near to a word of DMIS by chance.
+constexpr std::size_t kShortestSlip = 4;
 
 /// Drives the statements of one file through lookup, signature and lowering.
 class Compiler {
@@ -73,10 +75,15 @@ class Compiler {
   void known(const Statement& statement, const RawStatement& raw) {
     const bool switches = statement.word == "DMESW", begins = statement.word == "DMISMN";
     if (!switches && !begins && outside(raw)) return;
+    if (raw.missing_slash && statement.signature.empty())
+      return lowering_.error(Code::E0108, *raw.missing_slash,
+                             fmt::format("{} takes no arguments", statement.word),
+                             "a comment begins with $$", "");
     if (raw.missing_slash)
       return lowering_.error(Code::E0115, *raw.missing_slash,
                              fmt::format("expected '/' after {}", statement.word),
-                             fmt::format("for example: {}", statement.example));
+                             fmt::format("for example: {}", statement.example),
+                             fmt::format("/{}", lowering_.source.text(*raw.missing_slash)));
     if (!label_fits(statement, raw) || lowering_.failed) return;
     if (const auto match = lowering_.match(statement.signature, raw, statement.word))
       statement.lower(lowering_, raw, *match);
@@ -116,7 +123,7 @@ class Compiler {
     if (outside(raw)) return "";
     std::vector<std::string_view> words(standard_words().begin(), standard_words().end());
     const std::string near = nearest_word(raw.word, words);
-    if (raw.missing_slash && near.empty()) {
+    if (raw.missing_slash && (near.empty() || raw.word.size() < kShortestSlip)) {
       lowering_.error(Code::E0101, raw.span,
                       fmt::format("'{}' is not a statement", lowering_.source.text(raw.span)),
                       "a statement is WORD/argument,argument; a comment begins with $$");

@@ -23,6 +23,21 @@ std::string spoilt_key(std::string_view kind, std::string_view name) {
   return fmt::format("{}:{}", base_kind(kind), upper(name));
 }
 
+std::string chain(std::string consequence, std::string_view cause) {
+  constexpr std::string_view kArrow = " <- ", kGap = "... <- ";
+  constexpr int kLongest = 4;
+  int links = 1;
+  std::size_t last = 0;
+  for (std::size_t at = cause.find(kArrow); at != std::string_view::npos;
+       at = cause.find(kArrow, last)) {
+    last = at + kArrow.size();
+    ++links;
+  }
+  const bool gap = links >= kLongest;
+  return fmt::format("{}{}{}{}", consequence, kArrow, gap ? kGap : "",
+                     gap ? cause.substr(last) : cause);
+}
+
 void Lowering::error(Code code, Span span, std::string message, std::string help,
                      std::string replacement) {
   fail(message);
@@ -75,7 +90,7 @@ typename Map::mapped_type* Lowering::find(Map& map, std::string_view kind, const
   const auto it = map.find(upper(label.name));
   const auto spoilt = symbols.spoilt.find(spoilt_key(label.kind, label.name));
   if (spoilt != symbols.spoilt.end()) {
-    fail(spoilt->second);
+    fail(chain(fmt::format("{} {} is not usable", kind, written(label)), spoilt->second));
     return nullptr;
   }
   if (it != map.end()) return &it->second;
@@ -84,7 +99,8 @@ typename Map::mapped_type* Lowering::find(Map& map, std::string_view kind, const
   const std::string near = nearest_word(label.name, names);
   error(Code::E0201, label.span, fmt::format("{} {} is not defined above", kind, written(label)),
         near.empty() ? std::string(next_step)
-                     : fmt::format("did you mean {}({})?", label.kind, near));
+                     : fmt::format("did you mean {}({})?", label.kind, near),
+        near.empty() ? "" : fmt::format("{}({})", label.kind, near));
   return nullptr;
 }
 
@@ -98,7 +114,7 @@ std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
   const std::optional<plan::FeatureId> id = defined_feature(label);
   if (!id) return id;
   if (!actual(*id).spoilt.empty()) {
-    fail(actual(*id).spoilt);
+    fail(chain(fmt::format("FA({}) is not measured", label.name), actual(*id).spoilt));
     return std::nullopt;
   }
   if (actual(*id).present) return id;
@@ -165,8 +181,14 @@ plan::Point Lowering::point(const Match& match, std::string_view first) {
   return {operand(it[0]), operand(it[1]), operand(it[2])};
 }
 
+std::string Lowering::blame() const {
+  return fmt::format("line {}: {}", statement->line, failure);
+}
+
 std::string Lowering::doubt() const {
-  return !unit_doubt.empty() ? unit_doubt : !frame_doubt.empty() ? frame_doubt : sensor_doubt;
+  if (!unit_doubt.empty()) return chain("the units are in doubt", unit_doubt);
+  if (!frame_doubt.empty()) return chain("the coordinate system is in doubt", frame_doubt);
+  return sensor_doubt.empty() ? "" : chain("the sensor is in doubt", sensor_doubt);
 }
 
 }  // namespace abbe::lang

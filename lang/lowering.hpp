@@ -133,8 +133,10 @@ class Lowering {
   std::string failure;  ///< the first reason
   const RawStatement* statement = nullptr;
 
-  /// The first doubt that holds now, or "".
+  /// The first doubt that holds now and why, or "".
   std::string doubt() const;
+  /// Why the current statement failed, as the cause of what follows from it: "line 12: MESSAGE".
+  std::string blame() const;
 
  private:
   template <class Map>
@@ -143,6 +145,11 @@ class Lowering {
 
   std::map<std::string_view, Signature> signatures_;  ///< parsed once; signature texts are static
 };
+
+/// "FA(X) is not measured <- line 12: a comma is missing": a reason and its cause, which may have a
+/// cause itself. Long chains keep their end, the mistake to be corrected, so that a program whose
+/// every line follows from the one before needs no more memory than any other.
+std::string chain(std::string consequence, std::string_view cause);
 
 /// Folded key for Symbols::spoilt: F and FA, T and TA, D and DA, S and SA share their names.
 std::string spoilt_key(std::string_view kind, std::string_view name);

@@ -36,9 +36,9 @@ struct arguments : list<argument, one<','>> {};
 struct slash : one<'/'> {};
 struct leftover : star<any> {};
 struct statement : seq<head, opt<slash, arguments>, leftover, eof> {};
-struct head_only : head {};
-struct target_name : plus<not_one<'(', ')'>> {};
-struct target : seq<blanks, one<'('>, target_name, one<')'>, blanks, eof> {};
+struct head_only : seq<head, opt<slash>> {};
+struct target_name : plus<sor<letter, digit, one<'.', '-', '+'>>> {};
+struct target : seq<blanks, one<'('>, blanks, target_name, blanks, one<')'>, blanks, eof> {};
 
 // ---- one argument
 struct sign : one<'+', '-'> {};
@@ -192,18 +192,22 @@ class LineParser {
     if (code.begin == code.end) return std::nullopt;
     statement_.line = source_.place(span(code).begin).line;
     statement_.span = span(code);
-    const bool sound = check_pairs();
+    const std::optional<Slip> slip = unpaired();
     grammar::Found found;
-    if (sound && grammar::matches<grammar::target>(text_, found)) return jump_target(found);
+    if (!slip && grammar::matches<grammar::target>(text_, found)) return jump_target(found);
     found = {};
-    const bool matched = sound ? grammar::matches<grammar::statement>(text_, found)
-                               : grammar::matches<grammar::head_only>(text_, found);
+    const bool matched = slip ? grammar::matches<grammar::head_only>(text_, found)
+                              : grammar::matches<grammar::statement>(text_, found);
     if (!matched) {
-      if (sound) not_a_statement(code);
+      not_a_statement(code);
       return std::nullopt;
     }
     read_head(found);
-    statement_.usable = sound && leftover_is_empty(found, code);
+    statement_.usable = !slip && leftover_is_empty(found, code);
+    if (slip && found.slash)
+      error(slip->code, slip->at, slip->message, slip->help);
+    else if (slip)  // free text that holds an apostrophe, perhaps
+      statement_.missing_slash = span({found.word->end, code.end});
     if (statement_.usable && found.slash)
       for (const Range& r : found.arguments)
         statement_.arguments.push_back(argument(trimmed(text_, r)));
@@ -223,39 +227,38 @@ class LineParser {
                             std::move(replacement)));
   }
 
-  /// Every string is closed and parentheses are balanced; reports the first thing that is not.
-  bool check_pairs() {
+  /// A string or a parenthesis without its partner.
+  struct Slip {
+    Code code;
+    Range at;
+    std::string message, help;
+  };
+
+  /// The first one, if any.
+  std::optional<Slip> unpaired() const {
     std::vector<std::size_t> open;
     std::size_t quote = std::string_view::npos;
     for (std::size_t i = 0; i < text_.size(); ++i) {
       if (text_[i] == '\'') quote = quote == std::string_view::npos ? i : std::string_view::npos;
       if (quote != std::string_view::npos) continue;
       if (text_[i] == '(') open.push_back(i);
-      if (open.size() > static_cast<std::size_t>(kMaximumNesting)) {
-        error(Code::E0104, {i, i + 1},
-              fmt::format("parentheses are nested deeper than {}", kMaximumNesting),
-              "write the expression in steps");
-        return false;
-      }
+      if (open.size() > static_cast<std::size_t>(kMaximumNesting))
+        return Slip{Code::E0104, {i, i + 1},
+                    fmt::format("parentheses are nested deeper than {}", kMaximumNesting),
+                    "write the expression in steps"};
       if (text_[i] != ')') continue;
-      if (open.empty()) {
-        error(Code::E0103, {i, i + 1}, "this ')' closes nothing",
-              "remove it, or write the '(' that it should close");
-        return false;
-      }
+      if (open.empty())
+        return Slip{Code::E0103, {i, i + 1}, "this ')' closes nothing",
+                    "remove it, or write the '(' that it should close"};
       open.pop_back();
     }
-    if (quote != std::string_view::npos) {
-      error(Code::E0102, {quote, text_.size()}, "this string is not closed",
-            "end it with '; a quote inside a string is written ''");
-      return false;
-    }
-    if (!open.empty()) {
-      error(Code::E0103, {open.back(), open.back() + 1}, "this '(' is not closed",
-            "write the ')' that closes it");
-      return false;
-    }
-    return true;
+    if (quote != std::string_view::npos)
+      return Slip{Code::E0102, {quote, text_.size()}, "this string is not closed",
+                  "end it with '; a quote inside a string is written ''"};
+    if (!open.empty())
+      return Slip{Code::E0103, {open.back(), open.back() + 1}, "this '(' is not closed",
+                  "write the ')' that closes it"};
+    return std::nullopt;
   }
 
   void not_a_statement(Range code) {

@@ -269,6 +269,26 @@ class Matcher {
   bool rest_taken_ = false;
 };
 
+/// Blanks between values, outside quotes and parentheses, become commas: how the text was meant.
+std::string with_commas(std::string_view text) {
+  std::string out;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\'') quoted = !quoted;
+    if (!quoted) depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    const bool blank = c == ' ' || c == '\t';
+    if (quoted || depth > 0 || !blank) {
+      out += c;
+      continue;
+    }
+    i = text.find_first_not_of(" \t", i) - 1;  // the text has no blanks at its end
+    if (text[i + 1] != '(') out += ',';
+  }
+  return out;
+}
+
 std::string either(const std::vector<std::string>& list) {
   std::string out;
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -317,7 +337,7 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
   if (written.kind == RawArgument::Kind::several)
     return diagnostic_at(source, written.span, Code::E0105,
                          fmt::format("a comma is missing in '{}'", written.text),
-                         "arguments are separated by commas");
+                         "arguments are separated by commas", with_commas(written.text));
   if (expected.empty())
     return diagnostic_at(source, written.span, Code::E0108,
                          fmt::format("{} takes no argument {} ('{}')", what, number, written.text),

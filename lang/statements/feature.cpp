@@ -54,7 +54,7 @@ void construct(Lowering& lowering, const RawStatement& raw, const Match& match) 
     lowering.emit(std::move(operation));
     lowering.actual(*result) = {true, ""};
   } else if (result) {
-    lowering.actual(*result) = {false, lowering.failure};
+    lowering.actual(*result) = {false, lowering.blame()};
   }
 }
 

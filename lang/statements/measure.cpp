@@ -53,7 +53,7 @@ void begin_measure(Lowering& lowering, const RawStatement& raw, const Match& mat
     check_kind(lowering, *match.find("kind"), *feature);
     lowering.emit(plan::BeginMeasure{*feature});
   }
-  if (lowering.failed) block.spoilt = lowering.failure;
+  if (lowering.failed) block.spoilt = lowering.blame();
   lowering.measuring = block;
 }
 
@@ -104,7 +104,7 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
           fmt::format("{} touches announced, {} PTMEAS given", block.declared, block.touches),
           "the touches given are measured", std::to_string(block.touches));
     }
-    if (lowering.failed) block.spoilt = lowering.failure;
+    if (lowering.failed) block.spoilt = lowering.blame();
   }
   close_block(lowering);
 }

@@ -18,6 +18,27 @@ std::vector<std::string_view> tolerance_words() {
   return words;
 }
 
+bool same_arguments(const Match& a, const Match& b) {
+  return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
+                    [](const MatchedValue& x, const MatchedValue& y) {
+                      return x.name == y.name && x.number == y.number && upper(x.text) == upper(y.text);
+                    });
+}
+
+/// Production programs define T(1) hundreds of times. That is legal, so it is said once for each
+/// label, and only when the meaning changes.
+void note_redefinition(Lowering& lowering, const RawStatement& raw, const ToleranceKind& kind,
+                       const Match& match) {
+  const auto known = lowering.symbols.tolerances.find(upper(raw.label->name));
+  if (known == lowering.symbols.tolerances.end()) return;
+  if (known->second.kind == &kind && same_arguments(known->second.match, match)) return;
+  if (!lowering.reported_words.insert("T:" + upper(raw.label->name)).second) return;
+  lowering.warn(Code::N0611, raw.label->span,
+                fmt::format("T({}) was another tolerance in line {}", raw.label->name,
+                            lowering.source.place(known->second.span.begin).line),
+                "each OUTPUT uses the definition above it");
+}
+
 void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const MatchedValue& word = *match.find("kind");
   const ToleranceKind* kind = find_tolerance_kind(word.text);
@@ -25,6 +46,7 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   std::optional<Match> rest =
       lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used);
   if (!rest) return;
+  note_redefinition(lowering, raw, *kind, *rest);
   lowering.symbols.tolerances[upper(raw.label->name)] = {
       kind, std::move(*rest), raw.span, raw.label->name, {}};
 }
@@ -94,6 +116,14 @@ void emit_output(Lowering& lowering, const std::vector<plan::FeatureId>& feature
   lowering.emit(out);
 }
 
+/// "A, B" as written, for what is lost.
+std::string names_of_features(const Match& match) {
+  std::string names;
+  for (const MatchedValue& v : match.values)
+    if (v.type == ValueType::feature) names += (names.empty() ? "" : ", ") + v.label.name;
+  return names;
+}
+
 /// Every tolerance is tried by itself, so that one mistake does not take the others away.
 void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   std::vector<plan::FeatureId> features;
@@ -107,7 +137,7 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   }
   if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty())
     lowering.fail(lowering.doubt());
-  const std::string feature = features.empty() ? "" : match.find("feature")->label.name;
+  const std::string feature = names_of_features(match);
   const std::size_t first_characteristic = lowering.out.plan.characteristics.size();
   const bool features_failed = lowering.failed;
   const std::string features_failure = lowering.failure;

@@ -25,7 +25,7 @@ std::vector<fs::path> case_files(const std::string& folder) {
 
 std::vector<std::string> expected_messages(const SourceFile& source) {
   static const std::regex pattern(
-      R"(\$\$ expect (?:(?:error|warning) ([EW]\d{4})|(lost))(?: at ([+-]?)(\d+))?)");
+      R"(\$\$ expect (?:(?:error|warning|note) ([EWN]\d{4})|(lost))(?: at ([+-]?)(\d+))?)");
   std::vector<std::string> out;
   for (int line = 1; line <= source.line_count(); ++line) {
     const std::string text(source.line(line));

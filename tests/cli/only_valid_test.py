@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""abbe run --only-valid: what can be evaluated is evaluated; what cannot is listed with the line, the reason, and the mistake at the end
+of the reason."""
+import harness
+from harness import LENGTH
+
+POINT = """F({0})=FEAT/POINT,CART,{1},0,0,1,0,0
+MEAS/POINT,F({0}),1
+PTMEAS/CART,{1},0,0,1,0,0
+ENDMES
+"""
+# One mistake in the measurement of C (line 23), one in the coordinate system (line 32).
+PROGRAM = LENGTH.replace("ENDFIL\n", "") + """please look at the part
+TEXT/OPER,'now the second
+""" + POINT.format("C", 50).replace("PTMEAS/CART,50,0", "PTMEAS/CART,50 0") + """OUTPUT/FA(A),FA(C),TA(LEN)
+OUTPUT/FA(A),FA(D),TA(LEN)
+CONST/POINT,F(E),MOVEPT,FA(C),1,0,0
+DATDEF/FA(C),DAT(Q)
+OUTPUT/FA(A),FA(B),TA(LEN)
+D(NEW)=DATSET/DAT(Q),ZDIR
+OUTPUT/FA(A),FA(B),TA(LEN)
+RECALL/D(MCS)
+OUTPUT/FA(A),FA(B),TA(LEN)
+ENDFIL
+DMISMN/'another',4.0
+OUTPUT/FA(A),FA(B),TA(LEN)
+ENDFIL
+"""
+
+
+class OnlyValid(harness.Case):
+    def setUp(self):
+        super().setUp()
+        self.write("found.dmi", PROGRAM)
+        self.first = LENGTH.count("\n")  # the line of the first statement that is added
+
+    def test_what_can_be_evaluated_is_evaluated(self):
+        report = self.run_json("found.dmi", "--only-valid", "--machines", 20)
+        self.assertEqual([c["line"] for c in report["characteristics"]], [16, self.first + 10, self.first + 14])
+        self.write("sound.dmi", LENGTH)
+        sound = self.run_json("sound.dmi", "--machines", 20)
+        self.assertEqual(report["characteristics"][0]["u"], sound["characteristics"][0]["u"])
+
+    def test_what_is_lost_says_why_down_to_the_mistake(self):
+        mistake = f"line {self.first + 4}: a comma is missing in '50 0'"
+        expected = [
+            (self.first + 6, "A, C", "TA(LEN): FA(C) is not measured <- " + mistake),
+            (self.first + 7, "A, D", "TA(LEN): feature FA(D) is not defined above"),
+            (self.first + 12, "A, B",
+             f"TA(LEN): the coordinate system is in doubt <- line {self.first + 11}: datum DAT(Q) is not usable <- line {self.first + 9}: FA(C) is not measured <- " + mistake),
+            (self.first + 17, "A", "it belongs to a second program in the file"),
+        ]
+        report = self.run_json("found.dmi", "--only-valid", "--machines", 20)
+        found = [(lost["line"], lost["feature"], lost["reason"]) for lost in report["lost"]]
+        self.assertEqual(found, expected)
+        text = self.abbe("run", "found.dmi", "--only-valid", "--machines", 20).stdout
+        for line, feature, reason in expected:
+            self.assertIn(f"lost: line {line}: {feature}: {reason}\n", text)
+
+    def test_each_mistake_is_reported_once_at_its_place(self):
+        done = self.abbe("check", "found.dmi", code=1)
+        places = [line.split(":")[1] + line.split()[2] for line in done.stderr.splitlines() if line.startswith("found.dmi:")]
+        self.assertEqual(places, [f"{self.first + line}{code}:" for line, code in
+                                  ((0, "E0101"), (1, "E0102"), (4, "E0105"), (7, "E0201"), (8, "E0201"), (16, "E0209"))])
+
+    def test_any_bytes_and_line_ends(self):
+        latin = LENGTH.replace("'a length'", "'L\u00e4nge'").replace("F(A)", "F(\u00c4)").replace("FA(A)", "FA(\u00c4)")
+        reports = []
+        for name, data in (("crlf.dmi", latin.replace("\n", "\r\n").encode("latin-1")), ("cr.dmi", latin.replace("\n", "\r").encode("latin-1")),
+                           ("bom.dmi", b"\xef\xbb\xbf" + latin.rstrip("\n").encode())):
+            self.write(name, data)
+            reports.append(self.run_json(name, "--machines", 20))
+        for report in reports:
+            self.assertEqual(report["characteristics"][0]["u"], reports[0]["characteristics"][0]["u"])
+            self.assertEqual([m["code"] for m in report["messages"] if m["severity"] == "error"], [])
+
+
+if __name__ == "__main__":
+    harness.main()
