@@ -33,6 +33,11 @@ class Machine:
     shaft: float          # mm
     head_sd: float = 0.83 * ARCSEC
 
+    @property
+    def qualification_sd(self):
+        """um, each coordinate of a stylus qualified by some 10 touches of the reference sphere."""
+        return 0.6 * self.probe_sd
+
 
 MACHINES = (
     Machine("bridge-1600", dict(x=1600, y=1000, z=800), dict(x=1, y=1, z=-1), ("x", "y", "z"),

@@ -16,7 +16,6 @@ import numpy as np
 
 import machine as cmm
 
-QUALIFICATION_SD = 0.3   # um, each coordinate of each qualified stylus
 POSE = 300.0             # um, and um per metre
 
 
@@ -75,7 +74,7 @@ class Null:
         scenes = [scene] if calibration is None else [scene, calibration]
         self.size = scene.size
         geometry = np.vstack([geometry_columns(s) for s in scenes])
-        own = [np.hstack([indexing_columns(s), grouped(s.sensor, s.normal) * QUALIFICATION_SD, pose_columns(s)]) for s in scenes]
+        own = [np.hstack([indexing_columns(s), grouped(s.sensor, s.normal) * s.machine.qualification_sd, pose_columns(s)]) for s in scenes]
         rows, blocks = len(geometry), [geometry]
         for i, block in enumerate(own):
             wide = np.zeros((rows, block.shape[1]))

@@ -36,9 +36,9 @@ def indexing(scene, rng):
     return np.sum(scene.normal * (turned - scene.arm), 1) * 1e3
 
 
-def qualified(scene, rng, sd=0.3):
+def qualified(scene, rng):
     """Each stylus was qualified on the reference sphere with its own small error of place; um."""
-    offset = rng.normal(0, sd, (len(scene.styli), 3))
+    offset = rng.normal(0, scene.machine.qualification_sd, (len(scene.styli), 3))
     return np.sum(scene.normal * offset[scene.sensor], 1)
 
 

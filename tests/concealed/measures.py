@@ -1,0 +1,170 @@
+"""The figures of a round from its rows, and the targets that they are held against."""
+import numpy as np
+
+from tallies import area, calibration, logistic, share
+
+RICH, POOR = "D", "ACE"
+
+
+def pick(rows, **equal):
+    """Rows whose entries equal what is asked, or are among it when it is a tuple."""
+    def fits(r):
+        return all(r.get(k) in v if isinstance(v, tuple) else r.get(k) == v for k, v in equal.items())
+    return [r for r in rows if fits(r)]
+
+
+def flags(rows, key):
+    return [bool(r.get(key)) for r in rows]
+
+
+def power(rows):
+    """Share detected at each signal-to-noise ratio, and the fitted curve."""
+    steps = {}
+    for snr in sorted({r["snr"] for r in rows}):
+        steps[f"{snr:g}"] = share(flags(pick(rows, snr=snr), "detected"))
+    return {"steps": steps, "curve": logistic([r["snr"] for r in rows], flags(rows, "detected"))}
+
+
+def naming(rows):
+    """Of the detected: right names, sizes of the sets, by signal-to-noise ratio."""
+    out = {}
+    for snr in sorted({r["snr"] for r in rows}):
+        mine = [r for r in pick(rows, snr=snr) if r.get("detected")]
+        sizes = [len(r["members"]) for r in mine if r["members"]]
+        out[f"{snr:g}"] = {**share(flags(mine, "right")), "mean_size": float(np.mean(sizes)) if sizes else None}
+    return out
+
+
+def confusion(rows):
+    """[{truth, said, n}]: first member of the first effect, 'unexplained' or 'nothing'."""
+    table = {}
+    for r in rows:
+        said = r["members"][0] if r.get("members") else "unexplained" if r.get("detected") else "nothing"
+        for family in r["families"][:1]:
+            said_class = family if family in r.get("members", []) else said
+            table[family, said_class] = table.get((family, said_class), 0) + 1
+    return [{"truth": t, "said": s, "n": n} for (t, s), n in sorted(table.items())]
+
+
+def of_parameters(rows):
+    """Coverage and z-scores of every parameter with one meaning."""
+    entries = [p for r in rows for p in r.get("parameters", [])]
+    z = [p["z"] for p in entries if p["z"] is not None]
+    by = {}
+    for p in entries:
+        by.setdefault(p["effect"] + " " + p["parameter"], []).append(p["covered"])
+    return {"coverage": share([p["covered"] for p in entries]), "z_sd": float(np.std(z)) if z else None, "z": z,
+            "relative_error_median": float(np.median([p["relative"] for p in entries if p["relative"] is not None])) if entries else None,
+            "by_parameter": {k: share(v) for k, v in sorted(by.items())}}
+
+
+def p_values(rows):
+    return sorted(r["p_value"] for r in rows if r.get("p_value") is not None)
+
+
+def compared(rows):
+    """The same cases, judged by simpler methods and by one that knows the family."""
+    nulls, singles = pick(rows, kind="null"), pick(rows, kind="single")
+    def r(case, key):
+        return (case.get("rivals") or {}).get(key)
+    chi2 = lambda case: (r(case, "chi2_p") if r(case, "chi2_p") is not None else 1) < 0.01
+    return {"chi2": {"false_alarms": share([chi2(c) for c in nulls]), "power": share([chi2(c) for c in singles])},
+            "stepwise_bic": {"false_alarms": share([bool(r(c, "stepwise_members")) for c in nulls]), "right": share([bool(r(c, "stepwise_right")) for c in singles])},
+            "best_bayes_factor": {"right": share([bool(r(c, "best_right")) for c in singles]),
+                                  "confident_wrong": share([(r(c, "best_probability") or 0) > 0.95 and not r(c, "best_right") for c in singles])},
+            "this": {"right": share(flags(singles, "right")), "confident_wrong": share(flags(singles, "confident_wrong")),
+                     "power": share(flags(singles, "detected"))},
+            "oracle": {"power": share([bool(r(c, "oracle_detected")) for c in singles])}}
+
+
+def all_of(rows):
+    """Every figure of the round."""
+    answered = [r for r in rows if r["answered"]]
+    nulls, singles = pick(answered, kind="null"), pick(answered, kind="single")
+    detected = [r for r in singles if r["detected"]]
+    named = [r for r in detected if r["verdict"] in ("named", "one_of")]
+    strange, missing = pick(answered, kind="unknown"), pick(answered, kind="missing")
+    clean = pick(nulls, detail="clean")
+    out = {
+        "cases": len(rows), "answered": len(answered), "seconds": {"median": median([r["seconds"] for r in answered]), "largest": max([r["seconds"] for r in answered], default=None)},
+        "false_alarms": {d: share(flags(pick(nulls, detail=d), "false_alarm")) for d in ("clean", "hard")},
+        "false_alarms_by_noise": {n: share(flags(pick(nulls, noise=n, detail="hard"), "false_alarm")) for n in sorted({r["noise"] for r in nulls})},
+        "false_alarms_by_design": {d: share(flags(pick(nulls, design=d), "false_alarm")) for d in "ACDE"},
+        "null_p": {d: p_values(pick(nulls, detail=d)) for d in ("clean", "hard")},
+        "power": power(singles), "power_by_design": {d: power(pick(singles, design=d)) for d in "ACDE"},
+        "power_by_family": {f: power([r for r in singles if r["families"] == [f]]) for f in sorted({r["families"][0] for r in singles})},
+        "auc": {f"{s:g}": area([1 - r["p_value"] for r in nulls if r["p_value"] is not None],
+                               [1 - r["p_value"] for r in pick(singles, snr=s) if r["p_value"] is not None]) for s in sorted({r["snr"] for r in singles})},
+        "naming": {"rich": naming(pick(singles, design=RICH)), "poor": naming(pick(singles, design=tuple(POOR)))},
+        "named_set_contains_truth": share(flags(named, "right")),
+        "reliability": calibration([r["probability"] for r in named if r["probability"] is not None], [r["right"] for r in named if r["probability"] is not None]),
+        "confident_wrong": share([r["confident_wrong"] for r in answered if r["kind"] != "null"]),
+        "location": {f"{s:g}": share(flags(pick(singles, snr=s), "located")) for s in sorted({r["snr"] for r in singles})},
+        "parameters": of_parameters(singles), "confusion": confusion(singles),
+        "gain_positive": share([(r["gain"] or 0) > 0 for r in named]),
+        "unknown": of_unknown(strange), "missing": of_missing(missing),
+        "pairs": {d: share([right_pair(r) for r in pick(answered, kind="pair", detail=d)]) for d in ("separable", "decoy", "masking")},
+        "decoy_named_alone": share([r["verdict"] == "named" and r["confident_wrong"] for r in pick(answered, kind="pair", detail="decoy")]),
+        "covariance": {f: share(flags([r for r in pick(answered, kind="covariance") if r["families"] == [f]], "right"))
+                       for f in sorted({r["families"][0] for r in pick(answered, kind="covariance")})},
+        "compared": compared(answered)}
+    return out
+
+
+def median(values):
+    return float(np.median(values)) if len(values) else None
+
+
+def right_pair(r):
+    """A decoy is right when the truth and a rival that looks the same are reported together, or the truth alone."""
+    return bool(r["right"])
+
+
+def of_unknown(rows):
+    strong = [r for r in rows if r["snr"] >= 10]
+    found = [r for r in strong if r["detected"]]
+    near = [r for r in found if r.get("nearest") and r["nearest"][0][1] > 0.7]
+    far = [r for r in found if r not in near]
+    def block(some):
+        return {"unexplained": share([r["verdict"] == "unexplained" for r in some]), "falsely_named": share([bool(r["members"]) for r in some]),
+                "confidently_named": share(flags(some, "confident_wrong"))}
+    return {"detected": share(flags(strong, "detected")), **block(found), "alike": {"n": len(near), **block(near)}, "unlike": {"n": len(far), **block(far)}}
+
+
+def of_missing(rows):
+    return {"listed": share([bool(set(r["families"]) & set(r["cannot_judge"])) for r in rows]),
+            "invented": share([r["verdict"] == "named" and not r["right"] for r in rows]), "confident_wrong": share(flags(rows, "confident_wrong"))}
+
+
+def targets(m):
+    """[{name, target, observed, limits, n, met}]: what a round is held against."""
+    out = []
+    def add(name, target, figure, met):
+        value = figure.get("share") if isinstance(figure, dict) else figure
+        limits = [figure["low"], figure["high"]] if isinstance(figure, dict) and "low" in figure else None
+        out.append({"name": name, "target": target, "observed": value, "limits": limits, "n": figure.get("n") if isinstance(figure, dict) else None,
+                    "met": None if value is None else bool(met(value))})
+    at_least, at_most = lambda t: (lambda v: v >= t), lambda t: (lambda v: v <= t)
+    none = {"share": None, "low": 0, "high": 1, "n": 0}
+    add("false alarms, clean", "<= 1 %", m["false_alarms"]["clean"], at_most(0.01))
+    add("false alarms, hard", "<= 2 %", m["false_alarms"]["hard"], at_most(0.02))
+    curve = m["power"]["curve"] or {}
+    add("detected at 50 %: SNR", "<= 3.7", curve.get("at50"), at_most(3.7))
+    add("detected at 90 %: SNR", "<= 5.2", curve.get("at90"), at_most(5.2))
+    add("detected at SNR 6", ">= 98 %", m["power"]["steps"].get("6", none), at_least(0.98))
+    add("named rightly, rich, SNR 4.5", ">= 90 %", m["naming"]["rich"].get("4.5", none), at_least(0.90))
+    add("named rightly, rich, SNR 6", ">= 97 %", m["naming"]["rich"].get("6", none), at_least(0.97))
+    add("named rightly, poor, SNR 6", ">= 90 %", m["naming"]["poor"].get("6", none), at_least(0.90))
+    add("95 % sets contain the truth", "93 to 98 %", m["named_set_contains_truth"], lambda v: 0.93 <= v <= 0.98)
+    add("mean size of a set, rich, SNR 6", "<= 1.5", m["naming"]["rich"].get("6", {}).get("mean_size"), at_most(1.5))
+    add("confident and wrong", "<= 1 %", m["confident_wrong"], at_most(0.01))
+    add("right factor at SNR 6", ">= 95 %", m["location"].get("6", none), at_least(0.95))
+    add("95 % intervals of parameters", "92 to 98 %", m["parameters"]["coverage"], lambda v: 0.92 <= v <= 0.98)
+    add("held-out gain above 0 among named", ">= 97 %", m["gain_positive"], at_least(0.97))
+    add("unknown, detected at SNR >= 10", ">= 80 %", m["unknown"]["detected"], at_least(0.80))
+    add("unknown, called unexplained", ">= 90 %", m["unknown"]["unexplained"], at_least(0.90))
+    add("unknown, falsely named", "<= 5 %", m["unknown"]["falsely_named"], at_most(0.05))
+    add("missing covariate, listed as not to be judged", ">= 95 %", m["missing"]["listed"], at_least(0.95))
+    add("pairs, both named (separable)", ">= 95 %", m["pairs"]["separable"], at_least(0.95))
+    add("decoys, truth in the set", ">= 95 %", m["pairs"]["decoy"], at_least(0.95))
+    return out

@@ -1,0 +1,220 @@
+#!/usr/bin/env python3
+"""Checks the generator of concealed cases itself: a wrong truth would blame the program for nothing. Skipped (77) without numpy."""
+import csv
+import io
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy as np
+except ModuleNotFoundError:
+    print("needs numpy (Debian: python3-numpy)")
+    sys.exit(77)
+
+import cases
+import designs
+import generate
+import judge
+import machine as cmm
+import measures
+import null
+import score
+import seal
+import tallies
+import world
+from effects import CATALOGUE, base, noise, probe, unknown, unknown_final
+
+REFERENCE = pathlib.Path(__file__).resolve().parents[1] / "reference" / "kinematics.json"
+
+
+def stage(design="C", known=False, name="test", **more):
+    return cases.Stage(seal.generator("selftest", name, design), design, known, **more)
+
+
+class Kinematics(unittest.TestCase):
+    def test_agrees_with_the_reference_numbers(self):
+        for case in json.loads(REFERENCE.read_text())["cases"]:
+            offsets = {a: case["offsets_mm"][a] for a in "xyz"}
+            m = cmm.Machine("reference", {}, {}, ("x", "y", "z"), offsets, tuple(case["offsets_mm"]["m"]), case["l_r_mm"], 0, 0, 0, (0, 0), (0, 0), 0)
+            a, b = (np.radians([v]) for v in case["head_deg"])
+            tip = cmm.tip_vector(a, b, np.array([case["tip_in_r_mm"]]), m.head_length)
+            errors = {k: (np.array([e["translation_um"]]), np.array([e["rotation_um_per_m"]])) for k, e in case["errors"].items()}
+            d = cmm.tip_error(m, np.array([case["scale_reading_mm"]]), tip, errors)[0]
+            np.testing.assert_allclose(tip[0], case["expected"]["tip_from_mount_mm"], atol=1e-9)
+            np.testing.assert_allclose(d, case["expected"]["geometric_error_exact_product_um"], atol=5e-4)
+
+    def test_every_chain_has_its_home_at_zero(self):
+        for m in cmm.MACHINES:
+            np.testing.assert_array_equal(cmm.home_offset(m), 0)
+
+    def test_error_functions_start_at_zero_and_keep_to_their_size(self):
+        rng, u = seal.generator("selftest", "functions"), np.linspace(-1, 1, 500)
+        for draw in (cmm.paper_geometry, cmm.rough_geometry):
+            m = cmm.MACHINES[0]
+            for axis, row in draw(m, rng).functions.items():
+                for motion, f in enumerate(row):
+                    self.assertAlmostEqual(float(f(np.array([-1.0]))[0]), 0, places=9)
+                    self.assertLess(np.abs(f(u)).max(), 1.2 * cmm.size_of(m, axis, motion))
+
+
+class SignalToNoise(unittest.TestCase):
+    def test_is_what_its_definition_says(self):
+        s = stage()
+        scene, d = s.scene, s.base.signature(CATALOGUE["probe.tip_radius"], {"amplitude_um": 1.0})
+        z = np.hstack([null.geometry_columns(scene), null.indexing_columns(scene),
+                       null.grouped(scene.sensor, scene.normal) * scene.machine.qualification_sd])
+        inverse = np.linalg.inv(z @ z.T + scene.machine.probe_sd**2 * np.eye(scene.size))
+        x = null.pose_columns(scene)
+        x, _ = np.linalg.qr(x)
+        projector = inverse - inverse @ x @ np.linalg.inv(x.T @ inverse @ x) @ x.T @ inverse
+        self.assertAlmostEqual(s.null.snr(d) / np.sqrt(d @ projector @ d), 1, places=3)
+
+    def test_null_recordings_have_the_covariance_that_it_assumes(self):
+        excess = []
+        for i in range(16):
+            s = stage("ACE"[i % 3], known=i % 4 == 3, name=f"null {i}")
+            y = s.residual(s.base.r)
+            freedom = len(y) - 6 * (len(np.unique(s.scene.setup)) + 3 * s.known)
+            excess.append((y @ s.null.times(y) - freedom) / np.sqrt(2 * freedom))
+        self.assertLess(abs(np.mean(excess)), 1.0)
+        self.assertLess(np.std(excess), 2.0)
+
+    def test_scaling_reaches_the_target(self):
+        s = stage("D")
+        for name in ("thermal.drift", "probe.pretravel_lobing", "head.axis_errors", "machine.scale_interpolation"):
+            p, d = world.scaled(CATALOGUE[name], s.base, s.null, CATALOGUE[name].draw(s.scene, seal.generator("selftest", name)), 6.0)
+            self.assertAlmostEqual(s.null.snr(d), 6.0, places=2, msg=name)
+
+    def test_spread_of_a_covariance_effect_reaches_the_target(self):
+        s = stage("C")
+        spread = noise.SPREADS["noise.vibration"]
+        size, columns = noise.sized(spread, s.scene, s.null, {"direction": np.array([0, 0, 1.0])}, 6.0)
+        with_effect = s.null.covariance() + size**2 * columns @ columns.T
+        ratio = np.linalg.solve(s.null.covariance(), with_effect)
+        divergence = 0.5 * (np.trace(ratio) - s.scene.size - np.linalg.slogdet(ratio)[1])
+        self.assertAlmostEqual(np.sqrt(2 * divergence), 6.0, places=2)
+
+
+class Physics(unittest.TestCase):
+    def test_tripod_has_twice_the_force_and_its_harmonics(self):
+        phi = np.arange(3600) / 3600 * 2 * np.pi
+        force = probe.tripod_force(phi, 0 * phi, 50.0, 6.0)
+        self.assertAlmostEqual(force.max() / force.min(), 2, places=6)
+        for order, share in ((3, -0.275), (6, 0.104), (9, -0.054)):
+            self.assertAlmostEqual(2 * np.mean(force * np.cos(order * phi)) / force.mean(), share, places=3)
+
+    def test_signs_are_those_of_the_documentation(self):
+        s = stage("E")
+        outer = s.scene.setup <= 3
+        for name, parameters, sign in (("probe.tip_radius", {"amplitude_um": 1.0}, 1), ("probe.trigger_delay", {"delay_ms": 1.0}, -1)):
+            self.assertTrue((sign * s.base.signature(CATALOGUE[name], parameters) > 0).all(), name)
+        s.scene.temperature = {k: np.full(s.scene.size, 25.0) for k in s.scene.temperature}
+        def lengthening(name):
+            d = s.base.signature(CATALOGUE[name], {"cte_error_ppm_per_K": 1.0})
+            return np.sum(d[outer])   # both ends together
+        self.assertGreater(lengthening("thermal.part_expansion"), 0)
+        self.assertLess(lengthening("thermal.scale_expansion"), 0)
+
+    def test_play_leads_the_carriage(self):
+        s = stage("E")
+        d = s.base.signature(CATALOGUE["machine.backlash"], {"backlash_um": 2.0, "axis": "x", "memory_mm": 0.01})
+        moving = np.abs(s.scene.travel[:, 0]) > 0.5
+        np.testing.assert_allclose(d[moving], -np.abs(s.scene.normal[moving, 0]), atol=1e-3)
+
+    def test_conduction_settles_and_a_warm_top_arches_the_table(self):
+        self.assertAlmostEqual(base.conduction_response(np.array([50.0]), 1.0)[0], 1, places=2)
+        self.assertGreater(base.slab_gradient(np.array([3600.0 * 24]))[0], 0.05)
+
+    def test_every_effect_acts_where_it_may_be_concealed(self):
+        for effect in [*CATALOGUE.values(), *unknown.UNKNOWN.values(), *unknown_final.UNKNOWN.values()]:
+            s = stage(effect.designs[-1] if effect.designs[-1] != "K" else "C", name=effect.name)
+            p = effect.draw(s.scene, seal.generator("selftest", effect.name))
+            self.assertGreater(np.ptp(s.base.signature(effect, p)) + np.abs(s.base.signature(effect, p)).max(), 0, effect.name)
+            for key in (*effect.scale, *cases.FIXED.get(effect.name, [])):
+                self.assertIn(key, p, effect.name)
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = pathlib.Path(cls.folder.name) / "round"
+        generate.main(["--round", "rehearsal", "--out", str(cls.root), "--scale", "0.01", "--secret", "5e1f"])
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_the_same_secret_makes_the_same_cases(self):
+        spec = cases.Spec("single", "thermal.drift", 6.0)
+        once, again, other = (cases.make(secret, "0001", spec) for secret in "aab")
+        self.assertEqual(once[0], again[0])
+        self.assertEqual(seal.to_bytes(once[1]), seal.to_bytes(again[1]))
+        self.assertNotEqual(once[0], other[0])
+
+    def test_seals_open_and_break(self):
+        truths = seal.verified(self.root)
+        self.assertEqual(len(truths), sum(max(1, round(n * 0.01)) for n in cases.COUNTS.values()))
+        for path in (self.root / "sealed" / "0001.json", self.root / "cases" / "0002" / "recording.csv"):
+            kept = path.read_bytes()
+            path.write_bytes(kept + b" ")
+            with self.assertRaises(ValueError):
+                seal.verified(self.root)
+            path.write_bytes(kept)
+
+    def test_data_tell_no_truth(self):
+        words = [w for n in (*CATALOGUE, *noise.SPREADS) for w in (n, n.split(".")[-1])] + [*unknown.UNKNOWN, *unknown_final.UNKNOWN, "snr", "seed", "secret", "effect"]
+        words = [w for w in words if w not in ("scale", "step", "qualification")]   # a key, an artefact and a column
+        for path in (self.root / "cases").rglob("*.*"):
+            text = path.read_text().lower()
+            self.assertEqual([w for w in words if w in text], [], path)
+
+    def test_recordings_fit_together(self):
+        s = stage("D")
+        table = list(csv.DictReader(io.StringIO("\n".join(line for line in s.files(s.base.r)["recording.csv"].splitlines() if line[0] != "#"))))
+        def block(*names):
+            return np.array([[float(row[n]) for n in names] for row in table])
+        x, t, n = block("x", "y", "z"), block("tx", "ty", "tz"), block("nx", "ny", "nz")
+        np.testing.assert_allclose(np.sum(n * (x - t), 1) * 1e3, s.base.r, atol=2e-3)
+        np.testing.assert_allclose(block("enc_x", "enc_y", "enc_z") + s.scene.tip, x, atol=2e-6)
+        self.assertEqual(len({(row["feature"], row["touch"], row["run"]) for row in table}), len(table))
+
+
+class Scoring(unittest.TestCase):
+    def test_limits_of_shares(self):
+        self.assertAlmostEqual(tallies.upper_limit(10, 1000), 0.0169, places=3)
+        self.assertAlmostEqual(tallies.wilson(5, 10)[0], 0.2366, places=3)
+
+    def test_logistic_curve_finds_the_middle(self):
+        rng = seal.generator("selftest", "logistic")
+        x = np.repeat([2, 3, 4.5, 6, 9, 15], 200)
+        hit = rng.uniform(size=len(x)) < 1 / (1 + np.exp(-1.8 * (x - 4)))
+        self.assertAlmostEqual(tallies.logistic(x, hit, 0.0)["at50"], 4, delta=0.3)
+
+    def test_rules_of_the_judge(self):
+        truth = {"case": "1", "kind": "single", "detail": "", "snr": 6, "design": "D", "touches": 9, "machine": "m", "mode": "fresh", "verdict": "named",
+                 "nuisance": {"noise": "white"}, "effects": [{"name": "thermal.drift", "fixed": {"amplitude_um": 2.0}, "factors": ["time"]}]}
+        said = {"verdict": "named", "p_value": 0.001, "location": [{"factor": "time"}], "improvement": {"log_score_gain": 5},
+                "effects": [{"members": ["thermal.drift"], "probability": 0.97, "parameters": {"amplitude_um": {"value": 2.2, "u": 0.1, "interval95": [2.0, 2.4]}}}]}
+        right = judge.row(truth, {"answer": said, "seconds": 1, "exit": 0})
+        self.assertTrue(right["right"] and right["located"] and right["detected"] and not right["confident_wrong"])
+        self.assertAlmostEqual(right["parameters"][0]["z"], 2.0)
+        said["effects"][0]["members"] = ["machine.step"]
+        wrong = judge.row(truth, {"answer": said, "seconds": 1, "exit": 0})
+        self.assertTrue(wrong["confident_wrong"] and not wrong["right"])
+        self.assertEqual(score.worst([right, wrong])[0]["members"], ["machine.step"])
+        null_truth = dict(truth, kind="null", effects=[], tolerated=["noise.outliers"])
+        said["effects"][0]["members"] = ["noise.outliers"]
+        self.assertFalse(judge.row(null_truth, {"answer": said})["false_alarm"])
+        said["effects"][0]["members"] = ["noise.outliers", "thermal.cycle"]
+        self.assertTrue(judge.row(null_truth, {"answer": said})["false_alarm"])
+        figures = measures.all_of([right, wrong])
+        self.assertEqual(figures["naming"]["rich"]["6"]["k"], 1)
+        self.assertEqual([t["met"] for t in measures.targets(figures) if t["name"] == "detected at SNR 6"], [True])
+
+
+if __name__ == "__main__":
+    unittest.main()
