@@ -118,9 +118,11 @@ class Lowering {
   Units units;
   Symbols symbols;
   std::vector<ActualState> actuals;  ///< by FeatureId
+  std::map<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
   std::optional<OpenMeasure> measuring;
   bool sensor_selected = false;
   std::optional<Mount> mount;
+  std::map<Shape, FitCriterion> criteria;             ///< GEOALG; a shape without an entry: least squares
   std::vector<std::string> modes;                     ///< MODE, in order of preference
   std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
   bool skipping = false;                              ///< DMESW/OFF

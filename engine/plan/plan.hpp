@@ -16,7 +16,9 @@
 #include "engine/base/source.hpp"
 #include "engine/features/alignment.hpp"
 #include "engine/features/construct.hpp"
+#include "engine/features/criterion.hpp"
 #include "engine/features/feature.hpp"
+#include "engine/tolerances/material.hpp"
 #include "engine/tolerances/tolerance.hpp"
 
 namespace abbe::plan {
@@ -72,12 +74,20 @@ struct ToleranceDef {
   Span span;
 };
 
+/// MMC or LMC of a characteristic, on its feature or on a datum (engine/tolerances/material.hpp).
+struct MaterialCondition {
+  FeatureId feature;                ///< whose size departs from its size at the condition
+  ToleranceId size;                 ///< its tolerance of size
+  Condition condition{};
+};
+
 /// A (features, tolerance) pair evaluated at one place of the program: what gets an uncertainty.
 struct CharacteristicDef {
   std::vector<FeatureId> features;
   ToleranceId tolerance;
   Span span;
   int line = 0;
+  std::vector<MaterialCondition> widening;   ///< of its zone, machine by machine
 };
 
 // ---- expressions over columns ---------------------------------------------------------------------------------------
@@ -111,7 +121,7 @@ struct BeginMeasure { FeatureId feature; };
 /// Without `has_normal` the nominal of the feature supplies the vector.
 struct Touch { FeatureId feature; Point point; Point normal; bool has_normal = true; };
 /// Ends the measurement: fits the feature to the touches since BeginMeasure.
-struct EndMeasure { FeatureId feature; };
+struct EndMeasure { FeatureId feature; FitCriterion criterion = FitCriterion::least_squares; };
 struct Construct {
   FeatureId result;
   const Construction* method = nullptr;

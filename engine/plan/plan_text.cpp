@@ -28,6 +28,8 @@ constexpr std::string_view kOp1[] = {"negate", "not",   "abs",  "acos",     "asi
 constexpr std::string_view kOp2[] = {"+",   "-",  "*",  "/", "**", "mod", "atan2", "sign", "min",
                                      "max", "==", "!=", "<", "<=", ">",   ">=",    "and",  "or"};
 
+constexpr std::string_view kCriteria[] = {"", " minimum zone", " maximum inscribed",
+                                          " minimum circumscribed"};
 constexpr std::string_view kQuantities[] = {
     "x", "y", "z", "i", "j", "k", "radius", "minor_radius", "half_angle", "length", "form"};
 
@@ -109,7 +111,7 @@ class ActionText {
                        o.has_normal ? fmt::format(" normal {}", text(o.normal)) : "");
   }
   std::string operator()(const EndMeasure& o) const {
-    return fmt::format("fit {}", name(o.feature));
+    return fmt::format("fit {}{}", name(o.feature), name_of(o.criterion, kCriteria));
   }
   std::string operator()(const Construct& o) const {
     std::string out = fmt::format("construct {} = {}", name(o.result), o.method->word);

@@ -21,6 +21,15 @@ std::optional<double> scaled(std::optional<double> value, double factor) {
   return value ? std::optional(*value * factor) : std::nullopt;
 }
 
+/// The values, moved by what a material condition makes the upper limit of a machine differ from that of
+/// the error-free one: each conforms to the common limits just when its own value did to its own.
+std::vector<double> against_common_limits(const Samples& samples) {
+  std::vector<double> values = samples.value;
+  for (std::size_t i = 0; i < samples.own_limits.size(); ++i)
+    values[i] -= samples.own_limits[i].upper.value() - samples.limits.upper.value();
+  return values;
+}
+
 CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples,
                                            int machines) {
   const plan::CharacteristicDef& definition = plan[samples.characteristic];
@@ -46,7 +55,7 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.upper = scaled(samples.limits.upper, factor);
   if (report.lower || report.upper)
     report.conformance_probability =
-        conformance_probability(samples.value, samples.limits.lower, samples.limits.upper);
+        conformance_probability(against_common_limits(samples), samples.limits.lower, samples.limits.upper);
   report.trapped = machines - static_cast<int>(samples.value.size());
   return report;
 }

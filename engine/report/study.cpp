@@ -134,6 +134,7 @@ class StudyRun {
       Samples &all = study_.result.samples[i], &more = part.samples[i];
       ABBE_CHECK(all.characteristic == more.characteristic && all.occurrence == more.occurrence);
       all.value.insert(all.value.end(), more.value.begin(), more.value.end());
+      all.own_limits.insert(all.own_limits.end(), more.own_limits.begin(), more.own_limits.end());
       for (const std::uint32_t m : more.machine) all.machine.push_back(m + shift);
     }
     study_.result.machines += part.machines;

@@ -35,6 +35,11 @@ struct Value {
   ToleranceLimits limits;
 };
 
+/// Where the program put the surface that a touch was for: true position and normal, in W.
+struct Target {
+  Vec3 point, normal;
+};
+
 struct Lane {
   int pc = 0;
   bool running = true;
@@ -50,6 +55,9 @@ struct Lane {
   bool temperature_compensation = false;
   std::uint64_t fuel_used = 0;
   std::vector<Vec3> points;           ///< of the measurement it is in: surface points, or tip centres without compensation; W
+  std::vector<Target> targets;        ///< of the same measurement; twins only
+  std::vector<std::vector<Vec3>> touched;    ///< by FeatureId: points of the last measurement, of features whose touches are evaluated; W
+  std::vector<std::vector<Target>> meant;    ///< the same for targets; twins only
   std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
   std::vector<char> has_actual;
   std::vector<Element> nominal;       ///< by FeatureId, in W; twins only

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "engine/run/executor.hpp"
 #include "engine/run/expression.hpp"
@@ -71,8 +72,13 @@ class BlockRun {
   void add_part(int machines);
   void observe_touch(const plan::Touch&, int slot);
   RecordingRow recording_row(const plan::Touch&, int slot) const;
-  void fit_twins(plan::FeatureId);
-  void fit_machines(plan::FeatureId, std::size_t points);
+  Target target_of(const plan::Touch&, const Lane& twin);
+  void keep_touches(plan::FeatureId);
+  std::vector<TouchedPoint> touches_of(const Lane&, plan::FeatureId);
+  /// The limits as the actual sizes on this lane widen them; nothing after trapping it.
+  std::optional<ToleranceLimits> widened(int lane, const plan::CharacteristicDef&, ToleranceLimits);
+  void fit_twins(plan::FeatureId, FitCriterion);
+  void fit_machines(plan::FeatureId, FitCriterion, std::size_t points);
   /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.
   void part_twins(Outcomes& condition);
 };

@@ -23,6 +23,7 @@ void BlockRun::operator()(const plan::Construct& construct) {
     const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, construct.arguments);
     if (!made) return made.failure;
     lane.actual[construct.result.value] = lane.X_WD * made.value;
+    if (executor.keeps_touches_[construct.result.value]) lane.touched[construct.result.value].clear();
     lane.has_actual[construct.result.value] = 1;
     return "";
   });
@@ -95,6 +96,38 @@ void BlockRun::operator()(const plan::RecallFrame& recall) {
   for (const int i : active) block.lanes[i].X_WD = block.lanes[i].frames[recall.frame.value];
 }
 
+std::vector<TouchedPoint> BlockRun::touches_of(const Lane& lane, plan::FeatureId feature) {
+  const Lane& twin = twin_of(lane);
+  const std::vector<Vec3>& points = lane.touched[feature.value];
+  const Rigid X_DW = inverse(lane.X_WD), X_DW_true = inverse(twin.X_WD);
+  std::vector<TouchedPoint> touches;
+  touches.reserve(points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Target& target = twin.meant[feature.value][k];
+    touches.push_back({X_DW * points[k], X_DW_true * target.point, X_DW_true.R * target.normal});
+  }
+  return touches;
+}
+
+std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::CharacteristicDef& def, ToleranceLimits limits) {
+  const plan::Plan& plan = executor.plan_;
+  const Lane& lane = block.lanes[i];
+  const Lane& twin = twin_of(lane);
+  for (const plan::MaterialCondition& m : def.widening) {
+    const plan::ToleranceDef& size = plan[m.size];
+    const Element* element = actual(i, m.feature);
+    if (!element) return std::nullopt;
+    const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * twin.nominal[m.feature.value];
+    const Shape shape = plan[m.feature].kind->shape;
+    const Outcome<double> value =
+        size.kind->evaluate(size.arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
+    if (!value) return trap(i, value.failure), std::nullopt;
+    limits.upper = limits.upper.value_or(0) + departure_mm(*size.kind, value.value, size.kind->limits(size.arguments, {&nominal, 1}),
+                                                          plan[m.feature].inner, m.condition);
+  }
+  return limits;
+}
+
 void BlockRun::operator()(const plan::Evaluate& evaluate) {
   const plan::Plan& plan = executor.plan_;
   const plan::CharacteristicDef& def = plan[evaluate.characteristic];
@@ -125,11 +158,15 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
       datum_actuals[k] = X_DW * *element;
       true_datums[k] = X_DW_true * twin.actual[datums[k].value];
     }
-    const Outcome<double> made =
-        tolerance.kind->evaluate(tolerance.arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums});
+    std::vector<TouchedPoint> touches;
+    if (tolerance.kind->needs_touches) touches = touches_of(lane, features.front());
+    const Outcome<double> made = tolerance.kind->evaluate(
+        tolerance.arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums, touches});
     if (!made) return made.failure;
+    const auto limits = widened(i, def, tolerance.kind->limits(tolerance.arguments, nominals));
+    if (!limits) return "";
     lane.values.push_back({evaluate.characteristic, static_cast<int>(lane.visits[operation]++), made.value,
-                           tolerance.kind->nominal(tolerance.arguments, nominals), tolerance.kind->limits(tolerance.arguments, nominals)});
+                           tolerance.kind->nominal(tolerance.arguments, nominals), *limits});
     return "";
   });
 }

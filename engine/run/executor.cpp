@@ -9,7 +9,10 @@ namespace abbe {
 
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
     : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name),
-      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()), aligns_(alignment_features(plan)) {
+      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()), aligns_(alignment_features(plan)),
+      keeps_touches_(plan.features.size(), 0) {
+  for (const plan::CharacteristicDef& c : plan.characteristics)
+    if (plan[c.tolerance].kind->needs_touches) keeps_touches_[c.features.front().value] = 1;
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = static_cast<int>(sensors_.size());
@@ -25,6 +28,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.twin = count;
   start.temperature_compensation = part_.given() && part_.workpiece().compensated;
   start.actual.resize(plan_.features.size());
+  start.touched.resize(plan_.features.size());
   start.has_actual.assign(plan_.features.size(), 0);
   start.frames.resize(plan_.frames.size());
   start.columns.assign(plan_.columns, 0.0);
@@ -37,6 +41,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
     if (part_.given()) block.parts.push_back(part_.draw({options_.seed, index[i]}));
   }
   block.lanes[count].nominal.resize(plan_.features.size());
+  block.lanes[count].meant.resize(plan_.features.size());
   block.lanes[count].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
   return block;
 }

@@ -63,6 +63,7 @@ class Executor {
   EffectSet effects_;
   Part part_;
   std::vector<char> aligns_;         ///< alignment_features
+  std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

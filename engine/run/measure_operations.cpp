@@ -64,7 +64,7 @@ void BlockRun::operator()(const plan::Move& move) {
 }
 
 void BlockRun::operator()(const plan::BeginMeasure&) {
-  for (const int i : active) block.lanes[i].points.clear();
+  for (const int i : active) block.lanes[i].points.clear(), block.lanes[i].targets.clear();
 }
 
 Outcome<Vec3> nominal_normal(Shape shape, const Element& nominal, bool inner, const Vec3& point) {
@@ -130,6 +130,19 @@ void BlockRun::add_errors(int machines) {
   b.n = all;
 }
 
+Target BlockRun::target_of(const plan::Touch& touch, const Lane& twin) {
+  Vec3 point = twin.X_WD * value(twin, touch.point), normal;
+  if (touch.has_normal) {
+    normal = twin.X_WD.R * unit(value(twin, touch.normal));
+  } else {
+    const plan::FeatureDef& def = executor.plan_[touch.feature];
+    normal = nominal_normal(def.kind->shape, twin.nominal[touch.feature.value], def.inner, point).value;
+  }
+  // Without compensation the points reported are centres of the tip.
+  if (!twin.compensation) point += executor.sensors_[twin.sensor.value].radius_mm * normal;
+  return {point, normal};
+}
+
 void BlockRun::operator()(const plan::Touch& touch) {
   touch_batch.resize(static_cast<int>(active.size()));
   R_WR.resize(active.size());
@@ -152,6 +165,7 @@ void BlockRun::operator()(const plan::Touch& touch) {
     Lane& lane = block.lanes[touch_batch.lane[i]];
     const double offset = touch_batch.travel[i] - (lane.compensation ? touch_batch.radius[i] : 0.0);
     lane.points.push_back(touch_batch.commanded.get(i) + offset * touch_batch.normal.get(i));
+    if (block.is_twin(touch_batch.lane[i])) lane.targets.push_back(target_of(touch, lane));
     if (observed) observe_touch(touch, i);
   }
 }
@@ -187,7 +201,7 @@ FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const E
 
 }  // namespace
 
-void BlockRun::fit_twins(plan::FeatureId feature) {
+void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
   const FeatureKind& kind = *executor.plan_[feature].kind;
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
@@ -206,6 +220,7 @@ void BlockRun::fit_twins(plan::FeatureId feature) {
       FitSolution solution = fit_error_free(kind.shape, lane.points, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
+      refit(kind.shape, criterion, lane.points, result);
       if (observed) observed->fits.push_back({operation, lane.points, result});
     }
     lane.has_actual[feature.value] = 1;
@@ -213,7 +228,7 @@ void BlockRun::fit_twins(plan::FeatureId feature) {
   });
 }
 
-void BlockRun::fit_machines(plan::FeatureId feature, std::size_t points) {
+void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std::size_t points) {
   std::vector<int> lanes;
   for (const int i : active)
     if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].points.size() == points) lanes.push_back(i);
@@ -235,8 +250,18 @@ void BlockRun::fit_machines(plan::FeatureId feature, std::size_t points) {
       trap(lanes[k], failure[k]);
       continue;
     }
+    refit(executor.plan_[feature].kind->shape, criterion, block.lanes[lanes[k]].points, result[k]);
     block.lanes[lanes[k]].actual[feature.value] = result[k];
     block.lanes[lanes[k]].has_actual[feature.value] = 1;
+  }
+}
+
+void BlockRun::keep_touches(plan::FeatureId feature) {
+  if (!executor.keeps_touches_[feature.value]) return;
+  for (const int i : active) {
+    Lane& lane = block.lanes[i];
+    lane.touched[feature.value] = lane.points;
+    if (block.is_twin(i)) lane.meant[feature.value] = lane.targets;
   }
 }
 
@@ -248,11 +273,12 @@ void BlockRun::operator()(const plan::EndMeasure& end) {
     return "a " + std::string(kind.word) + " needs at least " + std::to_string(kind.minimum_points) + " touches, this measurement has " +
            std::to_string(have);
   });
-  fit_twins(end.feature);
+  keep_touches(end.feature);
+  fit_twins(end.feature, end.criterion);
   std::set<std::size_t> counts;  // lanes may have taken different paths inside the measurement
   for (const int i : active)
     if (block.lanes[i].running) counts.insert(block.lanes[i].points.size());
-  for (const std::size_t count : counts) fit_machines(end.feature, count);
+  for (const std::size_t count : counts) fit_machines(end.feature, end.criterion, count);
 }
 
 }  // namespace abbe

@@ -133,7 +133,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   std::map<Key, std::size_t> slot;
   for (const Value& v : reference.values) {
     slot[{v.characteristic.value, v.visit}] = result.samples.size();
-    result.samples.push_back({v.characteristic, v.visit + 1, v.value, v.nominal, v.limits, {}, {}});
+    result.samples.push_back({v.characteristic, v.visit + 1, v.value, v.nominal, v.limits, {}, {}, {}});
   }
   std::uint32_t machine_number = 0;
   for (BlockResult& block : run_blocks(executor, machines, options)) {
@@ -142,8 +142,10 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
       for (const Value& v : lane.values) {
         const auto found = slot.find({v.characteristic.value, v.visit});
         if (found == slot.end()) continue;  // evaluated on a path that the error-free machine does not take
-        result.samples[found->second].value.push_back(v.value);
-        result.samples[found->second].machine.push_back(machine_number);
+        Samples& samples = result.samples[found->second];
+        samples.value.push_back(v.value);
+        if (!plan[v.characteristic].widening.empty()) samples.own_limits.push_back(v.limits);
+        samples.machine.push_back(machine_number);
       }
       if (lane.trap)
         result.traps.push_back({machine_number, lane.trap->operation, plan.operations[lane.trap->operation].line, lane.trap->reason});

@@ -43,9 +43,10 @@ struct Samples {
   int occurrence = 1;
   double reference = 0;           ///< on the error-free machine
   double nominal = 0;
-  ToleranceLimits limits;
+  ToleranceLimits limits;         ///< on the error-free machine
   std::vector<double> value;      ///< one per machine that reached it, in machine order
   std::vector<std::uint32_t> machine;  ///< position of that machine among those run: 0, 1, 2, ...
+  std::vector<ToleranceLimits> own_limits;  ///< one per value where material conditions give every machine limits of its own, else none
 };
 
 /// A virtual machine on which the program could not go on.

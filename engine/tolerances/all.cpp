@@ -6,7 +6,9 @@ extern const ToleranceKind diameter_tolerance, radius_tolerance, flatness_tolera
     straightness_tolerance, circularity_tolerance, cylindricity_tolerance,
     distance_between_tolerance, distance_from_tolerance, true_position_tolerance,
     coordinate_tolerance, perpendicularity_tolerance, parallelism_tolerance, angularity_tolerance,
-    feature_angle_tolerance, angle_of_two_tolerance;
+    feature_angle_tolerance, angle_of_two_tolerance, concentricity_tolerance, symmetry_tolerance,
+    circular_runout_tolerance, total_runout_tolerance, surface_profile_tolerance,
+    line_profile_tolerance;
 
 std::span<const ToleranceKind* const> tolerance_kinds() {
   static const ToleranceKind* const kinds[] = {
@@ -15,6 +17,8 @@ std::span<const ToleranceKind* const> tolerance_kinds() {
       &distance_between_tolerance, &distance_from_tolerance,    &true_position_tolerance,
       &coordinate_tolerance,       &perpendicularity_tolerance, &parallelism_tolerance,
       &angularity_tolerance,       &feature_angle_tolerance,    &angle_of_two_tolerance,
+      &concentricity_tolerance,    &symmetry_tolerance,         &circular_runout_tolerance,
+      &total_runout_tolerance,     &surface_profile_tolerance,  &line_profile_tolerance,
   };
   return kinds;
 }

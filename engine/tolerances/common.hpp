@@ -14,8 +14,9 @@ namespace abbe {
   "( NOMINL,nominal:length,lower:length,upper:length ; LIMIT,lower:length,upper:length )"
 #define ABBE_ANGLE_LIMITS \
   "( NOMINL,nominal:angle,lower:angle,upper:angle ; LIMIT,lower:angle,upper:angle )"
-// MMC and LMC are read; docs in position.cpp.
+// MMC and LMC widen the zone: material.hpp.
 #define ABBE_MATERIAL "[ material:MMC|LMC|RFS ]"
+#define ABBE_DATUM "datum:datum,[ datum_material:MMC|LMC|RFS ]"
 
 using Elements = std::span<const Element>;
 using Shapes = std::span<const Shape>;

@@ -12,7 +12,7 @@
 // For planes the value is an upper bound: the touches that lie highest and lowest need not lie at
 // the ends of the tilt. For an axis that shall stand on a plane or run along an axis the zone is a
 // cylinder, else it is two parallel planes. An axis is straight by construction: f = 0 for
-// cylinders and cones. MMC and LMC get no bonus (position.cpp).
+// cylinders and cones. MMC and LMC leave the value and widen the zone: material.hpp.
 #include <algorithm>
 #include <cmath>
 

@@ -11,9 +11,7 @@
 // - 3D, planes: a zone of parallel planes about the nominal, with the rim of the measured area and
 //   the outermost touches in it
 //
-// MMC and LMC, on the feature or on datums: the bonus depends on a size tolerance that POS does not
-// name. The value is that of RFS, and the limit the zone at the material condition itself, without
-// bonus: conformity is judged on the safe side.
+// MMC and LMC, on the feature or on datums, leave the value and widen the zone: material.hpp.
 #include <algorithm>
 #include <cmath>
 
@@ -72,7 +70,7 @@ extern const ToleranceKind true_position_tolerance{
         "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
     .help =
         "position: diameter of the zone about the nominal location, in the frame of the datums; "
-        "MMC and LMC get no bonus",
+        "with MMC or LMC the actual size widens the zone",
     .example = "T(P1)=TOL/POS,3D,0.1,RFS,DAT(A),DAT(B),DAT(C)",
     .source = "ISO 22093:2011, TOL/POS; ISO 5458; ISO 5459; ASME Y14.5-2018, 10",
     .unit = Unit::mm,

@@ -42,6 +42,7 @@ extern const ToleranceKind diameter_tolerance{
     .nominal = nominal_size<2>,
     .limits = size_limits<2>,
     .evaluate = size<2>,
+    .size_factor = 1,
 };
 
 extern const ToleranceKind radius_tolerance{
@@ -56,6 +57,7 @@ extern const ToleranceKind radius_tolerance{
     .nominal = nominal_size<1>,
     .limits = size_limits<1>,
     .evaluate = size<1>,
+    .size_factor = 2,
 };
 
 }  // namespace abbe

@@ -14,6 +14,13 @@ namespace abbe {
 
 enum class Unit { mm, rad };
 
+/// One touch of a measured feature, and where the program meant it to be.
+struct TouchedPoint {
+  Vec3 actual;    ///< as this machine measured it, in its own D
+  Vec3 nominal;   ///< where the program put the surface, in the error-free D
+  Vec3 normal;    ///< out of the material there, in the error-free D
+};
+
 /// What one evaluation on one lane sees. D is the coordinate system current at the OUTPUT or EVAL statement.
 struct EvaluationInput {
   std::span<const Shape> shapes;          ///< of the features, in the order in which OUTPUT names them, then of the reference
@@ -22,6 +29,7 @@ struct EvaluationInput {
   std::span<const Shape> datum_shapes;    ///< of the datums, in the order in which the tolerance names them
   std::span<const Element> datums;        ///< as this machine measured them, in its own D
   std::span<const Element> true_datums;   ///< as the error-free machine measured them, in the error-free D
+  std::span<const TouchedPoint> touches = {};  ///< of the first feature, for kinds that ask for them; none of a constructed feature
 };
 
 struct ToleranceLimits {
@@ -43,6 +51,8 @@ struct ToleranceKind {
   ToleranceLimits (*limits)(const Arguments&, std::span<const Element> nominal_features);
   Outcome<double> (*evaluate)(const Arguments&, const EvaluationInput&);
   Unit (*unit_for)(const Arguments&) = nullptr;   ///< where the arguments decide: CORTOL of a coordinate or of an angle
+  bool needs_touches = false;   ///< evaluate() wants EvaluationInput::touches
+  double size_factor = 0;       ///< of a tolerance of size: the size across the feature is the value times this; 0 for others
 };
 
 inline Unit unit_of(const ToleranceKind& kind, const Arguments& arguments) {

@@ -18,7 +18,10 @@ void close_block(Lowering& lowering) {
   if (block.spoilt.empty()) block.spoilt = lowering.doubt();
   auto& operations = lowering.out.plan.operations;
   if (block.spoilt.empty()) {
-    lowering.emit(plan::EndMeasure{block.feature});
+    const auto criterion = lowering.criteria.find(lowering.out.plan[block.feature].kind->shape);
+    lowering.emit(plan::EndMeasure{block.feature, criterion == lowering.criteria.end()
+                                                      ? FitCriterion::least_squares
+                                                      : criterion->second});
     lowering.actual(block.feature) = {true, ""};
     return;
   }

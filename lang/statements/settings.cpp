@@ -50,15 +50,9 @@ void set_compensation(Lowering& lowering, const RawStatement&, const Match& matc
   lowering.emit(plan::SetCompensation{match.text("state") == "ON"});
 }
 
-void choose_algorithm(Lowering& lowering, const RawStatement& raw, const Match& match) {
-  const MatchedValue& kind = *match.find("kind");
-  if (kind.text == "ALL" || find_feature_kind(kind.text)) return;
-  unknown_kind(lowering, kind, raw.word, "kind of feature", feature_words());
-}
-
 }  // namespace
 
-extern const Statement kSnset, kFedrat, kAclrat, kFly, kPrcomp, kGeoalg;
+extern const Statement kSnset, kFedrat, kAclrat, kFly, kPrcomp;
 
 const Statement kSnset = {
     "SNSET",
@@ -98,13 +92,5 @@ const Statement kPrcomp = {
     "state:ON|OFF",  "ON: a touch yields the point of the surface. OFF: the centre of the tip.",
     "PRCOMP/ON",     "ISO 22093, PRCOMP",
     set_compensation};
-const Statement kGeoalg = {
-    "GEOALG",
-    "",
-    "kind:word, LSTSQR",
-    "Algorithm that fits a kind of feature. Only least squares is available.",
-    "GEOALG/CIRCLE,LSTSQR",
-    "ISO 22093, GEOALG",
-    choose_algorithm};
 
 }  // namespace abbe::lang

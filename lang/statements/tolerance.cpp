@@ -6,6 +6,7 @@
 
 #include "engine/tolerances/tolerance.hpp"
 #include "lang/statement.hpp"
+#include "lang/statements/material.hpp"
 #include "lang/statements/words.hpp"
 
 namespace abbe::lang {
@@ -104,7 +105,9 @@ void evaluate(Lowering& lowering, const RawStatement& raw,
                           fmt::format("{} cannot be evaluated here: {}", kind.word, reason),
                           fmt::format("`abbe explain {}` says what it applies to", kind.word));
   const plan::CharacteristicId id{static_cast<int>(lowering.out.plan.characteristics.size())};
-  lowering.out.plan.characteristics.push_back({features, *tolerance, raw.span, raw.line});
+  lowering.out.plan.characteristics.push_back(
+      {features, *tolerance, raw.span, raw.line,
+       material_conditions(lowering, *symbol, features.front(), use)});
   lowering.emit(plan::Evaluate{id});
 }
 
@@ -124,6 +127,18 @@ std::string names_of_features(const Match& match) {
   return names;
 }
 
+/// The tolerances of size of this statement serve its other tolerances, whatever their order.
+void remember_sizes(Lowering& lowering, plan::FeatureId feature,
+                    const std::vector<const MatchedValue*>& tolerances) {
+  for (const MatchedValue* use : tolerances) {
+    const auto symbol = lowering.symbols.tolerances.find(upper(use->label.name));
+    if (symbol == lowering.symbols.tolerances.end()) continue;
+    const Shape shape = lowering.out.plan[feature].kind->shape;
+    if (symbol->second.kind->size_factor == 0 || symbol->second.kind->applies({}, {&shape, 1})) continue;
+    if (const auto id = instance(lowering, symbol->second, *use)) remember_size(lowering, feature, *id);
+  }
+}
+
 /// Every tolerance is tried by itself, so that one mistake does not take the others away.
 void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   std::vector<plan::FeatureId> features;
@@ -141,6 +156,7 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const std::size_t first_characteristic = lowering.out.plan.characteristics.size();
   const bool features_failed = lowering.failed;
   const std::string features_failure = lowering.failure;
+  if (!features_failed && features.size() == 1) remember_sizes(lowering, features[0], tolerances);
   bool any_failed = features_failed;
   std::string first_failure = features_failure;
   for (const MatchedValue* use : tolerances) {

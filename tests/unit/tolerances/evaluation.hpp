@@ -16,6 +16,7 @@ struct Evaluation {
   Arguments arguments;
   std::vector<Shape> shapes, datum_shapes;
   std::vector<Element> actual, nominal, datums, true_datums;
+  std::vector<TouchedPoint> touches;
 
   explicit Evaluation(const char* word) : kind(find_tolerance_kind(word)) { REQUIRE(kind); }
 
@@ -38,7 +39,7 @@ struct Evaluation {
   Evaluation& datum(Shape shape, const Element& both) { return datum(shape, both, both); }
 
   Outcome<double> outcome() const {
-    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, true_datums});
+    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, true_datums, touches});
   }
   double value() const {
     const Outcome<double> made = outcome();

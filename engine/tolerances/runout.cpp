@@ -1,0 +1,113 @@
+// CRNOUT, TRNOUT: how far the touched points run out while the part turns about the datum axis (ISO
+// 1101:2017, clause 17: circular and total run-out).
+//
+// The datum axis is the z axis of the frame that the datums establish. The distance that the
+// indicator would show is measured from it for round features (radial run-out) and along it for
+// planes (axial run-out). TRNOUT is the range over all touches, CRNOUT the largest range over one
+// section: the touches that the program put at the same height (of a plane: at the same radius),
+// within 0.1 mm. A section with a single touch has no range.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/features/alignment.hpp"
+#include "engine/tolerances/common.hpp"
+
+namespace abbe {
+namespace {
+
+constexpr double kSameSection_mm = 0.1;
+
+const char* turned(Shape s) {
+  const bool round = s == Shape::circle || s == Shape::cylinder || s == Shape::sphere || s == Shape::cone;
+  return round || s == Shape::plane ? nullptr : "a run-out is for round features and planes";
+}
+const char* turned_sections(const Arguments& arguments, Shapes s) {
+  return arguments.features("datum").size() > 3 ? "a run-out has at most three datums" : turned(s[0]);
+}
+const char* turned_wholly(const Arguments& arguments, Shapes s) {
+  return s[0] == Shape::cone || s[0] == Shape::sphere ? "a total run-out is for cylinders, circles and planes"
+                                                      : turned_sections(arguments, s);
+}
+
+/// One touch about the axis: what the indicator shows, and in which section.
+struct Reading {
+  double section, shown;
+};
+
+Outcome<std::vector<Reading>> readings(const EvaluationInput& in) {
+  using Made = Outcome<std::vector<Reading>>;
+  if (in.touches.empty()) return Made::failed("a run-out is evaluated of the touches: the feature must be measured, not constructed");
+  const bool axis = std::any_of(in.datum_shapes.begin(), in.datum_shapes.end(),
+                                [](Shape s) { return has_axis(s) || s == Shape::circle; });
+  if (!axis) return Made::failed("a run-out needs a datum with an axis");
+  const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
+  if (!frame) return Made::failed(frame.failure);
+  const Outcome<Rigid> true_frame = datum_reference_frame(in.datum_shapes, in.true_datums);
+  if (!true_frame) return Made::failed(true_frame.failure);
+  const Rigid own = inverse(frame.value), meant = inverse(true_frame.value);
+  const bool axial = in.shapes[0] == Shape::plane;
+  Made made;
+  for (const TouchedPoint& touch : in.touches) {
+    const Vec3 p = own * touch.actual, q = meant * touch.nominal;
+    made.value.push_back(axial ? Reading{std::hypot(q.x, q.y), p.z} : Reading{q.z, std::hypot(p.x, p.y)});
+  }
+  return made;
+}
+
+double range(std::span<const Reading> list) {
+  const auto [low, high] = std::minmax_element(list.begin(), list.end(), [](const Reading& a, const Reading& b) { return a.shown < b.shown; });
+  return high->shown - low->shown;
+}
+
+Outcome<double> total(const Arguments&, const EvaluationInput& in) {
+  const auto all = readings(in);
+  return all ? Outcome<double>{range(all.value)} : no_value(all.failure);
+}
+
+Outcome<double> circular(const Arguments&, const EvaluationInput& in) {
+  auto all = readings(in);
+  if (!all) return no_value(all.failure);
+  std::vector<Reading>& list = all.value;
+  std::stable_sort(list.begin(), list.end(), [](const Reading& a, const Reading& b) { return a.section < b.section; });
+  double largest = 0;
+  for (std::size_t first = 0, end; first < list.size(); first = end) {
+    for (end = first + 1; end < list.size() && list[end].section - list[end - 1].section <= kSameSection_mm;) ++end;
+    largest = std::max(largest, range(std::span(list).subspan(first, end - first)));
+  }
+  return {largest};
+}
+
+}  // namespace
+
+extern const ToleranceKind circular_runout_tolerance{
+    .word = "CRNOUT",
+    .signature = "zone:length," ABBE_DATUM ",{ " ABBE_DATUM " }",
+    .help = "circular run-out about the datum axis: largest range of the touches of one section",
+    .example = "T(CR)=TOL/CRNOUT,0.05,DAT(A)",
+    .source = "ISO 22093:2011, TOL/CRNOUT; ISO 1101:2017, clause 17",
+    .unit = Unit::mm,
+    .features = 1,
+    .applies = turned_sections,
+    .nominal = no_deviation,
+    .limits = zone_limits,
+    .evaluate = circular,
+    .needs_touches = true,
+};
+
+extern const ToleranceKind total_runout_tolerance{
+    .word = "TRNOUT",
+    .signature = "zone:length," ABBE_DATUM ",{ " ABBE_DATUM " }",
+    .help = "total run-out about the datum axis: range of all touches, radial for cylinders, axial for planes",
+    .example = "T(TR)=TOL/TRNOUT,0.05,DAT(A)",
+    .source = "ISO 22093:2011, TOL/TRNOUT; ISO 1101:2017, clause 17",
+    .unit = Unit::mm,
+    .features = 1,
+    .applies = turned_wholly,
+    .nominal = no_deviation,
+    .limits = zone_limits,
+    .evaluate = total,
+    .needs_touches = true,
+};
+
+}  // namespace abbe
