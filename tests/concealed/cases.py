@@ -91,11 +91,12 @@ def described(effect, parameters, snr):
 
 
 def oracle(stage, d, r):
-    """The best that one can do who knows the shape: matched filter, likelihood ratio, in nats."""
-    full = stage.null.times(stage.residual(r))[:stage.scene.size]
+    """The best that one can do who knows the shape: matched filter; likelihood ratio and held-out log score, in nats."""
+    scene, y = stage.scene, stage.residual(r)
     s = stage.null.snr(d)
-    z = float(d @ full / s)
-    return {"z": z, "log_likelihood_ratio": z * z / 2}
+    z = float(d @ stage.null.times(y)[:scene.size] / s)
+    groups = next((g for g in (scene.setup, scene.sensor) if len(np.unique(g)) > 1), scene.time // (scene.duration / 5))
+    return {"z": z, "log_likelihood_ratio": z * z / 2, "held_out_gain": stage.null.held_out_gain(y, d, groups)}
 
 
 def staged(rng, designs_allowed, known_share, **more):

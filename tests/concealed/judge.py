@@ -31,6 +31,16 @@ def parameters(truth, said):
     return out
 
 
+def over_detectable(truth, said):
+    """Size of the concealed effect over the smallest that the program says it would have detected; None when it does not say."""
+    for entry in said.get("smallest_detectable") or []:
+        for effect in truth["effects"]:
+            size = effect["parameters"].get(entry.get("parameter"))
+            if entry.get("effect") == effect["name"] and isinstance(size, (int, float)) and entry.get("detect_um"):
+                return abs(size) / entry["detect_um"]
+    return None
+
+
 def rivals(truth, said):
     """What simpler methods make of the same case."""
     names = {e["name"] for e in truth["effects"]}
@@ -39,7 +49,7 @@ def rivals(truth, said):
     z = truth.get("oracle", {}).get("z")
     return {"chi2_p": (given.get("chi2") or {}).get("p"), "stepwise_members": steps.get("members"), "stepwise_right": bool(names & set(steps.get("members") or [])),
             "best_members": best.get("members"), "best_probability": best.get("probability"), "best_right": bool(names & set((best.get("members") or [])[:1])),
-            "oracle_detected": z is not None and abs(z) > 2.5758, "oracle_gain": truth.get("oracle", {}).get("log_likelihood_ratio")}
+            "oracle_detected": z is not None and abs(z) > 2.5758, "oracle_gain": truth.get("oracle", {}).get("log_likelihood_ratio"), "oracle_held_out": truth.get("oracle", {}).get("held_out_gain")}
 
 
 def row(truth, stored):
@@ -60,7 +70,8 @@ def row(truth, stored):
                right=bool(sets) and (bool(names & set(sets[0])) if truth["kind"] != "pair" else all(any(n in s for s in sets) for n in names)),
                confident_wrong=any(e.get("probability", 0) > 0.95 and not names & set(e.get("members", [])) for e in said.get("effects", [])),
                factor=located[0].get("factor") if located else None, located=bool(located) and located[0].get("factor") in allowed,
-               gain=improvement.get("log_score_gain"), gain_se=improvement.get("se"), unexplained=said.get("unexplained"),
+               gain=improvement.get("log_score_gain"), gain_se=improvement.get("se"), over_detectable=over_detectable(truth, said),
+               bias=improvement.get("bias_um"), unexplained=said.get("unexplained"),
                cannot_judge=[e.get("effect") for e in said.get("cannot_judge", [])], parameters=parameters(truth, said), rivals=rivals(truth, said),
                nearest=truth.get("nearest"), other_names=[r[0] for r in truth.get("rivals", [])],
                next_measurement=[m.get("change") for m in said.get("next_measurement", [])][:1])

@@ -101,6 +101,10 @@ def all_of(rows):
         "confident_wrong": share([r["confident_wrong"] for r in answered if r["kind"] != "null"]),
         "location": {f"{s:g}": share(flags(pick(singles, snr=s), "located")) for s in sorted({r["snr"] for r in singles})},
         "parameters": of_parameters(singles), "confusion": confusion(singles),
+        "predicted": predicted(singles),
+        "bias_left": median([r["bias"]["after"] / r["bias"]["before"] for r in named if r.get("bias") and r["bias"].get("before")]),
+        "share_of_oracle_gain": median([r["gain"] / r["rivals"]["oracle_held_out"] for r in named
+                                        if r["gain"] is not None and r["snr"] >= 6 and (r["rivals"]["oracle_held_out"] or 0) > 1]),
         "gain_positive": share([(r["gain"] or 0) > 0 for r in named]),
         "unknown": of_unknown(strange), "missing": of_missing(missing),
         "pairs": {d: share([right_pair(r) for r in pick(answered, kind="pair", detail=d)]) for d in ("separable", "decoy", "masking")},
@@ -108,6 +112,16 @@ def all_of(rows):
         "covariance": {f: share(flags([r for r in pick(answered, kind="covariance") if r["families"] == [f]], "right"))
                        for f in sorted({r["families"][0] for r in pick(answered, kind="covariance")})},
         "compared": compared(answered)}
+    return out
+
+
+def predicted(rows):
+    """Detected, by the size of the effect over the smallest that was said to be detectable (at 80 %)."""
+    out = []
+    for low, high in ((0, 0.5), (0.5, 0.8), (0.8, 1.25), (1.25, 2), (2, 4), (4, 1e9)):
+        mine = [r for r in rows if r.get("over_detectable") is not None and low <= r["over_detectable"] < high]
+        if mine:
+            out.append({"from": low, "ratio": float(np.median([r["over_detectable"] for r in mine])), **share(flags(mine, "detected"))})
     return out
 
 

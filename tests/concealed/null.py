@@ -106,6 +106,26 @@ class Null:
         rest = np.linalg.pinv(gram[1:, 1:], rcond=1e-9, hermitian=True)
         return float(np.sqrt(min(1.0, max(0.0, gram[0, 1:] @ rest @ gram[1:, 0] / gram[0, 0]))))
 
+    def held_out_gain(self, y, d, groups):
+        """Log score, in nats, won by knowing the shape d when each group is predicted from all others: its size is fitted to these.
+
+        With w = P y, v = P d and Q the inverse of the group's block of P, the group given the rest has mean error Q w_g and covariance Q;
+        leaving it out takes v_g' Q v_g from the information on the size and v_g' Q w_g from its estimate."""
+        w, v = self.times(y)[:self.size], self.times(d)[:self.size]
+        information, estimate, gain = d @ v, d @ w, 0.0
+        for k in np.unique(groups):
+            g = np.flatnonzero(groups == k)
+            z = self.z[g]
+            q = np.linalg.inv((np.eye(len(g)) - z @ self.inverse @ z.T / self.variance) / self.variance)
+            e, f = q @ w[g], q @ v[g]
+            rest = information - v[g] @ f
+            if rest < 1e-6 * information:
+                continue   # the others say nothing of the size
+            size, seen = (estimate - v[g] @ e) / rest, v[g] @ f
+            left = w[g] - size * v[g]                      # precision times what the shape leaves
+            gain += 0.5 * (w[g] @ e - left @ q @ left + (f @ left) ** 2 / (rest + seen) - np.log1p(seen / rest))
+        return float(gain)
+
     def covariance(self):
         """C of the recording alone, pose included."""
         z = self.z[:self.size]

@@ -88,6 +88,21 @@ class SignalToNoise(unittest.TestCase):
             p, d = world.scaled(CATALOGUE[name], s.base, s.null, CATALOGUE[name].draw(s.scene, seal.generator("selftest", name)), 6.0)
             self.assertAlmostEqual(s.null.snr(d), 6.0, places=2, msg=name)
 
+    def test_held_out_gain_is_that_of_leaving_out(self):
+        s = stage()
+        p = world.scaled(CATALOGUE["thermal.drift"], s.base, s.null, CATALOGUE["thermal.drift"].draw(s.scene, seal.generator("selftest", 1)), 6.0)
+        d, y, c, gain = p[1], s.base.r + p[1], s.null.covariance(), 0.0
+        for k in np.unique(s.scene.sensor):
+            h, o = s.scene.sensor == k, s.scene.sensor != k
+            known = np.linalg.solve(c[np.ix_(o, o)], np.column_stack([c[np.ix_(o, h)], y[o], d[o]]))
+            mean, shape = c[np.ix_(h, o)] @ known[:, -2], d[h] - c[np.ix_(h, o)] @ known[:, -1]
+            spread = c[np.ix_(h, h)] - c[np.ix_(h, o)] @ known[:, :-2]
+            information = d[o] @ known[:, -1]
+            size = d[o] @ known[:, -2] / information
+            for error, covariance, sign in ((y[h] - mean - size * shape, spread + np.outer(shape, shape) / information, 1), (y[h] - mean, spread, -1)):
+                gain -= sign * 0.5 * (error @ np.linalg.solve(covariance, error) + np.linalg.slogdet(covariance)[1])
+        self.assertAlmostEqual(s.null.held_out_gain(y, d, s.scene.sensor), gain, delta=0.05)
+
     def test_spread_of_a_covariance_effect_reaches_the_target(self):
         s = stage("C")
         spread = noise.SPREADS["noise.vibration"]
