@@ -2,7 +2,7 @@
 BUILD ?= build
 JOBS  ?= $(shell nproc)
 
-.PHONY: all setup build run test clean
+.PHONY: all setup build run test figures clean
 all: build
 
 setup:            ## installs the Debian packages that are missing
@@ -17,6 +17,12 @@ run: build        ## the paper's gauge blocks: our Table 3 beside the paper's
 
 test: build       ## every test
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+figures: build    ## draws the figures of docs/ anew; the only thing here that needs Node
+	@command -v npm >/dev/null || { echo "figures need Node 18 or later and npm: apt-get install nodejs npm"; exit 1; }
+	@npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	@mkdir -p docs/figures/effects
+	@python3 tests/docs/figures.py $(BUILD)/abbe --write
 
 clean:
 	@rm -rf $(BUILD)

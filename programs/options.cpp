@@ -150,6 +150,7 @@ void add_explain(CLI::App& app, Chosen& chosen) {
   const auto o = chosen_by(command, chosen, explain_command);
   command->add_option("WORD", o->word, "for example PTMEAS, E0101; none: what there is");
   command->add_flag("--markdown", o->markdown, "the whole reference as Markdown");
+  add_format(command, o->format, {"text", "vega"});
 }
 
 /// The command whose options were being read when an error struck, and its name as typed: "abbe machine screen".

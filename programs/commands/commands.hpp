@@ -71,6 +71,7 @@ int record_command(const RecordOptions&);
 struct ExplainOptions {
   std::optional<std::string> word;  ///< a DMIS word, an effect or a message code; none: what there is
   bool markdown = false;            ///< the whole language reference as Markdown
+  std::string format = "text";      ///< text, or vega: the signature of an effect as a Vega-Lite specification
 };
 int explain_command(const ExplainOptions&);
 

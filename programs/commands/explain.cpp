@@ -6,6 +6,8 @@
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/effects/effect.hpp"
+#include "engine/figures/signature.hpp"
+#include "engine/machine/machine.hpp"
 #include "lang/reference.hpp"
 #include "programs/commands/commands.hpp"
 
@@ -51,9 +53,27 @@ std::string overview() {
       near.empty() ? "`abbe explain` lists the words" : fmt::format("did you mean {}?", near)));
 }
 
+[[noreturn]] void no_figure(const std::string& what, const std::string& word) {
+  std::vector<std::string_view> names;
+  for (const Effect* effect : effects()) names.push_back(effect->name);
+  const std::string near = nearest_word(word, names);
+  throw UserError(diagnostic(Code::E0431, what,
+                             near.empty() ? "`abbe explain` lists the effects; each has a figure"
+                                          : fmt::format("did you mean {}?", near)));
+}
+
+/// The specification of the figure of an effect; nothing else has one.
+std::string figure(const std::optional<std::string>& word) {
+  if (!word) no_figure("--format vega draws the signature of an effect, and none is named", "");
+  const Effect* effect = find_effect(*word);
+  if (!effect) no_figure(fmt::format("--format vega draws effects, and '{}' is none", *word), *word);
+  return vega_lite(signature(*effect, read_machine(kDefaultMachine)));
+}
+
 }  // namespace
 
 int explain_command(const ExplainOptions& options) {
+  if (options.format == "vega") return fmt::print("{}", figure(options.word)), kDone;
   if (options.markdown) return fmt::print("{}", lang::reference_markdown()), kDone;
   if (!options.word) return fmt::print("{}", overview()), kDone;
   std::optional<std::string> text = explain_code(upper(*options.word));

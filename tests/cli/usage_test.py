@@ -23,6 +23,12 @@ class Usage(harness.Case):
         self.assertIn("PROGRAM", self.refused("E0609", "run"))
         self.assertIn("--help", self.refused("E0609", "run"))
 
+    def test_only_effects_have_a_figure(self):
+        self.assertIn('"reading of x, mm"', self.abbe("explain", "machine.scale", "--format", "vega").stdout)
+        self.assertIn("machine.scale", self.refused("E0431", "explain", "machine.scal", "--format", "vega"))
+        self.assertIn("'PTMEAS' is none", self.refused("E0431", "explain", "PTMEAS", "--format", "vega"))
+        self.assertIn("none is named", self.refused("E0431", "explain", "--format", "vega"))
+
     def test_values_that_cannot_be_read(self):
         self.assertIn("abc", self.refused("E0609", "run", "x.dmi", "--machines", "abc"))
         self.assertIn("found -1", self.refused("E0609", "run", "x.dmi", "--seed", "-1"))
