@@ -1,7 +1,8 @@
-"""Which cases a round has, and how one is made. The plan fixes kind, size and family; designs, machines and shapes are drawn until the effect
-reaches its signal-to-noise ratio at a plausible size."""
+"""Which cases a round has, and how one is made. The plan fixes kind, size and family; designs, machines and
+shapes are drawn until the effect reaches its signal-to-noise ratio at a plausible size."""
+
 import hashlib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,17 +11,31 @@ import files
 import machine as cmm
 from effects import CATALOGUE, noise, unknown, unknown_final
 from null import Null
-from seal import generator, to_bytes
+from seal import generator
 from world import LADDER, Baseline, scaled
 
 COUNTS = {"null": 400, "single": 288, "pair": 60, "unknown": 80, "missing": 40, "covariance": 40}
 # Parameters with one meaning everywhere (docs/formats.md), by which answers are judged.
-FIXED = {"thermal.part_expansion": ["cte_error_ppm_per_K"], "thermal.scale_expansion": ["cte_error_ppm_per_K"], "machine.scale": ["scale_um_per_m"],
-         "machine.squareness": ["squareness_urad"], "machine.scale_interpolation": ["amplitude_um", "period_um"],
-         "thermal.cycle": ["amplitude_um", "period_s"], "thermal.drift": ["amplitude_um"], "machine.step": ["t0_s", "amplitude_um"],
-         "part.shift": ["t0_s", "amplitude_um"], "probe.step": ["t0_s", "amplitude_um"], "probe.tip_radius": ["amplitude_um"],
-         "probe.stylus_length": ["length_error_um"], "probe.trigger_delay": ["delay_ms"], "head.reindexing": ["sd_urad"],
-         "noise.vibration": ["sd_um"], "noise.outliers": ["share"], "noise.resolution": ["resolution_um"], "noise.unequal": ["ratio"]}
+FIXED = {
+    "thermal.part_expansion": ["cte_error_ppm_per_K"],
+    "thermal.scale_expansion": ["cte_error_ppm_per_K"],
+    "machine.scale": ["scale_um_per_m"],
+    "machine.squareness": ["squareness_urad"],
+    "machine.scale_interpolation": ["amplitude_um", "period_um"],
+    "thermal.cycle": ["amplitude_um", "period_s"],
+    "thermal.drift": ["amplitude_um"],
+    "machine.step": ["t0_s", "amplitude_um"],
+    "part.shift": ["t0_s", "amplitude_um"],
+    "probe.step": ["t0_s", "amplitude_um"],
+    "probe.tip_radius": ["amplitude_um"],
+    "probe.stylus_length": ["length_error_um"],
+    "probe.trigger_delay": ["delay_ms"],
+    "head.reindexing": ["sd_urad"],
+    "noise.vibration": ["sd_um"],
+    "noise.outliers": ["share"],
+    "noise.resolution": ["resolution_um"],
+    "noise.unequal": ["ratio"],
+}
 
 
 @dataclass(frozen=True)
@@ -36,14 +51,34 @@ def plan(counts, final=False):
     out = [Spec("null", detail=("clean", "hard")[i % 2]) for i in range(counts["null"])]
     families = sorted(CATALOGUE)
     for i in range(counts["single"]):
-        out.append(Spec("single", families[(i // len(LADDER) + 5 * (i % len(LADDER))) % len(families)], LADDER[i % len(LADDER)]))
-    out += [Spec("pair", snr=(8.0, 10.0)[i % 2], detail=("separable", "decoy", "masking")[i % 3]) for i in range(counts["pair"])]
+        out.append(
+            Spec(
+                "single", families[(i // len(LADDER) + 5 * (i % len(LADDER))) % len(families)], LADDER[i % len(LADDER)]
+            )
+        )
+    out += [
+        Spec("pair", snr=(8.0, 10.0)[i % 2], detail=("separable", "decoy", "masking")[i % 3])
+        for i in range(counts["pair"])
+    ]
     strangers = sorted((unknown_final if final else unknown).UNKNOWN)
-    out += [Spec("unknown", strangers[i % len(strangers)], (6.0, 10.0, 16.0)[i // len(strangers) % 3], "final" if final else "") for i in range(counts["unknown"])]
+    out += [
+        Spec(
+            "unknown",
+            strangers[i % len(strangers)],
+            (6.0, 10.0, 16.0)[i // len(strangers) % 3],
+            "final" if final else "",
+        )
+        for i in range(counts["unknown"])
+    ]
     without = [f for f in families if CATALOGUE[f].needs]
-    out += [Spec("missing", without[i % len(without)], 10.0, ("dropped", "stuck")[i % 2]) for i in range(counts["missing"])]
+    out += [
+        Spec("missing", without[i % len(without)], 10.0, ("dropped", "stuck")[i % 2]) for i in range(counts["missing"])
+    ]
     spreads = sorted(noise.SPREADS)
-    out += [Spec("covariance", spreads[i % len(spreads)], (6.0, 9.0, 15.0)[i // len(spreads) % 3]) for i in range(counts["covariance"])]
+    out += [
+        Spec("covariance", spreads[i % len(spreads)], (6.0, 9.0, 15.0)[i // len(spreads) % 3])
+        for i in range(counts["covariance"])
+    ]
     return out
 
 
@@ -57,8 +92,12 @@ class Stage:
         self.scene = designs.build(design, self.machine, rng, size)
         self.nuisance = {"geometry": "paper", "geometry_scale": 1.0, "noise": "white", "noise_scale": 1.0}
         if hard:
-            self.nuisance = {"geometry": str(rng.choice(["paper", "rough"])), "geometry_scale": float(2 ** rng.uniform(-1, 1)),
-                             "noise": str(rng.choice(noise.KINDS)), "noise_scale": float(rng.uniform(0.7, 1.5))}
+            self.nuisance = {
+                "geometry": str(rng.choice(["paper", "rough"])),
+                "geometry_scale": float(2 ** rng.uniform(-1, 1)),
+                "noise": str(rng.choice(noise.KINDS)),
+                "noise_scale": float(rng.uniform(0.7, 1.5)),
+            }
         draw = cmm.rough_geometry if self.nuisance["geometry"] == "rough" else cmm.paper_geometry
         geometry = draw(self.machine, rng, self.nuisance["geometry_scale"])
         more = (self.nuisance["noise"], self.nuisance["noise_scale"])
@@ -79,22 +118,31 @@ class Stage:
     def files(self, r, **how):
         digits = 0.5 * self.machine.probe_sd if self.nuisance["noise"] == "rounded" else 0.0
         how.setdefault("resolution", digits)
-        out = {"machine.json": files.machine_json(self.scene, self.calibration.scene if self.known else None), "recording.csv": files.recording_csv(self.scene, r, **how)}
+        out = {
+            "machine.json": files.machine_json(self.scene, self.calibration.scene if self.known else None),
+            "recording.csv": files.recording_csv(self.scene, r, **how),
+        }
         if self.known:
             out["calibration.csv"] = files.recording_csv(self.calibration.scene, self.calibration.r, resolution=digits)
         return out
 
 
 def described(effect, parameters, snr):
-    return {"name": effect.name, "snr": snr, "parameters": parameters, "fixed": {k: parameters[k] for k in FIXED.get(effect.name, [])},
-            "factors": list(effect.factors)}
+    return {
+        "name": effect.name,
+        "snr": snr,
+        "parameters": parameters,
+        "fixed": {k: parameters[k] for k in FIXED.get(effect.name, [])},
+        "factors": list(effect.factors),
+    }
 
 
 def oracle(stage, d, r):
-    """The best that one can do who knows the shape: matched filter; likelihood ratio and held-out log score, in nats."""
+    """The best that one can do who knows the shape: matched filter; likelihood ratio and held-out log score,
+    in nats."""
     scene, y = stage.scene, stage.residual(r)
     s = stage.null.snr(d)
-    z = float(d @ stage.null.times(y)[:scene.size] / s)
+    z = float(d @ stage.null.times(y)[: scene.size] / s)
     groups = next((g for g in (scene.setup, scene.sensor) if len(np.unique(g)) > 1), scene.time // (scene.duration / 5))
     return {"z": z, "log_likelihood_ratio": z * z / 2, "held_out_gain": stage.null.held_out_gain(y, d, groups)}
 
@@ -133,20 +181,40 @@ def found(rng, spec):
 
 def make_null(rng, spec):
     stage = staged(rng, "ACDED", 0.3, hard=spec.detail == "hard")
-    return stage, stage.base.r, {"verdict": "no_mismatch", "effects": [], "tolerated": noise.TOLERATED.get(stage.nuisance["noise"], [])}, {}
+    return (
+        stage,
+        stage.base.r,
+        {"verdict": "no_mismatch", "effects": [], "tolerated": noise.TOLERATED.get(stage.nuisance["noise"], [])},
+        {},
+    )
 
 
 def make_single(rng, spec):
     stage, effect, p, d = found(rng, spec)
     r = stage.base.r + d
-    return stage, r, {"verdict": "named", "effects": [described(effect, p, spec.snr)], "oracle": oracle(stage, d, r)}, {}
+    return (
+        stage,
+        r,
+        {"verdict": "named", "effects": [described(effect, p, spec.snr)], "oracle": oracle(stage, d, r)},
+        {},
+    )
 
 
 def make_unknown(rng, spec):
     stage, effect, p, d = found(rng, spec)
     r = stage.base.r + d
     near = nearest(rng, stage, d)
-    return stage, r, {"verdict": "unexplained", "effects": [described(effect, p, spec.snr)], "nearest": near[:3], "oracle": oracle(stage, d, r)}, {}
+    return (
+        stage,
+        r,
+        {
+            "verdict": "unexplained",
+            "effects": [described(effect, p, spec.snr)],
+            "nearest": near[:3],
+            "oracle": oracle(stage, d, r),
+        },
+        {},
+    )
 
 
 def nearest(rng, stage, d, draws=4):
@@ -168,7 +236,8 @@ def make_missing(rng, spec):
 
 
 def make_pair(rng, spec):
-    """separable: two effects, correlation below 0.7; masking: two that partly cancel; decoy: one, with a rival that looks the same."""
+    """separable: two effects, correlation below 0.7; masking: two that partly cancel; decoy: one, with a
+    rival that looks the same."""
     while True:
         stage = staged(rng, "CDD" if spec.detail != "decoy" else "ACE", 0.25)
         pool = []
@@ -186,18 +255,27 @@ def decoy(rng, spec, stage, pool):
         rivals = [row for row in nearest(rng, stage, d) if row[0] != effect.name and row[1] > 0.9]
         if rivals:
             r = stage.base.r + d
-            return r, {"verdict": "one_of", "effects": [described(effect, p, spec.snr)], "rivals": rivals, "oracle": oracle(stage, d, r)}
+            return r, {
+                "verdict": "one_of",
+                "effects": [described(effect, p, spec.snr)],
+                "rivals": rivals,
+                "oracle": oracle(stage, d, r),
+            }
     return None
 
 
 def two_of(rng, spec, stage, pool):
     for i, (one, p, d) in enumerate(pool):
         for other, q, e in pool[:i]:
-            rho = float(d @ stage.null.times(e)[:stage.scene.size]) / spec.snr**2
+            rho = float(d @ stage.null.times(e)[: stage.scene.size]) / spec.snr**2
             if spec.detail == "separable" and abs(rho) < 0.7 or spec.detail == "masking" and -0.85 < rho < -0.3:
                 r = stage.base.r + d + e
-                return r, {"verdict": "named", "effects": [described(one, p, spec.snr), described(other, q, spec.snr)], "rho": rho,
-                           "oracle": oracle(stage, d + e, r)}
+                return r, {
+                    "verdict": "named",
+                    "effects": [described(one, p, spec.snr), described(other, q, spec.snr)],
+                    "rho": rho,
+                    "oracle": oracle(stage, d + e, r),
+                }
     return None
 
 
@@ -218,11 +296,24 @@ def make_covariance(rng, spec):
             d = size * columns @ rng.normal(size=columns.shape[1])
             if spec.family == "noise.unequal":
                 p["ratio"] = float(np.sqrt(1 + size**2))
-        entry = {"name": spread.name, "snr": spec.snr, "parameters": p, "fixed": {k: p[k] for k in FIXED.get(spread.name, [])}, "factors": list(spread.factors)}
+        entry = {
+            "name": spread.name,
+            "snr": spec.snr,
+            "parameters": p,
+            "fixed": {k: p[k] for k in FIXED.get(spread.name, [])},
+            "factors": list(spread.factors),
+        }
         return stage, stage.base.r + d, {"verdict": "named", "effects": [entry]}, how
 
 
-MAKERS = {"null": make_null, "single": make_single, "pair": make_pair, "unknown": make_unknown, "missing": make_missing, "covariance": make_covariance}
+MAKERS = {
+    "null": make_null,
+    "single": make_single,
+    "pair": make_pair,
+    "unknown": make_unknown,
+    "missing": make_missing,
+    "covariance": make_covariance,
+}
 
 
 def make(secret, number, spec):
@@ -232,6 +323,16 @@ def make(secret, number, spec):
     h = hashlib.sha256()
     for name in sorted(data):
         h.update(name.encode() + b"\0" + data[name].encode() + b"\0")
-    truth.update(case=number, kind=spec.kind, detail=spec.detail, snr=spec.snr, design=stage.design, touches=stage.scene.size, machine=stage.machine.name,
-                 mode="known" if stage.known else "fresh", nuisance=stage.nuisance, data_sha256=h.hexdigest())
+    truth.update(
+        case=number,
+        kind=spec.kind,
+        detail=spec.detail,
+        snr=spec.snr,
+        design=stage.design,
+        touches=stage.scene.size,
+        machine=stage.machine.name,
+        mode="known" if stage.known else "fresh",
+        nuisance=stage.nuisance,
+        data_sha256=h.hexdigest(),
+    )
     return data, truth

@@ -1,5 +1,6 @@
-"""What the program under test gets to see: the recording (CSV) and the machine's data sheet (JSON), formats of docs/formats.md. Nothing here
-knows what was concealed."""
+"""What the program under test gets to see: the recording (CSV) and the machine's data sheet (JSON), formats
+of docs/formats.md. Nothing here knows what was concealed."""
+
 import json
 
 import numpy as np
@@ -21,19 +22,32 @@ def machine_json(scene, other=None):
             components[name] = {"s": s, "c": c, "e_max": m.angle_max if motion >= 3 else m.e_max}
     sensors = {}
     for stylus in scene.styli + (other.styli if other else []):
-        sensors[stylus.name] = {"head_deg": list(stylus.head), "tip_in_r_mm": [0, 0, -stylus.length], "diameter_mm": stylus.diameter,
-                                "shaft_diameter_mm": stylus.shaft, "material": stylus.material}
+        sensors[stylus.name] = {
+            "head_deg": list(stylus.head),
+            "tip_in_r_mm": [0, 0, -stylus.length],
+            "diameter_mm": stylus.diameter,
+            "shaft_diameter_mm": stylus.shaft,
+            "material": stylus.material,
+        }
     arcsec = round(m.head_sd / cmm.ARCSEC, 4)
-    return json.dumps({
-        "schema": "abbe.machine/1", "name": m.name,
-        "axes": {a: {"travel_mm": m.travel[a], "direction": m.direction[a]} for a in cmm.AXES},
-        "chain": {"ram_side": list(m.chain), "table_side": []},
-        "offsets_mm": {**{a: list(m.offsets[a]) for a in m.chain}, "mount": list(m.mount)},
-        "geometry": {"harmonics": cmm.HARMONICS, "components": components},
-        "specification": {"standard": "ISO 10360-2:2009", "mpe": {"a_um": m.mpe[0], "k_um_per_m": m.mpe[1]}},
-        "head": {"model": "PH10M", "l_r_mm": m.head_length, "angle_sd_arcsec": {"A": arcsec, "B": arcsec}},
-        "probe": {"sd_um": [m.probe_sd] * 3},
-        "sensors": sensors}, indent=1) + "\n"
+    return (
+        json.dumps(
+            {
+                "schema": "abbe.machine/1",
+                "name": m.name,
+                "axes": {a: {"travel_mm": m.travel[a], "direction": m.direction[a]} for a in cmm.AXES},
+                "chain": {"ram_side": list(m.chain), "table_side": []},
+                "offsets_mm": {**{a: list(m.offsets[a]) for a in m.chain}, "mount": list(m.mount)},
+                "geometry": {"harmonics": cmm.HARMONICS, "components": components},
+                "specification": {"standard": "ISO 10360-2:2009", "mpe": {"a_um": m.mpe[0], "k_um_per_m": m.mpe[1]}},
+                "head": {"model": "PH10M", "l_r_mm": m.head_length, "angle_sd_arcsec": {"A": arcsec, "B": arcsec}},
+                "probe": {"sd_um": [m.probe_sd] * 3},
+                "sensors": sensors,
+            },
+            indent=1,
+        )
+        + "\n"
+    )
 
 
 def columns(scene, r, resolution):
@@ -47,8 +61,10 @@ def columns(scene, r, resolution):
     for key in zip(s.feature, s.run):
         seen[key] = seen.get(key, 0) + 1
         touch.append(seen[key])
+
     def fixed(values, digits):
         return [f"{v:.{digits}f}" for v in values]
+
     out = {"feature": s.feature, "touch": [str(t) for t in touch]}
     for name, block, digits in (("", position, 6), ("t", s.target, 6), ("n", s.normal, 9)):
         out.update({name + a: fixed(block[:, i], digits) for i, a in enumerate(cmm.AXES)})
@@ -70,5 +86,11 @@ def recording_csv(scene, r, resolution=0.0, without=(), stuck=()):
     for name in stuck:
         if name in table:
             table[name] = [table[name][0]] * scene.size
-    head = [f"# machine: {scene.machine.name}", "# frame: mcs", "# point: tip_centre", f"# artefact: {ARTEFACTS[scene.design]}", ",".join(table)]
+    head = [
+        f"# machine: {scene.machine.name}",
+        "# frame: mcs",
+        "# point: tip_centre",
+        f"# artefact: {ARTEFACTS[scene.design]}",
+        ",".join(table),
+    ]
     return "\n".join(head + [",".join(row) for row in zip(*table.values())]) + "\n"

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""Makes a round of concealed cases. usage: generate.py --round development|rehearsal|final --out DIR [--scale 0.1] [--secret HEX] [--jobs 2]
+"""Makes a round of concealed cases. usage: generate.py --round development|rehearsal|final --out DIR [--scale
+0.1] [--secret HEX] [--jobs 2]
 
-DIR/SEAL.txt     hashes of the truths, written before the data
-DIR/cases/NNNN/  machine.json, recording.csv and, for a known machine, calibration.csv
-DIR/sealed/      secret.txt and the truths NNNN.json; keep it away from those who answer until they have answered
+DIR/SEAL.txt     hashes of the truths, written before the data DIR/cases/NNNN/  machine.json, recording.csv
+and, for a known machine, calibration.csv DIR/sealed/      secret.txt and the truths NNNN.json; keep it away
+from those who answer until they have answered
 """
+
 import os
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")   # the same bytes on every machine, and cases run side by side
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the same bytes on every machine, and cases run side by side
 import argparse
 import concurrent.futures
 import pathlib

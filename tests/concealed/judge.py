@@ -1,8 +1,10 @@
-"""Sets one answer against one truth: a flat row of what was right, what was wrong, and by how much. docs/formats.md has the answer's keys.
+"""Sets one answer against one truth: a flat row of what was right, what was wrong, and by how much.
+docs/formats.md has the answer's keys.
 
-Rules, fixed before any final round: something is *detected* when the verdict is a mismatch. A name is *right* when the truth is among the members of the first
-effect (of any effect, for a pair). It is *confidently wrong* when an effect with a probability above 0.95 has no truth among its members. Noise properties
-that a hard null really has may be named.
+Rules, fixed before any final round: something is *detected* when the verdict is a mismatch. A name is *right*
+when the truth is among the members of the first effect (of any effect, for a pair). It is *confidently wrong*
+when an effect with a probability above 0.95 has no truth among its members. Noise properties that a hard null
+really has may be named.
 """
 
 MISMATCH = ("named", "one_of", "unexplained")
@@ -13,7 +15,8 @@ def names_of(said):
 
 
 def parameters(truth, said):
-    """Rows {effect, parameter, truth, value, u, z, covered, relative} for parameters with one meaning, of effects named alone or first."""
+    """Rows {effect, parameter, truth, value, u, z, covered, relative} for parameters with one meaning, of
+    effects named alone or first."""
     out = []
     for effect in truth["effects"]:
         for reported in said.get("effects", []):
@@ -23,16 +26,28 @@ def parameters(truth, said):
                 got = reported.get("parameters", {}).get(key)
                 if not isinstance(got, dict) or "value" not in got:
                     continue
-                low, high = got.get("interval95", [got["value"] - 1.96 * got.get("u", 0), got["value"] + 1.96 * got.get("u", 0)])
+                low, high = got.get(
+                    "interval95", [got["value"] - 1.96 * got.get("u", 0), got["value"] + 1.96 * got.get("u", 0)]
+                )
                 u = got.get("u") or None
-                out.append({"effect": effect["name"], "parameter": key, "truth": true, "value": got["value"], "u": u,
-                            "z": (got["value"] - true) / u if u else None, "covered": low <= true <= high,
-                            "relative": abs(got["value"] - true) / abs(true) if true else None})
+                out.append(
+                    {
+                        "effect": effect["name"],
+                        "parameter": key,
+                        "truth": true,
+                        "value": got["value"],
+                        "u": u,
+                        "z": (got["value"] - true) / u if u else None,
+                        "covered": low <= true <= high,
+                        "relative": abs(got["value"] - true) / abs(true) if true else None,
+                    }
+                )
     return out
 
 
 def over_detectable(truth, said):
-    """Size of the concealed effect over the smallest that the program says it would have detected; None when it does not say."""
+    """Size of the concealed effect over the smallest that the program says it would have detected; None when
+    it does not say."""
     for entry in said.get("smallest_detectable") or []:
         for effect in truth["effects"]:
             size = effect["parameters"].get(entry.get("parameter"))
@@ -47,17 +62,31 @@ def rivals(truth, said):
     given = said.get("rivals") or {}
     best, steps = given.get("best_bayes_factor") or {}, given.get("stepwise_bic") or {}
     z = truth.get("oracle", {}).get("z")
-    return {"chi2_p": (given.get("chi2") or {}).get("p"), "stepwise_members": steps.get("members"), "stepwise_right": bool(names & set(steps.get("members") or [])),
-            "best_members": best.get("members"), "best_probability": best.get("probability"), "best_right": bool(names & set((best.get("members") or [])[:1])),
-            "oracle_detected": z is not None and abs(z) > 2.5758, "oracle_gain": truth.get("oracle", {}).get("log_likelihood_ratio"), "oracle_held_out": truth.get("oracle", {}).get("held_out_gain")}
+    return {
+        "chi2_p": (given.get("chi2") or {}).get("p"),
+        "stepwise_members": steps.get("members"),
+        "stepwise_right": bool(names & set(steps.get("members") or [])),
+        "best_members": best.get("members"),
+        "best_probability": best.get("probability"),
+        "best_right": bool(names & set((best.get("members") or [])[:1])),
+        "oracle_detected": z is not None and abs(z) > 2.5758,
+        "oracle_gain": truth.get("oracle", {}).get("log_likelihood_ratio"),
+        "oracle_held_out": truth.get("oracle", {}).get("held_out_gain"),
+    }
 
 
 def row(truth, stored):
     """Everything that the scorer counts, of one case."""
     said = stored.get("answer")
     out = {k: truth[k] for k in ("case", "kind", "detail", "snr", "design", "touches", "machine", "mode")}
-    out.update(families=[e["name"] for e in truth["effects"]], expected=truth["verdict"], seconds=stored.get("seconds"), exit=stored.get("exit"),
-               noise=truth["nuisance"]["noise"], answered=said is not None)
+    out.update(
+        families=[e["name"] for e in truth["effects"]],
+        expected=truth["verdict"],
+        seconds=stored.get("seconds"),
+        exit=stored.get("exit"),
+        noise=truth["nuisance"]["noise"],
+        answered=said is not None,
+    )
     if said is None:
         return out
     sets, names = names_of(said), set(out["families"])
@@ -65,16 +94,34 @@ def row(truth, stored):
     located = said.get("location") or []
     allowed = {f for e in truth["effects"] for f in e["factors"]}
     improvement = said.get("improvement") or {}
-    out.update(verdict=said.get("verdict"), p_value=said.get("p_value"), detected=said.get("verdict") in MISMATCH,
-               members=sets[0] if sets else [], all_members=sets, probability=first.get("probability"),
-               right=bool(sets) and (bool(names & set(sets[0])) if truth["kind"] != "pair" else all(any(n in s for s in sets) for n in names)),
-               confident_wrong=any(e.get("probability", 0) > 0.95 and not names & set(e.get("members", [])) for e in said.get("effects", [])),
-               factor=located[0].get("factor") if located else None, located=bool(located) and located[0].get("factor") in allowed,
-               gain=improvement.get("log_score_gain"), gain_se=improvement.get("se"), over_detectable=over_detectable(truth, said),
-               bias=improvement.get("bias_um"), unexplained=said.get("unexplained"),
-               cannot_judge=[e.get("effect") for e in said.get("cannot_judge", [])], parameters=parameters(truth, said), rivals=rivals(truth, said),
-               nearest=truth.get("nearest"), other_names=[r[0] for r in truth.get("rivals", [])],
-               next_measurement=[m.get("change") for m in said.get("next_measurement", [])][:1])
+    out.update(
+        verdict=said.get("verdict"),
+        p_value=said.get("p_value"),
+        detected=said.get("verdict") in MISMATCH,
+        members=sets[0] if sets else [],
+        all_members=sets,
+        probability=first.get("probability"),
+        right=bool(sets)
+        and (bool(names & set(sets[0])) if truth["kind"] != "pair" else all(any(n in s for s in sets) for n in names)),
+        confident_wrong=any(
+            e.get("probability", 0) > 0.95 and not names & set(e.get("members", [])) for e in said.get("effects", [])
+        ),
+        factor=located[0].get("factor") if located else None,
+        located=bool(located) and located[0].get("factor") in allowed,
+        gain=improvement.get("log_score_gain"),
+        gain_se=improvement.get("se"),
+        over_detectable=over_detectable(truth, said),
+        bias=improvement.get("bias_um"),
+        unexplained=said.get("unexplained"),
+        cannot_judge=[e.get("effect") for e in said.get("cannot_judge", [])],
+        parameters=parameters(truth, said),
+        rivals=rivals(truth, said),
+        nearest=truth.get("nearest"),
+        other_names=[r[0] for r in truth.get("rivals", [])],
+        next_measurement=[m.get("change") for m in said.get("next_measurement", [])][:1],
+    )
     tolerated = set(truth.get("tolerated", []))
-    out["false_alarm"] = truth["kind"] == "null" and out["detected"] and not (sets and all(s and set(s) <= tolerated for s in sets))
+    out["false_alarm"] = (
+        truth["kind"] == "null" and out["detected"] and not (sets and all(s and set(s) <= tolerated for s in sets))
+    )
     return out

@@ -1,9 +1,11 @@
 """The coordinate measuring machine of the concealed cases: exact rigid-body kinematics and random geometry.
 
-Independent of the program under test on purpose: that one is first-order, this one multiplies finite rotations (Rodrigues), so that an error
-of sign or of lever in either shows as a disagreement. Model: Van Gestel, Bleys, Kruth, "CMM hardware error simulation for uncertainty
-evaluation" (2011), sections 3 and 5. Positions in mm; translation errors in um, rotation errors in urad; `measured = true + d`.
+Independent of the program under test on purpose: that one is first-order, this one multiplies finite
+rotations (Rodrigues), so that an error of sign or of lever in either shows as a disagreement. Model: Van
+Gestel, Bleys, Kruth, "CMM hardware error simulation for uncertainty evaluation" (2011), sections 3 and 5.
+Positions in mm; translation errors in um, rotation errors in urad; `measured = true + d`.
 """
+
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,20 +19,22 @@ SHARES = {"position": (0.8, 0.1), "straight": (0.5, 0.4), "angle": (0.6, 0.0)}
 
 @dataclass(frozen=True)
 class Machine:
-    """What a data sheet says. offsets: frame of each axis at home in the frame that carries it; each coordinate sums to zero."""
+    """What a data sheet says. offsets: frame of each axis at home in the frame that carries it; each
+    coordinate sums to zero."""
+
     name: str
     travel: dict
     direction: dict
-    chain: tuple          # axes from the base to the ram
+    chain: tuple  # axes from the base to the ram
     offsets: dict
     mount: tuple
-    head_length: float    # mount to the crossing of the head's axes, mm
-    e_max: float          # um/m
-    angle_max: float      # um/m^2
-    probe_sd: float       # um
-    mpe: tuple            # um, um/m
-    tips: tuple           # short and long stylus, mm
-    shaft: float          # mm
+    head_length: float  # mount to the crossing of the head's axes, mm
+    e_max: float  # um/m
+    angle_max: float  # um/m^2
+    probe_sd: float  # um
+    mpe: tuple  # um, um/m
+    tips: tuple  # short and long stylus, mm
+    shaft: float  # mm
     head_sd: float = 0.83 * ARCSEC
 
     @property
@@ -40,12 +44,51 @@ class Machine:
 
 
 MACHINES = (
-    Machine("bridge-1600", dict(x=1600, y=1000, z=800), dict(x=1, y=1, z=-1), ("x", "y", "z"),
-            dict(x=(-120, 1400, -950), y=(0, -1410, 1085), z=(95, -30, 265)), (25, 40, -400), 60, 7, 10, 0.5, (5, 5), (60, 150), 4),
-    Machine("bridge-900", dict(x=700, y=900, z=600), dict(x=1, y=1, z=-1), ("y", "x", "z"),
-            dict(y=(-100, 0, -500), x=(100, 60, 700), z=(20, -30, 150)), (-20, -30, -350), 50, 3.5, 5, 0.35, (2.2, 3), (50, 120), 3),
-    Machine("bridge-500", dict(x=500, y=500, z=400), dict(x=1, y=1, z=-1), ("y", "x", "z"),
-            dict(y=(-150, 0, -420), x=(120, 60, 500), z=(30, -40, 120)), (0, -20, -200), 40, 2.4, 4, 0.25, (1.2, 2.5), (40, 90), 3),
+    Machine(
+        "bridge-1600",
+        dict(x=1600, y=1000, z=800),
+        dict(x=1, y=1, z=-1),
+        ("x", "y", "z"),
+        dict(x=(-120, 1400, -950), y=(0, -1410, 1085), z=(95, -30, 265)),
+        (25, 40, -400),
+        60,
+        7,
+        10,
+        0.5,
+        (5, 5),
+        (60, 150),
+        4,
+    ),
+    Machine(
+        "bridge-900",
+        dict(x=700, y=900, z=600),
+        dict(x=1, y=1, z=-1),
+        ("y", "x", "z"),
+        dict(y=(-100, 0, -500), x=(100, 60, 700), z=(20, -30, 150)),
+        (-20, -30, -350),
+        50,
+        3.5,
+        5,
+        0.35,
+        (2.2, 3),
+        (50, 120),
+        3,
+    ),
+    Machine(
+        "bridge-500",
+        dict(x=500, y=500, z=400),
+        dict(x=1, y=1, z=-1),
+        ("y", "x", "z"),
+        dict(y=(-150, 0, -420), x=(120, 60, 500), z=(30, -40, 120)),
+        (0, -20, -200),
+        40,
+        2.4,
+        4,
+        0.25,
+        (1.2, 2.5),
+        (40, 90),
+        3,
+    ),
 )
 
 
@@ -70,7 +113,8 @@ def rotate(w, p):
 
 
 def tip_error(machine, reading, tip, carriages):
-    """d of the tip centre, um. carriages: {axis: (translations um, rotations urad)}, each (N, 3); missing axes are perfect."""
+    """d of the tip centre, um. carriages: {axis: (translations um, rotations urad)}, each (N, 3); missing
+    axes are perfect."""
     true = np.array(machine.mount, float) + tip
     nominal = true.copy()
     for axis in reversed(machine.chain):
@@ -116,7 +160,8 @@ GRID = harmonic_basis(np.linspace(-1, 1, 401))
 
 
 def draw_harmonics(rng, kind, count):
-    """Coefficients (count, 2 + 2 HARMONICS) of functions whose largest value on the axis is a draw of U(-1, 1); paper section 5."""
+    """Coefficients (count, 2 + 2 HARMONICS) of functions whose largest value on the axis is a draw of U(-1,
+    1); paper section 5."""
     s, c = SHARES[kind]
     a = rng.uniform(size=(count, HARMONICS))
     a *= (1 - s - c) / a.sum(1, keepdims=True)
@@ -129,6 +174,7 @@ def draw_harmonics(rng, kind, count):
 @dataclass
 class Geometry:
     """The 18 error functions of one machine; functions[axis][motion] maps u to um or urad."""
+
     functions: dict = field(default_factory=dict)
 
     def carriages(self, machine, reading):
@@ -152,7 +198,8 @@ def paper_geometry(machine, rng, scale=1.0):
 
 
 def rough_geometry(machine, rng, scale=1.0):
-    """Not the paper's family: a straight line plus a Matern 5/2 process of random range on knots, natural cubic spline between; same size."""
+    """Not the paper's family: a straight line plus a Matern 5/2 process of random range on knots, natural
+    cubic spline between; same size."""
     out = Geometry()
     knots = np.linspace(-1, 1, 25)
     for axis in machine.chain:
@@ -182,4 +229,5 @@ def natural_spline(x, y):
         i = np.clip(((u - x[0]) / h).astype(int), 0, n - 2)
         a, b = (x[i + 1] - u) / h, (u - x[i]) / h
         return a * y[i] + b * y[i + 1] + ((a**3 - a) * m[i] + (b**3 - b) * m[i + 1]) * h**2 / 6
+
     return value

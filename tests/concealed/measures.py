@@ -1,15 +1,18 @@
 """The figures of a round from its rows, and the targets that they are held against."""
+
 import numpy as np
 
 from tallies import area, calibration, logistic, share
 
-RICH, POOR = "D", "ACE"
+RICH, POOR = "D", ("A", "C", "E")
 
 
 def pick(rows, **equal):
     """Rows whose entries equal what is asked, or are among it when it is a tuple."""
+
     def fits(r):
         return all(r.get(k) in v if isinstance(v, tuple) else r.get(k) == v for k, v in equal.items())
+
     return [r for r in rows if fits(r)]
 
 
@@ -53,9 +56,15 @@ def of_parameters(rows):
     by = {}
     for p in entries:
         by.setdefault(p["effect"] + " " + p["parameter"], []).append(p["covered"])
-    return {"coverage": share([p["covered"] for p in entries]), "z_sd": float(np.std(z)) if z else None, "z": z,
-            "relative_error_median": float(np.median([p["relative"] for p in entries if p["relative"] is not None])) if entries else None,
-            "by_parameter": {k: share(v) for k, v in sorted(by.items())}}
+    return {
+        "coverage": share([p["covered"] for p in entries]),
+        "z_sd": float(np.std(z)) if z else None,
+        "z": z,
+        "relative_error_median": float(np.median([p["relative"] for p in entries if p["relative"] is not None]))
+        if entries
+        else None,
+        "by_parameter": {k: share(v) for k, v in sorted(by.items())},
+    }
 
 
 def p_values(rows):
@@ -65,54 +74,121 @@ def p_values(rows):
 def compared(rows):
     """The same cases, judged by simpler methods and by one that knows the family."""
     nulls, singles = pick(rows, kind="null"), pick(rows, kind="single")
+
     def r(case, key):
         return (case.get("rivals") or {}).get(key)
+
     chi2 = lambda case: (r(case, "chi2_p") if r(case, "chi2_p") is not None else 1) < 0.01
-    return {"chi2": {"false_alarms": share([chi2(c) for c in nulls]), "power": share([chi2(c) for c in singles])},
-            "stepwise_bic": {"false_alarms": share([bool(r(c, "stepwise_members")) for c in nulls]), "right": share([bool(r(c, "stepwise_right")) for c in singles])},
-            "best_bayes_factor": {"right": share([bool(r(c, "best_right")) for c in singles]),
-                                  "confident_wrong": share([(r(c, "best_probability") or 0) > 0.95 and not r(c, "best_right") for c in singles])},
-            "this": {"right": share(flags(singles, "right")), "confident_wrong": share(flags(singles, "confident_wrong")),
-                     "power": share(flags(singles, "detected"))},
-            "oracle": {"power": share([bool(r(c, "oracle_detected")) for c in singles])}}
+    return {
+        "chi2": {"false_alarms": share([chi2(c) for c in nulls]), "power": share([chi2(c) for c in singles])},
+        "stepwise_bic": {
+            "false_alarms": share([bool(r(c, "stepwise_members")) for c in nulls]),
+            "right": share([bool(r(c, "stepwise_right")) for c in singles]),
+        },
+        "best_bayes_factor": {
+            "right": share([bool(r(c, "best_right")) for c in singles]),
+            "confident_wrong": share(
+                [(r(c, "best_probability") or 0) > 0.95 and not r(c, "best_right") for c in singles]
+            ),
+        },
+        "this": {
+            "right": share(flags(singles, "right")),
+            "confident_wrong": share(flags(singles, "confident_wrong")),
+            "power": share(flags(singles, "detected")),
+        },
+        "oracle": {"power": share([bool(r(c, "oracle_detected")) for c in singles])},
+    }
+
+
+def by(rows, key, count):
+    """count(rows of one value) for each value of key."""
+    values = sorted({key(r) for r in rows})
+    return {f"{v:g}" if isinstance(v, (int, float)) else v: count([r for r in rows if key(r) == v]) for v in values}
+
+
+def family(r):
+    return r["families"][0]
+
+
+def snr(r):
+    return r["snr"]
+
+
+def of_nulls(nulls):
+    def alarms(rows):
+        return share(flags(rows, "false_alarm"))
+
+    hard = pick(nulls, detail="hard")
+    return {
+        "false_alarms": {d: alarms(pick(nulls, detail=d)) for d in ("clean", "hard")},
+        "false_alarms_by_noise": by(hard, lambda r: r["noise"], alarms),
+        "false_alarms_by_design": {d: alarms(pick(nulls, design=d)) for d in "ACDE"},
+        "null_p": {d: p_values(pick(nulls, detail=d)) for d in ("clean", "hard")},
+    }
+
+
+def of_detection(nulls, singles):
+    against = [1 - p for p in p_values(nulls)]
+    return {
+        "power": power(singles),
+        "power_by_design": {d: power(pick(singles, design=d)) for d in "ACDE"},
+        "power_by_family": by(singles, family, power),
+        "auc": by(singles, snr, lambda rows: area(against, [1 - p for p in p_values(rows)])),
+        "predicted": predicted(singles),
+    }
+
+
+def of_names(singles):
+    named = [r for r in singles if r["verdict"] in ("named", "one_of")]
+    sure = [r for r in named if r["probability"] is not None]
+    return {
+        "naming": {"rich": naming(pick(singles, design=RICH)), "poor": naming(pick(singles, design=POOR))},
+        "named_set_contains_truth": share(flags(named, "right")),
+        "reliability": calibration([r["probability"] for r in sure], flags(sure, "right")),
+        "location": by(singles, snr, lambda rows: share(flags(rows, "located"))),
+        "parameters": of_parameters(singles),
+        "confusion": confusion(singles),
+        **of_improvement(named),
+    }
+
+
+def of_improvement(named):
+    biased = [r["bias"] for r in named if r.get("bias") and r["bias"].get("before")]
+    strong = [r for r in named if r["gain"] is not None and r["snr"] >= 6 and (r["rivals"]["oracle_held_out"] or 0) > 1]
+    return {
+        "gain_positive": share([(r["gain"] or 0) > 0 for r in named]),
+        "share_of_oracle_gain": median([r["gain"] / r["rivals"]["oracle_held_out"] for r in strong]),
+        "bias_left": median([b["after"] / b["before"] for b in biased]),
+    }
+
+
+def of_pairs(rows):
+    decoys = pick(rows, detail="decoy")
+    return {
+        "pairs": {d: share(flags(pick(rows, detail=d), "right")) for d in ("separable", "decoy", "masking")},
+        "decoy_wrongly_alone": share([r["verdict"] == "named" and not r["right"] for r in decoys]),
+    }
 
 
 def all_of(rows):
     """Every figure of the round."""
     answered = [r for r in rows if r["answered"]]
     nulls, singles = pick(answered, kind="null"), pick(answered, kind="single")
-    detected = [r for r in singles if r["detected"]]
-    named = [r for r in detected if r["verdict"] in ("named", "one_of")]
-    strange, missing = pick(answered, kind="unknown"), pick(answered, kind="missing")
-    clean = pick(nulls, detail="clean")
-    out = {
-        "cases": len(rows), "answered": len(answered), "seconds": {"median": median([r["seconds"] for r in answered]), "largest": max([r["seconds"] for r in answered], default=None)},
-        "false_alarms": {d: share(flags(pick(nulls, detail=d), "false_alarm")) for d in ("clean", "hard")},
-        "false_alarms_by_noise": {n: share(flags(pick(nulls, noise=n, detail="hard"), "false_alarm")) for n in sorted({r["noise"] for r in nulls})},
-        "false_alarms_by_design": {d: share(flags(pick(nulls, design=d), "false_alarm")) for d in "ACDE"},
-        "null_p": {d: p_values(pick(nulls, detail=d)) for d in ("clean", "hard")},
-        "power": power(singles), "power_by_design": {d: power(pick(singles, design=d)) for d in "ACDE"},
-        "power_by_family": {f: power([r for r in singles if r["families"] == [f]]) for f in sorted({r["families"][0] for r in singles})},
-        "auc": {f"{s:g}": area([1 - r["p_value"] for r in nulls if r["p_value"] is not None],
-                               [1 - r["p_value"] for r in pick(singles, snr=s) if r["p_value"] is not None]) for s in sorted({r["snr"] for r in singles})},
-        "naming": {"rich": naming(pick(singles, design=RICH)), "poor": naming(pick(singles, design=tuple(POOR)))},
-        "named_set_contains_truth": share(flags(named, "right")),
-        "reliability": calibration([r["probability"] for r in named if r["probability"] is not None], [r["right"] for r in named if r["probability"] is not None]),
+    seconds = [r["seconds"] for r in answered]
+    return {
+        "cases": len(rows),
+        "answered": len(answered),
+        "seconds": {"median": median(seconds), "largest": max(seconds, default=None)},
         "confident_wrong": share([r["confident_wrong"] for r in answered if r["kind"] != "null"]),
-        "location": {f"{s:g}": share(flags(pick(singles, snr=s), "located")) for s in sorted({r["snr"] for r in singles})},
-        "parameters": of_parameters(singles), "confusion": confusion(singles),
-        "predicted": predicted(singles),
-        "bias_left": median([r["bias"]["after"] / r["bias"]["before"] for r in named if r.get("bias") and r["bias"].get("before")]),
-        "share_of_oracle_gain": median([r["gain"] / r["rivals"]["oracle_held_out"] for r in named
-                                        if r["gain"] is not None and r["snr"] >= 6 and (r["rivals"]["oracle_held_out"] or 0) > 1]),
-        "gain_positive": share([(r["gain"] or 0) > 0 for r in named]),
-        "unknown": of_unknown(strange), "missing": of_missing(missing),
-        "pairs": {d: share([right_pair(r) for r in pick(answered, kind="pair", detail=d)]) for d in ("separable", "decoy", "masking")},
-        "decoy_named_alone": share([r["verdict"] == "named" and r["confident_wrong"] for r in pick(answered, kind="pair", detail="decoy")]),
-        "covariance": {f: share(flags([r for r in pick(answered, kind="covariance") if r["families"] == [f]], "right"))
-                       for f in sorted({r["families"][0] for r in pick(answered, kind="covariance")})},
-        "compared": compared(answered)}
-    return out
+        **of_nulls(nulls),
+        **of_detection(nulls, singles),
+        **of_names(singles),
+        **of_pairs(pick(answered, kind="pair")),
+        "unknown": of_unknown(pick(answered, kind="unknown")),
+        "missing": of_missing(pick(answered, kind="missing")),
+        "covariance": by(pick(answered, kind="covariance"), family, lambda some: share(flags(some, "right"))),
+        "compared": compared(answered),
+    }
 
 
 def predicted(rows):
@@ -121,7 +197,13 @@ def predicted(rows):
     for low, high in ((0, 0.5), (0.5, 0.8), (0.8, 1.25), (1.25, 2), (2, 4), (4, 1e9)):
         mine = [r for r in rows if r.get("over_detectable") is not None and low <= r["over_detectable"] < high]
         if mine:
-            out.append({"from": low, "ratio": float(np.median([r["over_detectable"] for r in mine])), **share(flags(mine, "detected"))})
+            out.append(
+                {
+                    "from": low,
+                    "ratio": float(np.median([r["over_detectable"] for r in mine])),
+                    **share(flags(mine, "detected")),
+                }
+            )
     return out
 
 
@@ -129,36 +211,54 @@ def median(values):
     return float(np.median(values)) if len(values) else None
 
 
-def right_pair(r):
-    """A decoy is right when the truth and a rival that looks the same are reported together, or the truth alone."""
-    return bool(r["right"])
-
-
 def of_unknown(rows):
     strong = [r for r in rows if r["snr"] >= 10]
     found = [r for r in strong if r["detected"]]
     near = [r for r in found if r.get("nearest") and r["nearest"][0][1] > 0.7]
     far = [r for r in found if r not in near]
+
     def block(some):
-        return {"unexplained": share([r["verdict"] == "unexplained" for r in some]), "falsely_named": share([bool(r["members"]) for r in some]),
-                "confidently_named": share(flags(some, "confident_wrong"))}
-    return {"detected": share(flags(strong, "detected")), **block(found), "alike": {"n": len(near), **block(near)}, "unlike": {"n": len(far), **block(far)}}
+        return {
+            "unexplained": share([r["verdict"] == "unexplained" for r in some]),
+            "falsely_named": share([bool(r["members"]) for r in some]),
+            "confidently_named": share(flags(some, "confident_wrong")),
+        }
+
+    return {
+        "detected": share(flags(strong, "detected")),
+        **block(found),
+        "alike": {"n": len(near), **block(near)},
+        "unlike": {"n": len(far), **block(far)},
+    }
 
 
 def of_missing(rows):
-    return {"listed": share([bool(set(r["families"]) & set(r["cannot_judge"])) for r in rows]),
-            "invented": share([r["verdict"] == "named" and not r["right"] for r in rows]), "confident_wrong": share(flags(rows, "confident_wrong"))}
+    return {
+        "listed": share([bool(set(r["families"]) & set(r["cannot_judge"])) for r in rows]),
+        "invented": share([r["verdict"] == "named" and not r["right"] for r in rows]),
+        "confident_wrong": share(flags(rows, "confident_wrong")),
+    }
 
 
 def targets(m):
     """[{name, target, observed, limits, n, met}]: what a round is held against."""
     out = []
+
     def add(name, target, figure, met):
         value = figure.get("share") if isinstance(figure, dict) else figure
         limits = [figure["low"], figure["high"]] if isinstance(figure, dict) and "low" in figure else None
-        out.append({"name": name, "target": target, "observed": value, "limits": limits, "n": figure.get("n") if isinstance(figure, dict) else None,
-                    "met": None if value is None else bool(met(value))})
-    at_least, at_most = lambda t: (lambda v: v >= t), lambda t: (lambda v: v <= t)
+        out.append(
+            {
+                "name": name,
+                "target": target,
+                "observed": value,
+                "limits": limits,
+                "n": figure.get("n") if isinstance(figure, dict) else None,
+                "met": None if value is None else bool(met(value)),
+            }
+        )
+
+    at_least, at_most = lambda t: lambda v: v >= t, lambda t: lambda v: v <= t
     none = {"share": None, "low": 0, "high": 1, "n": 0}
     add("false alarms, clean", "<= 1 %", m["false_alarms"]["clean"], at_most(0.01))
     add("false alarms, hard", "<= 2 %", m["false_alarms"]["hard"], at_most(0.02))

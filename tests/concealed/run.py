@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Lets the program answer every case of a round. usage: run.py DIR --abbe build/abbe [--jobs 2] [--limit SECONDS]
+"""Lets the program answer every case of a round. usage: run.py DIR --abbe build/abbe [--jobs 2] [--limit
+SECONDS]
 
-The command is the same for every case, without options of its own. A known machine is first learned from its calibration. Answers go to
-DIR/answers/NNNN.json with the time they took; what is there already is not asked again, so an interrupted run goes on. The truths are not read.
+The command is the same for every case, without options of its own. A known machine is first learned from its
+calibration. Answers go to DIR/answers/NNNN.json with the time they took; what is there already is not asked
+again, so an interrupted run goes on. The truths are not read.
 """
+
 import argparse
 import concurrent.futures
 import json

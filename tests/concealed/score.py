@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """Opens the truths of a round and scores the answers. usage: score.py DIR --out results.json [--markdown]
 
-Every seal is verified first; a truth or a data file that does not fit ends the scoring. results.json: `rows` (one a case), `measures`, `targets`, `worst`.
+Every seal is verified first; a truth or a data file that does not fit ends the scoring. results.json: `rows`
+(one a case), `measures`, `targets`, `worst`.
 """
+
 import argparse
 import json
 import pathlib
@@ -30,7 +32,20 @@ def badness(r):
 
 
 def worst(rows, count=10):
-    keys = ("case", "kind", "detail", "design", "mode", "snr", "families", "verdict", "members", "probability", "p_value", "exit")
+    keys = (
+        "case",
+        "kind",
+        "detail",
+        "design",
+        "mode",
+        "snr",
+        "families",
+        "verdict",
+        "members",
+        "probability",
+        "p_value",
+        "exit",
+    )
     bad = sorted((r for r in rows if badness(r) > 0), key=lambda r: (-badness(r), r["case"]))
     return [{k: r.get(k) for k in keys} for r in bad[:count]]
 
@@ -50,21 +65,43 @@ def markdown(result):
     m, out = result["measures"], ["| what | target | observed | 95 % limits | n | met |", "|---|---|---|---|---|---|"]
     for t in result["targets"]:
         limits = f"{percent(t['limits'][0])} to {percent(t['limits'][1])}" if t["limits"] and t["n"] else ""
-        out.append(f"| {t['name']} | {t['target']} | {shown(t)} | {limits} | {t['n'] or ''} | {'-' if t['met'] is None else 'yes' if t['met'] else 'no'} |")
+        out.append(
+            f"| {t['name']} | {t['target']} | {shown(t)} | {limits} | {t['n'] or ''} | {'-' if t['met'] is None else 'yes' if t['met'] else 'no'} |"
+        )
     steps = list(m["power"]["steps"])
-    out += ["", "Detected, by design and signal-to-noise ratio:", "", "| design | " + " | ".join(steps) + " |", "|---" * (len(steps) + 1) + "|"]
+    out += [
+        "",
+        "Detected, by design and signal-to-noise ratio:",
+        "",
+        "| design | " + " | ".join(steps) + " |",
+        "|---" * (len(steps) + 1) + "|",
+    ]
     for design, block in m["power_by_design"].items():
         out.append(f"| {design} | " + " | ".join(percent(block["steps"].get(s, {}).get("share")) for s in steps) + " |")
-    out += ["", "Detected and named rightly, by family:", "", "| family | n | detected | right, of the detected |", "|---|---|---|---|"]
+    out += [
+        "",
+        "Detected and named rightly, by family:",
+        "",
+        "| family | n | detected | right, of the detected |",
+        "|---|---|---|---|",
+    ]
     for family in m["power_by_family"]:
         mine = [r for r in result["rows"] if r["kind"] == "single" and r["families"] == [family] and r["answered"]]
         seen = [r for r in mine if r["detected"]]
         out.append(f"| `{family}` | {len(mine)} | {len(seen)} | {sum(r['right'] for r in seen)} |")
-    out += ["", "Worst answers:", "", "| case | what | design | SNR | truth | verdict | said | probability |", "|---|---|---|---|---|---|---|---|"]
+    out += [
+        "",
+        "Worst answers:",
+        "",
+        "| case | what | design | SNR | truth | verdict | said | probability |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
     for r in result["worst"]:
         chance = "" if r["probability"] is None else f"{r['probability']:.2f}"
-        out.append(f"| {r['case']} | {r['kind']} {r['detail']} | {r['design']} {r['mode']} | {r['snr']:g} | {', '.join(r['families'])} | {r['verdict']} | "
-                   f"{', '.join(r['members'] or [])} | {chance} |")
+        out.append(
+            f"| {r['case']} | {r['kind']} {r['detail']} | {r['design']} {r['mode']} | {r['snr']:g} | {', '.join(r['families'])} | {r['verdict']} | "
+            f"{', '.join(r['members'] or [])} | {chance} |"
+        )
     return "\n".join(out) + "\n"
 
 
@@ -72,9 +109,21 @@ def scored(root):
     truths, rows = seal.verified(root), []
     for number, truth in truths.items():
         path = pathlib.Path(root) / "answers" / f"{number}.json"
-        rows.append(judge.row(truth, json.loads(path.read_text()) if path.exists() else {"answer": None, "seconds": None, "exit": None}))
+        rows.append(
+            judge.row(
+                truth,
+                json.loads(path.read_text()) if path.exists() else {"answer": None, "seconds": None, "exit": None},
+            )
+        )
     figures = measures.all_of(rows)
-    return {"schema": "abbe.concealed/1", "seals_verified": len(truths), "targets": measures.targets(figures), "measures": figures, "worst": worst(rows), "rows": rows}
+    return {
+        "schema": "abbe.concealed/1",
+        "seals_verified": len(truths),
+        "targets": measures.targets(figures),
+        "measures": figures,
+        "worst": worst(rows),
+        "rows": rows,
+    }
 
 
 def main(argv=None):

@@ -1,8 +1,11 @@
-"""Sealing: the truth of every case is bound by a hash that is published before the data, and opened after the answers.
+"""Sealing: the truth of every case is bound by a hash that is published before the data, and opened after the
+answers.
 
-The seal of a case is SHA-256(salt || truth bytes); the salt comes from the secret of the round, so that nobody can try truths until one fits, and the truth
-holds the SHA-256 of the data files, so that they cannot be exchanged either.
+The seal of a case is SHA-256(salt || truth bytes); the salt comes from the secret of the round, so that
+nobody can try truths until one fits, and the truth holds the SHA-256 of the data files, so that they cannot
+be exchanged either.
 """
+
 import hashlib
 import json
 import pathlib
@@ -26,6 +29,7 @@ def generator(secret, *names):
 
 def to_bytes(truth):
     """JSON with sorted keys and nine digits: the same bytes wherever it is made."""
+
     def plain(v):
         if isinstance(v, dict):
             return {k: plain(x) for k, x in v.items()}
@@ -36,6 +40,7 @@ def to_bytes(truth):
         if isinstance(v, (np.floating, float)):
             return float(f"{float(v):.9g}")
         return bool(v) if isinstance(v, np.bool_) else v
+
     return (json.dumps(plain(truth), indent=1, sort_keys=True) + "\n").encode()
 
 
@@ -48,7 +53,8 @@ def digest_of(folder):
 
 
 def verified(root):
-    """Opens the truths of a round: {number: truth}. Raises ValueError for anything that does not fit its seal."""
+    """Opens the truths of a round: {number: truth}. Raises ValueError for anything that does not fit its
+    seal."""
     root = pathlib.Path(root)
     secret = (root / "sealed" / "secret.txt").read_text().strip()
     seals = dict(line.split() for line in (root / "SEAL.txt").read_text().splitlines() if not line.startswith("#"))

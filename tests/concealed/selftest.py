@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the generator of concealed cases itself: a wrong truth would blame the program for nothing. Skipped (77) without numpy."""
+"""Checks the generator of concealed cases itself: a wrong truth would blame the program for nothing. Skipped
+(77) without numpy."""
+
 import csv
 import io
 import json
@@ -15,7 +17,6 @@ except ModuleNotFoundError:
     sys.exit(77)
 
 import cases
-import designs
 import generate
 import judge
 import machine as cmm
@@ -38,10 +39,27 @@ class Kinematics(unittest.TestCase):
     def test_agrees_with_the_reference_numbers(self):
         for case in json.loads(REFERENCE.read_text())["cases"]:
             offsets = {a: case["offsets_mm"][a] for a in "xyz"}
-            m = cmm.Machine("reference", {}, {}, ("x", "y", "z"), offsets, tuple(case["offsets_mm"]["m"]), case["l_r_mm"], 0, 0, 0, (0, 0), (0, 0), 0)
+            m = cmm.Machine(
+                "reference",
+                {},
+                {},
+                ("x", "y", "z"),
+                offsets,
+                tuple(case["offsets_mm"]["m"]),
+                case["l_r_mm"],
+                0,
+                0,
+                0,
+                (0, 0),
+                (0, 0),
+                0,
+            )
             a, b = (np.radians([v]) for v in case["head_deg"])
             tip = cmm.tip_vector(a, b, np.array([case["tip_in_r_mm"]]), m.head_length)
-            errors = {k: (np.array([e["translation_um"]]), np.array([e["rotation_um_per_m"]])) for k, e in case["errors"].items()}
+            errors = {
+                k: (np.array([e["translation_um"]]), np.array([e["rotation_um_per_m"]]))
+                for k, e in case["errors"].items()
+            }
             d = cmm.tip_error(m, np.array([case["scale_reading_mm"]]), tip, errors)[0]
             np.testing.assert_allclose(tip[0], case["expected"]["tip_from_mount_mm"], atol=1e-9)
             np.testing.assert_allclose(d, case["expected"]["geometric_error_exact_product_um"], atol=5e-4)
@@ -64,8 +82,13 @@ class SignalToNoise(unittest.TestCase):
     def test_is_what_its_definition_says(self):
         s = stage()
         scene, d = s.scene, s.base.signature(CATALOGUE["probe.tip_radius"], {"amplitude_um": 1.0})
-        z = np.hstack([null.geometry_columns(scene), null.indexing_columns(scene),
-                       null.grouped(scene.sensor, scene.normal) * scene.machine.qualification_sd])
+        z = np.hstack(
+            [
+                null.geometry_columns(scene),
+                null.indexing_columns(scene),
+                null.grouped(scene.sensor, scene.normal) * scene.machine.qualification_sd,
+            ]
+        )
         inverse = np.linalg.inv(z @ z.T + scene.machine.probe_sd**2 * np.eye(scene.size))
         x = null.pose_columns(scene)
         x, _ = np.linalg.qr(x)
@@ -85,12 +108,20 @@ class SignalToNoise(unittest.TestCase):
     def test_scaling_reaches_the_target(self):
         s = stage("D")
         for name in ("thermal.drift", "probe.pretravel_lobing", "head.axis_errors", "machine.scale_interpolation"):
-            p, d = world.scaled(CATALOGUE[name], s.base, s.null, CATALOGUE[name].draw(s.scene, seal.generator("selftest", name)), 6.0)
+            _, d = world.scaled(
+                CATALOGUE[name], s.base, s.null, CATALOGUE[name].draw(s.scene, seal.generator("selftest", name)), 6.0
+            )
             self.assertAlmostEqual(s.null.snr(d), 6.0, places=2, msg=name)
 
     def test_held_out_gain_is_that_of_leaving_out(self):
         s = stage()
-        p = world.scaled(CATALOGUE["thermal.drift"], s.base, s.null, CATALOGUE["thermal.drift"].draw(s.scene, seal.generator("selftest", 1)), 6.0)
+        p = world.scaled(
+            CATALOGUE["thermal.drift"],
+            s.base,
+            s.null,
+            CATALOGUE["thermal.drift"].draw(s.scene, seal.generator("selftest", 1)),
+            6.0,
+        )
         d, y, c, gain = p[1], s.base.r + p[1], s.null.covariance(), 0.0
         for k in np.unique(s.scene.sensor):
             h, o = s.scene.sensor == k, s.scene.sensor != k
@@ -99,7 +130,10 @@ class SignalToNoise(unittest.TestCase):
             spread = c[np.ix_(h, h)] - c[np.ix_(h, o)] @ known[:, :-2]
             information = d[o] @ known[:, -1]
             size = d[o] @ known[:, -2] / information
-            for error, covariance, sign in ((y[h] - mean - size * shape, spread + np.outer(shape, shape) / information, 1), (y[h] - mean, spread, -1)):
+            for error, covariance, sign in (
+                (y[h] - mean - size * shape, spread + np.outer(shape, shape) / information, 1),
+                (y[h] - mean, spread, -1),
+            ):
                 gain -= sign * 0.5 * (error @ np.linalg.solve(covariance, error) + np.linalg.slogdet(covariance)[1])
         self.assertAlmostEqual(s.null.held_out_gain(y, d, s.scene.sensor), gain, delta=0.05)
 
@@ -124,12 +158,17 @@ class Physics(unittest.TestCase):
     def test_signs_are_those_of_the_documentation(self):
         s = stage("E")
         outer = s.scene.setup <= 3
-        for name, parameters, sign in (("probe.tip_radius", {"amplitude_um": 1.0}, 1), ("probe.trigger_delay", {"delay_ms": 1.0}, -1)):
+        for name, parameters, sign in (
+            ("probe.tip_radius", {"amplitude_um": 1.0}, 1),
+            ("probe.trigger_delay", {"delay_ms": 1.0}, -1),
+        ):
             self.assertTrue((sign * s.base.signature(CATALOGUE[name], parameters) > 0).all(), name)
         s.scene.temperature = {k: np.full(s.scene.size, 25.0) for k in s.scene.temperature}
+
         def lengthening(name):
             d = s.base.signature(CATALOGUE[name], {"cte_error_ppm_per_K": 1.0})
-            return np.sum(d[outer])   # both ends together
+            return np.sum(d[outer])  # both ends together
+
         self.assertGreater(lengthening("thermal.part_expansion"), 0)
         self.assertLess(lengthening("thermal.scale_expansion"), 0)
 
@@ -147,7 +186,9 @@ class Physics(unittest.TestCase):
         for effect in [*CATALOGUE.values(), *unknown.UNKNOWN.values(), *unknown_final.UNKNOWN.values()]:
             s = stage(effect.designs[-1] if effect.designs[-1] != "K" else "C", name=effect.name)
             p = effect.draw(s.scene, seal.generator("selftest", effect.name))
-            self.assertGreater(np.ptp(s.base.signature(effect, p)) + np.abs(s.base.signature(effect, p)).max(), 0, effect.name)
+            self.assertGreater(
+                np.ptp(s.base.signature(effect, p)) + np.abs(s.base.signature(effect, p)).max(), 0, effect.name
+            )
             for key in (*effect.scale, *cases.FIXED.get(effect.name, [])):
                 self.assertIn(key, p, effect.name)
 
@@ -181,17 +222,32 @@ class Files(unittest.TestCase):
             path.write_bytes(kept)
 
     def test_data_tell_no_truth(self):
-        words = [w for n in (*CATALOGUE, *noise.SPREADS) for w in (n, n.split(".")[-1])] + [*unknown.UNKNOWN, *unknown_final.UNKNOWN, "snr", "seed", "secret", "effect"]
-        words = [w for w in words if w not in ("scale", "step", "qualification")]   # a key, an artefact and a column
+        words = [w for n in (*CATALOGUE, *noise.SPREADS) for w in (n, n.split(".")[-1])] + [
+            *unknown.UNKNOWN,
+            *unknown_final.UNKNOWN,
+            "snr",
+            "seed",
+            "secret",
+            "effect",
+        ]
+        words = [w for w in words if w not in ("scale", "step", "qualification")]  # a key, an artefact and a column
         for path in (self.root / "cases").rglob("*.*"):
             text = path.read_text().lower()
             self.assertEqual([w for w in words if w in text], [], path)
 
     def test_recordings_fit_together(self):
         s = stage("D")
-        table = list(csv.DictReader(io.StringIO("\n".join(line for line in s.files(s.base.r)["recording.csv"].splitlines() if line[0] != "#"))))
+        table = list(
+            csv.DictReader(
+                io.StringIO(
+                    "\n".join(line for line in s.files(s.base.r)["recording.csv"].splitlines() if line[0] != "#")
+                )
+            )
+        )
+
         def block(*names):
             return np.array([[float(row[n]) for n in names] for row in table])
+
         x, t, n = block("x", "y", "z"), block("tx", "ty", "tz"), block("nx", "ny", "nz")
         np.testing.assert_allclose(np.sum(n * (x - t), 1) * 1e3, s.base.r, atol=2e-3)
         np.testing.assert_allclose(block("enc_x", "enc_y", "enc_z") + s.scene.tip, x, atol=2e-6)
@@ -210,10 +266,32 @@ class Scoring(unittest.TestCase):
         self.assertAlmostEqual(tallies.logistic(x, hit, 0.0)["at50"], 4, delta=0.3)
 
     def test_rules_of_the_judge(self):
-        truth = {"case": "1", "kind": "single", "detail": "", "snr": 6, "design": "D", "touches": 9, "machine": "m", "mode": "fresh", "verdict": "named",
-                 "nuisance": {"noise": "white"}, "effects": [{"name": "thermal.drift", "fixed": {"amplitude_um": 2.0}, "factors": ["time"]}]}
-        said = {"verdict": "named", "p_value": 0.001, "location": [{"factor": "time"}], "improvement": {"log_score_gain": 5},
-                "effects": [{"members": ["thermal.drift"], "probability": 0.97, "parameters": {"amplitude_um": {"value": 2.2, "u": 0.1, "interval95": [2.0, 2.4]}}}]}
+        truth = {
+            "case": "1",
+            "kind": "single",
+            "detail": "",
+            "snr": 6,
+            "design": "D",
+            "touches": 9,
+            "machine": "m",
+            "mode": "fresh",
+            "verdict": "named",
+            "nuisance": {"noise": "white"},
+            "effects": [{"name": "thermal.drift", "fixed": {"amplitude_um": 2.0}, "factors": ["time"]}],
+        }
+        said = {
+            "verdict": "named",
+            "p_value": 0.001,
+            "location": [{"factor": "time"}],
+            "improvement": {"log_score_gain": 5},
+            "effects": [
+                {
+                    "members": ["thermal.drift"],
+                    "probability": 0.97,
+                    "parameters": {"amplitude_um": {"value": 2.2, "u": 0.1, "interval95": [2.0, 2.4]}},
+                }
+            ],
+        }
         right = judge.row(truth, {"answer": said, "seconds": 1, "exit": 0})
         self.assertTrue(right["right"] and right["located"] and right["detected"] and not right["confident_wrong"])
         self.assertAlmostEqual(right["parameters"][0]["z"], 2.0)

@@ -1,4 +1,6 @@
-"""Small statistics of the scorer: limits of shares, a logistic curve, calibration of probabilities. No more than numpy is needed."""
+"""Small statistics of the scorer: limits of shares, a logistic curve, calibration of probabilities. No more
+than numpy is needed."""
+
 import math
 
 import numpy as np
@@ -19,7 +21,10 @@ def binomial_tail(k, n, p):
         return 1.0
     if p >= 1:
         return 1.0 if k >= n else 0.0
-    logs = [math.lgamma(n + 1) - math.lgamma(i + 1) - math.lgamma(n - i + 1) + i * math.log(p) + (n - i) * math.log1p(-p) for i in range(k + 1)]
+    logs = [
+        math.lgamma(n + 1) - math.lgamma(i + 1) - math.lgamma(n - i + 1) + i * math.log(p) + (n - i) * math.log1p(-p)
+        for i in range(k + 1)
+    ]
     return min(1.0, sum(map(math.exp, logs)))
 
 
@@ -42,7 +47,8 @@ def share(hits):
 
 
 def logistic(x, hit, floor=0.01):
-    """Maximum-likelihood curve floor + (1 - floor)/(1 + exp(-(a + b x))); {"a", "b", "at50", "at90"}; None when nothing can be fitted.
+    """Maximum-likelihood curve floor + (1 - floor)/(1 + exp(-(a + b x))); {"a", "b", "at50", "at90"}; None
+    when nothing can be fitted.
 
     A weak prior on b (0.5 to 5) keeps a separable sample finite. at50, at90: x of 50 and 90 %."""
     x, hit = np.asarray(x, float), np.asarray(hit, float)
@@ -70,7 +76,14 @@ def calibration(probability, right, bins=10):
         if mine.any():
             said, was = float(probability[mine].mean()), float(right[mine].mean())
             error += mine.mean() * abs(said - was)
-            rows.append({"n": int(mine.sum()), "said": said, "right": was, "limits": wilson(int(right[mine].sum()), int(mine.sum()))})
+            rows.append(
+                {
+                    "n": int(mine.sum()),
+                    "said": said,
+                    "right": was,
+                    "limits": wilson(int(right[mine].sum()), int(mine.sum())),
+                }
+            )
     return {"error": error if len(probability) else None, "bins": rows}
 
 

@@ -1,20 +1,27 @@
-"""One machine measures: everything that acts on a recording, added up; and the size of an effect for a wanted signal-to-noise ratio."""
+"""One machine measures: everything that acts on a recording, added up; and the size of an effect for a wanted
+signal-to-noise ratio."""
+
 import numpy as np
 
 import machine as cmm
 from effects import noise
 
 LADDER = (2, 3, 4.5, 6, 9, 15)
-IMPLAUSIBLE = 3   # times the range that the literature gives
+IMPLAUSIBLE = 3  # times the range that the literature gives
 
 
 def placed(scene, rng):
-    """The true part is not where the alignment says: 3 um and 10 urad for each placement; um along the normal."""
+    """The true part is not where the alignment says: 3 um and 10 urad for each placement; um along the
+    normal."""
     out = np.zeros(scene.size)
     for k in np.unique(scene.setup):
         mine = scene.setup == k
         centre = scene.target[mine] - scene.target.mean(0)
-        move = rng.normal(0, 3, 3) + cmm.rotate(np.tile(rng.normal(0, 1e-5, 3), (mine.sum(), 1)), centre) * 1e3 - centre * 1e3
+        move = (
+            rng.normal(0, 3, 3)
+            + cmm.rotate(np.tile(rng.normal(0, 1e-5, 3), (mine.sum(), 1)), centre) * 1e3
+            - centre * 1e3
+        )
         out[mine] = np.sum(scene.normal[mine] * move, 1)
     return out
 
@@ -59,7 +66,8 @@ class Baseline:
 
 
 def scaled(effect, baseline, null, parameters, target):
-    """Parameters and signature for which the signal-to-noise ratio is the target; None when that takes an implausible size."""
+    """Parameters and signature for which the signal-to-noise ratio is the target; None when that takes an
+    implausible size."""
     p = dict(parameters)
     for _ in range(4):
         d = baseline.signature(effect, p)

@@ -1,4 +1,6 @@
-"""Effects of the articulating head, with finite rotations: B turns about the axis of the mount and carries A. um, urad."""
+"""Effects of the articulating head, with finite rotations: B turns about the axis of the mount and carries A.
+um, urad."""
+
 import numpy as np
 
 import machine as cmm
@@ -28,19 +30,28 @@ def change_axes(scene, p):
 
 
 def draw_sag(scene, rng):
-    return {"bending_um": rng.uniform(0.3, 1), "joint_um": rng.uniform(0.1, 1), "at_length_mm": float(max(s.length for s in scene.styli))}
+    return {
+        "bending_um": rng.uniform(0.3, 1),
+        "joint_um": rng.uniform(0.1, 1),
+        "at_length_mm": float(max(s.length for s in scene.styli)),
+    }
 
 
 def change_sag(scene, p):
-    """A lying bar with a mass at its end, on an elastic joint; the true tip hangs low, the machine reads high."""
+    """A lying bar with a mass at its end, on an elastic joint; the true tip hangs low, the machine reads
+    high."""
     ratio = scene.length / p["at_length_mm"]
     up = np.array([0, 0, 1.0]) - scene.shank * scene.shank[:, 2:3]
     return Change(tip=up * (p["bending_um"] * ratio**3 + p["joint_um"] * ratio**2)[:, None])
 
 
 def draw_qualification(scene, rng):
-    return {"growth_um_per_K": rng.uniform(0.2, 1) * rng.choice([-1, 1]), "tilt_a_urad_per_K": rng.normal(0, 4), "tilt_b_urad_per_K": rng.normal(0, 4),
-            "qualified_at_C": 20.0}
+    return {
+        "growth_um_per_K": rng.uniform(0.2, 1) * rng.choice([-1, 1]),
+        "tilt_a_urad_per_K": rng.normal(0, 4),
+        "tilt_b_urad_per_K": rng.normal(0, 4),
+        "qualified_at_C": 20.0,
+    }
 
 
 def change_qualification(scene, p):
@@ -51,7 +62,24 @@ def change_qualification(scene, p):
 
 
 HEAD = ("head_A_deg", "head_B_deg", "sensor")
-effect("head.axis_errors", draw_axes, change_axes, ["translation_um", "rotation_urad"], 20, ["head", "sensor"], needs=HEAD, designs="CD")
+effect(
+    "head.axis_errors",
+    draw_axes,
+    change_axes,
+    ["translation_um", "rotation_urad"],
+    20,
+    ["head", "sensor"],
+    needs=HEAD,
+    designs="CD",
+)
 effect("head.sag", draw_sag, change_sag, ["bending_um", "joint_um"], 5, ["head", "sensor"], needs=HEAD, designs="CD")
-effect("head.qualification", draw_qualification, change_qualification, ["growth_um_per_K", "tilt_a_urad_per_K", "tilt_b_urad_per_K"], 2,
-       ["temperature", "head", "sensor", "time"], needs=("temp_air_C",), designs="D")
+effect(
+    "head.qualification",
+    draw_qualification,
+    change_qualification,
+    ["growth_um_per_K", "tilt_a_urad_per_K", "tilt_b_urad_per_K"],
+    2,
+    ["temperature", "head", "sensor", "time"],
+    needs=("temp_air_C",),
+    designs="D",
+)

@@ -1,18 +1,25 @@
 """Effects of the workpiece and its fixture: plates. um, mm, kg."""
+
 import numpy as np
 
-from .base import Change, along_axis_or_oblique, effect, vector
+from .base import Change, along_axis_or_oblique, effect, unit
 from .probe import ball_form
 from .structure import middle_time
-from .base import unit
 
 
 def plate_bowl(u, v):
-    """Deflection of a simply supported square plate under a load spread over its middle fifth: Navier's series, centre 1. u, v in [-1, 1]."""
+    """Deflection of a simply supported square plate under a load spread over its middle fifth: Navier's
+    series, centre 1. u, v in [-1, 1]."""
     w = centre = 0.0
     for m in range(1, 12, 2):
         for n in range(1, 12, 2):
-            patch = np.sin(m * np.pi / 2) * np.sin(n * np.pi / 2) * np.sin(m * np.pi * 0.1) * np.sin(n * np.pi * 0.1) / (m * n)
+            patch = (
+                np.sin(m * np.pi / 2)
+                * np.sin(n * np.pi / 2)
+                * np.sin(m * np.pi * 0.1)
+                * np.sin(n * np.pi * 0.1)
+                / (m * n)
+            )
             k = patch / (m**2 + n**2) ** 2
             w = w + k * np.sin(m * np.pi * (u + 1) / 2) * np.sin(n * np.pi * (v + 1) / 2)
             centre += k * np.sin(m * np.pi / 2) * np.sin(n * np.pi / 2)
@@ -24,11 +31,12 @@ def draw_load(scene, rng):
 
 
 def change_load(scene, p):
-    """The guide of x follows the granite along a line of the plate: it sinks, and its slope turns the carriage."""
+    """The guide of x follows the granite along a line of the plate: it sinks, and its slope turns the
+    carriage."""
     half = scene.machine.travel["x"] / 2
     u = scene.reading[:, 0] / half - 1
     load = p["sag_um_per_500kg"] * scene.load / 500
-    shape = lambda q: 1 - plate_bowl(0.8 * q, np.full_like(q, p["across"]))   # the guide ends near the supports
+    shape = lambda q: 1 - plate_bowl(0.8 * q, np.full_like(q, p["across"]))  # the guide ends near the supports
     low = shape(np.zeros(1))[0]
     slope = (shape(u + 1e-4) - shape(u - 1e-4)) / 2e-4
     move, turn = np.zeros((scene.size, 3)), np.zeros((scene.size, 3))
@@ -38,11 +46,17 @@ def change_load(scene, p):
 
 
 def draw_clamping(scene, rng):
-    return {"bow_um": rng.normal(), "twist_um": rng.normal(), "three_point_um": rng.normal(), "half_size_mm": float(np.abs(scene.part_point[:, :2]).max())}
+    return {
+        "bow_um": rng.normal(),
+        "twist_um": rng.normal(),
+        "three_point_um": rng.normal(),
+        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+    }
 
 
 def change_clamping(scene, p):
-    """Clamp forces bend the plate in its softest modes; the bow of a clamped-free strip is not quite a parabola."""
+    """Clamp forces bend the plate in its softest modes; the bow of a clamped-free strip is not quite a
+    parabola."""
     h = p["half_size_mm"]
     u, v, z = scene.part_point[:, 0] / h, scene.part_point[:, 1] / h, scene.part_point[:, 2] / h
     b, t, c = p["bow_um"], p["twist_um"], p["three_point_um"]
@@ -54,7 +68,12 @@ def change_clamping(scene, p):
 
 
 def draw_form(scene, rng):
-    return {"amplitude_um": 1.0, "axes": [unit(rng) for _ in range(4)], "degrees": [2, 2, 2, 3], "weights": rng.normal(size=4)}
+    return {
+        "amplitude_um": 1.0,
+        "axes": [unit(rng) for _ in range(4)],
+        "degrees": [2, 2, 2, 3],
+        "weights": rng.normal(size=4),
+    }
 
 
 def change_form(scene, p):
@@ -73,7 +92,25 @@ def change_shift(scene, p):
     return Change(along=p["amplitude_um"] * on * (scene.normal @ np.asarray(p["direction"])))
 
 
-effect("part.load_bending", draw_load, change_load, ["sag_um_per_500kg"], 5, ["position", "setup", "feature"], needs=("load_kg",), designs="D", known=True)
-effect("part.clamping", draw_clamping, change_clamping, ["bow_um", "twist_um", "three_point_um"], 50, ["feature", "position", "setup"], designs="CD")
+effect(
+    "part.load_bending",
+    draw_load,
+    change_load,
+    ["sag_um_per_500kg"],
+    5,
+    ["position", "setup", "feature"],
+    needs=("load_kg",),
+    designs="D",
+    known=True,
+)
+effect(
+    "part.clamping",
+    draw_clamping,
+    change_clamping,
+    ["bow_um", "twist_um", "three_point_um"],
+    50,
+    ["feature", "position", "setup"],
+    designs="CD",
+)
 effect("part.form", draw_form, change_form, ["amplitude_um"], 3, ["direction", "feature"], designs="AE")
 effect("part.shift", draw_shift, change_shift, ["amplitude_um"], 50, ["time", "setup"], needs=("time_s",))

@@ -1,5 +1,9 @@
-"""Effects of the probe and its stylus: statics of the tripod with friction and seat compliance, beams, Hertz, latency. Forces N, moduli GPa."""
+"""Effects of the probe and its stylus: statics of the tripod with friction and seat compliance, beams, Hertz,
+latency. Forces N, moduli GPa."""
+
 import numpy as np
+
+from scene import BALL
 
 from .base import Change, effect, unit
 
@@ -7,11 +11,13 @@ SEATS = np.radians([0, 120, 240])
 
 
 def tripod_force(azimuth, elevation, length, radius, friction=0.0, gravity=0.0, phase=0.0):
-    """Force at the tip, over the spring's, that tips the holder about the easiest of its three edges (Estler et al. 1996).
+    """Force at the tip, over the spring's, that tips the holder about the easiest of its three edges (Estler
+    et al. 1996).
 
-    Moments about the edge k, whose inner normal lies at psi_k: F [ L cos(beta) cos(phi - psi_k) + (R/2) sin(beta) ] = Fs R/2 (1 + gravity_k). The edge that
-    gives way first limits the force: 1/cos lobing, twice as stiff in the worst direction as in the best. A force beside the normal of the edge
-    slides on the seats: friction raises it. gravity: (N, 3) or 0, moment of the weight over that of the spring for each edge."""
+    Moments about the edge k, whose inner normal lies at psi_k: F [ L cos(beta) cos(phi - psi_k) + (R/2)
+    sin(beta) ] = Fs R/2 (1 + gravity_k). The edge that gives way first limits the force: 1/cos lobing, twice
+    as stiff in the worst direction as in the best. A force beside the normal of the edge slides on the seats:
+    friction raises it. gravity: (N, 3) or 0, moment of the weight over that of the spring for each edge."""
     best = np.full(np.shape(azimuth), np.inf)
     for k, seat in enumerate(SEATS):
         towards = np.cos(azimuth - phase - seat)
@@ -36,35 +42,47 @@ def directions(scene):
 
 
 def pretravel(azimuth, elevation, length, shaft, young, p, gravity=0.0):
-    return tripod_force(azimuth, elevation, length, p["seat_radius_mm"], p["friction"], gravity, p["phase"]) * compliance(elevation, length, shaft, young)
+    return tripod_force(
+        azimuth, elevation, length, p["seat_radius_mm"], p["friction"], gravity, p["phase"]
+    ) * compliance(elevation, length, shaft, young)
 
 
 def draw_lobing(scene, rng):
-    return {"amplitude_um": 1.0, "at_length_mm": float(min(s.length for s in scene.styli)), "phase": rng.uniform(0, 2 * np.pi / 3),
-            "seat_radius_mm": rng.uniform(4, 9), "friction": rng.uniform(0, 0.06), "gravity_share": rng.uniform(0, 0.1)}
+    return {
+        "amplitude_um": 1.0,
+        "at_length_mm": float(min(s.length for s in scene.styli)),
+        "phase": rng.uniform(0, 2 * np.pi / 3),
+        "seat_radius_mm": rng.uniform(4, 9),
+        "friction": rng.uniform(0, 0.06),
+        "gravity_share": rng.uniform(0, 0.1),
+    }
 
 
 def change_lobing(scene, p):
     phi, beta = directions(scene)
     down = np.einsum("nji,j->ni", scene.head, [0, 0, -1.0])
-    gravity = p["gravity_share"] * np.column_stack([down[:, 0] * np.cos(k + p["phase"]) + down[:, 1] * np.sin(k + p["phase"]) for k in SEATS])
+    gravity = p["gravity_share"] * np.column_stack(
+        [down[:, 0] * np.cos(k + p["phase"]) + down[:, 1] * np.sin(k + p["phase"]) for k in SEATS]
+    )
     value = pretravel(phi, beta, scene.length, scene.shaft, scene.young, p, gravity)
     rng = np.random.Generator(np.random.PCG64(5))
     u = rng.uniform(size=(400, 2))
     out, round_equator = np.zeros(scene.size), np.linspace(0, 2 * np.pi, 720)
-    for k, stylus in enumerate(scene.styli):
+    for k in range(len(scene.styli)):
         mine = scene.sensor == k
-        if mine.any():   # the mean over the hemisphere of the qualification is part of the tip radius
+        if mine.any():  # the mean over the hemisphere of the qualification is part of the tip radius
             one = [v[mine][:1] for v in (scene.length, scene.shaft, scene.young)]
             out[mine] = np.mean(pretravel(2 * np.pi * u[:, 0], np.arcsin(u[:, 1]), *one, p)) - value[mine]
     reference = min(scene.styli, key=lambda s: s.length)
     mine = scene.length == reference.length
-    ring = pretravel(round_equator, 0 * round_equator, scene.length[mine][0], scene.shaft[mine][0], scene.young[mine][0], p)
+    ring = pretravel(
+        round_equator, 0 * round_equator, scene.length[mine][0], scene.shaft[mine][0], scene.young[mine][0], p
+    )
     return Change(along=p["amplitude_um"] * out / ((ring.max() - ring.min()) / 2))
 
 
 def draw_bending(scene, rng):
-    return {"force_change_N": rng.choice([-1, 1]) * 0.01, "axial_share": 1.0}
+    return {"force_change_N": rng.choice([-1, 1]) * 0.01}
 
 
 def change_bending(scene, p):
@@ -81,8 +99,12 @@ def change_radius(scene, p):
 
 
 def draw_form(scene, rng):
-    return {"amplitude_um": 1.0, "axes": [unit(rng) for _ in range(8)], "degrees": [int(v) for v in rng.integers(2, 6, 8)],
-            "weights": rng.normal(size=8)}
+    return {
+        "amplitude_um": 1.0,
+        "axes": [unit(rng) for _ in range(8)],
+        "degrees": [int(v) for v in rng.integers(2, 6, 8)],
+        "weights": rng.normal(size=8),
+    }
 
 
 def legendre(degree, x):
@@ -90,12 +112,15 @@ def legendre(degree, x):
 
 
 def ball_form(u, p):
-    """Smooth form of a ball, rms 1 over it: zonal harmonics of degree 2 to 5 about random axes. u: unit vectors (N, 3)."""
+    """Smooth form of a ball, rms 1 over it: zonal harmonics of degree 2 to 5 about random axes. u: unit
+    vectors (N, 3)."""
     terms = [w / d * legendre(d, u @ a) for a, d, w in zip(p["axes"], p["degrees"], p["weights"])]
     rng = np.random.Generator(np.random.PCG64(6))
     v = rng.normal(size=(2000, 3))
     v /= np.linalg.norm(v, axis=1, keepdims=True)
-    size = np.sqrt(np.mean(sum(w / d * legendre(d, v @ a) for a, d, w in zip(p["axes"], p["degrees"], p["weights"])) ** 2))
+    size = np.sqrt(
+        np.mean(sum(w / d * legendre(d, v @ a) for a, d, w in zip(p["axes"], p["degrees"], p["weights"])) ** 2)
+    )
     return sum(terms) / size
 
 
@@ -115,11 +140,8 @@ def draw_flattening(scene, rng):
 
 
 def change_flattening(scene, p):
-    on_ball = 1 / (1 / scene.tip_radius + 1 / BALL_RADIUS)
+    on_ball = 1 / (1 / scene.tip_radius + 1 / BALL)
     return Change(along=-p["excess"] * hertz(p["force_N"], on_ball, p["young_GPa"]))
-
-
-BALL_RADIUS = 12.5
 
 
 def draw_delay(scene, rng):
@@ -152,7 +174,12 @@ def draw_step(scene, rng):
     often = [k for k in range(len(scene.styli)) if np.sum(scene.sensor == k) >= 15] or [int(scene.sensor[0])]
     k = int(rng.choice(often))
     used = scene.time[scene.sensor == k]
-    return {"amplitude_um": 1.0, "direction": unit(rng), "sensor": k, "t0_s": float(np.quantile(used, rng.uniform(0.25, 0.75))) + 0.5}
+    return {
+        "amplitude_um": 1.0,
+        "direction": unit(rng),
+        "sensor": k,
+        "t0_s": float(np.quantile(used, rng.uniform(0.25, 0.75))) + 0.5,
+    }
 
 
 def change_step(scene, p):
@@ -166,8 +193,51 @@ effect("probe.pretravel_lobing", draw_lobing, change_lobing, ["amplitude_um"], 1
 effect("probe.stylus_bending", draw_bending, change_bending, ["force_change_N"], 0.2, BODY)
 effect("probe.tip_radius", draw_radius, change_radius, ["amplitude_um"], 3, ["direction", "sensor", "feature"])
 effect("probe.tip_form", draw_form, change_form, ["amplitude_um"], 1.0, BODY)
-effect("probe.contact_flattening", draw_flattening, change_flattening, ["excess"], 1.0, ["direction", "sensor", "feature"], designs="CDE")
-effect("probe.trigger_delay", draw_delay, change_delay, ["delay_ms"], 2, ["speed", "direction", "sensor", "feature"], needs=("speed_mm_s",))
-effect("probe.cosine_error", draw_cosine, change_cosine, ["share"], 1.0, ["direction", "sensor"], needs=("ax", "ay", "az"), designs="D")
-effect("probe.stylus_length", draw_length, change_length, ["length_error_um"], 10000, ["head", "sensor"], needs=HEAD, designs="CD")
-effect("probe.step", draw_step, change_step, ["amplitude_um"], 50, ["time", "sensor", "head"], needs=("time_s",), designs="CD")
+effect(
+    "probe.contact_flattening",
+    draw_flattening,
+    change_flattening,
+    ["excess"],
+    1.0,
+    ["direction", "sensor", "feature"],
+    designs="CDE",
+)
+effect(
+    "probe.trigger_delay",
+    draw_delay,
+    change_delay,
+    ["delay_ms"],
+    2,
+    ["speed", "direction", "sensor", "feature"],
+    needs=("speed_mm_s",),
+)
+effect(
+    "probe.cosine_error",
+    draw_cosine,
+    change_cosine,
+    ["share"],
+    1.0,
+    ["direction", "sensor"],
+    needs=("ax", "ay", "az"),
+    designs="D",
+)
+effect(
+    "probe.stylus_length",
+    draw_length,
+    change_length,
+    ["length_error_um"],
+    10000,
+    ["head", "sensor"],
+    needs=HEAD,
+    designs="CD",
+)
+effect(
+    "probe.step",
+    draw_step,
+    change_step,
+    ["amplitude_um"],
+    50,
+    ["time", "sensor", "head"],
+    needs=("time_s",),
+    designs="CD",
+)

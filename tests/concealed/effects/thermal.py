@@ -1,5 +1,7 @@
-"""Effects of temperature: spec of signs and sizes in docs/physics/thermal.md, other mathematics here: conduction instead of exponentials, a relay
-control instead of a sine. Lengths mm, temperatures C and K, um."""
+"""Effects of temperature: spec of signs and sizes in docs/physics/thermal.md, other mathematics here:
+conduction instead of exponentials, a relay control instead of a sine. Lengths mm, temperatures C and K,
+um."""
+
 import numpy as np
 
 from .base import Change, along_axis_or_oblique, conduction_response, effect, slab_gradient, vector
@@ -23,7 +25,12 @@ def change_part(scene, p):
 
 
 def change_scales(scene, p):
-    tip = -np.column_stack([p["cte_error_ppm_per_K"] * (scene.temperature[a] - 20) * scene.reading[:, i] * 1e-3 for i, a in enumerate("xyz")])
+    tip = -np.column_stack(
+        [
+            p["cte_error_ppm_per_K"] * (scene.temperature[a] - 20) * scene.reading[:, i] * 1e-3
+            for i, a in enumerate("xyz")
+        ]
+    )
     return Change(tip=tip)
 
 
@@ -38,7 +45,12 @@ def arch(scene, axis, curvature):
 
 
 def draw_table(scene, rng):
-    return {"gradient_K": sign(rng), "since_h": rng.uniform(4, 24), "thickness_mm": rng.uniform(180, 250), "cte_ppm_per_K": 6.5}
+    return {
+        "gradient_K": sign(rng),
+        "since_h": rng.uniform(4, 24),
+        "thickness_mm": rng.uniform(180, 250),
+        "cte_ppm_per_K": 6.5,
+    }
 
 
 def change_table(scene, p):
@@ -48,7 +60,12 @@ def change_table(scene, p):
 
 
 def draw_bridge(scene, rng):
-    return {"gradient_K": sign(rng), "height_mm": rng.uniform(150, 250), "cte_ppm_per_K": 23.1, "tau_s": rng.uniform(900, 2400)}
+    return {
+        "gradient_K": sign(rng),
+        "height_mm": rng.uniform(150, 250),
+        "cte_ppm_per_K": 23.1,
+        "tau_s": rng.uniform(900, 2400),
+    }
 
 
 def change_bridge(scene, p):
@@ -57,7 +74,11 @@ def change_bridge(scene, p):
 
 
 def draw_drift(scene, rng):
-    return {"amplitude_um": 1.0, "direction": along_axis_or_oblique(rng), "tau_s": scene.duration * rng.uniform(0.15, 0.8)}
+    return {
+        "amplitude_um": 1.0,
+        "direction": along_axis_or_oblique(rng),
+        "tau_s": scene.duration * rng.uniform(0.15, 0.8),
+    }
 
 
 def change_drift(scene, p):
@@ -66,17 +87,23 @@ def change_drift(scene, p):
 
 def draw_cycle(scene, rng):
     shortest = max(420.0, scene.duration / 25)
-    return {"amplitude_um": 1.0, "direction": along_axis_or_oblique(rng), "period_s": rng.uniform(shortest, max(1.2 * shortest, min(3600, scene.duration / 3))),
-            "phase_deg": rng.uniform(0, 360)}
+    return {
+        "amplitude_um": 1.0,
+        "direction": along_axis_or_oblique(rng),
+        "period_s": rng.uniform(shortest, max(1.2 * shortest, min(3600, scene.duration / 3))),
+        "phase_deg": rng.uniform(0, 360),
+    }
 
 
 def relay(t, period, softness=0.25):
     """Room under on-off control: exponentials between two switching points, fundamental of amplitude 1."""
     tau = softness * period
+
     def raw(x):
         half, q = np.mod(x, 1.0) % 0.5, np.exp(-0.5 * period / tau)
         value = 1 - 2 / (1 + q) * np.exp(-half * period / tau)
         return np.where(np.mod(x, 1.0) < 0.5, value, -value)
+
     grid = (np.arange(2000) + 0.5) / 2000
     first = np.hypot(*(2 * np.mean(raw(grid) * f(2 * np.pi * grid)) for f in (np.cos, np.sin)))
     return raw(t / period) / first
@@ -108,21 +135,80 @@ def change_stylus(scene, p):
 
 
 def draw_soak(scene, rng):
-    return {"start_K": sign(rng), "tau_s": scene.duration * rng.uniform(0.1, 0.4), "cte_ppm_per_K": float(rng.choice([11.5, 23.1]))}
+    return {
+        "start_K": sign(rng),
+        "tau_s": scene.duration * rng.uniform(0.1, 0.4),
+        "cte_ppm_per_K": float(rng.choice([11.5, 23.1])),
+    }
 
 
 def change_soak(scene, p):
-    return Change(along=from_part(scene, p["cte_ppm_per_K"] * p["start_K"] * (1 - conduction_response(scene.time, p["tau_s"]))))
+    return Change(
+        along=from_part(scene, p["cte_ppm_per_K"] * p["start_K"] * (1 - conduction_response(scene.time, p["tau_s"])))
+    )
 
 
 TIME, HEAT, PLACE = ("time_s",), "temperature", "position"
-effect("thermal.part_expansion", draw_part, change_part, ["cte_error_ppm_per_K"], 12, [HEAT, PLACE, "feature", "setup"], needs=("temp_part_C",), designs="CDE")
-effect("thermal.scale_expansion", draw_part, change_scales, ["cte_error_ppm_per_K"], 10, [HEAT, PLACE, "setup"],
-       needs=("temp_x_C", "temp_y_C", "temp_z_C"), designs="D")
-effect("thermal.table_bending", draw_table, change_table, ["gradient_K"], 1.0, [PLACE, "setup", "feature"], designs="CDE", known=True)
-effect("thermal.bridge_bending", draw_bridge, change_bridge, ["gradient_K"], 0.5, [PLACE, "setup", "feature"], designs="CDE", known=True)
+effect(
+    "thermal.part_expansion",
+    draw_part,
+    change_part,
+    ["cte_error_ppm_per_K"],
+    12,
+    [HEAT, PLACE, "feature", "setup"],
+    needs=("temp_part_C",),
+    designs="CDE",
+)
+effect(
+    "thermal.scale_expansion",
+    draw_part,
+    change_scales,
+    ["cte_error_ppm_per_K"],
+    10,
+    [HEAT, PLACE, "setup"],
+    needs=("temp_x_C", "temp_y_C", "temp_z_C"),
+    designs="D",
+)
+effect(
+    "thermal.table_bending",
+    draw_table,
+    change_table,
+    ["gradient_K"],
+    1.0,
+    [PLACE, "setup", "feature"],
+    designs="CDE",
+    known=True,
+)
+effect(
+    "thermal.bridge_bending",
+    draw_bridge,
+    change_bridge,
+    ["gradient_K"],
+    0.5,
+    [PLACE, "setup", "feature"],
+    designs="CDE",
+    known=True,
+)
 effect("thermal.drift", draw_drift, change_drift, ["amplitude_um"], 10, ["time"], needs=TIME)
 effect("thermal.cycle", draw_cycle, change_cycle, ["amplitude_um"], 4, ["time"], needs=TIME, designs="CDE")
 effect("thermal.ram_growth", draw_ram, change_ram, ["rise_K"], 1.0, ["time", PLACE], needs=TIME)
-effect("thermal.stylus_growth", draw_stylus, change_stylus, ["rise_K"], 5.0, ["time", "head", "sensor"], needs=TIME, designs="CD")
-effect("thermal.part_soak", draw_soak, change_soak, ["start_K"], 3.0, ["time", PLACE, "feature", "setup"], needs=TIME, designs="CDE")
+effect(
+    "thermal.stylus_growth",
+    draw_stylus,
+    change_stylus,
+    ["rise_K"],
+    5.0,
+    ["time", "head", "sensor"],
+    needs=TIME,
+    designs="CD",
+)
+effect(
+    "thermal.part_soak",
+    draw_soak,
+    change_soak,
+    ["start_K"],
+    3.0,
+    ["time", PLACE, "feature", "setup"],
+    needs=TIME,
+    designs="CDE",
+)

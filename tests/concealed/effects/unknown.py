@@ -1,4 +1,6 @@
-"""Effects that no catalogue names, for development and rehearsal: a diagnosis must say that something is there and that it cannot name it."""
+"""Effects that no catalogue names, for development and rehearsal: a diagnosis must say that something is
+there and that it cannot name it."""
+
 import numpy as np
 
 from .base import Change, Effect, unit, vector
@@ -44,7 +46,12 @@ def change_rocking(scene, p):
 def draw_dent(scene, rng):
     ball = str(rng.choice(np.unique(scene.feature)))
     mine = [i for i, f in enumerate(scene.feature) if f == ball]
-    return {"amplitude_um": -1.0, "ball": ball, "towards": scene.part_normal[rng.choice(mine)], "width_deg": rng.uniform(25, 45)}
+    return {
+        "amplitude_um": -1.0,
+        "ball": ball,
+        "towards": scene.part_normal[rng.choice(mine)],
+        "width_deg": rng.uniform(25, 45),
+    }
 
 
 def change_dent(scene, p):

@@ -1,4 +1,5 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
+
 import numpy as np
 
 from .base import Change, Effect, unit, vector
@@ -12,7 +13,12 @@ def unknown(name, draw, change, factors, designs="CD"):
 
 def draw_dip(scene, rng):
     axis = int(rng.integers(2))
-    return {"amplitude_um": 1.0, "direction": unit(rng), "axis": axis, "start_mm": float(np.quantile(scene.reading[:, axis], rng.uniform(0.15, 0.55)))}
+    return {
+        "amplitude_um": 1.0,
+        "direction": unit(rng),
+        "axis": axis,
+        "start_mm": float(np.quantile(scene.reading[:, axis], rng.uniform(0.15, 0.55))),
+    }
 
 
 def change_dip(scene, p):
@@ -38,12 +44,19 @@ def draw_creep(scene, rng):
 def change_creep(scene, p):
     """After each indexing the joint settles with the logarithm of time."""
     first = np.array([scene.time[scene.visit == v].min() for v in scene.visit])
-    return Change(tip=p["amplitude_um"] * np.array(p["directions"])[scene.sensor] * np.log1p((scene.time - first) / 3)[:, None])
+    return Change(
+        tip=p["amplitude_um"] * np.array(p["directions"])[scene.sensor] * np.log1p((scene.time - first) / 3)[:, None]
+    )
 
 
 def draw_sawtooth(scene, rng):
     axis = int(rng.integers(3))
-    return {"amplitude_um": 1.0, "axis": axis, "period_mm": rng.uniform(0.25, 0.4) * np.ptp(scene.reading[:, axis]), "phase": rng.uniform()}
+    return {
+        "amplitude_um": 1.0,
+        "axis": axis,
+        "period_mm": rng.uniform(0.25, 0.4) * np.ptp(scene.reading[:, axis]),
+        "phase": rng.uniform(),
+    }
 
 
 def change_sawtooth(scene, p):
@@ -59,7 +72,9 @@ def draw_wedge(scene, rng):
 def change_wedge(scene, p):
     """Cubic in the distance from the middle, in one octant of the volume."""
     away = (scene.reading - scene.reading.mean(0)) / np.ptp(scene.reading, axis=0) * 2 * p["octant"]
-    return Change(tip=vector(p["direction"], p["amplitude_um"] * np.sum(np.clip(away, 0, None) ** 3, 1) * (away > -0.1).all(1)))
+    return Change(
+        tip=vector(p["direction"], p["amplitude_um"] * np.sum(np.clip(away, 0, None) ** 3, 1) * (away > -0.1).all(1))
+    )
 
 
 def draw_telegraph(scene, rng):
