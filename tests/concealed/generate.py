@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Makes a round of concealed cases. usage: generate.py --round development|rehearsal|final --out DIR [--scale
-0.1] [--secret HEX] [--jobs 2]
+"""Makes a round of concealed cases.
 
-DIR/SEAL.txt     hashes of the truths, written before the data DIR/cases/NNNN/  machine.json, recording.csv
-and, for a known machine, calibration.csv DIR/sealed/      secret.txt and the truths NNNN.json; keep it away
-from those who answer until they have answered
+    generate.py --round development|rehearsal|final --out DIR [--sealed DIR/sealed] [--scale 0.1] [--secret HEX]
+
+DIR/SEAL.txt     hashes of the truths, written before the data
+DIR/cases/NNNN/  machine.json, recording.csv and, for a known machine, calibration.csv
+DIR/sealed/      secret.txt and the truths NNNN.json; keep it away from those who answer until they have answered
 """
 
 import os
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the same bytes on every machine, and cases run side by side
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the same bytes everywhere
 import argparse
 import concurrent.futures
 import pathlib
@@ -26,14 +27,14 @@ PUBLIC = "development round of the concealed cases"
 
 
 def write_case(job):
-    secret, number, spec, root = job
+    secret, number, spec, root, sealed = job
     data, truth = cases.make(secret, number, spec)
     raw = to_bytes(truth)
     folder = root / "cases.tmp" / number
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in data.items():
         (folder / name).write_text(text)
-    (root / "sealed" / f"{number}.json").write_bytes(raw)
+    (sealed / f"{number}.json").write_bytes(raw)
     return number, seal(secret, number, raw)
 
 
@@ -48,6 +49,7 @@ def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--round", choices=("development", "rehearsal", "final"), required=True)
     parser.add_argument("--out", type=pathlib.Path, required=True)
+    parser.add_argument("--sealed", type=pathlib.Path, help="where the truths go, default DIR/sealed")
     parser.add_argument("--scale", type=float, default=1.0)
     parser.add_argument("--secret", help="hexadecimal; makes a published round again")
     parser.add_argument("--jobs", type=int, default=1)
@@ -57,15 +59,17 @@ def main(argv=None):
     secret = given.secret or (PUBLIC if given.round == "development" else secrets.token_hex(16))
     secret = f"{given.round} {secret}"
     counts = {kind: max(1, round(n * given.scale)) for kind, n in cases.COUNTS.items()}
-    (given.out / "sealed").mkdir(parents=True, exist_ok=True)
-    (given.out / "sealed" / "secret.txt").write_text(secret + "\n")
-    jobs = [(secret, number, spec, given.out) for number, spec in numbered(secret, counts, given.round == "final")]
+    sealed = given.sealed or given.out / "sealed"
+    for folder in (given.out, sealed):
+        folder.mkdir(parents=True, exist_ok=True)
+    (sealed / "secret.txt").write_text(secret + "\n")
+    jobs = [(secret, *case, given.out, sealed) for case in numbered(secret, counts, given.round == "final")]
     with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
         seals = list(pool.map(write_case, jobs, chunksize=4))
     head = f"# SHA-256(salt || truth) of every case of the {given.round} round\n"
     (given.out / "SEAL.txt").write_text(head + "".join(f"{n} {h}\n" for n, h in sorted(seals)))
     (given.out / "cases.tmp").rename(given.out / "cases")
-    print(f"{len(jobs)} cases in {given.out}/cases; truths in {given.out}/sealed")
+    print(f"{len(jobs)} cases in {given.out}/cases; truths in {sealed}")
 
 
 if __name__ == "__main__":

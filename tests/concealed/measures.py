@@ -92,6 +92,7 @@ def compared(rows):
             ),
         },
         "this": {
+            "false_alarms": share(flags(nulls, "false_alarm")),
             "right": share(flags(singles, "right")),
             "confident_wrong": share(flags(singles, "confident_wrong")),
             "power": share(flags(singles, "detected")),

@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""Lets the program answer every case of a round. usage: run.py DIR --abbe build/abbe [--jobs 2] [--limit
-SECONDS]
+"""Lets the program answer every case of a round.
+
+    run.py DIR --abbe build/abbe [--jobs 2] [--limit SECONDS]
 
 The command is the same for every case, without options of its own. A known machine is first learned from its
 calibration. Answers go to DIR/answers/NNNN.json with the time they took; what is there already is not asked
-again, so an interrupted run goes on. The truths are not read.
+again, so an interrupted run goes on, with the same program only. The truths are not read.
 """
 
 import argparse
 import concurrent.futures
+import hashlib
 import json
 import pathlib
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -44,6 +47,16 @@ def answer(abbe, case, limit):
     return {"seconds": round(time.monotonic() - start, 3), "exit": code, "answer": said, "messages": error[-2000:]}
 
 
+def frozen(abbe, answers):
+    """All cases of a round are answered by one and the same program: its hash and version stay with the answers."""
+    version = subprocess.run([abbe, "--version"], capture_output=True, text=True).stdout.strip()
+    tool = {"sha256": hashlib.sha256(pathlib.Path(abbe).read_bytes()).hexdigest(), "version": version}
+    note = answers / "tool.txt"
+    if note.exists() and json.loads(note.read_text())["sha256"] != tool["sha256"]:
+        sys.exit(f"run: {answers} has answers of another program; remove them, or use that one")
+    note.write_text(json.dumps(tool) + "\n")
+
+
 def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("round", type=pathlib.Path)
@@ -53,6 +66,7 @@ def main(argv=None):
     given = parser.parse_args(argv)
     answers = given.round / "answers"
     answers.mkdir(exist_ok=True)
+    frozen(given.abbe, answers)
     todo = [c for c in sorted((given.round / "cases").iterdir()) if not (answers / f"{c.name}.json").exists()]
     lost = 0
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:

@@ -18,6 +18,9 @@ except ModuleNotFoundError as missing:
     sys.exit(f"score: needs {missing.name} (Debian: python3-numpy)")
 
 
+METHOD_FIGURES = ("false_alarms", "power", "right", "confident_wrong")
+
+
 def badness(r):
     """How wrong an answer is, for the gallery of failures; 0 when it is right."""
     if not r["answered"]:
@@ -50,71 +53,69 @@ def worst(rows, count=10):
     return [{k: r.get(k) for k in keys} for r in bad[:count]]
 
 
-def percent(value):
+def percent(figure):
+    value = figure.get("share") if isinstance(figure, dict) else figure
     return "-" if value is None else f"{100 * value:.1f} %"
 
 
-def shown(target):
-    if target["observed"] is None:
-        return "-"
-    return percent(target["observed"]) if target["limits"] else f"{target['observed']:.2f}"
+def table(head, rows):
+    lines = ["| " + " | ".join(map(str, cells)) + " |" for cells in (head, *rows)]
+    return "\n".join([lines[0], "|---" * len(head) + "|", *lines[1:]]) + "\n"
+
+
+def target_row(t):
+    limited = t["limits"] and t["n"]
+    value = "-" if t["observed"] is None else percent(t["observed"]) if t["limits"] else f"{t['observed']:.2f}"
+    limits = f"{percent(t['limits'][0])} to {percent(t['limits'][1])}" if limited else ""
+    return [t["name"], t["target"], value, limits, t["n"] or "", {None: "-", True: "yes", False: "no"}[t["met"]]]
+
+
+def family_row(name, rows):
+    mine = [r for r in rows if r["answered"] and r["families"] == [name] and r["kind"] in ("single", "covariance")]
+    seen = [r for r in mine if r["detected"]]
+    return [f"`{name}`", len(mine), len(seen), sum(r["right"] for r in seen)]
+
+
+def worst_row(r):
+    chance = "" if r["probability"] is None else f"{r['probability']:.2f}"
+    what = f"{r['kind']} {r['detail']}".strip()
+    truth, said = ", ".join(r["families"]) or "nothing", ", ".join(r["members"] or [])
+    return [r["case"], what, f"{r['design']} {r['mode']}", f"{r['snr']:g}", truth, r["verdict"], said, chance]
 
 
 def markdown(result):
-    """The table of targets, power and naming by design, and the gallery."""
-    m, out = result["measures"], ["| what | target | observed | 95 % limits | n | met |", "|---|---|---|---|---|---|"]
-    for t in result["targets"]:
-        limits = f"{percent(t['limits'][0])} to {percent(t['limits'][1])}" if t["limits"] and t["n"] else ""
-        out.append(
-            f"| {t['name']} | {t['target']} | {shown(t)} | {limits} | {t['n'] or ''} | {'-' if t['met'] is None else 'yes' if t['met'] else 'no'} |"
-        )
+    """The targets; power by design; nulls by noise; families; other methods; the gallery of failures."""
+    m, rows = result["measures"], result["rows"]
     steps = list(m["power"]["steps"])
-    out += [
-        "",
-        "Detected, by design and signal-to-noise ratio:",
-        "",
-        "| design | " + " | ".join(steps) + " |",
-        "|---" * (len(steps) + 1) + "|",
+    powers = [[d, *(percent(b["steps"].get(s)) for s in steps)] for d, b in m["power_by_design"].items()]
+    nulls = [[k, b["n"], percent(b)] for part in ("noise", "design") for k, b in m[f"false_alarms_by_{part}"].items()]
+    families = [family_row(f, rows) for f in [*m["power_by_family"], *m["covariance"]]]
+    methods = [[name, *(percent(block.get(k)) for k in METHOD_FIGURES)] for name, block in m["compared"].items()]
+    parts = [
+        table(["what", "target", "observed", "95 % limits", "n", "met"], map(target_row, result["targets"])),
+        "Detected, by design and signal-to-noise ratio:\n",
+        table(["design", *steps], powers),
+        "False alarms among the hard nulls by noise, and among all nulls by design:\n",
+        table(["noise or design", "n", "false alarms"], nulls),
+        "Detected and named rightly, by family:\n",
+        table(["family", "n", "detected", "right, of the detected"], families),
+        "Other methods on the same nulls and single effects (detected; named rightly, of all):\n",
+        table(["method", "false alarms", "detected", "right", "confident and wrong"], methods),
+        "Worst answers:\n",
+        table(
+            ["case", "what", "design", "SNR", "truth", "verdict", "said", "probability"],
+            map(worst_row, result["worst"]),
+        ),
     ]
-    for design, block in m["power_by_design"].items():
-        out.append(f"| {design} | " + " | ".join(percent(block["steps"].get(s, {}).get("share")) for s in steps) + " |")
-    out += [
-        "",
-        "Detected and named rightly, by family:",
-        "",
-        "| family | n | detected | right, of the detected |",
-        "|---|---|---|---|",
-    ]
-    for family in m["power_by_family"]:
-        mine = [r for r in result["rows"] if r["kind"] == "single" and r["families"] == [family] and r["answered"]]
-        seen = [r for r in mine if r["detected"]]
-        out.append(f"| `{family}` | {len(mine)} | {len(seen)} | {sum(r['right'] for r in seen)} |")
-    out += [
-        "",
-        "Worst answers:",
-        "",
-        "| case | what | design | SNR | truth | verdict | said | probability |",
-        "|---|---|---|---|---|---|---|---|",
-    ]
-    for r in result["worst"]:
-        chance = "" if r["probability"] is None else f"{r['probability']:.2f}"
-        out.append(
-            f"| {r['case']} | {r['kind']} {r['detail']} | {r['design']} {r['mode']} | {r['snr']:g} | {', '.join(r['families'])} | {r['verdict']} | "
-            f"{', '.join(r['members'] or [])} | {chance} |"
-        )
-    return "\n".join(out) + "\n"
+    return "\n".join(parts)
 
 
-def scored(root):
-    truths, rows = seal.verified(root), []
-    for number, truth in truths.items():
+def scored(root, sealed=None):
+    """Everything that results.json has."""
+    rows = []
+    for number, truth in (truths := seal.verified(root, sealed)).items():
         path = pathlib.Path(root) / "answers" / f"{number}.json"
-        rows.append(
-            judge.row(
-                truth,
-                json.loads(path.read_text()) if path.exists() else {"answer": None, "seconds": None, "exit": None},
-            )
-        )
+        rows.append(judge.row(truth, json.loads(path.read_text()) if path.exists() else {}))
     figures = measures.all_of(rows)
     return {
         "schema": "abbe.concealed/1",
@@ -130,10 +131,11 @@ def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("round", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path, required=True)
+    parser.add_argument("--sealed", type=pathlib.Path, help="where the truths are, default DIR/sealed")
     parser.add_argument("--markdown", action="store_true", help="print tables, too")
     given = parser.parse_args(argv)
     try:
-        result = scored(given.round)
+        result = scored(given.round, given.sealed)
     except ValueError as broken:
         sys.exit(f"score: {broken}")
     given.out.write_text(json.dumps(result, indent=1) + "\n")

@@ -52,15 +52,17 @@ def digest_of(folder):
     return h.hexdigest()
 
 
-def verified(root):
-    """Opens the truths of a round: {number: truth}. Raises ValueError for anything that does not fit its
-    seal."""
+def verified(root, sealed=None):
+    """Opens the truths of a round, which are in `sealed` or in root/sealed: {number: truth}.
+
+    Raises ValueError for anything that does not fit its seal."""
     root = pathlib.Path(root)
-    secret = (root / "sealed" / "secret.txt").read_text().strip()
+    sealed = pathlib.Path(sealed or root / "sealed")
+    secret = (sealed / "secret.txt").read_text().strip()
     seals = dict(line.split() for line in (root / "SEAL.txt").read_text().splitlines() if not line.startswith("#"))
     truths = {}
     for number, expected in sorted(seals.items()):
-        raw = (root / "sealed" / f"{number}.json").read_bytes()
+        raw = (sealed / f"{number}.json").read_bytes()
         if seal(secret, number, raw) != expected:
             raise ValueError(f"case {number}: the truth is not the one that was sealed")
         truths[number] = json.loads(raw)

@@ -70,7 +70,7 @@ def change_loosening(scene, p):
     return Change(tip=p["amplitude_um"] * np.array(p["directions"])[scene.sensor] * share[:, None])
 
 
-unknown("saddle", draw_saddle, change_saddle, ["position", "feature", "setup"])
+unknown("saddle", draw_saddle, change_saddle, ["position", "feature", "setup"], "D")
 unknown("five_lobes", draw_lobes, change_lobes, ["direction", "head", "sensor"], "ACD")
 unknown("rocking", draw_rocking, change_rocking, ["time", "position"])
 unknown("dent", draw_dent, change_dent, ["feature", "direction", "position"], "CD")

@@ -50,7 +50,7 @@ def change_creep(scene, p):
 
 
 def draw_sawtooth(scene, rng):
-    axis = int(rng.integers(3))
+    axis = int(rng.integers(2))
     return {
         "amplitude_um": 1.0,
         "axis": axis,
