@@ -12,7 +12,7 @@ import machine as cmm
 from effects import CATALOGUE, noise, unknown, unknown_final
 from null import Null
 from seal import generator
-from world import LADDER, Baseline, scaled
+from world import LADDER, Baseline, scaled, short
 
 COUNTS = {"null": 400, "single": 288, "pair": 60, "unknown": 80, "missing": 40, "covariance": 40}
 # Parameters with one meaning everywhere (docs/formats.md), by which answers are judged.
@@ -292,7 +292,7 @@ def make_covariance(rng, spec):
             size, columns = noise.sized(spread, scene, stage.null, p, spec.snr)
             if size > 3 * spread.largest:
                 continue
-            p[spread.size] = size
+            size = p[spread.size] = short(size)
             d = size * columns @ rng.normal(size=columns.shape[1])
             if spec.family == "noise.unequal":
                 p["ratio"] = float(np.sqrt(1 + size**2))

@@ -10,7 +10,7 @@ DIR/sealed/      secret.txt and the truths NNNN.json; keep it away from those wh
 
 import os
 
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # the same bytes everywhere
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # cases run side by side
 import argparse
 import concurrent.futures
 import pathlib

@@ -10,6 +10,11 @@ LADDER = (2, 3, 4.5, 6, 9, 15)
 IMPLAUSIBLE = 3  # times the range that the literature gives
 
 
+def short(value):
+    """Six digits: what goes into the data must not hang on the last bits of the linear algebra that sized it."""
+    return float(f"{value:.6g}")
+
+
 def placed(scene, rng):
     """The true part is not where the alignment says: 3 um and 10 urad for each placement; um along the
     normal."""
@@ -80,4 +85,5 @@ def scaled(effect, baseline, null, parameters, target):
             p[key] = p[key] * target / s
         if max(abs(p[key]) for key in effect.scale[:1]) > IMPLAUSIBLE * effect.largest:
             return None
+    p.update({key: short(p[key]) for key in effect.scale})
     return p, baseline.signature(effect, p)
