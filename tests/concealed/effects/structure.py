@@ -165,15 +165,8 @@ effect("machine.scale", draw_scale, change_scale, ["scale_um_per_m"], 20, PLACE,
 effect(
     "machine.squareness", draw_squareness, change_squareness, ["squareness_urad"], 20, PLACE, designs="CDE", known=True
 )
-effect(
-    "machine.backlash",
-    draw_backlash,
-    change_backlash,
-    ["backlash_um"],
-    4,
-    ["direction", "feature"],
-    needs=("ax", "ay", "az"),
-)
+# The sense of the axes follows from the normals, too: no column is indispensable.
+effect("machine.backlash", draw_backlash, change_backlash, ["backlash_um"], 4, ["direction", "feature"])
 effect(
     "machine.scale_interpolation",
     draw_interpolation,
