@@ -145,6 +145,22 @@ void add_record(CLI::App& app, Chosen& chosen) {
   command->add_option("--dmo", o->dmo, "write the DMIS result file of the recorded machine")->type_name("D.dmo");
 }
 
+void add_diagnose(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("diagnose", "say where recordings differ from the simulation, and which physics would explain it");
+  const auto o = chosen_by(command, chosen, diagnose_command);
+  command->add_option("REC", o->recordings, "recordings, CSV; several are taken as one")->required();
+  command->add_option("--program", o->program, "the program that was run, when the recording has no targets")->type_name("P.dmi");
+  command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default: what the recording says)")->type_name("M");
+  command->add_option("--known", o->known, "machine file that an earlier diagnosis wrote: start from what is known of the machine")->type_name("K.json");
+  command->add_option("--workpiece", o->workpiece, "workpiece file: calibrated values of the part")->type_name("W.json");
+  command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")->type_name("I.json");
+  command->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values");
+  command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");
+  command->add_option("--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S")->check(not_negative());
+  command->add_option("--threads", o->threads, "default: all of the computer; the result does not depend on it")->type_name("T");
+  add_format(command, o->format, {"text", "json"});
+}
+
 void add_explain(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("explain", "help for a DMIS word, an effect or a message code");
   const auto o = chosen_by(command, chosen, explain_command);
@@ -200,7 +216,7 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "abbe " ABBE_VERSION);
   app.require_subcommand(1);
   Chosen chosen;
-  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_explain}) add(app, chosen);
+  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_diagnose, add_explain}) add(app, chosen);
   const auto print = [](const std::string& text) {
     return [text] {
       print_result(text);

@@ -22,19 +22,18 @@ std::vector<std::string> shipped_machines() {
   return names;
 }
 
-Machine read_machine(const std::string& name_or_path) {
+namespace {
+
+/// A machine file by name or path, wherever it lies.
+SourceFile machine_source(const std::string& name_or_path) {
   std::vector<std::string_view> names;
   for (const ShippedFile& file : shipped_machine_files()) {
-    if (file.name == name_or_path)
-      return parse_machine(std::string(file.name) + ".json", std::string(file.text));
+    if (file.name == name_or_path) return {std::string(file.name) + ".json", std::string(file.text)};
     names.push_back(file.name);
   }
   const bool is_path = name_or_path.find_first_of("/.") != std::string::npos ||
                        std::filesystem::exists(name_or_path);
-  if (is_path) {
-    const SourceFile source = read_source(name_or_path);
-    return parse_machine(source.name(), std::string(source.text()));
-  }
+  if (is_path) return read_source(name_or_path);
   const std::string near = nearest_word(name_or_path, names);
   throw UserError(diagnostic(
       Code::E0411,
@@ -43,6 +42,15 @@ Machine read_machine(const std::string& name_or_path) {
       near.empty() ? "`abbe machine init NAME` prints a machine file to start from"
                    : fmt::format("did you mean \"{}\"?", near)));
 }
+
+}  // namespace
+
+Machine read_machine(const std::string& name_or_path) {
+  const SourceFile source = machine_source(name_or_path);
+  return parse_machine(source.name(), std::string(source.text()));
+}
+
+std::string machine_text(const std::string& name_or_path) { return std::string(machine_source(name_or_path).text()); }
 
 std::vector<Diagnostic> machine_warnings(const Machine& machine) {
   const auto at_origin = [](const MachineAxis& axis) { return axis.offset_mm == Vec3{}; };

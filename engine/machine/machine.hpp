@@ -122,6 +122,8 @@ struct Machine {
 /// Reads a machine file, or a shipped machine by name ("coord3-mc16"). Throws UserError: unreadable, not JSON, unknown key (named,
 /// with its place and the nearest known one), impossible value (negative travel, contradictory MPE, ...).
 Machine read_machine(const std::string& name_or_path);
+/// The text of the file that read_machine reads. Throws UserError when there is none.
+std::string machine_text(const std::string& name_or_path);
 /// Names of the shipped machines, in alphabetical order.
 std::vector<std::string> shipped_machines();
 

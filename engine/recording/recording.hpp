@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/source.hpp"
 #include "engine/math/vec.hpp"
 
 namespace abbe {
@@ -24,6 +25,7 @@ struct RecordingRow {
   std::optional<Vec3> travel;           ///< unit vector of the motion at the touch
   std::optional<double> temp_part_C, temp_x_C, temp_y_C, temp_z_C, temp_air_C, load_kg;
   std::optional<Vec3> reading_mm;       ///< raw scale readings
+  int line = 0;                         ///< of the file it was read from; 0: made by a simulation
 };
 
 enum class RecordedPoint { tip_centre, surface };
@@ -37,5 +39,12 @@ struct Recording {
 
 /// RFC 4180 with `#` lines before the header; a column appears when any row has it. Lengths with 7 decimals (0.1 nm).
 std::string to_csv(const Recording&);
+
+/// Reads the contract of docs/formats.md. Throws UserError with the place of every mistake: unknown or missing column, value that is no
+/// number, incomplete vector, direction that is no unit vector.
+Recording read_recording(const SourceFile&);
+
+/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches.
+bool is_value_recording(const SourceFile&);
 
 }  // namespace abbe

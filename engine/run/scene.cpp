@@ -2,28 +2,11 @@
 #include <map>
 
 #include "engine/run/block_run.hpp"
+#include "engine/run/scene_terms.hpp"
 
 namespace abbe {
 
 namespace {
-
-StylusScene stylus_scene(const Sensor& sensor) {
-  StylusScene s;
-  s.name = sensor.name;
-  s.tip_from_mount_mm = sensor.tip_from_mount_mm;
-  s.to_head = sensor.to_head;
-  s.R_WR = sensor.R_WR;
-  s.length_mm = sensor.length_mm;
-  s.radius_mm = sensor.radius_mm;
-  s.shaft_diameter_mm = sensor.shaft_diameter_mm;
-  s.young_MPa = sensor.young_MPa;
-  s.cte_per_K = sensor.cte_per_K;
-  s.head_a_rad = sensor.head_a_rad;
-  s.head_b_rad = sensor.head_b_rad;
-  s.indexed = sensor.indexed;
-  s.ordinal = sensor.ordinal;
-  return s;
-}
 
 /// What stands in the columns of a recording that nobody logged stays empty.
 void log_covariates(const Workpiece& w, RecordingRow& row) {
@@ -77,11 +60,7 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     scene.touch = static_cast<int>(executor.site_[operation]);
     scene.feature = touch.feature.value;
     scene.visit = static_cast<int>(twin.indexings);
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-      const int k = static_cast<int>(axis);
-      scene.travel_length_mm[k] = executor.machine_[axis].travel_mm;
-      scene.lever_mm[k] = axis_lever(executor.machine_, axis).at(scene.reading, scene.stylus.tip_from_mount_mm);
-    }
+    set_levers(executor.machine_, scene);
     group->second.scene = &scene;
     executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.seed,
                           executor.site_[operation], touch_batch);

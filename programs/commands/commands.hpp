@@ -68,6 +68,18 @@ struct RecordOptions {
 };
 int record_command(const RecordOptions&);
 
+struct DiagnoseCommandOptions {
+  std::vector<std::string> recordings;
+  std::optional<std::string> program, machine, workpiece;
+  std::optional<std::string> known;         ///< machine file of an earlier diagnosis
+  std::optional<std::string> model_out;     ///< where the machine file with what was found goes
+  std::optional<std::uint64_t> seed;
+  int threads = 0;                          ///< 0: all of the computer
+  bool design_only = false, fail_on_mismatch = false;
+  std::string format = "text";              ///< text or json
+};
+int diagnose_command(const DiagnoseCommandOptions&);
+
 struct ExplainOptions {
   std::optional<std::string> word;  ///< a DMIS word, an effect or a message code; none: what there is
   bool markdown = false;            ///< the whole language reference as Markdown

@@ -1,0 +1,71 @@
+// The recording on the bench: everything that the steps of a diagnosis share.
+#pragma once
+
+#include "engine/diagnose/baseline.hpp"
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/evidence.hpp"
+
+namespace abbe::diagnose {
+
+/// False alarms that a diagnosis allows itself.
+inline constexpr double kAlarm = 0.01;
+/// Probability that a set of names must reach.
+inline constexpr double kCredible = 0.95;
+
+struct Case {
+  const Recording* recording = nullptr;
+  const Machine* machine = nullptr;
+  DiagnoseOptions options;
+  RecordedTouches touches;
+  Baseline baseline;
+  std::vector<char> masked;          ///< by touch: a gross outlier
+  std::vector<int> rows;             ///< touches that take part
+  LinearModel model;                 ///< of `rows`
+  Hyperparameters hyper;
+  Explanations explanations;         ///< on `rows`
+};
+
+/// The model with the signatures of some blocks as unknowns without a prior.
+LinearModel with_free(const LinearModel&, const std::vector<const Matrix*>& signatures);
+/// The explanations of one kind only; `kept` by index into the list.
+Explanations only(const Explanations&, const std::vector<int>& kept);
+/// Rows of every signature.
+Explanations rows_of(const Explanations&, const std::vector<Eigen::Index>& rows);
+
+/// One mismatch that the search has found.
+struct Finding {
+  int explanation = -1;              ///< the likeliest
+  int block = -1;                    ///< its likeliest variant
+  std::vector<int> set;              ///< explanations that together reach kCredible, likeliest first
+  double probability = 0;            ///< of the set
+  double p = 1;                      ///< that the search finds so much without a mismatch
+  Evidence evidence;                 ///< given the findings before
+};
+
+struct SearchResult {
+  double p_value = 1;
+  std::vector<Finding> findings;     ///< of the catalogue
+  std::optional<Finding> other;      ///< what the catalogue does not explain
+  Evidence first;                    ///< before any finding
+  std::vector<Evidence> null;        ///< simulated, before any finding
+};
+SearchResult search(const Case&);
+
+/// Steps that fill parts of the answer.
+void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+std::vector<Location> locate(const Case&, const SearchResult&);
+std::vector<DiagnosedParameter> estimate_parameters(const Case&, const SearchResult&, std::size_t finding);
+Unexplained describe_unexplained(const Case&, const SearchResult&);
+struct NoiseFinding {
+  const Effect* effect = nullptr;
+  double p = 1;
+  std::vector<DiagnosedParameter> parameters;
+  std::string sentence;
+};
+std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
+void show_improvement(const Case&, const SearchResult&, Diagnosis&);
+std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
+std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*);
+Rivals rivals(const Case&, const EvidenceSearch&, const Evidence&);
+
+}  // namespace abbe::diagnose

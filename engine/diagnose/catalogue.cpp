@@ -1,0 +1,214 @@
+// From the registry of effects to explanations: no physics here, only the effects' own displacements on the recorded scenes.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "engine/diagnose/explanation.hpp"
+#include "engine/diagnose/search_grid.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr double kUmPerMm = 1e3;
+
+/// Covariates that must not only be known but differ, or nothing of the effect can be told from a constant.
+constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::acceleration | Covariate::part_temperature |
+                               Covariate::scale_temperature | Covariate::air_temperature | Covariate::load;
+/// Covariates that a scene has by itself, whatever was logged.
+constexpr unsigned kImplied = Covariate::gradients | Covariate::qualification | Covariate::visit;
+
+unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
+  const unsigned absent = effect.needs & ~(t.known | kImplied);
+  const unsigned constant = effect.needs & kMustVary & t.known & ~t.varying;
+  return absent | constant;
+}
+
+/// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation, though one that cannot be
+/// judged: a deviation from 20 degrees C that nobody noted, a load that nobody weighed.
+TouchScene with_surrogates(TouchScene scene, unsigned known) {
+  const auto unknown = [known](Covariate c) { return (known & static_cast<unsigned>(c)) == 0; };
+  if (unknown(Covariate::part_temperature)) scene.temperature.part = 21;
+  if (unknown(Covariate::scale_temperature)) std::fill(scene.temperature.scale, scene.temperature.scale + 3, 21.0);
+  if (unknown(Covariate::load)) scene.load_kg = 100;
+  return scene;
+}
+
+/// The component along the normals of an effect's displacement, um.
+class Evaluation {
+ public:
+  Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
+    for (const int i : rows) scenes_.push_back(with_surrogates(t.touches[i].scene, t.known));
+  }
+
+  Vector column(const std::vector<double>& theta, const std::vector<double>& draws, int visit = -1) const {
+    Vector r(scenes_.size());
+    const std::vector<double> none(draws.size(), 0.0);
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
+      r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
+    }
+    return r;
+  }
+
+  std::set<int> visits() const {
+    std::set<int> list;
+    for (const TouchScene& s : scenes_) list.insert(s.visit);
+    return list;
+  }
+
+ private:
+  const Effect& effect_;
+  std::vector<TouchScene> scenes_;
+};
+
+/// Every combination of the values tried.
+std::vector<std::vector<double>> settings(const Effect& effect, const std::vector<Search>& search) {
+  std::vector<std::vector<double>> list{{}};
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+    const bool varied = !effect.parameters[p].linear && search[p].kind == Search::Kind::tried;
+    const std::vector<double> values = effect.parameters[p].linear ? std::vector<double>{0.0} : varied ? search[p].values : std::vector{search[p].values[0]};
+    std::vector<std::vector<double>> longer;
+    for (const std::vector<double>& prefix : list)
+      for (const double v : values) longer.push_back(prefix), longer.back().push_back(v);
+    list = std::move(longer);
+  }
+  return list;
+}
+
+/// The columns of one variant: each linear parameter by itself, along each direction and phase that is spanned.
+class VariantColumns {
+ public:
+  VariantColumns(const Effect& effect, const std::vector<Search>& search, const Evaluation& evaluate) : effect_(effect), evaluate_(evaluate) {
+    for (std::size_t p = 0; p < search.size(); ++p) {
+      if (search[p].kind == Search::Kind::direction) direction_ = static_cast<int>(p);
+      if (search[p].kind == Search::Kind::phase) phases_.push_back(static_cast<int>(p));
+    }
+  }
+
+  void fill(Block& block) const {
+    for (std::size_t p = 0; p < effect_.parameters.size(); ++p)
+      if (effect_.parameters[p].linear) add_parameter(static_cast<int>(p), block);
+    if (effect_.draws > 0) {
+      block.signature = compressed(block.signature);
+      block.joined = true;
+    }
+  }
+
+ private:
+  void add_parameter(int p, Block& block) const {
+    const double unit = effect_.parameters[p].typical;
+    for (int d = 0; d < (direction_ >= 0 ? 3 : 1); ++d) {
+      for (int phase = 0; phase < (phases_.empty() ? 1 : 2); ++phase) {
+        std::vector<double> theta = block.theta;
+        theta[p] = unit;
+        if (direction_ >= 0) theta[direction_] = d;
+        for (const int at : phases_) theta[at] = 90.0 * phase;
+        const Column column{p, d + 3 * phase, unit};
+        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, {}));
+        else add_draws(theta, column, block);
+      }
+    }
+  }
+
+  void add_draws(const std::vector<double>& theta, const Column& column, Block& block) const {
+    const std::set<int> visits = effect_.draws_per == DrawsPer::visit ? evaluate_.visits() : std::set<int>{-1};
+    for (int j = 0; j < effect_.draws; ++j) {
+      std::vector<double> z(effect_.draws, 0.0);
+      z[j] = 1;
+      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, z, visit));
+    }
+  }
+
+  static void append(Block& block, const Column& column, const Vector& values) {
+    constexpr double kNothing_um = 1e-6;
+    if (values.cwiseAbs().maxCoeff() < kNothing_um) return;
+    block.columns.push_back(column);
+    block.signature.conservativeResize(values.size(), block.signature.cols() + 1);
+    block.signature.col(block.signature.cols() - 1) = values;
+  }
+
+  const Effect& effect_;
+  const Evaluation& evaluate_;
+  int direction_ = -1;
+  std::vector<int> phases_;
+};
+
+/// Whether an earlier variant of the same explanation has the same columns: it turns on a parameter without influence here.
+bool repeats(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
+  for (const int k : of.blocks) {
+    const Matrix& other = blocks[k].signature;
+    if (other.cols() == block.signature.cols() && (other - block.signature).cwiseAbs().maxCoeff() < 1e-9) return true;
+  }
+  return false;
+}
+
+/// In what an effect shows first, for explanations that have no better place: what it needs, the rarest covariate first.
+Factor factor_of(const Effect& effect) {
+  const std::pair<unsigned, Factor> order[] = {
+      {Covariate::part_temperature | Covariate::scale_temperature | Covariate::air_temperature, Factor::temperature},
+      {0u | Covariate::speed, Factor::speed},
+      {Covariate::direction | Covariate::acceleration, Factor::direction},
+      {0u | Covariate::time, Factor::time},
+      {Covariate::head | Covariate::visit, Factor::head},
+      {0u | Covariate::sensor, Factor::sensor},
+      {Covariate::position | Covariate::part_frame | Covariate::raw_reading, Factor::position}};
+  for (const auto& [covariates, factor] : order)
+    if (effect.needs & covariates) return factor;
+  return Factor::direction;
+}
+
+/// Effects of the noise change no mean: they are judged by the variance (noise_effects.hpp).
+bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
+
+}  // namespace
+
+Matrix compressed(const Matrix& m) {
+  if (m.cols() == 0) return m;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(m.transpose() * m);
+  const Vector& values = solver.eigenvalues();
+  const double least = 1e-6 * values(values.size() - 1);
+  Eigen::Index first = 0;
+  while (first < values.size() - 1 && values(first) < least) ++first;
+  return m * solver.eigenvectors().rightCols(values.size() - first);
+}
+
+void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  for (const Effect* effect : effects()) {
+    if (is_noise(*effect)) continue;
+    Explanation explanation;
+    explanation.name = std::string(effect->name);
+    explanation.effect = effect;
+    explanation.factor = factor_of(*effect);
+    explanation.missing = missing_of(*effect, t);
+    std::vector<Search> search;
+    for (const EffectParameter& p : effect->parameters) search.push_back(search_of(p, t));
+    const Evaluation evaluation(*effect, t, rows);
+    const VariantColumns variant(*effect, search, evaluation);
+    for (std::vector<double>& theta : settings(*effect, search)) {
+      Block block;
+      block.explanation = static_cast<int>(out.list.size());
+      block.theta = std::move(theta);
+      variant.fill(block);
+      if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
+      explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
+      out.blocks.push_back(std::move(block));
+    }
+    if (explanation.missing || explanation.blocks.empty()) out.unjudged.push_back({effect, explanation.missing});
+    if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
+  }
+}
+
+Explanations explanations_for(const RecordedTouches& t, const std::vector<int>& rows) {
+  Explanations out;
+  add_catalogue(t, rows, out);
+  const std::size_t catalogue = out.list.size();
+  add_other(t, rows, out);
+  const std::size_t other = out.list.size() - catalogue;
+  for (std::size_t k = 0; k < out.list.size(); ++k)
+    out.list[k].prior = k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(other);
+  return out;
+}
+
+}  // namespace abbe::diagnose

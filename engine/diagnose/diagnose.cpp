@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/known_state.hpp"
+
+namespace abbe {
+
+using namespace diagnose;
+
+namespace {
+
+constexpr double kOutlier = 4.2;          // standard deviations, predicted from all other touches: one in 40 000 normal touches
+constexpr int kMaskings = 4;
+
+/// A real part is not where its drawing says: residuals far beyond what machines do, and runs to compare, mean that only the runs can be compared.
+Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<Diagnostic>& messages, const std::string& file) {
+  for (const auto& [key, value] : r.metadata) {
+    if (key != "surfaces") continue;
+    if (value == "calibrated") return Surfaces::calibrated;
+    if (value == "unknown_size") return Surfaces::unknown_size;
+    if (value == "unknown") return Surfaces::unknown;
+    throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, value), "write calibrated, unknown_size or unknown"));
+  }
+  constexpr double kBeyondMachines_mm = 0.1;
+  std::vector<double> size;
+  for (const RecordedTouch& touch : t.touches) size.push_back(std::abs(touch.residual_mm));
+  std::nth_element(size.begin(), size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2), size.end());
+  const double middle = size[size.size() / 2];
+  if (middle < kBeyondMachines_mm) return Surfaces::calibrated;
+  messages.push_back(diagnostic(Code::W0704,
+                                fmt::format("{}: half of the touches lie more than {:.2g} mm from their targets: the part is not what the targets say. "
+                                            "Every surface point counts as unknown, and only what repeats differently is judged", file, middle),
+                                "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right"));
+  return Surfaces::unknown;
+}
+
+/// Gross outliers out, the rest fitted again, until none is left.
+void mask_outliers(Case& c) {
+  c.masked.assign(c.touches.touches.size(), 0);
+  for (int round = 0; round < kMaskings; ++round) {
+    c.model = without_rows(c.baseline.model, c.masked);
+    c.hyper = estimate(c.model);
+    const Vector loo = leave_one_out(c.model, c.hyper);
+    Eigen::Index k = 0;
+    bool found = false;
+    const double worst = loo.cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < c.masked.size(); ++i) {
+      if (c.masked[i]) continue;
+      // Only what is near the worst: a gross touch spoils its neighbours, which come back once it is out.
+      const double size = std::abs(loo(k++));
+      if (size > kOutlier && size > worst / 2) c.masked[i] = found = true;
+    }
+    if (!found) break;
+  }
+  c.model = without_rows(c.baseline.model, c.masked);
+  c.hyper = estimate(c.model);
+  c.rows.clear();
+  for (std::size_t i = 0; i < c.masked.size(); ++i)
+    if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));
+}
+
+BaselineSummary summary(const Case& c, bool known) {
+  BaselineSummary b;
+  b.known = known;
+  b.geometry_scale = c.hyper.scale;
+  b.correlation = c.hyper.correlation;
+  double sum = 0;
+  for (Eigen::Index i = 0; i < c.model.y.size(); ++i) sum += std::pow(c.model.noise_um(i) * c.hyper.noise(c.model.noise_group[i]), 2);
+  b.noise_um = std::sqrt(sum / double(c.model.y.size()));
+  const double stated = c.model.noise_um.mean();
+  for (std::size_t g = 0; g < c.baseline.noise_names.size(); ++g)
+    if (!c.baseline.noise_names[g].empty()) b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], stated * c.hyper.noise(static_cast<Eigen::Index>(g)));
+  for (std::size_t i = 0; i < c.masked.size(); ++i) {
+    if (!c.masked[i]) continue;
+    const RecordingRow& row = c.recording->rows[c.touches.touches[i].row];
+    b.outliers.push_back(fmt::format("{} touch {} (setup {}, run {})", row.feature, row.touch, row.setup, row.run));
+  }
+  return b;
+}
+
+std::string sentence_of(const Case& c, const Finding& f, const std::vector<DiagnosedParameter>& parameters) {
+  const Explanation& e = c.explanations.list[f.explanation];
+  std::string sizes;
+  for (const DiagnosedParameter& p : parameters) {
+    if (!sizes.empty()) sizes += ", ";
+    sizes += p.word.empty() ? fmt::format("{} {:.3g} ± {:.2g}", p.name, p.value, 2 * p.u) : fmt::format("{} {}", p.name, p.word);
+  }
+  if (f.set.size() == 1) return fmt::format("{} explains it: {}.", e.effect->title, sizes);
+  std::vector<std::string> titles;
+  for (const int k : f.set) titles.push_back(std::string(c.explanations.list[k].effect->title));
+  return fmt::format("One of these explains it, and this recording cannot tell which: {}. As the first: {}.", fmt::join(titles, "; "), sizes);
+}
+
+/// Findings as effects of the answer and as settings of a machine file.
+void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    const Finding& f = result.findings[k];
+    DiagnosedEffect e;
+    for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
+    e.probability = f.probability;
+    e.parameters = estimate_parameters(c, result, k);
+    e.sentence = sentence_of(c, f, e.parameters);
+    EffectSetting setting{c.explanations.list[f.explanation].name, {}};
+    for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
+    out.model_effects.push_back(std::move(setting));
+    out.effects.push_back(std::move(e));
+  }
+}
+
+void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
+  for (const NoiseFinding& n : noise) {
+    out.effects.push_back({{std::string(n.effect->name)}, 1 - n.p, n.parameters, n.sentence});
+    EffectSetting setting{std::string(n.effect->name), {}};
+    for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+    out.model_effects.push_back(std::move(setting));
+    out.p_value = std::min(out.p_value, n.p);
+  }
+}
+
+/// Whether what was named first could be judged from this recording.
+bool judged(const Case& c, const Finding& f) {
+  double open = 0, total = 0;
+  const std::vector<double>& bayes = f.evidence.log_bayes;
+  for (const int k : f.set) {
+    const double p = c.explanations.list[k].prior * std::exp(bayes[k] - bayes[f.explanation]);
+    total += p;
+    if (c.explanations.list[k].missing) open += p;
+  }
+  return open < 0.4 * total;
+}
+
+Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d) {
+  if (result.other) return Verdict::unexplained;
+  if (result.findings.empty()) return d.effects.empty() ? Verdict::no_mismatch : Verdict::named;
+  bool open = false, several = false;
+  for (const Finding& f : result.findings) {
+    open = open || !judged(c, f);
+    several = several || f.set.size() > 1;
+  }
+  return open ? Verdict::cannot_judge : several ? Verdict::one_of : Verdict::named;
+}
+
+std::vector<CannotJudge> unjudged(const Explanations& all) {
+  std::vector<CannotJudge> out;
+  for (const Explanations::Unjudged& u : all.unjudged) {
+    CannotJudge c{std::string(u.effect->name), {}};
+    for (const Covariate covariate : covariates_in(u.missing))
+      for (const std::string& column : columns_of(covariate)) c.missing.push_back(column);
+    out.push_back(std::move(c));
+  }
+  return out;
+}
+
+Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file, Diagnosis& out) {
+  Case c;
+  c.recording = &recording;
+  c.machine = &machine;
+  c.options = options;
+  c.touches = recorded_touches(recording, machine, file);
+  out.messages.insert(out.messages.end(), c.touches.messages.begin(), c.touches.messages.end());
+  constexpr int kLeastTouches = 12;
+  if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
+    throw UserError(diagnostic(Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
+                               fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
+  const std::optional<KnownGeometry> known = read_known_state(machine);
+  c.baseline = baseline_of(c.touches, machine, {surfaces_of(recording, c.touches, out.messages, file), known ? &*known : nullptr, options.seed, options.threads});
+  return c;
+}
+
+}  // namespace
+
+std::string_view name(Verdict v) {
+  constexpr std::string_view names[] = {"no_mismatch", "named", "one_of", "unexplained", "cannot_judge"};
+  return names[static_cast<int>(v)];
+}
+
+Diagnosis diagnose_recording(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
+  Diagnosis out;
+  out.touches = static_cast<int>(recording.rows.size());
+  if (!options.design_only) check_data(recording, file, out.messages);
+  Case c = on_the_bench(recording, machine, options, file, out);
+  if (options.design_only) {
+    c.masked.assign(c.touches.touches.size(), 0);
+    c.model = c.baseline.model;
+    c.model.y.setZero();
+    c.hyper.noise = Vector::Ones(c.model.noise_groups);
+    for (std::size_t i = 0; i < c.masked.size(); ++i) c.rows.push_back(static_cast<int>(i));
+  } else {
+    mask_outliers(c);
+  }
+  c.explanations = explanations_for(c.touches, c.rows);
+  out.baseline = summary(c, !machine.known_state.empty());
+  out.cannot_judge = unjudged(c.explanations);
+  const EvidenceSearch first(c.model, c.hyper, c.explanations);
+  out.smallest_detectable = smallest_detectable(c, first);
+  if (options.design_only) {
+    out.next_measurement = next_measurements(c, nullptr);
+    return out;
+  }
+  const SearchResult result = search(c);
+  out.p_value = result.p_value;
+  out.rivals = rivals(c, first, result.first);
+  tell_findings(c, result, out);
+  tell_noise(judge_noise(c, result), out);
+  if (result.other) out.unexplained = describe_unexplained(c, result);
+  out.verdict = verdict_of(c, result, out);
+  if (out.verdict != Verdict::no_mismatch) out.location = locate(c, result);
+  show_improvement(c, result, out);
+  out.next_measurement = next_measurements(c, &result);
+  if (options.keep_state) out.known_state = write_known_state(posterior(c.baseline, c.hyper, c.masked), c.hyper);
+  return out;
+}
+
+}  // namespace abbe

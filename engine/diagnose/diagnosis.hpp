@@ -1,0 +1,146 @@
+// What a diagnosis says, as plain data (docs/diagnosis.md explains every figure), and the one function that makes it.
+//
+// A recording is compared with what a machine of this specification may do. If they agree, that is all, with the list of what could have
+// been seen. If not, the mismatch is located by factor and named over the catalogue of effects plus OTHER. What cannot be told apart is
+// named together; what the catalogue does not explain is described and modelled empirically; what the recording cannot judge is listed
+// with the columns that are missing.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.hpp"
+#include "engine/machine/machine.hpp"
+#include "engine/recording/recording.hpp"
+
+namespace abbe {
+
+enum class Verdict { no_mismatch, named, one_of, unexplained, cannot_judge };
+std::string_view name(Verdict);                ///< as in the JSON: "no_mismatch"
+
+struct DiagnosedParameter {
+  std::string name, unit;
+  double value = 0, u = 0;
+  double low = 0, high = 0;                    ///< 95 % interval
+  std::string word = {};                       ///< of a choice: "x"; then the numbers mean nothing
+  bool plausible = true;                       ///< inside the range that the catalogue gives
+};
+
+struct DiagnosedEffect {
+  std::vector<std::string> members;            ///< several: cannot be told apart by this recording; the likeliest first
+  double probability = 0;                      ///< that it is one of these
+  std::vector<DiagnosedParameter> parameters;  ///< of the first member
+  std::string sentence;
+};
+
+struct Location {
+  std::string factor;                          ///< "time", "position", ...
+  std::vector<std::pair<std::string, std::string>> where;
+  double share = 0;                            ///< of the mismatch that a free pattern in this factor describes
+  double p = 1;                                ///< that so much appears by chance, the whole search considered
+};
+
+/// A mismatch that the catalogue does not explain, and the pattern that stands for it.
+struct Unexplained {
+  std::string factor, shape;
+  double amplitude_um = 0, amplitude_u_um = 0;
+  double low_um = 0, high_um = 0;              ///< 95 % interval of the amplitude
+  std::string sentence;
+};
+
+struct Improvement {
+  std::string scheme;                          ///< "leave-one-setup-out"
+  double log_score_gain = 0, se = 0;           ///< nats, on data that the model did not see
+  double rms_before_um = 0, rms_after_um = 0;
+  double bias_before_um = 0, bias_after_um = 0;
+  double chi2_per_dof_before = 0, chi2_per_dof_after = 0;
+};
+
+struct RunnerUp {
+  std::vector<std::string> members;
+  double log_score_gain = 0;
+};
+
+struct CannotJudge {
+  std::string effect;
+  std::vector<std::string> missing;            ///< columns; empty: the effect does nothing to these touches
+};
+
+/// The smallest size of an effect that this recording can detect, and the smallest that it can name.
+struct Detectable {
+  std::string effect, parameter, unit;
+  double detect = 0;
+  std::optional<double> name;                  ///< nothing: it cannot be told from `confounded_with` at any size
+  double detect_um = 0;                        ///< the same as the largest displacement that it makes at one of the touches
+  std::optional<double> name_um;
+  std::vector<std::string> confounded_with;
+};
+
+struct NextMeasurement {
+  std::string change;
+  std::vector<std::string> separates;
+  double expected_probability = 0;             ///< of the truth, once it is made
+  double minutes = 0;
+  std::string program;                         ///< DMIS
+};
+
+struct BaselineSummary {
+  bool known = false;
+  double geometry_scale = 1;
+  double noise_um = 0;
+  std::vector<std::pair<std::string, double>> noise_by_sensor;
+  double correlation = 0;
+  std::vector<std::string> outliers;           ///< "SPH1 touch 7"
+};
+
+/// What simpler methods say of the same recording; for comparison.
+struct Rivals {
+  double chi2_p = 1;
+  std::vector<std::string> stepwise_bic;
+  std::string best_bayes_factor;
+  double best_bayes_probability = 0;
+};
+
+struct ResidualRow {
+  std::string feature;
+  int touch = 1, setup = 1, run = 1;
+  double time_s = 0;
+  double x_mm = 0, y_mm = 0, z_mm = 0;
+  double before_um = 0, after_um = 0;          ///< after: held out
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::no_mismatch;
+  double p_value = 1;
+  int touches = 0;
+  std::vector<DiagnosedEffect> effects;
+  std::vector<Location> location;              ///< the one that describes most first
+  std::optional<Unexplained> unexplained;
+  std::optional<Improvement> improvement;
+  std::optional<RunnerUp> runner_up;
+  std::vector<CannotJudge> cannot_judge;
+  std::vector<Detectable> smallest_detectable;
+  std::vector<NextMeasurement> next_measurement;
+  BaselineSummary baseline;
+  Rivals rivals;
+  std::vector<ResidualRow> residuals;
+  std::vector<Diagnostic> messages;
+  /// What --model-out adds to the machine file: effects, and the JSON text of known_state.
+  std::vector<EffectSetting> model_effects;
+  std::string known_state;
+};
+
+struct DiagnoseOptions {
+  std::uint64_t seed = 1;
+  int threads = 1;
+  int replicates = 300;                        ///< of the bootstrap
+  bool design_only = false;
+  bool keep_state = false;                     ///< fill known_state
+};
+
+/// Judges a recording (several files joined) on a machine; `file` names it in messages. Throws UserError: data that cannot be used.
+Diagnosis diagnose_recording(const Recording&, const Machine&, const DiagnoseOptions&, const std::string& file);
+
+}  // namespace abbe

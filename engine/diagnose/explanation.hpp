@@ -1,0 +1,68 @@
+// What may explain a mismatch: every effect of the registry, and OTHER, a flexible pattern in each factor for physics that the catalogue
+// does not have. An explanation is a list of blocks (its variants: which axis, which period, which moment); a block is a set of columns,
+// um per prior standard deviation, whose coefficients are drawn together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/linear.hpp"
+#include "engine/run/recorded_touch.hpp"
+
+namespace abbe::diagnose {
+
+/// In what a mismatch lies (interfaces: "location").
+enum class Factor { time, position, direction, head, sensor, setup, feature, run, temperature, speed };
+std::string_view name(Factor);
+
+/// One column of a block before its columns are joined: which linear parameter (or draw) it belongs to.
+struct Column {
+  int parameter = -1;             ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
+  int part = 0;                   ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
+  double unit = 1;                ///< parameter value of one prior standard deviation
+};
+
+struct Block {
+  int explanation = 0;
+  std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
+  std::vector<Column> columns;
+  Matrix signature;               ///< rows x columns, um per prior standard deviation
+  bool joined = false;            ///< columns are combinations of the original ones: no parameter can be read from them
+};
+
+struct Explanation {
+  std::string name;               ///< of the effect, or "OTHER time"
+  const Effect* effect = nullptr; ///< none: OTHER
+  Factor factor = Factor::position;
+  std::string shape;              ///< of OTHER: "smooth", "step", ...
+  double prior = 0;               ///< probability among all explanations
+  unsigned missing = 0;           ///< covariates that are absent or constant: it cannot be judged
+  std::vector<int> blocks;
+};
+
+struct Explanations {
+  std::vector<Explanation> list;
+  std::vector<Block> blocks;
+  struct Unjudged {
+    const Effect* effect;
+    unsigned missing;
+  };
+  std::vector<Unjudged> unjudged; ///< effects that this recording cannot judge, in the order of the catalogue
+};
+
+/// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
+inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
+/// Factors on the typical size of an effect: its size is known within these orders only.
+inline constexpr double kSizes[] = {0.3, 1, 3, 10};
+
+/// Every explanation for these touches; `rows`: which touches take part.
+Explanations explanations_for(const RecordedTouches&, const std::vector<int>& rows);
+
+/// Appends the blocks of every effect of the registry (catalogue.cpp), and those of OTHER (other.cpp).
+void add_catalogue(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+
+/// The same space with as few orthogonal columns as its rank needs.
+Matrix compressed(const Matrix&);
+
+}  // namespace abbe::diagnose

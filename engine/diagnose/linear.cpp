@@ -1,0 +1,243 @@
+#include "engine/diagnose/linear.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "engine/base/ids.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr double kScalePrior = 0.7, kNoisePrior = 0.5;   // of the logarithms
+constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
+constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
+
+/// Rows divided by their standard deviation, then differenced so that neighbours are independent again.
+Matrix whitened(const Matrix& columns, const Vector& weight, double phi, const std::vector<char>& follows) {
+  Matrix out = weight.asDiagonal() * columns;
+  if (phi == 0) return out;
+  const double rescale = 1 / std::sqrt(1 - phi * phi);
+  for (Eigen::Index i = out.rows() - 1; i > 0; --i)
+    if (follows[i]) out.row(i) = (out.row(i) - phi * out.row(i - 1)) * rescale;
+  return out;
+}
+
+Vector weights(const LinearModel& m, const Hyperparameters& h) {
+  Vector w(m.y.size());
+  for (Eigen::Index i = 0; i < w.size(); ++i) w(i) = 1 / (m.noise_um(i) * h.noise(m.noise_group[i]));
+  return w;
+}
+
+/// Moments of whitened rows by noise group, from which the likelihood at any noise and scale follows without a pass over the rows.
+class Likelihood {
+ public:
+  Likelihood(const LinearModel& m, double phi) : model_(m), free_(m.free.cols()), q_(m.free.cols() + m.random.cols()), phi_(phi) {
+    const Vector unit = m.noise_um.cwiseInverse();
+    Matrix w(m.y.size(), q_);
+    w << m.free, m.random;
+    const Matrix rows = whitened(w, unit, phi, m.follows), y = whitened(m.y, unit, phi, m.follows);
+    for (int g = 0; g < m.noise_groups; ++g) {
+      std::vector<Eigen::Index> in;
+      for (Eigen::Index i = 0; i < rows.rows(); ++i)
+        if (m.noise_group[i] == g) in.push_back(i);
+      const Matrix part = rows(in, Eigen::all);
+      const Vector part_y = y(in, 0);
+      moments_.push_back({Matrix(part.transpose() * part), part.transpose() * part_y, part_y.squaredNorm(), static_cast<double>(in.size())});
+    }
+  }
+
+  /// Logarithm of the restricted likelihood times the priors; constants left out.
+  double at(const Hyperparameters& h) const {
+    Matrix m = Matrix::Zero(q_, q_);
+    Vector b = Vector::Zero(q_);
+    double squares = 0, log_noise = 0, prior = 0;
+    for (std::size_t g = 0; g < moments_.size(); ++g) {
+      const double w = 1 / (h.noise(g) * h.noise(g));
+      m += w * moments_[g].square;
+      b += w * moments_[g].product;
+      squares += w * moments_[g].y_square;
+      log_noise += 2 * moments_[g].rows * std::log(h.noise(g));
+      prior += std::pow(std::log(h.noise(g)) / kNoisePrior, 2);
+    }
+    prior += std::pow(std::log(h.scale) / kScalePrior, 2);
+    double log_scale = 0;
+    for (Eigen::Index k = 0; k < model_.random.cols(); ++k) {
+      const double s2 = model_.random_group[k] == 0 ? h.scale * h.scale : 1;
+      m(free_ + k, free_ + k) += 1 / s2;
+      log_scale += std::log(s2);
+    }
+    const Eigen::LLT<Matrix> llt(m);
+    const Vector v = llt.matrixL().solve(b);
+    const double log_m = 2 * llt.matrixLLT().diagonal().array().log().sum();
+    double rows = 0;
+    for (std::size_t i = 0; i < model_.follows.size(); ++i) rows += model_.follows[i] ? 1 : 0;
+    const double log_phi = rows * std::log(1 - phi_ * phi_);
+    return -0.5 * (log_noise + log_phi + log_m + log_scale + squares - v.squaredNorm() + prior);
+  }
+
+ private:
+  struct Moments {
+    Matrix square;
+    Vector product;
+    double y_square = 0, rows = 0;
+  };
+  const LinearModel& model_;
+  Eigen::Index free_, q_;
+  double phi_;
+  std::vector<Moments> moments_;
+};
+
+/// Coordinate search in the logarithms: few parameters, a smooth and nearly separable function.
+double maximise(const Likelihood& likelihood, Hyperparameters& h, double first_step) {
+  double best = likelihood.at(h);
+  const int parameters = static_cast<int>(h.noise.size()) + 1;
+  const auto parameter = [&](int p) -> double& { return p == 0 ? h.scale : h.noise(p - 1); };
+  for (double step = first_step; step > 0.03; step /= 2.5) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (int p = 0; p < parameters; ++p) {
+        for (const double factor : {std::exp(step), std::exp(-step)}) {
+          const double before = parameter(p);
+          parameter(p) = before * factor;
+          const double value = likelihood.at(h);
+          if (value > best + 1e-3) {
+            best = value;
+            moved = true;
+            break;
+          }
+          parameter(p) = before;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Hyperparameters estimate(const LinearModel& m) {
+  Hyperparameters h;
+  h.noise = Vector::Ones(m.noise_groups);
+  double best = maximise(Likelihood(m, 0), h, 0.5);
+  const double independent = best;
+  for (const double phi : kCorrelations) {
+    Hyperparameters trial = h;
+    trial.correlation = phi;
+    const double value = maximise(Likelihood(m, phi), trial, 0.2);
+    if (value < best && h.correlation > 0) break;
+    if (value > std::max(best, independent + kCorrelationGain)) {
+      best = value;
+      h = trial;
+    } else if (phi > 0.2 && h.correlation == 0) {
+      break;
+    }
+  }
+  return h;
+}
+
+Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
+  const Rotated rotated(m, h);
+  // P = 1 - Q Q' - U diag(lambda / (1 + lambda)) U': (P y)_i / P_ii is row i minus its prediction from all others, 1 / P_ii the variance.
+  const Vector taken = rotated.lambda().array() / (1 + rotated.lambda().array());
+  const Vector py = rotated.remainder(rotated.y(), Vector(taken.array() * rotated.z().array()));
+  Vector out(m.y.size());
+  const Vector diagonal = rotated.precision_diagonal();
+  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = diagonal(i) > 1e-9 ? py(i) / std::sqrt(diagonal(i)) : 0;
+  return out;
+}
+
+LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < m.y.size(); ++i)
+    if (!dropped[i]) kept.push_back(i);
+  LinearModel out;
+  out.y = m.y(kept);
+  out.free = m.free(kept, Eigen::all);
+  out.random = m.random(kept, Eigen::all);
+  out.random_group = m.random_group;
+  out.noise_um = m.noise_um(kept);
+  out.noise_groups = m.noise_groups;
+  Eigen::Index before = -2;
+  for (const Eigen::Index i : kept) {
+    out.noise_group.push_back(m.noise_group[i]);
+    out.follows.push_back(m.follows[i] && before == i - 1);
+    before = i;
+  }
+  return out;
+}
+
+Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation) {
+  const Matrix x = whiten(m.free);
+  Eigen::ColPivHouseholderQR<Matrix> qr(x);
+  qr.setThreshold(1e-9);
+  q_ = Matrix(qr.householderQ() * Matrix::Identity(x.rows(), qr.rank()));
+  y_ = project(m.y);
+  Matrix scaled = m.random;
+  for (Eigen::Index k = 0; k < scaled.cols(); ++k)
+    if (m.random_group[k] == 0) scaled.col(k) *= h.scale;
+  const Matrix z = project(scaled);
+  // The eigenvectors of Z Z' from those of the smaller of Z'Z and Z Z'.
+  constexpr double kNegligible = 1e-6;
+  const bool wide = z.cols() > z.rows();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
+  const Vector& values = solver.eigenvalues();
+  Eigen::Index first = 0;
+  while (first < values.size() && values(first) <= kNegligible) ++first;
+  const Eigen::Index rank = values.size() - first;
+  lambda_ = values.tail(rank);
+  if (wide) basis_ = solver.eigenvectors().rightCols(rank);
+  else basis_ = z * solver.eigenvectors().rightCols(rank) * lambda_.cwiseSqrt().cwiseInverse().asDiagonal();
+  rest_dof_ = static_cast<int>(y_.size() - q_.cols() - rank);
+}
+
+Matrix Rotated::whiten(const Matrix& columns) const { return whitened(columns, weight_, correlation_, follows_); }
+
+Matrix Rotated::project(const Matrix& columns) const {
+  Matrix w = whiten(columns);
+  w -= q_ * (q_.transpose() * w);
+  return w;
+}
+
+Vector Rotated::off_model(const Vector& white) const {
+  const Vector free = white - q_ * (q_.transpose() * white);
+  return free - basis_ * (basis_.transpose() * free);
+}
+
+Vector Rotated::precision_diagonal() const {
+  Vector d = Vector::Ones(y_.size()) - q_.rowwise().squaredNorm();
+  const Vector taken = (lambda_.array() / (1 + lambda_.array())).sqrt();
+  return d - (basis_ * taken.asDiagonal()).rowwise().squaredNorm();
+}
+
+Level fit_level(const Vector& lambda, const Vector& z, double rest_squares, int rest_dof) {
+  const auto value = [&](double log_g2, double log_s2) {
+    const double g2 = std::exp(log_g2), s2 = std::exp(log_s2);
+    const auto v = g2 * lambda.array() + s2;
+    return -0.5 * (v.log().sum() + (z.array().square() / v).sum() + rest_dof * log_s2 + rest_squares / s2 +
+                   std::pow(log_g2 / (2 * kScalePrior), 2) + std::pow(log_s2 / (2 * kNoisePrior), 2));
+  };
+  double x[2] = {0, 0}, best = value(0, 0);
+  for (double step = 0.4; step > 0.02; step /= 2.5) {
+    for (bool moved = true; moved;) {
+      moved = false;
+      for (int p = 0; p < 2; ++p) {
+        for (const double by : {step, -step}) {
+          x[p] += by;
+          const double trial = value(x[0], x[1]);
+          if (trial > best + 1e-4) {
+            best = trial;
+            moved = true;
+            break;
+          }
+          x[p] -= by;
+        }
+      }
+    }
+  }
+  return {std::exp(x[0]), std::exp(x[1])};
+}
+
+}  // namespace abbe::diagnose

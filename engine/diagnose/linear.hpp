@@ -1,0 +1,91 @@
+// The linear-Gaussian model of a recording, and what every step of the diagnosis asks of it.
+//
+//     y = X b + Z u + e,      u ~ N(0, scale_g^2 1) by group,      e ~ N(0, D) with a common correlation phi of neighbours
+//
+// y: residuals, um. X: what nothing is known of (placement of the part, unknown sizes). Z: what the simulated ensemble may do, scaled so
+// that one unit is one standard deviation of the ensemble. Hyperparameters (scale of a group of Z, factor on the noise of a group of
+// rows, phi) are estimated by restricted maximum likelihood with weak priors about 1, because a wrong prior of the baseline is the
+// greatest source of false alarms. All rows are whitened with them and X is projected out; then one eigen-decomposition of Z Z' makes
+// every later evaluation, for another scale and another noise, cost one pass over the rows:
+//
+//     z = U' y ~ N(0, g^2 lambda + s^2),       rest = y - U z ~ N(0, s^2 (1 - U U'))
+//
+// Sources: Patterson & Thompson, Biometrika 58 (1971), restricted likelihood; Rasmussen & Williams, Gaussian Processes for Machine
+// Learning, 2.7 and 5.4.1 (evidence with linear terms of infinite prior variance).
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace abbe::diagnose {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+struct LinearModel {
+  Vector y;                         ///< um
+  Matrix free;                      ///< X, one column per unknown of which nothing is known
+  Matrix random;                    ///< Z, um per standard deviation
+  std::vector<int> random_group;    ///< by column of Z; 0 is the group whose scale is estimated, the others keep theirs
+  Vector noise_um;                  ///< standard deviation of a row as the machine file states it
+  std::vector<int> noise_group;     ///< by row
+  int noise_groups = 1;
+  std::vector<char> follows;        ///< by row: measured right after the row before, with the same stylus
+};
+
+struct Hyperparameters {
+  double scale = 1;                 ///< of group 0 of Z
+  Vector noise;                     ///< factor on noise_um, by noise group
+  double correlation = 0;           ///< phi of neighbouring rows
+};
+
+/// Restricted maximum likelihood with log-normal priors about 1 (sd 0.7 for the scale, 0.5 for the noise).
+Hyperparameters estimate(const LinearModel&);
+
+/// Standardised residual of each row, predicted from all other rows.
+Vector leave_one_out(const LinearModel&, const Hyperparameters&);
+
+/// The model without some rows.
+LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);
+
+/// A model in the basis in which its ensemble is diagonal.
+class Rotated {
+ public:
+  Rotated(const LinearModel&, const Hyperparameters&);
+
+  int rows() const { return static_cast<int>(y_.size()); }
+  int rank() const { return static_cast<int>(lambda_.size()); }
+  int rest_dof() const { return rest_dof_; }
+  const Vector& lambda() const { return lambda_; }
+  /// Columns of the recording's rows, whitened and free of X.
+  Matrix project(const Matrix& columns) const;
+  /// U' of projected columns.
+  Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
+  /// What of projected columns the ensemble cannot do.
+  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const { return projected - basis_ * coordinates; }
+  /// What of a whitened row vector neither X nor the ensemble reaches.
+  Vector off_model(const Vector& white) const;
+  const Vector& y() const { return y_; }             ///< projected
+  Vector z() const { return basis_.transpose() * y_; }
+  /// Diagonal of the inverse covariance of the whitened rows, X projected out.
+  Vector precision_diagonal() const;
+
+ private:
+  Matrix whiten(const Matrix&) const;
+  const std::vector<char> follows_;
+  Vector weight_;                                    ///< 1 / sd by row
+  double correlation_ = 0;
+  Matrix q_;                                         ///< orthonormal basis of the whitened X
+  Matrix basis_;                                     ///< U
+  Vector lambda_, y_;
+  int rest_dof_ = 0;
+};
+
+/// The two numbers that are estimated anew for every set of data: common factors on ensemble and noise.
+struct Level {
+  double g2 = 1, s2 = 1;
+};
+/// Level of data z (rank), rest (sum of squares and degrees of freedom) in the rotated basis; weak priors as in estimate().
+Level fit_level(const Vector& lambda, const Vector& z, double rest_squares, int rest_dof);
+
+}  // namespace abbe::diagnose

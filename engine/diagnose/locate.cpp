@@ -1,0 +1,150 @@
+// In which factor a mismatch lies: how much of it a free pattern in that factor alone describes.
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// The pattern that a block takes in this recording, um by row: the posterior mean at its best size.
+struct Pattern {
+  Vector values;
+  double energy = 0;        ///< twice the log-likelihood that it gains
+};
+
+Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) {
+  const auto info = search.information(index);
+  Pattern best;
+  double best_score = -1e300;
+  for (const double s : kSizes) {
+    const Matrix m = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (s * s);
+    const Eigen::LLT<Matrix> llt(m);
+    const Vector mean = llt.solve(info.u);
+    const double score = 0.5 * info.u.dot(mean) - llt.matrixLLT().diagonal().array().log().sum() - double(info.g.rows()) * std::log(s);
+    if (score < best_score) continue;
+    best_score = score;
+    best = {block.signature * mean, info.u.dot(mean)};
+  }
+  return best;
+}
+
+/// Where a pattern is strongest, in words of its factor.
+std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor factor, const Vector& pattern) {
+  std::vector<std::pair<double, int>> order;
+  for (Eigen::Index i = 0; i < pattern.size(); ++i) order.emplace_back(-std::abs(pattern(i)), static_cast<int>(i));
+  std::stable_sort(order.begin(), order.end());
+  order.resize(std::max<std::size_t>(1, order.size() / 10));
+  const auto scene = [&](int k) -> const TouchScene& { return c.touches.touches[c.rows[k]].scene; };
+  const auto range = [&](auto value, const char* unit) {
+    double low = 1e300, high = -1e300;
+    for (const auto& [weight, k] : order) low = std::min(low, value(scene(k))), high = std::max(high, value(scene(k)));
+    return fmt::format("{:.0f} to {:.0f} {}", low, high, unit);
+  };
+  const auto label = [&](auto value) {
+    std::map<std::string, double> weight;
+    for (Eigen::Index i = 0; i < pattern.size(); ++i) weight[value(scene(static_cast<int>(i)))] += pattern(i) * pattern(i);
+    std::map<std::string, double> count;
+    for (Eigen::Index i = 0; i < pattern.size(); ++i) count[value(scene(static_cast<int>(i)))] += 1;
+    std::string best;
+    double most = -1;
+    for (const auto& [name, sum] : weight)
+      if (sum / count[name] > most) most = sum / count[name], best = name;
+    return best;
+  };
+  switch (factor) {
+    case Factor::time: return {{"time_s", range([](const TouchScene& s) { return s.time_s; }, "s")}};
+    case Factor::position:
+      return {{"x", range([](const TouchScene& s) { return s.point.x; }, "mm")},
+              {"y", range([](const TouchScene& s) { return s.point.y; }, "mm")},
+              {"z", range([](const TouchScene& s) { return s.point.z; }, "mm")}};
+    case Factor::direction: {
+      const Vec3 n = scene(order.front().second).normal;
+      return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
+    }
+    case Factor::head:
+      return {{"head", label([](const TouchScene& s) {
+                 return fmt::format("A {:.1f} B {:.1f}", s.stylus.head_a_rad * 180 / kPi, s.stylus.head_b_rad * 180 / kPi);
+               })}};
+    case Factor::sensor: return {{"sensor", label([](const TouchScene& s) { return std::string(s.stylus.name); })}};
+    case Factor::setup: return {{"setup", label([](const TouchScene& s) { return std::to_string(s.setup); })}};
+    case Factor::run: return {{"run", label([](const TouchScene& s) { return std::to_string(s.run); })}};
+    case Factor::feature: return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
+    case Factor::temperature: return {{"part_C", range([](const TouchScene& s) { return s.temperature.part; }, "C")}};
+    case Factor::speed: return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
+  }
+  return {};
+}
+
+/// The best pattern of each factor, in one set of evidence.
+std::map<Factor, int> best_by_factor(const Explanations& all, const Evidence& evidence) {
+  std::map<Factor, int> best;
+  for (std::size_t k = 0; k < all.list.size(); ++k) {
+    if (all.list[k].effect) continue;
+    const auto found = best.find(all.list[k].factor);
+    if (found == best.end() || evidence.log_bayes[k] > evidence.log_bayes[found->second]) best[all.list[k].factor] = static_cast<int>(k);
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Location> locate(const Case& c, const SearchResult& result) {
+  const EvidenceSearch search(c.model, c.hyper, c.explanations);
+  const Explanations& all = c.explanations;
+  double most = 0;
+  for (std::size_t k = 0; k < all.list.size(); ++k)
+    for (const int b : all.list[k].blocks)
+      if (result.first.block_log_bayes[b] > result.first.statistic - 5) most = std::max(most, pattern_of(search, all.blocks[b], b).energy);
+  struct Entry {
+    Location location;
+    double log_bayes;
+  };
+  std::vector<Entry> entries;
+  for (const auto& [factor, k] : best_by_factor(all, result.first)) {
+    const int block = all.list[k].blocks.front();
+    const Pattern pattern = pattern_of(search, all.blocks[block], block);
+    std::vector<double> simulated;
+    for (const Evidence& null : result.null) {
+      double top = -1e300;
+      for (const auto& [f, j] : best_by_factor(all, null)) top = std::max(top, null.log_bayes[j]);
+      simulated.push_back(top);
+    }
+    const double share = most > 0 ? std::clamp(pattern.energy / most, 0.0, 1.0) : 0;
+    entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), share,
+                        tail_probability(result.first.log_bayes[k], std::move(simulated))},
+                       result.first.log_bayes[k]});
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.log_bayes > b.log_bayes; });
+  std::vector<Location> out;
+  for (Entry& e : entries)
+    if (e.location.p <= 0.05 || out.empty()) out.push_back(std::move(e.location));
+  return out;
+}
+
+Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
+  const Finding& f = *result.other;
+  std::vector<const Matrix*> removed;
+  for (const Finding& named : result.findings) removed.push_back(&c.explanations.blocks[named.block].signature);
+  const EvidenceSearch search(with_free(c.model, removed), c.hyper, c.explanations);
+  const Explanation& e = c.explanations.list[f.explanation];
+  const Block& block = c.explanations.blocks[f.block];
+  const Pattern pattern = pattern_of(search, block, f.block);
+  Unexplained u;
+  u.factor = std::string(abbe::diagnose::name(e.factor));
+  u.shape = e.shape;
+  u.amplitude_um = std::sqrt(pattern.values.squaredNorm() / double(pattern.values.size()));
+  // The relative uncertainty of an amplitude is one over its signal-to-noise.
+  u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
+  u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
+  u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
+  u.sentence = fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording that no effect of the catalogue makes.", u.factor, u.shape, u.amplitude_um);
+  return u;
+}
+
+}  // namespace abbe::diagnose

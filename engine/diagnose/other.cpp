@@ -1,0 +1,186 @@
+// OTHER: smooth random patterns in each factor, for physics that the catalogue does not have. Without it a diagnosis names the nearest
+// effect with great confidence whatever the truth is. Each pattern is a Gaussian process with a squared-exponential covariance, in its
+// subset-of-regressors form on evenly spread centres (Rasmussen & Williams 2006, 8.3.1): columns K_rows,centres K_centres^(-1/2), amplitude 1 um.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/diagnose/explanation.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+using Points = std::vector<std::vector<double>>;
+
+double squared_distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sum;
+}
+
+/// Centres spread over the points: each the point farthest from those before, until all are nearer than half a length, or `most`.
+Points centres(const Points& points, double length, int most) {
+  Points chosen{points.front()};
+  std::vector<double> nearest(points.size(), 1e300);
+  while (static_cast<int>(chosen.size()) < most) {
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      nearest[i] = std::min(nearest[i], squared_distance(points[i], chosen.back()));
+      if (nearest[i] > nearest[far]) far = i;
+    }
+    if (nearest[far] < length * length / 4) break;
+    chosen.push_back(points[far]);
+  }
+  return chosen;
+}
+
+/// The smooth functions of the points: columns of variance about 1.
+Matrix smooth(const Points& points, double length, int most) {
+  const Points at = centres(points, length, most);
+  const auto kernel = [&](const Points& a, const Points& b) {
+    Matrix k(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j) k(i, j) = std::exp(-squared_distance(a[i], b[j]) / (2 * length * length));
+    return k;
+  };
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(kernel(at, at) + 1e-6 * Matrix::Identity(at.size(), at.size()));
+  return kernel(points, at) * solver.operatorInverseSqrt();
+}
+
+/// Columns times each component of a direction by row: a vector field seen along the normals.
+Matrix along(const Matrix& field, const std::vector<Vec3>& direction) {
+  Matrix out(field.rows(), 3 * field.cols());
+  for (int k = 0; k < 3; ++k)
+    for (Eigen::Index i = 0; i < field.rows(); ++i) out.row(i).segment(k * field.cols(), field.cols()) = field.row(i) * direction[i][k];
+  return out;
+}
+
+/// One column for each group: 1 in its rows.
+Matrix indicator(const std::vector<int>& group) {
+  std::map<int, int> index;
+  for (const int g : group) index.emplace(g, 0);
+  int next = 0;
+  for (auto& [g, i] : index) i = next++;
+  Matrix out = Matrix::Zero(group.size(), next);
+  for (std::size_t i = 0; i < group.size(); ++i) out(i, index[group[i]]) = 1;
+  return out;
+}
+
+/// Columns of `field` kept apart by group.
+Matrix by_group(const Matrix& field, const std::vector<int>& group) {
+  const Matrix in = indicator(group);
+  Matrix out = Matrix::Zero(field.rows(), field.cols() * in.cols());
+  for (Eigen::Index g = 0; g < in.cols(); ++g) out.middleCols(g * field.cols(), field.cols()) = in.col(g).asDiagonal() * field;
+  return out;
+}
+
+/// The factors of the touches, in the units in which kernels are spread.
+class Patterns {
+ public:
+  Patterns(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) : out_(out) {
+    std::map<std::pair<double, double>, int> orientation;
+    for (const int i : rows) {
+      const TouchScene& s = t.touches[i].scene;
+      normal_.push_back(s.normal);
+      time_.push_back({s.time_s});
+      place_.push_back({s.point.x, s.point.y, s.point.z});
+      directions_.push_back({s.normal.x, s.normal.y, s.normal.z});
+      const Vec3 n = transpose(s.stylus.R_WR) * s.normal;
+      on_probe_.push_back({n.x, n.y, n.z});
+      orientation_.push_back(orientation.emplace(std::pair{s.stylus.head_a_rad, s.stylus.head_b_rad}, int(orientation.size())).first->second);
+      sensor_.push_back(s.stylus.ordinal), feature_.push_back(s.feature), setup_.push_back(s.setup), run_.push_back(s.run);
+      speed_.push_back(int(std::lround(1000 * s.speed_mm_s)));
+      above20_.push_back(s.temperature.part - 20);
+    }
+    for (auto& p : time_) p[0] = (p[0] - t.touches.front().scene.time_s) / std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
+    normalise(place_);
+  }
+
+  void add_all() {
+    const Matrix one = Matrix::Ones(normal_.size(), 1);
+    add(Factor::time, "slow", along(smooth(time_, 0.3, 8), normal_));
+    add(Factor::time, "quick", along(smooth(time_, 0.07, 22), normal_));
+    add(Factor::position, "smooth", along(smooth(place_, 0.6, 14), normal_));
+    add(Factor::position, "patch", along(smooth(place_, 0.25, 26), normal_));
+    add(Factor::position, "height", smooth(place_, 0.4, 24));
+    add(Factor::direction, "smooth", smooth(directions_, 0.6, 40));
+    if (several(orientation_)) {
+      add(Factor::direction, "on the probe", smooth(on_probe_, 0.6, 40));
+      add(Factor::head, "orientation", along(indicator(orientation_), normal_));
+      add(Factor::head, "orientation in time", along(by_group(trend(), orientation_), normal_));
+    }
+    if (several(sensor_)) add(Factor::sensor, "offset", hcat(along(indicator(sensor_), normal_), indicator(sensor_)));
+    if (several(feature_)) {
+      add(Factor::feature, "size", indicator(feature_));
+      add(Factor::feature, "form", by_group(smooth(directions_, 0.9, 8), feature_));
+    }
+    if (several(setup_)) add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
+    if (several(run_)) add(Factor::run, "offset", along(indicator(run_), normal_));
+    if (several(speed_)) add(Factor::speed, "offset", by_group(one, speed_));
+    Matrix warm(normal_.size(), 1);
+    for (std::size_t i = 0; i < above20_.size(); ++i) warm(i, 0) = above20_[i];
+    if (warm.maxCoeff() - warm.minCoeff() > 0.1) add(Factor::temperature, "growth", along(warm.asDiagonal() * linear_place(), normal_));
+  }
+
+ private:
+  static void normalise(Points& points) {
+    std::vector<double> low(points.front()), high(points.front());
+    for (const auto& p : points)
+      for (std::size_t k = 0; k < p.size(); ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+    double extent = 1e-9;
+    for (std::size_t k = 0; k < low.size(); ++k) extent = std::max(extent, high[k] - low[k]);
+    for (auto& p : points)
+      for (std::size_t k = 0; k < p.size(); ++k) p[k] = (p[k] - low[k]) / extent;
+  }
+  static bool several(const std::vector<int>& group) { return std::set<int>(group.begin(), group.end()).size() > 1; }
+  static Matrix hcat(const Matrix& a, const Matrix& b) {
+    Matrix out(a.rows(), a.cols() + b.cols());
+    out << a, b;
+    return out;
+  }
+  Matrix trend() const {
+    Matrix m(time_.size(), 2);
+    for (std::size_t i = 0; i < time_.size(); ++i) m(i, 0) = time_[i][0] - 0.5, m(i, 1) = std::pow(time_[i][0] - 0.5, 2);
+    return m * 2;
+  }
+  Matrix linear_place() const {
+    Matrix m(place_.size(), 4);
+    for (std::size_t i = 0; i < place_.size(); ++i) m.row(i) << 1, place_[i][0], place_[i][1], place_[i][2];
+    return m;
+  }
+
+  void add(Factor factor, std::string shape, const Matrix& columns) {
+    Explanation e;
+    e.name = "OTHER " + std::string(abbe::diagnose::name(factor)) + ", " + shape;
+    e.factor = factor;
+    e.shape = std::move(shape);
+    Block block;
+    block.explanation = static_cast<int>(out_.list.size());
+    block.signature = compressed(columns);
+    block.columns.assign(block.signature.cols(), {});
+    block.joined = true;
+    e.blocks.push_back(static_cast<int>(out_.blocks.size()));
+    out_.blocks.push_back(std::move(block));
+    out_.list.push_back(std::move(e));
+  }
+
+  Explanations& out_;
+  std::vector<Vec3> normal_;
+  Points time_, place_, directions_, on_probe_;
+  std::vector<int> orientation_, sensor_, feature_, setup_, run_, speed_;
+  std::vector<double> above20_;
+};
+
+}  // namespace
+
+std::string_view name(Factor f) {
+  constexpr std::string_view names[] = {"time", "position", "direction", "head", "sensor", "setup", "feature", "run", "temperature", "speed"};
+  return names[static_cast<int>(f)];
+}
+
+void add_other(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) { Patterns(t, rows, out).add_all(); }
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,203 @@
+// Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a linear-Gaussian posterior with a prior so
+// wide that it does not pull.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr double kWide = 30;     // prior standard deviations
+
+/// One variant's estimate of one figure.
+struct Component {
+  double weight = 0, value = 0, u = 0;
+};
+
+double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+
+/// The quantile of a mixture of normals, by bisection.
+double quantile(const std::vector<Component>& mixture, double p) {
+  double low = 1e300, high = -1e300;
+  for (const Component& c : mixture) low = std::min(low, c.value - 10 * c.u - 1e-12), high = std::max(high, c.value + 10 * c.u + 1e-12);
+  for (int step = 0; step < 80; ++step) {
+    const double x = (low + high) / 2;
+    double below = 0;
+    for (const Component& c : mixture) below += c.weight * (c.u > 0 ? normal_below((x - c.value) / c.u) : (x >= c.value ? 1 : 0));
+    (below < p ? low : high) = x;
+  }
+  return (low + high) / 2;
+}
+
+DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<Component>& mixture) {
+  DiagnosedParameter out{.name = std::string(parameter.name), .unit = std::string(parameter.unit)};
+  double square = 0;
+  for (const Component& c : mixture) out.value += c.weight * c.value;
+  for (const Component& c : mixture) square += c.weight * (c.u * c.u + std::pow(c.value - out.value, 2));
+  out.u = std::sqrt(square);
+  out.low = quantile(mixture, 0.025);
+  out.high = quantile(mixture, 0.975);
+  out.plausible = out.value >= parameter.low && out.value <= parameter.high;
+  return out;
+}
+
+/// Estimate of a linear parameter in one variant: its coefficient, or the length of the vector along several directions and phases.
+Component linear_estimate(const Block& block, const Vector& mean, const Matrix& covariance, int parameter) {
+  std::vector<Eigen::Index> mine;
+  for (std::size_t k = 0; k < block.columns.size(); ++k)
+    if (block.columns[k].parameter == parameter) mine.push_back(static_cast<Eigen::Index>(k));
+  Component out;
+  if (mine.empty()) return out;
+  const double unit = block.columns[mine.front()].unit;
+  if (mine.size() == 1) return {0, unit * mean(mine[0]), unit * std::sqrt(covariance(mine[0], mine[0]))};
+  const Vector v = mean(mine);
+  const Matrix s = covariance(mine, mine);
+  const double length = v.norm();
+  const Vector along = length > 0 ? Vector(v / length) : Vector::Unit(v.size(), 0);
+  // The length of an uncertain vector is biased upwards by what scatters across it.
+  const double variance = along.dot(s * along), across = s.trace() - variance;
+  const double corrected = std::sqrt(std::max(0.0, length * length - across));
+  return {0, unit * corrected, unit * std::sqrt(variance)};
+}
+
+/// The standard deviation of draws: the rms of the coefficients that they took.
+Component spread_estimate(const Block& block, const Vector& mean, double unit) {
+  const double n = std::max<double>(1, double(block.signature.cols()));
+  const double rms = std::sqrt(mean.squaredNorm() / n);
+  return {0, unit * rms, unit * rms / std::sqrt(2 * n)};
+}
+
+/// Between which values of its grid a searched parameter lies: half the way to its neighbours.
+double grid_u(const std::vector<double>& grid, double value) {
+  double nearest = 1e300;
+  for (const double g : grid)
+    if (g != value) nearest = std::min(nearest, std::abs(g - value));
+  return grid.size() > 1 ? nearest / std::sqrt(12.0) : 0;
+}
+
+class Estimator {
+ public:
+  Estimator(const Case& c, const SearchResult& result, std::size_t which) : explanation_(c.explanations.list[result.findings[which].explanation]) {
+    std::vector<const Matrix*> others;
+    for (std::size_t k = 0; k < result.findings.size(); ++k)
+      if (k != which) others.push_back(&c.explanations.blocks[result.findings[k].block].signature);
+    const Explanations mine = only(c.explanations, {result.findings[which].explanation});
+    // Scale and noise as they are once everything named is taken out.
+    std::vector<const Matrix*> all = others;
+    all.push_back(&c.explanations.blocks[result.findings[which].block].signature);
+    const Hyperparameters hyper = estimate(with_free(c.model, all));
+    const EvidenceSearch search(with_free(c.model, others), hyper, mine);
+    const Evidence evidence = search.evidence();
+    std::vector<double> logs = evidence.block_log_bayes;
+    const double total = log_sum_exp(logs);
+    for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
+      const double weight = std::exp(logs[b] - total);
+      if (weight < 1e-4) continue;
+      const auto info = search.information(static_cast<int>(b));
+      const Matrix precision = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide);
+      const Eigen::LLT<Matrix> llt(precision);
+      variants_.push_back({weight, mine.blocks[b], llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))});
+    }
+  }
+
+  std::vector<DiagnosedParameter> all() const {
+    std::vector<DiagnosedParameter> out;
+    const Effect& effect = *explanation_.effect;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+      const EffectParameter& parameter = effect.parameters[p];
+      if (parameter.linear) {
+        const auto mixture = effect.draws > 0 ? spread(parameter) : linear(static_cast<int>(p));
+        if (!mixture.empty()) out.push_back(summary(parameter, mixture));
+      } else if (!parameter.choices.empty()) {
+        if (const auto word = chosen(p)) out.push_back({.name = std::string(parameter.name), .unit = "", .word = *word});
+      } else if (varies(p)) {
+        out.push_back(summary(parameter, searched(p)));
+      }
+    }
+    return out;
+  }
+
+ private:
+  struct Variant {
+    double weight;
+    Block block;
+    Vector mean;
+    Matrix covariance;
+  };
+
+  std::vector<Component> linear(int p) const {
+    std::vector<Component> mixture;
+    double total = 0;
+    for (const Variant& v : variants_) {
+      Component c = linear_estimate(v.block, v.mean, v.covariance, p);
+      if (c.u == 0) continue;
+      c.weight = v.weight;
+      total += v.weight;
+      mixture.push_back(c);
+    }
+    for (Component& c : mixture) c.weight /= total;
+    return mixture;
+  }
+
+  std::vector<Component> spread(const EffectParameter& parameter) const {
+    std::vector<Component> mixture;
+    for (const Variant& v : variants_) {
+      Component c = spread_estimate(v.block, v.mean, parameter.typical);
+      c.weight = v.weight;
+      mixture.push_back(c);
+    }
+    return normalised(mixture);
+  }
+
+  std::vector<Component> searched(std::size_t p) const {
+    std::vector<double> grid;
+    for (const Variant& v : variants_) grid.push_back(v.block.theta[p]);
+    std::vector<Component> mixture;
+    for (const Variant& v : variants_) mixture.push_back({v.weight, v.block.theta[p], grid_u(grid, v.block.theta[p])});
+    return normalised(mixture);
+  }
+
+  static std::vector<Component> normalised(std::vector<Component> mixture) {
+    double total = 0;
+    for (const Component& c : mixture) total += c.weight;
+    for (Component& c : mixture) c.weight /= total;
+    return mixture;
+  }
+
+  bool varies(std::size_t p) const {
+    return std::any_of(variants_.begin(), variants_.end(), [&](const Variant& v) { return v.block.theta[p] != variants_.front().block.theta[p]; }) ||
+           explanation_.effect->parameters[p].name == "t0_s" || explanation_.effect->parameters[p].name == "period_s";
+  }
+
+  /// The word of a choice: the likeliest one, or of a spanned direction the axis that dominates.
+  std::optional<std::string> chosen(std::size_t p) const {
+    const EffectParameter& parameter = explanation_.effect->parameters[p];
+    const auto best = std::max_element(variants_.begin(), variants_.end(), [](const Variant& a, const Variant& b) { return a.weight < b.weight; });
+    const bool spanned = std::any_of(best->block.columns.begin(), best->block.columns.end(), [](const Column& c) { return c.part % 3 != 0; });
+    if (!spanned || parameter.name != "direction") {
+      const auto code = static_cast<std::size_t>(best->block.theta[p] - parameter.low + 0.5);
+      return code < parameter.choices.size() ? std::optional(std::string(parameter.choices[code])) : std::nullopt;
+    }
+    double energy[3] = {};
+    for (std::size_t k = 0; k < best->block.columns.size(); ++k) energy[best->block.columns[k].part % 3] += std::pow(best->mean(static_cast<Eigen::Index>(k)), 2);
+    const double all = energy[0] + energy[1] + energy[2];
+    for (int k = 0; k < 3; ++k)
+      if (energy[k] > 0.9 * all) return std::string(parameter.choices[static_cast<std::size_t>(k)]);
+    return std::string(parameter.choices[3]);
+  }
+
+  const Explanation& explanation_;
+  std::vector<Variant> variants_;
+};
+
+}  // namespace
+
+std::vector<DiagnosedParameter> estimate_parameters(const Case& c, const SearchResult& result, std::size_t finding) {
+  return Estimator(c, result, finding).all();
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,160 @@
+// Detect, name, remove, and look again: every round tests the whole catalogue and OTHER on what the findings before leave unexplained.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr int kRounds = 3;
+
+/// Probabilities of the explanations, given that one of them is there.
+std::vector<double> probabilities(const Explanations& explanations, const Evidence& evidence) {
+  std::vector<double> log_p;
+  for (std::size_t k = 0; k < explanations.list.size(); ++k) log_p.push_back(std::log(explanations.list[k].prior) + evidence.log_bayes[k]);
+  const double total = log_sum_exp(log_p);
+  for (double& p : log_p) p = std::exp(p - total);
+  return log_p;
+}
+
+/// The likeliest variant of an explanation.
+int best_block(const Explanation& e, const Evidence& evidence) {
+  return *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
+}
+
+/// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind.
+Finding finding_of(const Case& c, const Evidence& evidence, bool catalogue) {
+  const Explanations& all = c.explanations;
+  const std::vector<double> p = probabilities(all, evidence);
+  std::vector<int> order;
+  double total = 0;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if ((all.list[k].effect != nullptr) != catalogue) continue;
+    order.push_back(static_cast<int>(k));
+    total += p[k];
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
+  Finding f;
+  f.evidence = evidence;
+  for (const int k : order) {
+    if (f.probability >= kCredible * total) break;
+    f.set.push_back(k);
+    f.probability += p[k];
+  }
+  f.explanation = order.front();
+  f.block = best_block(all.list[f.explanation], evidence);
+  return f;
+}
+
+double log_belief(const Case& c, const Finding& f) {
+  return std::log(c.explanations.list[f.explanation].prior) + f.evidence.log_bayes[f.explanation];
+}
+
+struct Round {
+  Evidence evidence;
+  std::vector<Evidence> null;
+  double p = 1;
+};
+
+Round round(const Case& c, const std::vector<Finding>& before, int number) {
+  std::vector<const Matrix*> removed;
+  for (const Finding& f : before) removed.push_back(&c.explanations.blocks[f.block].signature);
+  const LinearModel model = with_free(c.model, removed);
+  const EvidenceSearch search(model, c.hyper, c.explanations);
+  Round r{search.evidence(), search.bootstrap(c.options.replicates, c.options.seed + static_cast<std::uint64_t>(number), c.options.threads), 1};
+  std::vector<double> simulated;
+  for (const Evidence& e : r.null) simulated.push_back(e.statistic);
+  r.p = tail_probability(r.evidence.statistic, std::move(simulated));
+  return r;
+}
+
+/// Names a finding again, given what was found after it: a later finding may have taken over part of it.
+Finding renamed(const Case& c, const std::vector<Finding>& all, std::size_t which) {
+  std::vector<const Matrix*> others;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (k != which) others.push_back(&c.explanations.blocks[all[k].block].signature);
+  const EvidenceSearch search(with_free(c.model, others), c.hyper, c.explanations);
+  Finding f = finding_of(c, search.evidence(), true);
+  f.p = all[which].p;
+  return f;
+}
+
+}  // namespace
+
+SearchResult search(const Case& c) {
+  SearchResult result;
+  for (int number = 0; number <= kRounds; ++number) {
+    Round r = round(c, result.findings, number);
+    if (number == 0) {
+      result.p_value = r.p;
+      result.first = r.evidence;
+      result.null = std::move(r.null);
+    }
+    if (r.p > kAlarm || number == kRounds) break;
+    Finding named = finding_of(c, r.evidence, true), other = finding_of(c, r.evidence, false);
+    named.p = other.p = r.p;
+    if (named.probability >= other.probability) {
+      result.findings.push_back(std::move(named));
+      continue;
+    }
+    result.other = std::move(other);
+    break;
+  }
+  // A pattern alone that is as good as effects with a pattern beside them: the effects were not there.
+  if (result.other && !result.findings.empty()) {
+    const Finding alone = finding_of(c, result.first, false);
+    double together = log_belief(c, *result.other);
+    for (const Finding& f : result.findings) together += log_belief(c, f);
+    if (log_belief(c, alone) > together) {
+      result.findings.clear();
+      result.other = alone;
+      result.other->p = result.p_value;
+    }
+  }
+  if (result.findings.size() > 1) {
+    const std::vector<Finding> before = result.findings;
+    for (std::size_t k = 0; k < before.size(); ++k) result.findings[k] = renamed(c, before, k);
+    // Two rounds may have named one effect twice: then one name is enough.
+    std::vector<Finding> distinct;
+    for (Finding& f : result.findings) {
+      const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Finding& d) { return d.explanation == f.explanation; });
+      if (!known) distinct.push_back(std::move(f));
+    }
+    result.findings = std::move(distinct);
+  }
+  return result;
+}
+
+LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {
+  LinearModel out = m;
+  for (const Matrix* s : signatures) {
+    out.free.conservativeResize(Eigen::NoChange, out.free.cols() + s->cols());
+    out.free.rightCols(s->cols()) = *s;
+  }
+  return out;
+}
+
+Explanations only(const Explanations& all, const std::vector<int>& kept) {
+  Explanations out;
+  for (const int k : kept) {
+    Explanation e = all.list[k];
+    for (int& b : e.blocks) {
+      out.blocks.push_back(all.blocks[b]);
+      out.blocks.back().explanation = static_cast<int>(out.list.size());
+      b = static_cast<int>(out.blocks.size()) - 1;
+    }
+    out.list.push_back(std::move(e));
+  }
+  return out;
+}
+
+Explanations rows_of(const Explanations& all, const std::vector<Eigen::Index>& rows) {
+  Explanations out = all;
+  for (Block& b : out.blocks) b.signature = Matrix(b.signature(rows, Eigen::all));
+  return out;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,111 @@
+#include "engine/recording/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <set>
+
+namespace abbe {
+
+namespace {
+
+constexpr std::size_t kMostMessages = 10;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The fields of one line. A quoted field ends on its line: labels of features hold no line ends.
+std::vector<CsvField> split(const SourceFile& file, std::string_view line, std::uint32_t begin, Sink& sink) {
+  std::vector<CsvField> fields;
+  std::size_t at = 0;
+  while (true) {
+    std::size_t from = at;
+    while (from < line.size() && (line[from] == ' ' || line[from] == '\t')) ++from;
+    std::string text;
+    if (from < line.size() && line[from] == '"') {
+      std::size_t i = from + 1;
+      for (; i < line.size(); ++i) {
+        if (line[i] != '"') text += line[i];
+        else if (i + 1 < line.size() && line[i + 1] == '"') text += line[i++];
+        else break;
+      }
+      at = std::min(line.find(',', i), line.size());
+      if (i >= line.size())
+        sink.add(diagnostic_at(file, {begin + static_cast<std::uint32_t>(from), begin + static_cast<std::uint32_t>(line.size())}, Code::E0521,
+                               "this quote is not closed on its line", "write \"\" for a quote inside a quoted field"));
+    } else {
+      at = std::min(line.find(',', from), line.size());
+      text = trimmed(line.substr(from, at - from));
+    }
+    const auto first = begin + static_cast<std::uint32_t>(from);
+    fields.push_back({std::move(text), {first, std::max(first + 1, begin + static_cast<std::uint32_t>(at))}});
+    if (at >= line.size()) return fields;
+    ++at;
+  }
+}
+
+void read_metadata(std::string_view line, CsvTable& table) {
+  line.remove_prefix(1);
+  const std::size_t colon = line.find(':');
+  if (colon == std::string_view::npos) return;
+  table.metadata.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+}
+
+void check_header(const SourceFile& file, const std::vector<CsvField>& header, Sink& sink) {
+  std::set<std::string> seen;
+  for (const CsvField& field : header)
+    if (!seen.insert(field.text).second)
+      sink.add(diagnostic_at(file, field.span, Code::E0522, fmt::format("column '{}' stands here for the second time", field.text),
+                             "remove one of the two"));
+}
+
+}  // namespace
+
+CsvTable read_csv(const SourceFile& file) {
+  CsvTable table;
+  Sink sink;
+  for (int number = 1; number <= file.line_count() && sink.list().size() < kMostMessages; ++number) {
+    std::string_view line = file.line(number);
+    std::uint32_t begin = file.line_begin(number);
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size()), begin += 3;
+    while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    if (trimmed(line).empty()) continue;
+    if (line.front() == '#') {
+      read_metadata(line, table);
+      continue;
+    }
+    std::vector<CsvField> fields = split(file, line, begin, sink);
+    if (table.header.empty()) {
+      table.header = std::move(fields);
+      check_header(file, table.header, sink);
+    } else if (fields.size() != table.header.size()) {
+      sink.add(diagnostic_at(file, fields.front().span, Code::E0523,
+                             fmt::format("this line has {} values, the header {} columns", fields.size(), table.header.size()),
+                             "every line holds one value, or nothing, for each column"));
+    } else {
+      table.rows.push_back({number, std::move(fields)});
+    }
+  }
+  if (sink.has_errors()) throw UserError(sink.list());
+  if (table.header.empty() || table.rows.empty())
+    throw UserError(diagnostic_at(file, {0, 1}, Code::E0524, "the file has no rows",
+                                  "the first line names the columns (docs/formats.md, \"Recordings\"), every other line is one touch"));
+  return table;
+}
+
+std::optional<double> csv_number(const CsvField& field) {
+  std::string_view text = field.text;
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+}  // namespace abbe

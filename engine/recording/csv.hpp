@@ -1,0 +1,36 @@
+// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings. Fields keep their place in the file, so that
+// a message can point at the very number that is wrong.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/base/diagnostic.hpp"
+
+namespace abbe {
+
+struct CsvField {
+  std::string text;    ///< unquoted, blanks around it removed
+  Span span;
+};
+
+struct CsvRow {
+  int line = 0;        ///< of the file, 1-based
+  std::vector<CsvField> fields;
+};
+
+struct CsvTable {
+  std::vector<std::pair<std::string, std::string>> metadata;  ///< `# key: value` lines; others that begin with # are free text
+  std::vector<CsvField> header;
+  std::vector<CsvRow> rows;                                   ///< blank lines are left out
+};
+
+/// Reads the table. Throws UserError: no header, a column twice, a quote that is not closed, a row of another length than the header.
+CsvTable read_csv(const SourceFile&);
+
+/// A number written with a decimal point that a double can hold; nothing otherwise.
+std::optional<double> csv_number(const CsvField&);
+
+}  // namespace abbe

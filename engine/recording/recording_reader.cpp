@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "engine/recording/csv.hpp"
+#include "engine/recording/recording.hpp"
+
+namespace abbe {
+
+namespace {
+
+constexpr std::size_t kMostMessages = 10;
+
+/// The coordinates of the vectors of a row, which come column by column.
+struct PartialVector {
+  std::array<std::optional<double>, 3> coordinate;
+  int given() const { return static_cast<int>(std::count_if(coordinate.begin(), coordinate.end(), [](const auto& c) { return c.has_value(); })); }
+  std::optional<Vec3> complete() const {
+    return given() == 3 ? std::optional(Vec3{*coordinate[0], *coordinate[1], *coordinate[2]}) : std::nullopt;
+  }
+};
+
+/// A row as it is read.
+struct Draft {
+  RecordingRow row;
+  std::map<std::string, PartialVector> vectors;   ///< by the names of their columns: "x,y,z"
+};
+
+/// Puts a field into a draft; false when it is not what the column holds.
+using Setter = std::function<bool(const CsvField&, Draft&)>;
+
+template <class Member>
+Setter real(Member member) {
+  return [=](const CsvField& f, Draft& d) {
+    const std::optional<double> v = csv_number(f);
+    if (v) d.row.*member = *v;
+    return v.has_value();
+  };
+}
+
+template <class Member>
+Setter integer(Member member) {
+  return [=](const CsvField& f, Draft& d) {
+    const std::optional<double> v = csv_number(f);
+    if (!v || *v != std::floor(*v) || std::abs(*v) > 1e9) return false;
+    d.row.*member = static_cast<int>(*v);
+    return true;
+  };
+}
+
+template <class Member>
+Setter text(Member member) {
+  return [=](const CsvField& f, Draft& d) {
+    d.row.*member = f.text;
+    return true;
+  };
+}
+
+Setter coordinate(std::string vector, int axis) {
+  return [=](const CsvField& f, Draft& d) {
+    const std::optional<double> v = csv_number(f);
+    if (v) d.vectors[vector].coordinate[axis] = *v;
+    return v.has_value();
+  };
+}
+
+struct VectorColumns {
+  std::array<const char*, 3> names;
+  const char* key;
+};
+constexpr VectorColumns kVectors[] = {{{"x", "y", "z"}, "x,y,z"},
+                                      {{"tx", "ty", "tz"}, "tx,ty,tz"},
+                                      {{"nx", "ny", "nz"}, "nx,ny,nz"},
+                                      {{"ax", "ay", "az"}, "ax,ay,az"},
+                                      {{"enc_x", "enc_y", "enc_z"}, "enc_x,enc_y,enc_z"}};
+
+std::map<std::string, Setter> setters() {
+  std::map<std::string, Setter> s = {
+      {"feature", text(&RecordingRow::feature)},
+      {"touch", integer(&RecordingRow::touch)},
+      {"setup", integer(&RecordingRow::setup)},
+      {"run", integer(&RecordingRow::run)},
+      {"sensor", text(&RecordingRow::sensor)},
+      {"head_A_deg", real(&RecordingRow::head_a_deg)},
+      {"head_B_deg", real(&RecordingRow::head_b_deg)},
+      {"qualification", integer(&RecordingRow::qualification)},
+      {"visit", integer(&RecordingRow::visit)},
+      {"time_s", real(&RecordingRow::time_s)},
+      {"speed_mm_s", real(&RecordingRow::speed_mm_s)},
+      {"accel_mm_s2", real(&RecordingRow::accel_mm_s2)},
+      {"temp_part_C", real(&RecordingRow::temp_part_C)},
+      {"temp_x_C", real(&RecordingRow::temp_x_C)},
+      {"temp_y_C", real(&RecordingRow::temp_y_C)},
+      {"temp_z_C", real(&RecordingRow::temp_z_C)},
+      {"temp_air_C", real(&RecordingRow::temp_air_C)},
+      {"load_kg", real(&RecordingRow::load_kg)},
+  };
+  for (const VectorColumns& v : kVectors)
+    for (int axis = 0; axis < 3; ++axis) s[v.names[axis]] = coordinate(v.key, axis);
+  return s;
+}
+
+Recording with_metadata(const CsvTable& table, const SourceFile& file) {
+  Recording recording;
+  const auto choose = [&](const std::string& key, const std::string& value, const std::string& other, const std::string& otherwise) {
+    if (value == other || value == otherwise) return value == other;
+    throw UserError(diagnostic(Code::E0525, fmt::format("{}: '# {}: {}' is neither '{}' nor '{}'", file.name(), key, value, otherwise, other),
+                               "correct the line, or leave it out for the first of the two"));
+  };
+  for (const auto& [key, value] : table.metadata) {
+    if (key == "frame") recording.in_part_frame = choose(key, value, "part", "mcs");
+    else if (key == "point") recording.point = choose(key, value, "surface", "tip_centre") ? RecordedPoint::surface : RecordedPoint::tip_centre;
+    else recording.metadata.emplace_back(key, value);
+  }
+  return recording;
+}
+
+/// The setter of each column. An unknown column is an error: a misspelt covariate would silently be lost.
+std::vector<Setter> columns_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
+  const std::map<std::string, Setter> known = setters();
+  std::vector<std::string_view> names;
+  for (const auto& [name, setter] : known) names.push_back(name);
+  std::vector<Setter> columns;
+  std::map<std::string, bool> present;
+  for (const CsvField& field : table.header) {
+    present[field.text] = true;
+    const auto found = known.find(field.text);
+    columns.push_back(found == known.end() ? Setter{} : found->second);
+    if (columns.back()) continue;
+    const std::string near = nearest_word(field.text, names);
+    sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording has no column '{}'", field.text),
+                           near.empty() ? fmt::format("its columns are: {}", fmt::join(names, ", ")) : fmt::format("did you mean '{}'?", near), near));
+  }
+  for (const char* name : {"feature", "touch", "x", "y", "z"})
+    if (!present[name])
+      sink.add(diagnostic_at(file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
+                             "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
+  return columns;
+}
+
+void complete_vectors(const SourceFile& file, const CsvRow& row, Draft& draft, Sink& sink) {
+  const auto take = [&](const VectorColumns& columns) -> std::optional<Vec3> {
+    const PartialVector& v = draft.vectors[columns.key];
+    if (v.given() == 1 || v.given() == 2)
+      sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528,
+                             fmt::format("of {} only {} of three values are given", columns.key, v.given()), "give all three, or none"));
+    return v.complete();
+  };
+  const std::optional<Vec3> position = take(kVectors[0]);
+  if (position) draft.row.position_mm = *position;
+  else if (draft.vectors[kVectors[0].key].given() == 0)
+    sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528, "the recorded position is missing", "remove the row, or give x, y, z"));
+  draft.row.target_mm = take(kVectors[1]);
+  draft.row.normal = take(kVectors[2]);
+  draft.row.travel = take(kVectors[3]);
+  draft.row.reading_mm = take(kVectors[4]);
+  for (std::optional<Vec3>* direction : {&draft.row.normal, &draft.row.travel}) {
+    if (!*direction) continue;
+    const double length = norm(**direction);
+    if (std::abs(length - 1) > 1e-2)
+      sink.add(diagnostic_at(file, row.fields.front().span, Code::E0529,
+                             fmt::format("a direction of length {:.4g} stands here", length), "nx,ny,nz and ax,ay,az are unit vectors"));
+    else *direction = **direction / length;
+  }
+}
+
+}  // namespace
+
+Recording read_recording(const SourceFile& file) {
+  const CsvTable table = read_csv(file);
+  Recording recording = with_metadata(table, file);
+  Sink sink;
+  const std::vector<Setter> columns = columns_of(table, file, sink);
+  if (sink.has_errors()) throw UserError(sink.list());
+  for (const CsvRow& row : table.rows) {
+    Draft draft;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const CsvField& field = row.fields[k];
+      if (field.text.empty() || columns[k](field, draft)) continue;
+      sink.add(diagnostic_at(file, field.span, Code::E0530, fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
+                             "numbers have a decimal point and no unit: 12.5; counts are whole"));
+    }
+    complete_vectors(file, row, draft, sink);
+    draft.row.line = row.line;
+    recording.rows.push_back(std::move(draft.row));
+    if (sink.list().size() >= kMostMessages) break;
+  }
+  if (sink.has_errors()) throw UserError(sink.list());
+  return recording;
+}
+
+bool is_value_recording(const SourceFile& file) {
+  for (int number = 1; number <= file.line_count(); ++number) {
+    const std::string_view line = file.line(number);
+    if (line.empty() || line.front() == '#') continue;
+    return line.find("characteristic") != std::string_view::npos;
+  }
+  return false;
+}
+
+}  // namespace abbe

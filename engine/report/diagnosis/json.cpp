@@ -1,0 +1,120 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "engine/report/diagnosis/diagnosis_report.hpp"
+
+namespace abbe {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
+
+template <class List, class F>
+Json array(const List& list, F item) {
+  Json out = Json::array();
+  for (const auto& x : list) out.push_back(item(x));
+  return out;
+}
+
+Json parameters(const std::vector<DiagnosedParameter>& list) {
+  Json out = Json::object();
+  for (const DiagnosedParameter& p : list) {
+    if (!p.word.empty()) out[p.name] = {{"value", p.word}};
+    else out[p.name] = {{"value", number(p.value)}, {"u", number(p.u)}, {"interval95", {number(p.low), number(p.high)}}, {"plausible", p.plausible}};
+  }
+  return out;
+}
+
+Json effect(const DiagnosedEffect& e) {
+  return {{"members", e.members}, {"probability", number(e.probability)}, {"parameters", parameters(e.parameters)}, {"sentence", e.sentence}};
+}
+
+Json location(const Location& l) {
+  Json where = Json::object();
+  for (const auto& [key, value] : l.where) where[key] = value;
+  return {{"factor", l.factor}, {"where", where}, {"share", number(l.share)}, {"p", number(l.p)}};
+}
+
+Json unexplained(const std::optional<Unexplained>& u) {
+  if (!u) return {};
+  return {{"factor", u->factor},
+          {"shape", u->shape},
+          {"amplitude_um", {{"value", number(u->amplitude_um)}, {"u", number(u->amplitude_u_um)}, {"interval95", {number(u->low_um), number(u->high_um)}}}},
+          {"sentence", u->sentence}};
+}
+
+Json improvement(const std::optional<Improvement>& i) {
+  if (!i) return {};
+  const auto change = [](double before, double after) { return Json{{"before", number(before)}, {"after", number(after)}}; };
+  return {{"scheme", i->scheme},
+          {"log_score_gain", number(i->log_score_gain)},
+          {"se", number(i->se)},
+          {"rms_um", change(i->rms_before_um, i->rms_after_um)},
+          {"bias_um", change(i->bias_before_um, i->bias_after_um)},
+          {"chi2_per_dof", change(i->chi2_per_dof_before, i->chi2_per_dof_after)}};
+}
+
+Json detectable(const Detectable& d) {
+  return {{"effect", d.effect},       {"parameter", d.parameter},   {"unit", d.unit},
+          {"detect", number(d.detect)}, {"name", number(d.name)},   {"detect_um", number(d.detect_um)},
+          {"name_um", number(d.name_um)}, {"confounded_with", d.confounded_with}};
+}
+
+Json next(const NextMeasurement& n) {
+  return {{"change", n.change}, {"separates", n.separates}, {"expected_probability", number(n.expected_probability)}, {"minutes", number(n.minutes)}, {"program", n.program}};
+}
+
+Json baseline(const BaselineSummary& b) {
+  Json sensors = Json::object();
+  for (const auto& [name, noise] : b.noise_by_sensor) sensors[name] = number(noise);
+  return {{"mode", b.known ? "known" : "fresh"},
+          {"geometry_scale", number(b.geometry_scale)},
+          {"noise_um", number(b.noise_um)},
+          {"noise_by_sensor_um", sensors},
+          {"correlation", number(b.correlation)},
+          {"outliers", b.outliers}};
+}
+
+Json rivals(const Rivals& r) {
+  return {{"chi2", {{"p", number(r.chi2_p)}}},
+          {"stepwise_bic", {{"members", r.stepwise_bic}}},
+          {"best_bayes_factor", {{"members", Json::array({r.best_bayes_factor})}, {"probability", number(r.best_bayes_probability)}}}};
+}
+
+}  // namespace
+
+std::string diagnosis_json(const Diagnosis& d) {
+  const Json out = {
+      {"schema", "abbe.diagnosis/1"},
+      {"verdict", name(d.verdict)},
+      {"p_value", number(d.p_value)},
+      {"touches", d.touches},
+      {"effects", array(d.effects, effect)},
+      {"location", array(d.location, location)},
+      {"unexplained", unexplained(d.unexplained)},
+      {"improvement", improvement(d.improvement)},
+      {"runner_up", d.runner_up ? Json{{"members", d.runner_up->members}, {"log_score_gain", number(d.runner_up->log_score_gain)}} : Json()},
+      {"cannot_judge", array(d.cannot_judge, [](const CannotJudge& c) { return Json{{"effect", c.effect}, {"missing", c.missing}}; })},
+      {"smallest_detectable", array(d.smallest_detectable, detectable)},
+      {"next_measurement", array(d.next_measurement, next)},
+      {"baseline", baseline(d.baseline)},
+      {"rivals", rivals(d.rivals)},
+      {"messages", array(d.messages, [](const Diagnostic& m) { return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}}; })}};
+  return out.dump(2) + "\n";
+}
+
+std::string improved_machine(const std::string& machine_json, const Diagnosis& d) {
+  Json machine = Json::parse(machine_json);
+  for (const EffectSetting& e : d.model_effects) {
+    Json values = Json::object();
+    for (const auto& [key, v] : e.parameters) values[key] = v.word.empty() ? Json{{"value", number(v.value)}, {"u", number(v.u)}} : Json(v.word);
+    machine["effects"].push_back({{"name", e.name}, {"parameters", values}});
+  }
+  if (!d.known_state.empty()) machine["known_state"] = Json::parse(d.known_state);
+  return machine.dump(2) + "\n";
+}
+
+}  // namespace abbe

@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/report/diagnosis/diagnosis_report.hpp"
+
+namespace abbe {
+
+namespace {
+
+std::string chance(double p) { return p < 1e-4 ? "less than 1 in 10 000" : p < 0.01 ? fmt::format("1 in {:.0f}", 1 / p) : fmt::format("{:.0f} %", 100 * p); }
+
+/// Do they agree?
+std::string first_sentence(const Diagnosis& d) {
+  const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
+  if (d.verdict == Verdict::no_mismatch)
+    return fmt::format("The {} touches are what {} reports: a difference as large as this one comes by chance in {} of such recordings.", d.touches, machine, chance(d.p_value));
+  return fmt::format("The {} touches are not what {} reports: by chance it would look so in {} of such recordings.", d.touches, machine, chance(d.p_value));
+}
+
+/// What is it?
+std::string second_sentence(const Diagnosis& d) {
+  std::vector<std::string> parts;
+  for (const DiagnosedEffect& e : d.effects) parts.push_back(e.sentence);
+  if (d.unexplained) parts.push_back(d.unexplained->sentence);
+  if (parts.empty()) {
+    if (d.smallest_detectable.empty()) return "";
+    const auto best = std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
+                                       [](const Detectable& a, const Detectable& b) { return a.detect_um < b.detect_um; });
+    return fmt::format("That does not mean that nothing is there: the table says how large each effect would have to be to be seen, at the least {:.2g} um ({}).",
+                       best->detect_um, best->effect);
+  }
+  if (d.verdict == Verdict::cannot_judge) parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
+  return fmt::format("{}", fmt::join(parts, " "));
+}
+
+/// Is it better?
+std::string third_sentence(const Diagnosis& d) {
+  if (!d.improvement) return "";
+  const Improvement& i = *d.improvement;
+  const bool better = i.log_score_gain > 2 * i.se && i.log_score_gain > 3;
+  return fmt::format("On touches that the model had not seen ({}) it predicts {}: gain {:.1f} ± {:.1f} nats, rms {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
+                     i.scheme, better ? "better" : "not clearly better", i.log_score_gain, i.se, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um);
+}
+
+std::string mismatch_table(const Diagnosis& d) {
+  std::string out = fmt::format("{:<38} {:>6}  {}\n", "explanation", "prob.", "size (95 % interval)");
+  for (const DiagnosedEffect& e : d.effects) {
+    for (std::size_t m = 0; m < e.members.size(); ++m) {
+      out += fmt::format("{:<38} {:>6}", (m ? "  or " : "") + e.members[m], m ? "" : fmt::format("{:.2f}", e.probability));
+      std::vector<std::string> sizes;
+      for (const DiagnosedParameter& p : e.parameters)
+        sizes.push_back(p.word.empty() ? fmt::format("{} {:.3g} ({:.3g} to {:.3g}){}", p.name, p.value, p.low, p.high, p.plausible ? "" : " implausible") : fmt::format("{} {}", p.name, p.word));
+      out += m ? "\n" : fmt::format("  {}\n", fmt::join(sizes, "; "));
+    }
+  }
+  if (d.unexplained) out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n", "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
+  for (const Location& l : d.location) {
+    std::vector<std::string> where;
+    for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
+    out += fmt::format("  located in {:<25} {:>6}  {:.0f} % of it; strongest at {}\n", l.factor, "", 100 * l.share, fmt::join(where, ", "));
+  }
+  return out;
+}
+
+std::string design_table(const Diagnosis& d) {
+  std::string out = fmt::format("{:<38} {:>11} {:>11}  {}\n", "largest displacement, um, that would be", "detected", "named", "looks like");
+  for (const Detectable& s : d.smallest_detectable)
+    out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", s.effect, s.detect_um, s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::join(s.confounded_with, ", "));
+  return out;
+}
+
+std::string cannot_judge(const Diagnosis& d) {
+  std::string out;
+  for (const CannotJudge& c : d.cannot_judge)
+    out += fmt::format("  {:<36} {}\n", c.effect, c.missing.empty() ? "does nothing to these touches" : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
+  return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
+}
+
+std::string next_steps(const Diagnosis& d) {
+  if (d.next_measurement.empty()) return "";
+  std::string out = "what to measure next:\n";
+  for (const NextMeasurement& n : d.next_measurement)
+    out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability);
+  return out;
+}
+
+std::string baseline_line(const Diagnosis& d) {
+  const BaselineSummary& b = d.baseline;
+  std::string out = fmt::format("baseline: {}; errors of the machine {:.2f} times the specification's, noise {:.2f} um", b.known ? "known machine" : "specification", b.geometry_scale, b.noise_um);
+  if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
+  if (!b.outliers.empty()) out += fmt::format("; {} touches left out: {}", b.outliers.size(), fmt::join(b.outliers, ", "));
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string diagnosis_text(const Diagnosis& d) {
+  std::string out;
+  for (const std::string& sentence : {first_sentence(d), second_sentence(d), third_sentence(d)})
+    if (!sentence.empty()) out += sentence + "\n";
+  out += "\n" + (d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
+  out += next_steps(d);
+  out += cannot_judge(d);
+  return out + baseline_line(d);
+}
+
+}  // namespace abbe

@@ -1,0 +1,335 @@
+#include "engine/run/recorded_touch.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "engine/machine/geometry.hpp"
+#include "engine/run/motion.hpp"
+#include "engine/run/part_frame.hpp"
+#include "engine/run/scene_terms.hpp"
+#include "engine/run/sensor.hpp"
+
+namespace abbe {
+
+namespace {
+
+struct CovariateColumns {
+  Covariate covariate;
+  std::vector<std::string> columns;
+};
+
+const std::vector<CovariateColumns>& covariate_columns() {
+  static const std::vector<CovariateColumns> all = {
+      {Covariate::position, {"x", "y", "z"}},
+      {Covariate::normal, {"nx", "ny", "nz"}},
+      {Covariate::time, {"time_s"}},
+      {Covariate::speed, {"speed_mm_s"}},
+      {Covariate::acceleration, {"accel_mm_s2"}},
+      {Covariate::direction, {"ax", "ay", "az"}},
+      {Covariate::head, {"head_A_deg", "head_B_deg"}},
+      {Covariate::sensor, {"sensor"}},
+      {Covariate::part_temperature, {"temp_part_C"}},
+      {Covariate::scale_temperature, {"temp_x_C", "temp_y_C", "temp_z_C"}},
+      {Covariate::air_temperature, {"temp_air_C"}},
+      {Covariate::gradients, {}},
+      {Covariate::raw_reading, {"enc_x", "enc_y", "enc_z"}},
+      {Covariate::load, {"load_kg"}},
+      {Covariate::visit, {"visit"}},
+      {Covariate::qualification, {"qualification"}},
+      {Covariate::part_frame, {"tx", "ty", "tz"}},
+      {Covariate::feature, {"feature"}},
+  };
+  return all;
+}
+
+/// The values of a covariate in a row; empty when it was not logged.
+std::vector<double> values(Covariate c, const RecordingRow& r) {
+  const auto given = [](std::initializer_list<std::optional<double>> list) {
+    std::vector<double> v;
+    for (const auto& x : list)
+      if (x) v.push_back(*x);
+    return v.size() == list.size() ? v : std::vector<double>{};
+  };
+  const auto of = [](const std::optional<int>& v) { return v ? std::optional<double>(*v) : std::nullopt; };
+  const auto of_vector = [](const std::optional<Vec3>& v) { return v ? std::vector<double>{v->x, v->y, v->z} : std::vector<double>{}; };
+  switch (c) {
+    case Covariate::position: return of_vector(r.target_mm);
+    case Covariate::part_frame: return of_vector(r.target_mm);
+    case Covariate::normal: return of_vector(r.normal);
+    case Covariate::time: return given({r.time_s});
+    case Covariate::speed: return given({r.speed_mm_s});
+    case Covariate::acceleration: return given({r.accel_mm_s2});
+    case Covariate::direction: return of_vector(r.travel);
+    case Covariate::head: return given({r.head_a_deg, r.head_b_deg});
+    case Covariate::sensor: return r.sensor ? std::vector<double>{double(std::hash<std::string>{}(*r.sensor) % 1000003)} : std::vector<double>{};
+    case Covariate::part_temperature: return given({r.temp_part_C});
+    case Covariate::scale_temperature: return given({r.temp_x_C, r.temp_y_C, r.temp_z_C});
+    case Covariate::air_temperature: return given({r.temp_air_C});
+    case Covariate::gradients: return {};
+    case Covariate::raw_reading: return of_vector(r.reading_mm);
+    case Covariate::load: return given({r.load_kg});
+    case Covariate::visit: return r.head_a_deg && r.head_b_deg ? std::vector<double>{double(r.visit.value_or(0))} : std::vector<double>{};
+    case Covariate::qualification: return given({of(r.qualification)});
+    case Covariate::feature: return {double(std::hash<std::string>{}(r.feature) % 1000003)};
+  }
+  return {};
+}
+
+void find_covariates(const Recording& recording, RecordedTouches& out) {
+  for (const CovariateColumns& entry : covariate_columns()) {
+    bool known = true, varying = false;
+    const std::vector<double> first = values(entry.covariate, recording.rows.front());
+    for (const RecordingRow& row : recording.rows) {
+      const std::vector<double> v = values(entry.covariate, row);
+      known = known && !v.empty();
+      if (known && v != first) varying = true;
+    }
+    if (known) out.known = out.known | entry.covariate;
+    if (known && varying) out.varying = out.varying | entry.covariate;
+  }
+}
+
+/// Rows in the order in which they were measured.
+std::vector<int> order_of(const Recording& recording) {
+  std::vector<int> order(recording.rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  const bool timed = std::all_of(recording.rows.begin(), recording.rows.end(), [](const RecordingRow& r) { return r.time_s.has_value(); });
+  if (timed)
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return *recording.rows[a].time_s < *recording.rows[b].time_s; });
+  return order;
+}
+
+/// The sensors of a recording, resolved once each: by name, and by the angles of the head where rows give them.
+class Sensors {
+ public:
+  Sensors(const Machine& machine, const std::string& file) : machine_(machine), file_(file) {}
+
+  const Sensor& of(const RecordingRow& row, RecordedTouches& out) {
+    const std::string name = row.sensor.value_or("");
+    const std::string key = fmt::format("{}|{}|{}", name, row.head_a_deg.value_or(1e9), row.head_b_deg.value_or(1e9));
+    const auto found = known_.find(key);
+    if (found != known_.end()) return found->second;
+    Sensor sensor = resolve(name, row, out);
+    const auto at = std::find(out.sensors.begin(), out.sensors.end(), sensor.name);
+    sensor.ordinal = static_cast<int>(at - out.sensors.begin()) + 1;
+    if (at == out.sensors.end()) out.sensors.push_back(sensor.name);
+    return known_.emplace(key, std::move(sensor)).first->second;
+  }
+
+ private:
+  Sensor resolve(const std::string& name, const RecordingRow& row, RecordedTouches& out) {
+    plan::SensorDef def;
+    def.label = name;
+    def.from_machine_file = !name.empty();
+    if (name.empty()) assume(row, def, out);
+    const SourceFile nowhere(file_, "");
+    Sensor sensor = resolve_sensor(def, machine_, nowhere);
+    if (!def.from_machine_file || !row.head_a_deg || !row.head_b_deg) return sensor;
+    // The head may stand elsewhere than the machine file says of this stylus system.
+    const NamedSensor& named = machine_.sensors.at(machine_name(sensor.name));
+    Machine turned = machine_;
+    NamedSensor& s = turned.sensors[machine_name(sensor.name)];
+    s = named;
+    s.head_a_rad = *row.head_a_deg * kPi / 180;
+    s.head_b_rad = *row.head_b_deg * kPi / 180;
+    return resolve_sensor(def, turned, nowhere);
+  }
+
+  std::string machine_name(const std::string& label) const {
+    std::vector<std::string_view> names;
+    for (const auto& [name, sensor] : machine_.sensors) {
+      if (name == label) return name;
+      names.push_back(name);
+    }
+    const std::string near = nearest_word(label, names);   // the same but for case: resolve_sensor has accepted it
+    return near.empty() ? label : near;
+  }
+
+  /// A recording that does not name its stylus: the machine's only one, or a usual one, straight down.
+  void assume(const RecordingRow& row, plan::SensorDef& def, RecordedTouches& out) {
+    if (machine_.sensors.size() == 1) {
+      def.label = machine_.sensors.begin()->first;
+      def.from_machine_file = true;
+    } else {
+      def.label = "assumed";
+      def.indexed = row.head_a_deg && row.head_b_deg;
+      def.head_a_rad = row.head_a_deg.value_or(0) * kPi / 180;
+      def.head_b_rad = row.head_b_deg.value_or(0) * kPi / 180;
+      def.tip_in_r = {0, 0, -100};
+      def.radius_mm = 1;
+    }
+    if (said_) return;
+    said_ = true;
+    out.messages.push_back(diagnostic(Code::W0541,
+                                      fmt::format("{}: rows do not name their stylus: '{}' is assumed{}", file_, def.label,
+                                                  def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
+                                      "add the column 'sensor', and the sensor to the machine file"));
+  }
+
+  const Machine& machine_;
+  std::string file_;
+  std::map<std::string, Sensor> known_;
+  bool said_ = false;
+};
+
+/// How far the recording must be moved to lie inside the travel: nothing when it does.
+Vec3 placement(const Recording& recording, const Machine& machine, const std::vector<Vec3>& reading, RecordedTouches& out, const std::string& file) {
+  Vec3 shift;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    const int k = static_cast<int>(axis);
+    const double end = machine[axis].direction * machine[axis].travel_mm;
+    const auto [low, high] = std::minmax_element(reading.begin(), reading.end(), [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; });
+    if ((*low)[k] >= std::min(0.0, end) && (*high)[k] <= std::max(0.0, end)) continue;
+    shift[k] = end / 2 - ((*low)[k] + (*high)[k]) / 2;
+  }
+  if (shift == Vec3{} || recording.rows.empty()) return shift;
+  out.messages.push_back(diagnostic(Code::W0542,
+                                    fmt::format("{}: the touches lie outside the travel of machine '{}'; they are taken as made in the middle of it, "
+                                                "{:.0f}, {:.0f}, {:.0f} mm from where they stand", file, machine.name, shift.x, shift.y, shift.z),
+                                    "errors of the machine depend on the place: record machine coordinates, or name the right machine"));
+  return shift;
+}
+
+int label_index(std::vector<std::string>& labels, const std::string& label) {
+  const auto at = std::find(labels.begin(), labels.end(), label);
+  if (at == labels.end()) labels.push_back(label);
+  return static_cast<int>(at - labels.begin());
+}
+
+/// What the scene has of time, motion and temperatures; what was not logged stays at its usual value.
+void fill_covariates(const RecordingRow& row, const Machine& machine, int ordinal, TouchScene& scene) {
+  constexpr double kTypicalInterval_s = 5;
+  const MotionSettings usual = default_motion(machine);
+  scene.time_s = row.time_s.value_or(kTypicalInterval_s * ordinal);
+  scene.speed_mm_s = row.speed_mm_s.value_or(usual.measuring_mm_s);
+  scene.acceleration_mm_s2 = row.accel_mm_s2.value_or(usual.measuring_mm_s2);
+  scene.travel = row.travel.value_or(-scene.normal);
+
+  scene.settled_s = 0;  // not logged: what rings is taken as it is right after the ramp
+  scene.temperature.part = row.temp_part_C.value_or(20);
+  scene.temperature.scale[0] = row.temp_x_C.value_or(20);
+  scene.temperature.scale[1] = row.temp_y_C.value_or(20);
+  scene.temperature.scale[2] = row.temp_z_C.value_or(20);
+  scene.temperature.air = row.temp_air_C.value_or(20);
+  scene.load_kg = row.load_kg.value_or(0);
+  scene.setup = row.setup;
+  scene.run = row.run;
+  scene.qualification = row.qualification.value_or(1);
+}
+
+/// Senses of the axes and indexing visits follow from the sequence of touches.
+void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
+  constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
+  int sense[3] = {1, 1, 1}, visit = 0;
+  double a = 1e9, b = 1e9;
+  for (RecordedTouch& t : touches) {
+    for (int k = 0; k < 3; ++k) {
+      if (std::abs(t.scene.travel[k]) > kMoves) sense[k] = t.scene.travel[k] > 0 ? 1 : -1;
+      t.scene.sense[k] = sense[k];
+      t.scene.since_reversal_mm[k] = 1000;
+    }
+    if (t.scene.stylus.head_a_rad != a || t.scene.stylus.head_b_rad != b) ++visit;
+    a = t.scene.stylus.head_a_rad;
+    b = t.scene.stylus.head_b_rad;
+    t.scene.visit = recording.rows[t.row].visit.value_or(visit);
+  }
+}
+
+void require_target(const RecordingRow& row, const std::string& file) {
+  if (row.target_mm && row.normal) return;
+  throw UserError(diagnostic(Code::E0543,
+                             fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature, row.target_mm ? "normal" : "target"),
+                             "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
+}
+
+}  // namespace
+
+RecordedTouches recorded_touches(const Recording& recording, const Machine& machine, const std::string& file) {
+  ABBE_CHECK(!recording.rows.empty());
+  RecordedTouches out;
+  for (const RecordingRow& row : recording.rows) require_target(row, file);
+  find_covariates(recording, out);
+  Sensors sensors(machine, file);
+  std::vector<Vec3> readings;
+  std::vector<const Sensor*> sensor_of;
+  for (const RecordingRow& row : recording.rows) {
+    const Sensor& sensor = sensors.of(row, out);
+    sensor_of.push_back(&sensor);
+    const Vec3 tip = *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
+    readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
+  }
+  const Vec3 shift = placement(recording, machine, readings, out, file);
+  const PartFrames part(recording);
+  for (const int i : order_of(recording)) {
+    const RecordingRow& row = recording.rows[i];
+    const Sensor& sensor = *sensor_of[i];
+    RecordedTouch t;
+    t.row = i;
+    t.residual_mm = dot(*row.normal, row.position_mm - *row.target_mm);
+    t.per_rad_a_mm = sensor.per_rad_a_mm;
+    t.per_rad_b_mm = sensor.per_rad_b_mm;
+    TouchScene& s = t.scene;
+    s.normal = *row.normal;
+    const Vec3 surface = recording.point == RecordedPoint::surface ? *row.target_mm : *row.target_mm - sensor.radius_mm * s.normal;
+    s.point = surface + shift;
+    s.reading = readings[i] + shift;
+    s.on_part = part.on_part(row.setup, surface);
+    s.normal_on_part = part.direction_on_part(row.setup, s.normal);
+    s.stylus = stylus_scene(sensor);
+    s.touch = static_cast<int>(out.touches.size());
+    s.feature = label_index(out.features, row.feature);
+    fill_covariates(row, machine, s.touch, s);
+    set_levers(machine, s);
+    if (row.reading_mm) s.reading = *row.reading_mm;
+    out.touches.push_back(std::move(t));
+  }
+  for (RecordedTouch& t : out.touches) t.scene.stylus.name = out.sensors[t.scene.stylus.ordinal - 1];
+  follow_sequence(recording, out.touches);
+  return out;
+}
+
+void complete_from_program(Recording& recording, const Recording& nominal, const std::string& file) {
+  std::map<std::pair<std::string, int>, const RecordingRow*> partner;
+  for (const RecordingRow& row : nominal.rows) partner[{row.feature, row.touch}] = &row;
+  std::vector<std::string> lost;
+  for (RecordingRow& row : recording.rows) {
+    const auto found = partner.find({row.feature, row.touch});
+    if (found == partner.end()) {
+      if (!row.target_mm || !row.normal) lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
+      continue;
+    }
+    const RecordingRow& from = *found->second;
+    const auto fill = [&](auto member) {
+      if (!(row.*member)) row.*member = from.*member;
+    };
+    fill(&RecordingRow::target_mm), fill(&RecordingRow::normal), fill(&RecordingRow::sensor);
+    fill(&RecordingRow::head_a_deg), fill(&RecordingRow::head_b_deg), fill(&RecordingRow::visit);
+    fill(&RecordingRow::speed_mm_s), fill(&RecordingRow::accel_mm_s2), fill(&RecordingRow::travel);
+  }
+  if (lost.empty()) return;
+  const std::size_t all = lost.size();
+  lost.resize(std::min<std::size_t>(all, 5));
+  throw UserError(diagnostic(Code::E0544,
+                             fmt::format("{}: {} rows are no touches of the program: {}{}", file, all, fmt::join(lost, ", "), all > lost.size() ? ", ..." : ""),
+                             fmt::format("the program has {} touches; rows are paired by feature and touch, counted from 1", nominal.rows.size())));
+}
+
+std::vector<std::string> columns_of(Covariate c) {
+  for (const CovariateColumns& entry : covariate_columns())
+    if (entry.covariate == c) return entry.columns;
+  return {};
+}
+
+std::vector<Covariate> covariates_in(unsigned mask) {
+  std::vector<Covariate> list;
+  for (const CovariateColumns& entry : covariate_columns())
+    if (mask & static_cast<unsigned>(entry.covariate)) list.push_back(entry.covariate);
+  return list;
+}
+
+}  // namespace abbe

@@ -1,0 +1,49 @@
+// Recorded touches as the effects and the machine model see them: the scene of every row of a recording, filled from what was logged
+// where a simulated touch is filled by the motion model. From here on simulation and diagnosis share all physics.
+//
+// A row is one scalar observation: residual = n . (recorded - target). Targets may lie anywhere; when they reach outside the travel of the
+// machine the whole recording is put into the middle of its volume, and a message says so, because where a part stood decides its errors.
+//
+// Every setup has its own placement of the part. The part's own coordinates, which effects of the part need, are those of the first setup
+// with the centre of its targets as origin; other setups are brought onto them by the touches that they share (best rigid fit).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.hpp"
+#include "engine/effects/effect.hpp"
+#include "engine/machine/machine.hpp"
+#include "engine/recording/recording.hpp"
+
+namespace abbe {
+
+struct RecordedTouch {
+  TouchScene scene;
+  double residual_mm = 0;             ///< n . (recorded - target): positive when the surface seems too far out
+  Vec3 per_rad_a_mm, per_rad_b_mm;    ///< of the tip per radian of the head's angles, W
+  int row = 0;                        ///< index into the recording
+};
+
+struct RecordedTouches {
+  std::vector<RecordedTouch> touches; ///< in the order of time where it was logged, else of the rows
+  std::vector<std::string> features;  ///< labels by TouchScene::feature
+  std::vector<std::string> sensors;   ///< names by StylusScene::ordinal - 1
+  unsigned known = 0;                 ///< Covariates that every row gives
+  unsigned varying = 0;               ///< of these, those that are not the same throughout
+  std::vector<Diagnostic> messages;
+};
+
+/// Fills what rows lack (target, normal, sensor, times, ...) from the nominal recording of their program, pairing rows by feature and
+/// touch. Throws UserError when rows have no partner and no target of their own: which, and what the program has.
+void complete_from_program(Recording&, const Recording& nominal, const std::string& file);
+
+/// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that the machine does not know.
+RecordedTouches recorded_touches(const Recording&, const Machine&, const std::string& file);
+
+/// The columns of a recording that hold a covariate, for messages: {"temp_part_C"}.
+std::vector<std::string> columns_of(Covariate);
+/// Every covariate of a mask.
+std::vector<Covariate> covariates_in(unsigned mask);
+
+}  // namespace abbe

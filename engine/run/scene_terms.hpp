@@ -1,0 +1,15 @@
+// What simulated and recorded touches fill alike in a TouchScene.
+#pragma once
+
+#include "engine/effects/effect.hpp"
+#include "engine/machine/machine.hpp"
+#include "engine/run/sensor.hpp"
+
+namespace abbe {
+
+/// The stylus system as effects see it.
+StylusScene stylus_scene(const Sensor&);
+/// Travel of the axes and levers of the carriages, from the readings and the stylus of the scene.
+void set_levers(const Machine&, TouchScene&);
+
+}  // namespace abbe
