@@ -86,17 +86,21 @@ UserError::UserError(std::vector<Diagnostic> list)
 
 namespace {
 
+/// How many slips of the pen lead from one word to the other: a letter too many, too few, another one, or two neighbours exchanged
+/// ("optimal string alignment" distance).
 int edit_distance(std::string_view a, std::string_view b) {
-  std::vector<int> row(b.size() + 1);
+  const auto same = [&](std::size_t i, std::size_t j) {
+    return std::toupper(static_cast<unsigned char>(a[i])) == std::toupper(static_cast<unsigned char>(b[j]));
+  };
+  std::vector<int> before, last, row(b.size() + 1);  // for the first i-2, i-1 and i letters of a
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    int diagonal = row[0];
+    before = std::move(last);
+    last = row;
     row[0] = static_cast<int>(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const bool same = std::toupper(static_cast<unsigned char>(a[i - 1])) == std::toupper(static_cast<unsigned char>(b[j - 1]));
-      const int changed = diagonal + (same ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same(i - 1, j - 1) ? 0 : 1)});
+      if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1)) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row[b.size()];
