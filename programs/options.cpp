@@ -161,6 +161,28 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
   add_format(command, o->format, {"text", "json"});
 }
 
+void add_format_command(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("format", "write programs in one style, without changing what they mean");
+  const auto o = chosen_by(command, chosen, format_command);
+  command->add_option("PROGRAM", o->programs, "DMIS programs")->required();
+  CLI::Option* check = command->add_flag("--check", o->check, "only list the programs that are not in that style");
+  command->add_flag("--write", o->write, "write the programs back instead of to stdout")->excludes(check);
+}
+
+void add_lsp(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("lsp", "language server for editors, on stdin and stdout");
+  const auto o = chosen_by(command, chosen, lsp_command);
+  command->add_flag("--stdio", o->stdio, "speak on stdin and stdout (the only way)");
+}
+
+void add_repl(CLI::App& app, Chosen& chosen) {
+  CLI::App* command = app.add_subcommand("repl", "enter statements one at a time and see their results");
+  const auto o = chosen_by(command, chosen, repl_command);
+  command->add_option("PROGRAM", o->program, "a DMIS program to begin with");
+  command->add_option("--machine", o->settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
+  add_settings(command, o->settings);
+}
+
 void add_explain(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("explain", "help for a DMIS word, an effect or a message code");
   const auto o = chosen_by(command, chosen, explain_command);
@@ -216,7 +238,8 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "abbe " ABBE_VERSION);
   app.require_subcommand(1);
   Chosen chosen;
-  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_diagnose, add_explain}) add(app, chosen);
+  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_diagnose, add_format_command, add_lsp, add_repl, add_explain})
+    add(app, chosen);
   const auto print = [](const std::string& text) {
     return [text] {
       print_result(text);

@@ -80,6 +80,24 @@ struct DiagnoseCommandOptions {
 };
 int diagnose_command(const DiagnoseCommandOptions&);
 
+struct FormatOptions {
+  std::vector<std::string> programs;
+  bool check = false;  ///< only say which files are not formatted; then the answer is no
+  bool write = false;  ///< write the files back instead of to stdout
+};
+int format_command(const FormatOptions&);
+
+struct LspOptions {
+  bool stdio = true;  ///< the only way; editors say so all the same
+};
+int lsp_command(const LspOptions&);
+
+struct ReplOptions {
+  std::optional<std::string> program;  ///< to begin with
+  StudySettings settings;
+};
+int repl_command(const ReplOptions&);
+
 struct ExplainOptions {
   std::optional<std::string> word;  ///< a DMIS word, an effect or a message code; none: what there is
   bool markdown = false;            ///< the whole language reference as Markdown

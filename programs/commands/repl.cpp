@@ -1,0 +1,23 @@
+// abbe repl [PROGRAM]: an interactive session.
+#include "programs/commands/commands.hpp"
+#include "programs/repl/line_editor.hpp"
+#include "programs/repl/session.hpp"
+#include "programs/terminal.hpp"
+
+namespace abbe {
+
+int repl_command(const ReplOptions& options) {
+  Session session(options.settings);
+  LineEditor editor([&](const std::string& line) { return session.completions(line); });
+  if (editor.interactive()) print_result("Abbe: statements of DMIS one at a time; .help lists the commands, .quit ends.\n");
+  if (options.program) print_result(session.load(*options.program));
+  while (!session.finished()) {
+    const auto line = editor.read(session.waiting() ? "  ... " : "abbe> ");
+    if (!line) break;
+    if (const std::string reply = session.enter(*line); !reply.empty()) print_result(reply);
+  }
+  if (session.waiting()) print_result("the input ended inside an entry, which is dropped\n");
+  return kDone;
+}
+
+}  // namespace abbe

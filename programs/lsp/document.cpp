@@ -1,0 +1,203 @@
+#include "programs/lsp/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "lang/blocks.hpp"
+#include "lang/compile.hpp"
+#include "lang/format.hpp"
+#include "lang/lines.hpp"
+#include "lang/parser.hpp"
+#include "lang/reference.hpp"
+#include "programs/lsp/complete.hpp"
+#include "programs/lsp/positions.hpp"
+
+namespace abbe::lsp {
+
+using nlohmann::json;
+
+namespace {
+
+/// Kinds of symbols in the outline (LSP 3.17, SymbolKind).
+enum class Symbol { namespace_ = 3, method = 6, interface = 11, function = 12, variable = 13, constant = 14, object = 19, event = 24 };
+
+Symbol symbol_of(std::string_view kind) {
+  return kind == "F"                     ? Symbol::object
+         : kind == "T"                   ? Symbol::constant
+         : kind == "D" || kind == "DAT"  ? Symbol::namespace_
+         : kind == "S"                   ? Symbol::interface
+         : kind == "M"                   ? Symbol::function
+                                         : Symbol::variable;
+}
+
+std::string label_text(const lang::LabelUse& use) {
+  return use.kind.empty() ? use.name : fmt::format("{}({})", use.kind, use.name);
+}
+
+bool touches(Span a, Span b) { return a.begin <= b.end && b.begin <= a.end; }
+
+/// The word around an offset: letters, digits and a sign before them.
+std::string word_at(std::string_view text, std::size_t offset) {
+  const auto part = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_');
+  };
+  std::size_t begin = offset, end = offset;
+  while (begin > 0 && part(begin - 1)) --begin;
+  while (part(end)) ++end;
+  return std::string(text.substr(begin, end - begin));
+}
+
+json markdown(const std::string& text) {
+  return {{"contents", {{"kind", "markdown"}, {"value", "```\n" + text + "\n```"}}}};
+}
+
+}  // namespace
+
+std::string path_of(const std::string& uri) {
+  constexpr std::string_view kScheme = "file://";
+  if (!uri.starts_with(kScheme)) return uri;
+  std::string path;
+  for (std::size_t i = kScheme.size(); i < uri.size(); ++i) {
+    unsigned value = 0;
+    const char* const digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+      path += static_cast<char>(value);
+      i += 2;
+    } else {
+      path += uri[i];
+    }
+  }
+  return path;
+}
+
+Document::Document(std::string uri, std::string text)
+    : uri_(std::move(uri)), source_(path_of(uri_), std::move(text)) {
+  Sink sink;
+  lang::compile(source_, sink);
+  messages_ = sink.sorted();
+  uses_ = lang::label_uses(source_);
+}
+
+json Document::location(Span span) const { return {{"uri", uri_}, {"range", range(source_, span)}}; }
+
+json Document::message(const Diagnostic& d) const {
+  const int severity = d.severity() == Severity::error ? 1 : d.severity() == Severity::warning ? 2 : 3;
+  return {{"range", range(source_, d.span.value_or(Span{}))},
+          {"severity", severity},
+          {"code", info(d.code).name},
+          {"source", "abbe"},
+          {"message", d.help.empty() ? d.message : d.message + "\n" + d.help}};
+}
+
+json Document::diagnostics() const {
+  json list = json::array();
+  for (const Diagnostic& d : messages_) list.push_back(message(d));
+  return list;
+}
+
+const lang::LabelUse* Document::use_at(std::uint32_t offset) const {
+  for (const lang::LabelUse& use : uses_)
+    if (use.span.begin <= offset && offset <= use.span.end) return &use;
+  return nullptr;
+}
+
+json Document::hover(std::uint32_t offset) const {
+  if (const lang::LabelUse* use = use_at(offset)) {
+    const lang::LabelUse* definition = lang::definition_of(uses_, *use);
+    if (!definition) return markdown(label_text(*use) + " is not defined in this program");
+    return markdown(fmt::format("{}\nline {}", source_.text(definition->statement),
+                                source_.place(definition->span.begin).line));
+  }
+  const auto help = lang::explain_word(word_at(source_.text(), offset));
+  return help ? markdown(*help) : json(nullptr);
+}
+
+json Document::definition(std::uint32_t offset) const {
+  const lang::LabelUse* use = use_at(offset);
+  const lang::LabelUse* found = use ? lang::definition_of(uses_, *use) : nullptr;
+  return found ? location(found->span) : json(nullptr);
+}
+
+json Document::references(std::uint32_t offset, bool with_definition) const {
+  json list = json::array();
+  const lang::LabelUse* use = use_at(offset);
+  for (const lang::LabelUse& other : uses_)
+    if (use && other.same_label(*use) && (with_definition || !other.definition))
+      list.push_back(location(other.span));
+  return list;
+}
+
+json Document::completion(std::uint32_t offset) const {
+  json items = json::array();
+  for (const Proposal& p : proposals(source_, uses_, offset))
+    items.push_back({{"label", p.text}, {"kind", static_cast<int>(p.kind)}, {"detail", p.detail}});
+  return items;
+}
+
+json Document::outline() const {
+  json list = json::array();
+  const auto add = [&](std::string name, Symbol kind, Span span, Span inner, std::string detail) {
+    list.push_back({{"name", std::move(name)}, {"kind", static_cast<int>(kind)}, {"detail", std::move(detail)},
+                    {"range", range(source_, span)}, {"selectionRange", range(source_, inner)}});
+  };
+  for (const lang::LabelUse& use : uses_) {
+    if (!use.definition) continue;
+    const Span whole{std::min(use.span.begin, use.statement.begin), std::max(use.span.end, use.statement.end)};
+    const std::string_view text = source_.text(whole);
+    const std::size_t equals = text.find('=');
+    add(label_text(use), symbol_of(use.kind), whole, use.span,
+        std::string(equals == std::string_view::npos ? "" : text.substr(equals + 1)));
+  }
+  Sink ignored;
+  for (const lang::LogicalLine& line : lang::logical_lines(source_)) {
+    const auto raw = lang::parse_statement(line, source_, ignored);
+    if (raw && (raw->word == "MEAS" || raw->word == "OUTPUT"))
+      add(std::string(source_.text(raw->span)), raw->word == "MEAS" ? Symbol::method : Symbol::event, raw->span,
+          raw->word_span, "");
+  }
+  return list;
+}
+
+json Document::folding() const {
+  json list = json::array();
+  std::vector<int> open;
+  Sink ignored;
+  for (const lang::LogicalLine& line : lang::logical_lines(source_)) {
+    const auto raw = lang::parse_statement(line, source_, ignored);
+    if (!raw) continue;
+    const lang::Nesting nesting = lang::nesting_of(*raw);
+    if (nesting.before < 0 && !open.empty()) {
+      list.push_back({{"startLine", open.back() - 1}, {"endLine", line.line - 2}});
+      open.pop_back();
+    }
+    if (nesting.after > 0) open.push_back(line.line);
+  }
+  return list;
+}
+
+json Document::fixes(Span wanted) const {
+  json list = json::array();
+  for (const Diagnostic& d : messages_) {
+    if (d.replacement.empty() || !d.span || !touches(*d.span, wanted)) continue;
+    const json edit = {{"range", range(source_, *d.span)}, {"newText", d.replacement}};
+    list.push_back({{"title", fmt::format("Write {}", d.replacement)},
+                    {"kind", "quickfix"},
+                    {"diagnostics", {message(d)}},
+                    {"isPreferred", true},
+                    {"edit", {{"changes", {{uri_, {edit}}}}}}});
+  }
+  return list;
+}
+
+json Document::formatting() const {
+  const std::string text = lang::format(source_);
+  if (text == source_.text()) return json::array();
+  const Span all{0, static_cast<std::uint32_t>(source_.text().size())};
+  return {{{"range", range(source_, all)}, {"newText", text}}};
+}
+
+}  // namespace abbe::lsp

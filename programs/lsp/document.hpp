@@ -1,0 +1,49 @@
+// One program that is open in an editor, and the answers to what an editor asks about it. Every
+// answer comes from the compiler's own tables and messages: what the editor shows is what `abbe
+// check` says.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.hpp"
+#include "lang/labels.hpp"
+
+namespace abbe::lsp {
+
+class Document {
+ public:
+  /// `uri` as the editor names the file, `text` in UTF-8.
+  Document(std::string uri, std::string text);
+
+  nlohmann::json diagnostics() const;
+  nlohmann::json hover(std::uint32_t offset) const;
+  nlohmann::json definition(std::uint32_t offset) const;
+  nlohmann::json references(std::uint32_t offset, bool with_definition) const;
+  nlohmann::json completion(std::uint32_t offset) const;
+  nlohmann::json outline() const;
+  nlohmann::json folding() const;
+  /// Quick fixes for the messages that touch the range.
+  nlohmann::json fixes(Span) const;
+  /// The edits that bring the text into the style of `abbe format`.
+  nlohmann::json formatting() const;
+
+  const SourceFile& source() const { return source_; }
+
+ private:
+  const lang::LabelUse* use_at(std::uint32_t offset) const;
+  nlohmann::json location(Span) const;
+  nlohmann::json message(const Diagnostic&) const;
+
+  std::string uri_;
+  SourceFile source_;
+  std::vector<Diagnostic> messages_;
+  std::vector<lang::LabelUse> uses_;
+};
+
+/// The path of a `file:` URI, percent signs decoded; other URIs as they are.
+std::string path_of(const std::string& uri);
+
+}  // namespace abbe::lsp

@@ -1,0 +1,147 @@
+#include "programs/repl/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "lang/blocks.hpp"
+#include "lang/labels.hpp"
+#include "lang/lines.hpp"
+#include "lang/parser.hpp"
+#include "programs/lsp/complete.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// Whether a text is a whole entry: no line goes on, and every block that begins in it ends in it.
+bool complete(const std::string& text) {
+  const SourceFile source("", text);
+  const std::vector<lang::LogicalLine> lines = lang::logical_lines(source);
+  if (lines.back().line != source.line_count()) return false;  // `$`: the empty rest belongs to it
+  int depth = 0;
+  Sink ignored;
+  for (const lang::LogicalLine& line : lines) {
+    const auto raw = lang::parse_statement(line, source, ignored);
+    if (!raw) continue;
+    const lang::Nesting nesting = lang::nesting_of(*raw);
+    depth += nesting.before + nesting.after;
+  }
+  return depth <= 0;
+}
+
+std::string word_of(const std::string& line) {
+  const SourceFile source("", line);
+  Sink ignored;
+  const auto raw = lang::parse_statement(lang::logical_lines(source).front(), source, ignored);
+  return raw ? raw->word : "";
+}
+
+/// What a program that is still being written cannot fulfil. An entry is never taken inside a
+/// block, so a MEAS without an end is one whose word is misspelt, which has its own message.
+bool premature(Code code) {
+  return code == Code::W0225 || code == Code::W0226 || code == Code::E0215 || code == Code::E0205;
+}
+
+int line_count(const std::string& text) {
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Two significant digits of the uncertainty.
+int decimals_for(double u) {
+  return u > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 0, 9) : 6;
+}
+
+std::string result_line(const CharacteristicReport& c) {
+  const double u95 = (c.summary.symmetric.high - c.summary.symmetric.low) / 2;
+  const int digits = decimals_for(u95);
+  return fmt::format("TA({}) of FA({}): {:.{}f} {}, u95 {:.{}f} {}\n", c.tolerance, fmt::join(c.features, "), FA("),
+                     c.reference, digits, c.unit, u95, digits, c.unit);
+}
+
+}  // namespace
+
+std::string Session::text() const {
+  std::string all;
+  for (const Entry& entry : entries_) all += entry.text;
+  return all;
+}
+
+CompiledProgram Session::compiled(const std::string& text) const {
+  SourceFile source(path_.empty() ? "session" : path_, text);
+  Sink sink;
+  lang::Compilation compilation = lang::compile(source, sink);
+  std::vector<Diagnostic> messages = sink.sorted();
+  std::erase_if(messages, [](const Diagnostic& d) { return premature(d.code); });
+  const bool errors = std::any_of(messages.begin(), messages.end(),
+                                  [](const Diagnostic& d) { return d.severity() == Severity::error; });
+  return {std::move(source), std::move(compilation), std::move(messages), errors};
+}
+
+std::string Session::enter(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first != std::string::npos && line[first] == '.') return command(line.substr(first));
+  if (pending_.empty() && first == std::string::npos) return "";
+  if (pending_.empty() && word_of(line) == "ENDFIL") return "the session goes on; .save writes the ENDFIL\n";
+  pending_ += line + "\n";
+  if (!complete(pending_)) return "";
+  return entry(std::exchange(pending_, ""));
+}
+
+std::string Session::entry(const std::string& text) {
+  const std::string before = this->text();
+  const int first_line = line_count(before);
+  const CompiledProgram program = compiled(before + text);
+  std::string out;
+  for (const Diagnostic& d : program.messages)
+    if (d.place.line > first_line) out += render(d);
+  if (program.has_errors) return out;
+  const std::size_t known = entries_.empty() ? 0 : entries_.back().characteristics;
+  const std::size_t now = program.compilation.plan.characteristics.size();
+  if (now > known) {
+    try {
+      out += evaluate(program, first_line);
+    } catch (const UserError& error) {
+      for (const Diagnostic& d : error.diagnostics()) out += render(d);
+      return out;
+    }
+  }
+  entries_.push_back({text, now});
+  return out;
+}
+
+std::string Session::evaluate(const CompiledProgram& program, int after) {
+  CompiledProgram quiet = program;
+  quiet.messages.clear();  // they were shown when they arose
+  const RunReport report = study_program(quiet, settings_).report;
+  std::string out;
+  for (const CharacteristicReport& c : report.characteristics)
+    if (c.line > after) out += result_line(c);
+  for (const LostCharacteristic& l : report.lost)
+    if (l.line > after) out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
+  return out + general_messages(report);
+}
+
+std::string Session::general_messages(const RunReport& report) {
+  std::string out;
+  for (const Diagnostic& d : report.messages) {
+    std::string rendered = render(d);
+    if (!d.span && told_.insert(rendered).second) out += rendered;
+  }
+  return out;
+}
+
+std::vector<std::string> Session::completions(const std::string& line) const {
+  std::vector<std::string> words;
+  if (line.starts_with('.')) {
+    for (const Command& c : commands()) words.emplace_back(c.word);
+    return words;
+  }
+  const SourceFile source("session", text() + pending_ + line);
+  for (lsp::Proposal& p : lsp::proposals(source, lang::label_uses(source), static_cast<std::uint32_t>(source.text().size())))
+    words.push_back(std::move(p.text));
+  return words;
+}
+
+}  // namespace abbe

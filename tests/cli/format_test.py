@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""abbe format: on stdout, checked, written back."""
+import harness
+from harness import LENGTH
+
+TIDY = LENGTH.replace("PTMEAS", "  PTMEAS")
+
+
+class Format(harness.Case):
+    def test_writes_to_stdout(self):
+        path = self.write("a.dmi", LENGTH.lower().replace("s(p)", "s( P )"))
+        out = self.abbe("format", "a.dmi").stdout
+        self.assertIn("\n  PTMEAS/CART,0,0,0,-1,0,0\n", out)
+        self.assertIn("S(P)=SNSDEF/PROBE,INDEX,POL,0.0", out)
+        self.assertEqual(path.read_text().splitlines()[0], "dmismn/'a length',4.0")
+
+    def test_check_names_what_differs(self):
+        self.write("untidy.dmi", LENGTH)
+        self.write("tidy.dmi", TIDY)
+        done = self.abbe("format", "--check", "tidy.dmi", "untidy.dmi", code=1)
+        self.assertIn("untidy.dmi: not formatted", done.stdout)
+        self.assertNotIn("\ntidy.dmi", "\n" + done.stdout)
+        self.assertEqual(self.abbe("format", "--check", "tidy.dmi").stdout, "")
+
+    def test_write_changes_the_file_and_not_its_meaning(self):
+        path = self.write("a.dmi", LENGTH)
+        plan = self.abbe("check", "--plan", "a.dmi").stdout
+        self.assertEqual(self.abbe("format", "--write", "a.dmi").stdout, "")
+        self.assertEqual(path.read_text(), TIDY)
+        self.assertEqual(self.abbe("check", "--plan", "a.dmi").stdout, plan)
+
+    def test_bytes_that_are_not_utf8_stay(self):
+        path = self.write("latin.dmi", LENGTH.replace("F(A)", "F(\u00c4)").encode("latin-1"))
+        self.abbe("format", "--write", "latin.dmi")
+        self.assertIn("F(\u00c4)".encode("latin-1"), path.read_bytes())
+
+    def test_wrong_usage(self):
+        self.write("a.dmi", LENGTH)
+        self.refused("E0609", "format", "--check", "--write", "a.dmi")
+        self.refused("E0601", "format", "none.dmi")
+
+
+if __name__ == "__main__":
+    harness.main()

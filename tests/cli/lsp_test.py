@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""abbe lsp: the language server, driven over its standard streams as an editor does it."""
+import json
+import subprocess
+
+import harness
+from harness import LENGTH
+
+URI = "file:///parts/a%20length.dmi"
+
+
+class Server:
+    def __init__(self, path):
+        self.process = subprocess.Popen([path, "lsp", "--stdio"], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.number = 0
+
+    def send(self, message):
+        data = message if isinstance(message, bytes) else json.dumps(message).encode()
+        self.process.stdin.write(b"Content-Length: %d\r\nContent-Type: x\r\n\r\n" % len(data) + data)
+        self.process.stdin.flush()
+
+    def receive(self):
+        length = None
+        while (line := self.process.stdout.readline().strip()):
+            name, value = line.split(b":")
+            length = int(value) if name == b"Content-Length" else length
+        return json.loads(self.process.stdout.read(length))
+
+    def notify(self, method, params):
+        self.send({"jsonrpc": "2.0", "method": method, "params": params})
+
+    def request(self, method, params=None):
+        self.number += 1
+        self.send({"jsonrpc": "2.0", "id": self.number, "method": method, "params": params or {}})
+        answer = self.receive()
+        assert answer["id"] == self.number, answer
+        return answer
+
+    def close(self):
+        """Ends the input; the exit code of the server."""
+        self.process.stdin.close()
+        self.process.stdout.close()
+        return self.process.wait(timeout=20)
+
+
+class Lsp(harness.Case):
+    def setUp(self):
+        super().setUp()
+        self.server = Server(self.abbe_path)
+        self.addCleanup(self.server.close)
+        self.capabilities = self.server.request("initialize", {"capabilities": {}})["result"]["capabilities"]
+        self.server.notify("initialized", {})
+
+    def open(self, text):
+        self.text = text
+        self.server.notify("textDocument/didOpen", {"textDocument": {"uri": URI, "languageId": "dmis", "version": 1, "text": text}})
+        published = self.server.receive()
+        self.assertEqual(published["method"], "textDocument/publishDiagnostics")
+        self.assertEqual(published["params"]["uri"], URI)
+        return published["params"]["diagnostics"]
+
+    def place(self, piece, shift=0, nth=0):
+        """The position `shift` UTF-16 units behind the beginning of the nth occurrence of a piece of the text."""
+        at = -1
+        for _ in range(nth + 1):
+            at = self.text.index(piece, at + 1)
+        before = self.text[:at]
+        line = before.count("\n")
+        units = len(before[before.rfind("\n") + 1:].encode("utf-16-le")) // 2
+        return {"line": line, "character": units + shift}
+
+    def ask(self, question, place=None, **more):
+        params = {"textDocument": {"uri": URI}, **more}
+        if place:
+            params["position"] = place
+        return self.server.request("textDocument/" + question, params)["result"]
+
+    def test_messages_as_you_type_and_their_quick_fixes(self):
+        wrong = LENGTH.replace("SNSLCT/S(P)", "SNSLCTT/S(P)").replace("OUTPUT/FA(A)", "OUTPUT/FA(AA)")
+        found = self.open("$$ \u00e4 \U0001f4d0\n" + wrong)
+        first = found[0]
+        self.assertEqual((first["code"], first["severity"], first["source"]), ("E0110", 1, "abbe"))
+        self.assertIn("did you mean SNSLCT?", first["message"])
+        self.assertEqual(first["range"], {"start": self.place("SNSLCTT"), "end": self.place("SNSLCTT", 7)})
+        actions = self.ask("codeAction", range=first["range"], context={"diagnostics": [first]})
+        self.assertEqual([a["title"] for a in actions], ["Write SNSLCT"])
+        edit = actions[0]["edit"]["changes"][URI][0]
+        self.assertEqual(edit, {"range": first["range"], "newText": "SNSLCT"})
+        self.server.notify("textDocument/didChange", {"textDocument": {"uri": URI, "version": 2}, "contentChanges": [{"text": LENGTH}]})
+        self.assertEqual(self.server.receive()["params"]["diagnostics"], [])
+        self.server.notify("textDocument/didClose", {"textDocument": {"uri": URI}})
+        self.assertEqual(self.server.receive()["params"]["diagnostics"], [])
+
+    def test_places_count_utf16_units(self):
+        text = LENGTH.replace("F(A)", "F(\u00c4\U0001f4d0)").replace("FA(A)", "FA(\u00c4\U0001f4d0)")
+        self.open(text)
+        use = self.ask("definition", self.place("TA(LEN)", 3))
+        self.assertEqual(use["range"], {"start": self.place("T(LEN)"), "end": self.place("T(LEN)", 6)})
+        label = self.ask("definition", self.place("FA(\u00c4", 4))
+        self.assertEqual(label["range"], {"start": self.place("F(\u00c4"), "end": self.place("F(\u00c4", 6)})
+
+    def test_definition_and_references(self):
+        self.open(LENGTH + "$$ end")
+        self.assertEqual(self.ask("definition", self.place("FA(B)", 4))["range"]["start"], self.place("F(B)=FEAT"))
+        uses = self.ask("references", self.place("F(A)=FEAT", 1), context={"includeDeclaration": True})
+        self.assertEqual([u["range"]["start"] for u in uses], [self.place("F(A)=FEAT"), self.place("F(A),1"), self.place("FA(A)")])
+        uses = self.ask("references", self.place("F(A)=FEAT", 1), context={"includeDeclaration": False})
+        self.assertEqual(len(uses), 2)
+        self.assertIsNone(self.ask("definition", self.place("UNITS")))
+
+    def test_hover(self):
+        self.open(LENGTH)
+        word = self.ask("hover", self.place("PTMEAS", 2))["contents"]["value"]
+        self.assertIn("PTMEAS/", word)
+        self.assertIn("Touches the surface", word)
+        self.assertIn("distance", self.ask("hover", self.place("DISTB", 2))["contents"]["value"])
+        label = self.ask("hover", self.place("FA(B)", 3))["contents"]["value"]
+        self.assertIn("F(B)=FEAT/POINT,CART,100,0,0,1,0,0", label)
+        self.assertIn("line 11", label)
+        self.assertIsNone(self.ask("hover", self.place("800")))
+
+    def labels(self, text):
+        self.open(text)
+        lines = text.split("\n")
+        items = self.ask("completion", {"line": len(lines) - 1, "character": len(lines[-1])})
+        return [i["label"] for i in items]
+
+    def test_completion(self):
+        self.assertIn("PTMEAS", self.labels(LENGTH + "PT"))
+        self.assertIn("CIRCLE", self.labels(LENGTH + "F(C)=FEAT/"))
+        self.assertIn("INNER", self.labels(LENGTH + "F(C)=FEAT/CIRCLE,"))
+        self.assertNotIn("CART", self.labels(LENGTH + "T(C)=TOL/"))
+        self.assertEqual(self.labels(LENGTH + "OUTPUT/FA("), ["A", "B"])
+        self.assertEqual(self.labels(LENGTH + "OUTPUT/FA(A),TA("), ["LEN"])
+        self.assertIn("FA(A)", self.labels(LENGTH + "OUTPUT/"))
+        self.assertIn("F(A)", self.labels(LENGTH + "MEAS/POINT,"))
+        self.assertIn("S(P)", self.labels(LENGTH + "SNSLCT/"))
+        self.assertIn("CART", self.labels(LENGTH + "PTMEAS/$\n  "))
+        self.assertIn("machines", self.labels(LENGTH + "$$! ma"))
+        self.assertEqual(self.labels(LENGTH + "$$ ma"), [])
+        self.assertEqual(self.labels(LENGTH + "TEXT/OPER,'PT"), [])
+
+    def test_outline_and_folding(self):
+        self.open(LENGTH)
+        names = [s["name"] for s in self.ask("documentSymbol")]
+        for name in ("S(P)", "D(R)", "F(A)", "T(LEN)", "MEAS/POINT,F(B),1", "OUTPUT/FA(A),FA(B),TA(LEN)"):
+            self.assertIn(name, names)
+        for symbol in self.ask("documentSymbol"):
+            outer, inner = symbol["range"], symbol["selectionRange"]
+            self.assertLessEqual(outer["start"]["character"], inner["start"]["character"])
+            self.assertGreaterEqual(outer["end"]["character"], inner["end"]["character"])
+        begin = self.place("MEAS/POINT,F(A)")["line"]
+        self.assertIn({"startLine": begin, "endLine": begin + 1}, self.ask("foldingRange"))
+
+    def test_formatting(self):
+        self.open(LENGTH.replace("PTMEAS/CART,", "ptmeas / cart, "))
+        edits = self.ask("formatting", options={"tabSize": 2, "insertSpaces": True})
+        self.assertEqual(edits[0]["newText"], LENGTH.replace("PTMEAS", "  PTMEAS"))
+        self.assertEqual(edits[0]["range"]["start"], {"line": 0, "character": 0})
+        self.open(edits[0]["newText"])
+        self.assertEqual(self.ask("formatting", options={}), [])
+
+    def test_requests_that_make_no_sense_are_answered_and_the_server_goes_on(self):
+        self.open(LENGTH)
+        self.assertEqual(self.server.request("textDocument/nothing")["error"]["code"], -32601)
+        self.assertEqual(self.server.request("nothing")["error"]["code"], -32601)
+        self.assertEqual(self.server.request("textDocument/hover", {"textDocument": {"uri": "file:///none"}, "position": {"line": 0, "character": 0}})["error"]["code"], -32602)
+        self.assertEqual(self.server.request("textDocument/hover", {"textDocument": 5})["error"]["code"], -32602)
+        self.server.send(b"{not json")
+        self.assertEqual(self.server.receive()["error"]["code"], -32700)
+        self.server.send([1, 2])
+        self.server.notify("$/cancelRequest", {"id": 1})
+        self.server.notify("textDocument/didChange", {})
+        self.assertIsNone(self.ask("hover", {"line": 99999, "character": 99999}))
+        self.assertIsNotNone(self.ask("hover", self.place("PTMEAS", 2)))
+
+    def test_the_life_of_a_server(self):
+        self.assertEqual(self.capabilities["positionEncoding"], "utf-16")
+        self.assertIsNone(self.server.request("shutdown")["result"])
+        self.server.notify("exit", {})
+        self.assertEqual(self.server.close(), 0)
+        other = Server(self.abbe_path)
+        self.assertEqual(other.request("shutdown")["error"]["code"], -32002)
+        other.process.stdin.write(b"Content-Length: 99999999999999\r\n\r\n")
+        self.assertEqual(other.close(), 1)
+
+
+if __name__ == "__main__":
+    harness.main()

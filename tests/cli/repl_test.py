@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""abbe repl: scripted sessions through a pipe."""
+import subprocess
+
+import harness
+from harness import LENGTH, ROOT
+
+STATEMENTS = LENGTH.replace("ENDFIL\n", "")
+
+
+class Repl(harness.Case):
+    def session(self, text, *options, code=0):
+        done = subprocess.run([self.abbe_path, "repl", "--machines", "50", *map(str, options)], cwd=self.folder, input=text,
+                              capture_output=True, text=True, errors="replace", timeout=120)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_output_shows_its_results_at_once_and_they_are_those_of_run(self):
+        out = self.session(STATEMENTS)
+        self.write("a.dmi", LENGTH)
+        expected = self.run_json("a.dmi", "--machines", 50)["characteristics"][0]
+        low, high = expected["interval95"]["symmetric"]
+        line = [line for line in out.splitlines() if line.startswith("TA(LEN)")]
+        self.assertEqual(len(line), 1, out)
+        self.assertRegex(line[0], r"^TA\(LEN\) of FA\(A\), FA\(B\): 100\.0+ mm, u95 0\.0\d+ mm$")
+        self.assertAlmostEqual(float(line[0].split()[-2]), (high - low) / 2, delta=0.05 * (high - low))
+
+    def test_only_what_is_new_is_shown(self):
+        out = self.session(STATEMENTS + "T(TWO)=TOL/DISTB,NOMINL,100.0,-0.01,0.01,XAXIS\nOUTPUT/FA(A),FA(B),TA(TWO)\n")
+        self.assertEqual((out.count("TA(LEN) of"), out.count("TA(TWO) of")), (1, 1))
+        again = self.session(STATEMENTS + ".run\n")
+        self.assertEqual(again.count("TA(LEN) of"), 2)
+
+    def test_mistakes_keep_the_session_alive(self):
+        broken = STATEMENTS.replace("MEAS/POINT,F(B),1", "MAES/POINT,F(B),1\nMEAS/POINT,F(B),1").replace("T(LEN)=TOL", "T(LEN)=TLO/X\nT(LEN)=TOL")
+        out = self.session(broken + "OUTPUT/FA(C),TA(LEN)\nGOTO/9000,0,0\n.undo\nOUTPUT/FA(A),FA(B),TA(LEN)\n")
+        self.assertIn("E0110", out)
+        self.assertIn("did you mean MEAS?", out)
+        self.assertIn("session:12:1: error E0110", out)
+        self.assertIn("E0201", out)
+        self.assertEqual(out.count("TA(LEN) of"), 2, out)
+
+    def test_blocks_and_cut_lines_wait_for_their_end(self):
+        cut = STATEMENTS.replace("OUTPUT/FA(A),FA(B)", "OUTPUT/FA$\n(A),FA(B)")
+        self.assertIn("TA(LEN) of", self.session(cut))
+        self.assertIn("dropped", self.session("MEAS/POINT,F(A),1\nPTMEAS/CART,0,0,0,1,0,0\n"))
+        self.assertIn("unfinished entry", self.session("MEAS/POINT,F(A),1\n.undo\n"))
+
+    def test_a_touch_that_no_machine_can_reach_is_dropped(self):
+        far = STATEMENTS.replace("XORIG,800", "XORIG,80000")
+        out = self.session(far + ".list\n")
+        self.assertIn("E0302", out)
+        self.assertNotIn("  OUTPUT/", out)
+
+    def test_undo_list_save_and_load(self):
+        out = self.session(STATEMENTS + ".undo\n.list\n.save saved.dmi\n.quit\nnever read\n")
+        self.assertIn("taken back: OUTPUT/FA(A),FA(B),TA(LEN)", out)
+        self.assertEqual((self.folder / "saved.dmi").read_text(), LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)\n", ""))
+        out = self.session("OUTPUT/FA(A),FA(B),TA(LEN)\n.save\n", "saved.dmi")
+        self.assertIn("TA(LEN) of", out)
+        self.assertEqual((self.folder / "saved.dmi").read_text(), LENGTH)
+        self.assertIn("1 characteristic", self.session(".load saved.dmi\n"))
+        self.assertIn("nothing has been entered", self.session(".undo\n.list\n"))
+
+    def test_a_program_with_errors_is_not_loaded(self):
+        self.write("wrong.dmi", LENGTH.replace("T(LEN)=TOL", "T(LEN)=TLO"))
+        out = self.session(".load wrong.dmi\n.list\n")
+        self.assertIn("wrong.dmi:15:8: error E0110", out)
+        self.assertIn("was not loaded", out)
+        self.assertIn("nothing has been entered", out)
+
+    def test_what_is_saved_can_be_run(self):
+        self.session("\n".join(STATEMENTS.splitlines()[1:]) + "\n.save part.dmi\n")
+        self.assertEqual(len(self.run_json("part.dmi", "--machines", 50)["characteristics"]), 1)
+
+    def test_sensors_are_compared(self):
+        sensors = "S(SHORT)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nS(LONG)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,400,4\nS(SIDE)=SNSDEF/PROBE,INDEX,POL,90,0,0,0,-1,200,4\n"
+        out = self.session(sensors + ".sensor\n.compare S(LONG) short\n")
+        table = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.startswith(("SHORT  ", "LONG  ", "SIDE  "))}
+        self.assertEqual([float(x) for x in table["SHORT"][:3]], [0, 0, -100])
+        self.assertEqual([float(x) for x in table["LONG"][:3]], [0, 0, -400])
+        self.assertEqual(float(table["SIDE"][2]), 0)
+        for row in table.values():
+            self.assertTrue(all(float(x) > 0 for x in row[3:]), row)
+        ratios = next(line for line in out.splitlines() if line.startswith("SHORT / LONG")).split()[3:]
+        lengths = [float(table[name][6]) for name in ("SHORT", "LONG")]
+        self.assertAlmostEqual(float(ratios[0]), lengths[0] / lengths[1], delta=0.03)
+
+    def test_levers_are_those_of_the_machine(self):
+        # At mid travel the tip of the lever of Z stands across Z by the mount's offset and the tip's: mount (25, 40), machine file.
+        out = self.session("S(P)=SNSDEF/PROBE,FIXED,CART,30,0,-100,0,0,-1,4\n.sensor P\n")
+        row = next(line.split() for line in out.splitlines() if line.startswith("P "))
+        self.assertEqual(row[6], "68")  # hypot(25 + 30, 40) = 68.0
+
+    def test_commands_that_make_no_sense(self):
+        out = self.session(".halp\n.compare A\n.sensor NONE\n.load none.dmi\n.machine none\n.machines few\n.save\n.machines 60\n.help\nENDFIL\n")
+        for expected in ("E0612", "did you mean .help?", "E0613", "E0614", "E0601", "E0411", "60 virtual machines", ".compare A B", ".save writes"):
+            self.assertIn(expected, out)
+
+    def test_the_machine_can_be_chosen(self):
+        self.assertIn("machine coord3-mc16: travel 1600 x 1000 x 800 mm", self.session(".machine coord3-mc16\n"))
+        portal = ROOT / "examples/iso10360/portal-2009.json"
+        self.assertIn("machine portal", self.session(f".machine {portal}\n"))
+
+
+if __name__ == "__main__":
+    harness.main()
