@@ -1,0 +1,30 @@
+// The fuzz tests as one quick, repeatable test: fixed seeds, no fuzzing engine.
+// usage: fuzz_smoke ROOT [SEED [COUNT]]
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fuzz/exercise.hpp"
+#include "tests/fuzz/programs.hpp"
+
+int main(int argc, char** argv) {
+  using namespace abbe::fuzz;
+  const std::vector<std::string> existing = existing_programs(argv[1]);
+  const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 20261121;
+  const int count = argc > 3 ? std::atoi(argv[3]) : 250;
+  std::mt19937 random(seed);
+  int compiled = 0, ran = 0, total = 0;
+  const auto take = [&](const std::string& text) {
+    const Outcome outcome = exercise(text);
+    compiled += outcome.compiled ? 1 : 0;
+    ran += outcome.ran ? 1 : 0;
+    ++total;
+  };
+  for (int i = 0; i < count; ++i) {
+    take(random_program(random));
+    const std::string& victim = existing[random() % existing.size()];
+    if (victim.size() < 20'000) take(damaged(victim, existing[random() % existing.size()], random));
+    take(damaged(random_program(random), random_program(random), random));
+  }
+  std::printf("%d texts: %d without errors, %d run\n", total, compiled, ran);
+  return total > count && compiled > total / 50 && ran > total / 20 ? 0 : 1;  // else it tests too little
+}
