@@ -1,7 +1,9 @@
 """Acceptance tests from the command line: `abbe machine screen`, examples/iso10360 and docs/acceptance_tests.md.
 usage: acceptance_test.py ABBE"""
 import csv
+import itertools
 import json
+import math
 import pathlib
 import shlex
 import subprocess
@@ -100,6 +102,34 @@ def test_repeatability(folder):
     assert abs(mean_um - 1.6926 * sd_um) < 4 * 0.8884 * sd_um / 1000 ** 0.5, done.stdout
     pathlib.Path(folder, "empty.csv").write_text("machine,characteristic,value\n")
     assert run(EXAMPLES / "repeatability", "empty.csv", cwd=folder).returncode == 1
+
+
+def test_location(folder):
+    """L_Dia of five centres whose smallest sphere is known: it is held by two, three or four of them."""
+    def points_csv(points):
+        rows = ["machine,characteristic,value"]
+        for i, j in itertools.combinations(range(5), 2):
+            rows.append(f'0,"FA(S{i + 1}),FA(S{j + 1}),TA(C_{i + 1}{j + 1})",{math.dist(points[i], points[j])}')
+        path = pathlib.Path(folder, "points.csv")
+        path.write_text("\n".join(rows) + "\n")
+        return path
+
+    ball = [(0.003, 0, 0), (-0.001, 0.002, 0.002), (-0.001, -0.002, 0.002), (-0.001, 0, -math.sqrt(8) / 1000), (0.001, 0.0005, 0)]
+    cases = ([(0, 0, 0), (0.006, 0, 0), (0.003, 0.001, 0), (0.002, 0, -0.001), (0.004, 0, 0.002)],  # two
+             [(0.003 * math.cos(a), 0.003 * math.sin(a), 0) for a in (0, 2, 4)] + [(0, 0, 0.001), (0.001, 0, -0.001)],  # three
+             ball)  # four, all 3 um from the origin
+    for points in cases:
+        done = run(EXAMPLES / "location", points_csv(points))
+        assert done.returncode == 0 and "mean 6.000 " in done.stdout, (points, done)
+    done = run(EXAMPLES / "location", points_csv([(0, 0, 0)] * 5))
+    assert "mean 0.000 " in done.stdout, done
+    # On a real run it lies between the largest distance and sqrt(3/2) of it (Jung 1901).
+    values = samples(folder, "form_and_size_5x25.dmi", "coord3-mc16", 20)
+    distances = [v for (name, _, _), v in values.items() if "TA(C_" in name]
+    longest = 1e3 * sum(max(abs(v[i]) for v in distances) for i in range(20)) / 20
+    mean = float(run(EXAMPLES / "location", pathlib.Path(folder, "samples.csv")).stdout.split("mean ")[1].split()[0])
+    assert longest <= mean + 1e-3 and mean <= 1.2248 * longest, (longest, mean)
+    assert run(EXAMPLES / "location", EXAMPLES / "e0.dmi").returncode == 1
 
 
 def test_form(folder):
