@@ -30,15 +30,18 @@ std::string written(const LabelRef& label) {
 
 std::string written(const RawArgument& argument) {
   switch (argument.kind) {
-    case RawArgument::Kind::text: return quoted(argument.text);
-    case RawArgument::Kind::label: return written(argument.label);
+    case RawArgument::Kind::text:
+      return quoted(argument.text);
+    case RawArgument::Kind::label:
+      return written(argument.label);
     case RawArgument::Kind::word: {
       const std::string word = upper(argument.text);
       const std::string_view plain =
           word.starts_with('+') ? std::string_view(word).substr(1) : std::string_view(word);
       return minor_words().contains(plain) ? word : argument.text;  // else perhaps a variable
     }
-    default: return argument.text;
+    default:
+      return argument.text;
   }
 }
 
@@ -49,8 +52,8 @@ std::vector<std::string> pieces(const RawStatement& raw) {
   std::vector<std::string> out = {raw.label ? written(*raw.label) + "=" : ""};
   out.back() += raw.word;
   for (std::size_t i = 0; i < raw.arguments.size(); ++i) {
-    const std::string text = (i == 0 ? "/" : "") + written(raw.arguments[i]) +
-                             (i + 1 < raw.arguments.size() ? "," : "");
+    const std::string text =
+        (i == 0 ? "/" : "") + written(raw.arguments[i]) + (i + 1 < raw.arguments.size() ? "," : "");
     if (i == 0)
       out.back() += text;
     else
@@ -83,7 +86,8 @@ class Formatter {
       one(lines[i]);
     }
     while (!out_.empty() && out_.back().empty()) out_.pop_back();
-    std::string text = source_.text().starts_with(kByteOrderMark) ? std::string(kByteOrderMark) : "";
+    std::string text =
+        source_.text().starts_with(kByteOrderMark) ? std::string(kByteOrderMark) : "";
     for (const std::string& line : out_) text.append(line).append(line_end_);
     return text;
   }
@@ -104,7 +108,9 @@ class Formatter {
     depth_ += nesting.after;
   }
 
-  std::size_t indent() const { return kIndent * static_cast<std::size_t>(std::min(depth_, kDeepest)); }
+  std::size_t indent() const {
+    return kIndent * static_cast<std::size_t>(std::min(depth_, kDeepest));
+  }
 
   void statement(const LogicalLine& line, const RawStatement& raw) {
     std::string current(indent(), ' ');
@@ -141,7 +147,8 @@ class Formatter {
   void unchanged(const LogicalLine& line) {
     for (int number = line.line; number <= last_line_; ++number) {
       std::string_view text = source_.line(number);
-      if (number == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+      if (number == 1 && text.starts_with(kByteOrderMark))
+        text.remove_prefix(kByteOrderMark.size());
       out_.emplace_back(text);
     }
   }

@@ -8,8 +8,8 @@
 //     goes on four blanks deeper
 //
 // What cannot be read as a statement stays as it is, byte for byte: the formatter repairs nothing.
-// Empty lines, line ends and byte order mark stay too. A formatted program has the same meaning, and
-// formatting it again changes nothing; tests hold both over all programs at hand.
+// Empty lines, line ends and byte order mark stay too. A formatted program has the same meaning,
+// and formatting it again changes nothing; tests hold both over all programs at hand.
 #pragma once
 
 #include <string>

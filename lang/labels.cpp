@@ -18,7 +18,8 @@ bool part_of_name(char c) {
 
 bool is_label_kind(std::string_view word) {
   const auto kinds = label_kinds();
-  return std::any_of(kinds.begin(), kinds.end(), [&](const LabelKind& k) { return k.kind == word; });
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](const LabelKind& k) { return k.kind == word; });
 }
 
 class Collector {
@@ -45,7 +46,8 @@ class Collector {
     if (raw.label) add(raw, raw.label->kind, raw.label->name, raw.label->span, true);
     for (const RawArgument& argument : raw.arguments) {
       if (argument.kind == RawArgument::Kind::text) continue;
-      const bool declares = raw.word == "DECL" || (raw.word == "DATDEF" && argument.label.kind == "DAT");
+      const bool declares =
+          raw.word == "DECL" || (raw.word == "DATDEF" && argument.label.kind == "DAT");
       scan(raw, argument.span, declares);
     }
   }
@@ -69,7 +71,8 @@ class Collector {
       };
       if (end < text.size() && text[end] == '(' && is_label_kind(word) &&
           close != std::string_view::npos) {
-        add(raw, word, std::string(text.substr(end + 1, close - end - 1)), place(i, close + 1), declares);
+        add(raw, word, std::string(text.substr(end + 1, close - end - 1)), place(i, close + 1),
+            declares);
         i = close;
       } else {
         add(raw, "", std::string(text.substr(i, end - i)), place(i, end), declares);

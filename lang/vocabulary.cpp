@@ -92,15 +92,22 @@ std::vector<std::string> argument_words(std::string_view word,
 }
 
 std::span<const LabelKind> label_kinds() {
-  static constexpr std::array kinds = {
-      LabelKind{"F", "nominal of a feature"},     LabelKind{"FA", "actual of a feature"},
-      LabelKind{"T", "tolerance"},                LabelKind{"TA", "tolerance, evaluated"},
-      LabelKind{"D", "coordinate system"},        LabelKind{"DA", "coordinate system, actual"},
-      LabelKind{"S", "sensor"},                   LabelKind{"SA", "sensor, qualified"},
-      LabelKind{"DAT", "datum"},                  LabelKind{"M", "macro"},
-      LabelKind{"V", "form of a report"},         LabelKind{"P", "path"},
-      LabelKind{"G", "geometry of a CAD model"},  LabelKind{"DID", "device"},
-      LabelKind{"DV", "decimal places"},          LabelKind{"R", "report"}};
+  static constexpr std::array kinds = {LabelKind{"F", "nominal of a feature"},
+                                       LabelKind{"FA", "actual of a feature"},
+                                       LabelKind{"T", "tolerance"},
+                                       LabelKind{"TA", "tolerance, evaluated"},
+                                       LabelKind{"D", "coordinate system"},
+                                       LabelKind{"DA", "coordinate system, actual"},
+                                       LabelKind{"S", "sensor"},
+                                       LabelKind{"SA", "sensor, qualified"},
+                                       LabelKind{"DAT", "datum"},
+                                       LabelKind{"M", "macro"},
+                                       LabelKind{"V", "form of a report"},
+                                       LabelKind{"P", "path"},
+                                       LabelKind{"G", "geometry of a CAD model"},
+                                       LabelKind{"DID", "device"},
+                                       LabelKind{"DV", "decimal places"},
+                                       LabelKind{"R", "report"}};
   return kinds;
 }
 

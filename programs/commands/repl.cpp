@@ -9,7 +9,8 @@ namespace abbe {
 int repl_command(const ReplOptions& options) {
   Session session(options.settings);
   LineEditor editor([&](const std::string& line) { return session.completions(line); });
-  if (editor.interactive()) print_result("Abbe: statements of DMIS one at a time; .help lists the commands, .quit ends.\n");
+  if (editor.interactive())
+    print_result("Abbe: statements of DMIS one at a time; .help lists the commands, .quit ends.\n");
   if (options.program) print_result(session.load(*options.program));
   while (!session.finished()) {
     const auto line = editor.read(session.waiting() ? "  ... " : "abbe> ");

@@ -1,6 +1,6 @@
-// What may stand at a place of a program that is being typed: words at the beginning of a statement,
-// the minor words and labels that the statement takes behind its slash, names behind `FA(`,
-// directives behind `$$!`. From the statement tables and the labels of the program.
+// What may stand at a place of a program that is being typed: words at the beginning of a
+// statement, the minor words and labels that the statement takes behind its slash, names behind
+// `FA(`, directives behind `$$!`. From the statement tables and the labels of the program.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,16 @@ using nlohmann::json;
 namespace {
 
 /// Kinds of symbols in the outline (LSP 3.17, SymbolKind).
-enum class Symbol { namespace_ = 3, method = 6, interface = 11, function = 12, variable = 13, constant = 14, object = 19, event = 24 };
+enum class Symbol {
+  namespace_ = 3,
+  method = 6,
+  interface = 11,
+  function = 12,
+  variable = 13,
+  constant = 14,
+  object = 19,
+  event = 24
+};
 
 Symbol symbol_of(std::string_view kind) {
   return kind == "F"                     ? Symbol::object
@@ -82,10 +91,14 @@ Document::Document(std::string uri, std::string text)
   uses_ = lang::label_uses(source_);
 }
 
-json Document::location(Span span) const { return {{"uri", uri_}, {"range", range(source_, span)}}; }
+json Document::location(Span span) const {
+  return {{"uri", uri_}, {"range", range(source_, span)}};
+}
 
 json Document::message(const Diagnostic& d) const {
-  const int severity = d.severity() == Severity::error ? 1 : d.severity() == Severity::warning ? 2 : 3;
+  const int severity = d.severity() == Severity::error     ? 1
+                       : d.severity() == Severity::warning ? 2
+                                                           : 3;
   return {{"range", range(source_, d.span.value_or(Span{}))},
           {"severity", severity},
           {"code", info(d.code).name},
@@ -141,12 +154,16 @@ json Document::completion(std::uint32_t offset) const {
 json Document::outline() const {
   json list = json::array();
   const auto add = [&](std::string name, Symbol kind, Span span, Span inner, std::string detail) {
-    list.push_back({{"name", std::move(name)}, {"kind", static_cast<int>(kind)}, {"detail", std::move(detail)},
-                    {"range", range(source_, span)}, {"selectionRange", range(source_, inner)}});
+    list.push_back({{"name", std::move(name)},
+                    {"kind", static_cast<int>(kind)},
+                    {"detail", std::move(detail)},
+                    {"range", range(source_, span)},
+                    {"selectionRange", range(source_, inner)}});
   };
   for (const lang::LabelUse& use : uses_) {
     if (!use.definition) continue;
-    const Span whole{std::min(use.span.begin, use.statement.begin), std::max(use.span.end, use.statement.end)};
+    const Span whole{std::min(use.span.begin, use.statement.begin),
+                     std::max(use.span.end, use.statement.end)};
     const std::string_view text = source_.text(whole);
     const std::size_t equals = text.find('=');
     add(label_text(use), symbol_of(use.kind), whole, use.span,
@@ -156,8 +173,8 @@ json Document::outline() const {
   for (const lang::LogicalLine& line : lang::logical_lines(source_)) {
     const auto raw = lang::parse_statement(line, source_, ignored);
     if (raw && (raw->word == "MEAS" || raw->word == "OUTPUT"))
-      add(std::string(source_.text(raw->span)), raw->word == "MEAS" ? Symbol::method : Symbol::event, raw->span,
-          raw->word_span, "");
+      add(std::string(source_.text(raw->span)),
+          raw->word == "MEAS" ? Symbol::method : Symbol::event, raw->span, raw->word_span, "");
   }
   return list;
 }

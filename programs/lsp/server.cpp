@@ -16,7 +16,13 @@ using nlohmann::json;
 namespace {
 
 /// Codes of JSON-RPC 2.0 and LSP 3.17.
-enum class Fault { parse = -32700, invalid_request = -32600, unknown_method = -32601, invalid_parameters = -32602, not_initialised = -32002 };
+enum class Fault {
+  parse = -32700,
+  invalid_request = -32600,
+  unknown_method = -32601,
+  invalid_parameters = -32602,
+  not_initialised = -32002
+};
 
 struct RequestError {
   Fault fault;
@@ -49,7 +55,8 @@ class Server {
     const json id = message.is_object() && message.contains("id") ? message["id"] : json(nullptr);
     if (!message.is_object() || !message.contains("method")) {
       // An answer to a request of ours would come here; we make none.
-      if (!message.is_object()) fail(id, {Fault::invalid_request, "a message is an object with a method"});
+      if (!message.is_object())
+        fail(id, {Fault::invalid_request, "a message is an object with a method"});
       return std::nullopt;
     }
     try {
@@ -77,7 +84,9 @@ class Server {
   /// Notices get no answer, not even when they are wrong.
   std::optional<int> fail(const json& id, const RequestError& error) {
     if (!id.is_null() || error.fault == Fault::parse)
-      send({{"jsonrpc", "2.0"}, {"id", id}, {"error", {{"code", static_cast<int>(error.fault)}, {"message", error.message}}}});
+      send({{"jsonrpc", "2.0"},
+            {"id", id},
+            {"error", {{"code", static_cast<int>(error.fault)}, {"message", error.message}}}});
     return std::nullopt;
   }
 
@@ -107,7 +116,8 @@ class Server {
 
   const Document& document(const json& p) const {
     const auto it = documents_.find(p.at("textDocument").at("uri").get<std::string>());
-    if (it == documents_.end()) throw RequestError{Fault::invalid_parameters, "this document is not open"};
+    if (it == documents_.end())
+      throw RequestError{Fault::invalid_parameters, "this document is not open"};
     return it->second;
   }
 
@@ -137,7 +147,8 @@ class Server {
     if (question == "formatting") return document(p).formatting();
     if (question == "codeAction") {
       const SourceFile& source = document(p).source();
-      return document(p).fixes({offset_of(source, p.at("range").at("start")), offset_of(source, p.at("range").at("end"))});
+      return document(p).fixes({offset_of(source, p.at("range").at("start")),
+                                offset_of(source, p.at("range").at("end"))});
     }
     throw RequestError{Fault::unknown_method, "there is no method textDocument/" + question};
   }

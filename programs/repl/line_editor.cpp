@@ -14,20 +14,22 @@ namespace abbe {
 namespace {
 
 bool part_of_word(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '(' || c == ')';
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '(' ||
+         c == ')';
 }
 
 bool begins_with(const std::string& word, const std::string& beginning) {
   return word.size() >= beginning.size() &&
-         std::equal(beginning.begin(), beginning.end(), word.begin(), [](unsigned char a, unsigned char b) {
-           return std::toupper(a) == std::toupper(b);
-         });
+         std::equal(
+             beginning.begin(), beginning.end(), word.begin(),
+             [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); });
 }
 
 /// The word that is being typed. A name inside `FA(` begins behind the parenthesis.
 std::string last_word(const std::string& line, bool inside_parenthesis) {
   std::size_t begin = line.size();
-  while (begin > 0 && part_of_word(line[begin - 1]) && !(inside_parenthesis && line[begin - 1] == '('))
+  while (begin > 0 && part_of_word(line[begin - 1]) &&
+         !(inside_parenthesis && line[begin - 1] == '('))
     --begin;
   return line.substr(begin);
 }
@@ -94,7 +96,8 @@ struct LineEditor::Terminal {
     constexpr int kShown = 60;
     int shown = 0;
     for (const std::string& word : words) {
-      if (!begins_with(word, last_word(line, false)) && !begins_with(word, last_word(line, true))) continue;
+      if (!begins_with(word, last_word(line, false)) && !begins_with(word, last_word(line, true)))
+        continue;
       if (shown == kShown) std::fputs(" ...", stdout);
       if (++shown <= kShown) std::fprintf(stdout, "%s%s", shown == 1 ? "\n" : " ", word.c_str());
     }

@@ -1,6 +1,6 @@
 // One line after the other from the person at the keyboard. On a terminal with editing, history and
-// completion (libedit, when the program was built with it); from a pipe or a file plainly, without a
-// prompt, so that a session can be scripted.
+// completion (libedit, when the program was built with it); from a pipe or a file plainly, without
+// a prompt, so that a session can be scripted.
 #pragma once
 
 #include <functional>
@@ -32,8 +32,8 @@ class LineEditor {
   std::unique_ptr<Terminal> terminal_;  ///< null without libedit
 };
 
-/// What completes the last word of `line`, given the words that may stand there: what all that begin
-/// with it have in common beyond it.
+/// What completes the last word of `line`, given the words that may stand there: what all that
+/// begin with it have in common beyond it.
 std::string completion_of(const std::string& line, const std::vector<std::string>& words);
 
 }  // namespace abbe

@@ -56,8 +56,9 @@ int decimals_for(double u) {
 std::string result_line(const CharacteristicReport& c) {
   const double u95 = (c.summary.symmetric.high - c.summary.symmetric.low) / 2;
   const int digits = decimals_for(u95);
-  return fmt::format("TA({}) of FA({}): {:.{}f} {}, u95 {:.{}f} {}\n", c.tolerance, fmt::join(c.features, "), FA("),
-                     c.reference, digits, c.unit, u95, digits, c.unit);
+  return fmt::format("TA({}) of FA({}): {:.{}f} {}, u95 {:.{}f} {}\n", c.tolerance,
+                     fmt::join(c.features, "), FA("), c.reference, digits, c.unit, u95, digits,
+                     c.unit);
 }
 
 }  // namespace
@@ -74,8 +75,9 @@ CompiledProgram Session::compiled(const std::string& text) const {
   lang::Compilation compilation = lang::compile(source, sink);
   std::vector<Diagnostic> messages = sink.sorted();
   std::erase_if(messages, [](const Diagnostic& d) { return premature(d.code); });
-  const bool errors = std::any_of(messages.begin(), messages.end(),
-                                  [](const Diagnostic& d) { return d.severity() == Severity::error; });
+  const bool errors = std::any_of(messages.begin(), messages.end(), [](const Diagnostic& d) {
+    return d.severity() == Severity::error;
+  });
   return {std::move(source), std::move(compilation), std::move(messages), errors};
 }
 
@@ -83,7 +85,8 @@ std::string Session::enter(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t");
   if (first != std::string::npos && line[first] == '.') return command(line.substr(first));
   if (pending_.empty() && first == std::string::npos) return "";
-  if (pending_.empty() && word_of(line) == "ENDFIL") return "the session goes on; .save writes the ENDFIL\n";
+  if (pending_.empty() && word_of(line) == "ENDFIL")
+    return "the session goes on; .save writes the ENDFIL\n";
   pending_ += line + "\n";
   if (!complete(pending_)) return "";
   return entry(std::exchange(pending_, ""));
@@ -139,7 +142,8 @@ std::vector<std::string> Session::completions(const std::string& line) const {
     return words;
   }
   const SourceFile source("session", text() + pending_ + line);
-  for (lsp::Proposal& p : lsp::proposals(source, lang::label_uses(source), static_cast<std::uint32_t>(source.text().size())))
+  for (lsp::Proposal& p : lsp::proposals(source, lang::label_uses(source),
+                                         static_cast<std::uint32_t>(source.text().size())))
     words.push_back(std::move(p.text));
   return words;
 }

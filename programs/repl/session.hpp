@@ -3,9 +3,10 @@
 // what a program can, and what it saves runs elsewhere. An entry with an error is reported and
 // dropped; the session goes on as if it had not been typed.
 //
-// An entry is a statement, or a whole block: inside MEAS..ENDMES, IF..ENDIF and the like, and behind
-// a `$` at the end of a line, the session waits for the rest. When an entry evaluates something
-// (OUTPUT, EVAL) the whole program runs on the virtual machines and the new results are shown.
+// An entry is a statement, or a whole block: inside MEAS..ENDMES, IF..ENDIF and the like, and
+// behind a `$` at the end of a line, the session waits for the rest. When an entry evaluates
+// something (OUTPUT, EVAL) the whole program runs on the virtual machines and the new results are
+// shown.
 //
 // Lines that begin with a dot are commands to the session itself.
 #pragma once
@@ -70,10 +71,10 @@ class Session {
   };
 
   StudySettings settings_;
-  std::vector<Entry> entries_;        ///< accepted
-  std::string pending_;               ///< the beginning of an entry
-  std::set<std::string> told_;        ///< general messages that have been shown
-  std::string path_;                  ///< of the program that was loaded or saved
+  std::vector<Entry> entries_;  ///< accepted
+  std::string pending_;         ///< the beginning of an entry
+  std::set<std::string> told_;  ///< general messages that have been shown
+  std::string path_;            ///< of the program that was loaded or saved
   bool finished_ = false;
 };
 

@@ -1,6 +1,6 @@
-// Programs by chance, for the fuzz tests: from the grammar of the statement tables, and by damage to
-// programs that exist. All chance comes from a std::mt19937, whose sequence the standard fixes, so a
-// seed names the same program everywhere.
+// Programs by chance, for the fuzz tests: from the grammar of the statement tables, and by damage
+// to programs that exist. All chance comes from a std::mt19937, whose sequence the standard fixes,
+// so a seed names the same program everywhere.
 #pragma once
 
 #include <random>

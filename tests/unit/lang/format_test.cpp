@@ -74,8 +74,8 @@ TEST_CASE("lines are joined, and cut only where they are too long") {
 TEST_CASE("what is no statement, comments over lines, line ends and marks stay") {
   for (const std::string text :
        {"Please  do not touch\n", "TEXT/OPER,'not closed  \n", "  GOTO/(1,2\n",
-        "$$ goes on $\n   here\n", "$$$$ a rule $$$$\n", "\xEF\xBB\xBFGOTO/1,2,3\r\n", "GOTO/1,2,3\r",
-        "F(\xC4)=FEAT/POINT,CART,0,0,0,0,0,1\n", "GOTO/1,2,3\n\n\nENDFIL\n"})
+        "$$ goes on $\n   here\n", "$$$$ a rule $$$$\n", "\xEF\xBB\xBFGOTO/1,2,3\r\n",
+        "GOTO/1,2,3\r", "F(\xC4)=FEAT/POINT,CART,0,0,0,0,0,1\n", "GOTO/1,2,3\n\n\nENDFIL\n"})
     CHECK(formatted(text) == text);
   CHECK(formatted("") == "");
   CHECK(formatted("\n\n") == "");
@@ -113,7 +113,8 @@ TEST_CASE("blanks and cuts of lines leave no trace") {
       for (const char c : line) {
         if (c == '\'') quote = !quote;
         depth += quote ? 0 : c == '(' ? 1 : c == ')' ? -1 : 0;
-        const bool separator = statement && !quote && depth == 0 && (c == ',' || c == '/' || c == '=');
+        const bool separator =
+            statement && !quote && depth == 0 && (c == ',' || c == '/' || c == '=');
         if (separator && below(4) == 0) mutated += " ";
         mutated += c;
         if (separator && below(4) == 0) mutated += "\t ";
