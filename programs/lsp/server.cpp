@@ -21,7 +21,8 @@ enum class Fault {
   invalid_request = -32600,
   unknown_method = -32601,
   invalid_parameters = -32602,
-  not_initialised = -32002
+  not_initialised = -32002,
+  internal = -32603
 };
 
 struct RequestError {
@@ -71,6 +72,8 @@ class Server {
       fail(id, error);
     } catch (const json::exception& error) {
       fail(id, {Fault::invalid_parameters, error.what()});
+    } catch (const std::exception& error) {  // a fault of ours must not take the editor's session away
+      fail(id, {Fault::internal, error.what()});
     }
     return std::nullopt;
   }
