@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/influences/influence.hpp"
 #include "engine/math/axis.hpp"
 #include "engine/math/vec.hpp"
 
@@ -110,6 +111,7 @@ struct Machine {
   MotionSpec motion;
   std::map<std::string, NamedSensor> sensors;
   std::vector<EffectSetting> effects;
+  std::vector<InfluenceBound> bounds;            ///< on influences that are not propagated
   std::string known_state;                       ///< JSON text of "known_state", as written; empty when the file has none
 
   const MachineAxis& operator[](Axis a) const { return axes[static_cast<int>(a)]; }

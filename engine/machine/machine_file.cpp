@@ -288,6 +288,7 @@ Machine parse_machine(const std::string& file, const std::string& text) {
     machine.sensors[key] = read_sensor(sensors.object(key));
   for (const JsonObject& effect : root.object_list("effects"))
     machine.effects.push_back(read_effect(effect));
+  machine.bounds = read_bounds(root);
   machine.known_state = root.raw("known_state");
   reader.finish();
   return machine;

@@ -1,5 +1,7 @@
 #include "engine/report/influences.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -7,54 +9,40 @@ namespace abbe {
 
 namespace {
 
+constexpr double kUmPerMm = 1e3;
+
+/// What makes an influence modelled that is not part of every simulation.
 struct Row {
   std::string_view name;
-  bool always;  ///< part of every simulation
-  std::vector<std::string_view> effects =
-      {};  ///< registry names, or families that end in '.', that describe it
+  /// Registry names, or families that end in '.', that describe it.
+  std::vector<std::string_view> effects = {};
   bool (*described_by)(const Workpiece&) = nullptr;
 };
 
+/// Influences that are not listed here cannot be modelled.
 const std::vector<Row>& rows() {
   static const std::vector<Row> table = {
-      {"geometry", true},
-      {"head indexing", true},
-      {"probe repeatability", true},
-      {"number and place of the points", true},
       {"part temperature",
-       false,
        {"thermal.part_expansion", "thermal.part_soak"},
        [](const Workpiece& w) { return w.knows.part && w.part_expands(); }},
       {"scale temperature",
-       false,
        {"thermal.scale_expansion"},
        [](const Workpiece& w) { return w.knows.scale[0] && w.scales_expand(); }},
-      {"temperature gradients in the machine",
-       false,
-       {"thermal.table_bending", "thermal.bridge_bending"}},
+      {"temperature gradients in the machine", {"thermal.table_bending", "thermal.bridge_bending"}},
       {"thermal drift",
-       false,
        {"thermal.drift", "thermal.cycle", "thermal.ram_growth", "thermal.stylus_growth"}},
-      {"probe pretravel lobing", false, {"probe.pretravel_lobing"}},
-      {"stylus bending and length", false, {"probe.stylus_bending", "probe.stylus_length"}},
-      {"tip size and form", false, {"probe.tip_radius", "probe.tip_form"}},
-      {"contact deformation", false, {"probe.contact_flattening"}},
-      {"trigger delay", false, {"probe.trigger_delay"}},
-      {"head geometry and qualification",
-       false,
-       {"head.axis_errors", "head.qualification", "head.sag"}},
-      {"dynamics and backlash", false, {"machine.dynamics", "machine.backlash"}},
-      {"scale interpolation", false, {"machine.scale_interpolation"}},
-      {"vibration and outliers", false, {"noise."}},
-      {"true size of the part", false, {}, [](const Workpiece& w) { return !w.surfaces.empty(); }},
-      {"form error of the part",
-       false,
-       {"part.form"},
-       [](const Workpiece& w) { return w.has_form(); }},
-      {"fixturing", false, {"part.clamping", "part.load_bending", "part.shift"}},
-      {"surface roughness and dirt", false},
-      {"operator", false},
-      {"software", false},
+      {"probe pretravel lobing", {"probe.pretravel_lobing"}},
+      {"stylus bending and length", {"probe.stylus_bending", "probe.stylus_length"}},
+      {"tip size and form", {"probe.tip_radius", "probe.tip_form"}},
+      {"contact deformation", {"probe.contact_flattening"}},
+      {"trigger delay", {"probe.trigger_delay"}},
+      {"head geometry and qualification", {"head.axis_errors", "head.qualification", "head.sag"}},
+      {"dynamics and backlash", {"machine.dynamics", "machine.backlash"}},
+      {"scale interpolation", {"machine.scale_interpolation"}},
+      {"vibration and outliers", {"noise."}},
+      {"true size of the part", {}, [](const Workpiece& w) { return !w.surfaces.empty(); }},
+      {"form error of the part", {"part.form"}, [](const Workpiece& w) { return w.has_form(); }},
+      {"fixturing", {"part.clamping", "part.load_bending", "part.shift"}},
   };
   return table;
 }
@@ -63,24 +51,57 @@ bool describes(std::string_view pattern, std::string_view effect) {
   return pattern.ends_with('.') ? effect.starts_with(pattern) : effect == pattern;
 }
 
-bool modelled(const Row& row, const Machine& machine, const Workpiece* workpiece) {
-  return row.always || (workpiece && row.described_by && row.described_by(*workpiece)) ||
-         std::any_of(
-             machine.effects.begin(), machine.effects.end(), [&](const EffectSetting& effect) {
-               return std::any_of(
-                   row.effects.begin(), row.effects.end(),
-                   [&](std::string_view pattern) { return describes(pattern, effect.name); });
-             });
+bool described(const Row& row, const Machine& machine, const Workpiece* workpiece) {
+  if (workpiece && row.described_by && row.described_by(*workpiece)) return true;
+  return std::any_of(
+      machine.effects.begin(), machine.effects.end(), [&](const EffectSetting& effect) {
+        return std::any_of(row.effects.begin(), row.effects.end(), [&](std::string_view pattern) {
+          return describes(pattern, effect.name);
+        });
+      });
+}
+
+bool modelled(const InfluenceQuantity& quantity, const Machine& machine,
+              const Workpiece* workpiece) {
+  return quantity.always_modelled || std::any_of(rows().begin(), rows().end(), [&](const Row& row) {
+           return row.name == quantity.name && described(row, machine, workpiece);
+         });
+}
+
+const InfluenceBound* find_bound(const std::vector<InfluenceBound>& bounds, std::string_view name) {
+  const auto found = std::find_if(bounds.begin(), bounds.end(),
+                                  [&](const InfluenceBound& b) { return b.influence == name; });
+  return found == bounds.end() ? nullptr : &*found;
+}
+
+/// The workpiece file knows the task, so its bound goes before that of the machine file.
+const InfluenceBound* bound_on(std::string_view name, const Machine& machine,
+                               const Workpiece* workpiece) {
+  const InfluenceBound* of_task = workpiece ? find_bound(workpiece->bounds, name) : nullptr;
+  return of_task ? of_task : find_bound(machine.bounds, name);
 }
 
 }  // namespace
 
-std::vector<Influence> influences(const Machine& machine, const Workpiece* workpiece) {
-  std::vector<Influence> list;
-  for (const Row& row : rows())
-    list.push_back(
-        {std::string(row.name), modelled(row, machine, workpiece) ? "modelled" : "not modelled"});
-  return list;
+Declaration declare_influences(const Machine& machine, const Workpiece* workpiece) {
+  Declaration out;
+  for (const InfluenceQuantity& quantity : influence_quantities()) {
+    Influence influence{std::string(quantity.name), "not modelled"};
+    const InfluenceBound* bound = bound_on(quantity.name, machine, workpiece);
+    if (modelled(quantity, machine, workpiece)) {
+      influence.status = "modelled";
+      if (bound)
+        out.messages.push_back(
+            diagnostic(Code::W0434,
+                       fmt::format("the bound on \"{}\" is not shown: that influence is modelled",
+                                   quantity.name),
+                       "remove the bound from the file, or the effect that models the influence"));
+    } else if (bound) {
+      influence = {influence.name, "bounded", kUmPerMm * bound->at_most_mm, bound->source};
+    }
+    out.influences.push_back(std::move(influence));
+  }
+  return out;
 }
 
 }  // namespace abbe

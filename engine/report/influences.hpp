@@ -1,6 +1,6 @@
 // Which influences on a measurement the figures of a report contain, and which they do not: the
-// declaration that ISO/TS 15530-4:2008 asks of software for task-specific uncertainty. One table,
-// in influences.cpp.
+// declaration that ISO/TS 15530-4:2008 asks of software for task-specific uncertainty. What the
+// three states mean is in engine/influences/influence.hpp.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,14 @@
 
 namespace abbe {
 
-/// The declaration for a machine and, when there is one, a workpiece file: an influence that is not
+struct Declaration {
+  std::vector<Influence> influences;  ///< every one, in the order of influence_quantities()
+  std::vector<Diagnostic> messages;   ///< bounds on what is modelled (W0434)
+};
+
+/// The declaration for a machine and, when there is one, a workpiece file. An influence that is not
 /// modelled by itself is when the machine file switches on an effect that describes it, or the
-/// workpiece file describes it.
-std::vector<Influence> influences(const Machine&, const Workpiece* workpiece = nullptr);
+/// workpiece file describes it; else it is bounded when one of the two states a bound.
+Declaration declare_influences(const Machine&, const Workpiece* workpiece = nullptr);
 
 }  // namespace abbe

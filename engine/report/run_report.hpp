@@ -45,7 +45,9 @@ struct CharacteristicReport {
 };
 
 struct Influence {
-  std::string name, status;  ///< "modelled", "bounded", "not modelled"
+  std::string name, status;  ///< "modelled", "bounded", "not modelled" (engine/influences)
+  double at_most_um = 0;     ///< of a bounded one: the greatest error of a touch along the normal
+  std::string source = {};   ///< who says so
 };
 
 struct LostCharacteristic {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+
 #include "engine/base/ids.hpp"
 #include "engine/report/influences.hpp"
 #include "engine/report/report_unit.hpp"
@@ -188,7 +190,10 @@ class StudyRun {
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics = characteristic_reports(plan_, study_.result, alone, budget);
-    report.influences = influences(machine_, options_.workpiece);
+    Declaration declaration = declare_influences(machine_, options_.workpiece);
+    report.influences = std::move(declaration.influences);
+    std::move(declaration.messages.begin(), declaration.messages.end(),
+              std::back_inserter(report.messages));
     report.traps = study_.result.traps;
     add_unreached();
     warn_of_screening();

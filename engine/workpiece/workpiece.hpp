@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "engine/effects/effect.hpp"
+#include "engine/influences/influence.hpp"
 #include "engine/workpiece/temperature_log.hpp"
 #include "engine/workpiece/uncertain.hpp"
 
@@ -76,6 +77,7 @@ struct Workpiece {
     bool part = false, scale[3] = {false, false, false}, air = false, load = false;
   } knows;
   std::vector<Surface> surfaces;
+  std::vector<InfluenceBound> bounds;  ///< on influences that are not propagated
 
   bool has_form() const;
   bool part_expands() const;  ///< its coefficient of expansion is given and not 0

@@ -204,6 +204,7 @@ Workpiece parse_workpiece(const SourceFile& file) {
   JsonObject surfaces = root.object_or_absent("surfaces");
   for (const std::string& label : surfaces.own_names())
     w.surfaces.push_back(read_surface(surfaces.object(label), label, surfaces.span_of(label)));
+  w.bounds = read_bounds(root);
   reader.finish();
   return w;
 }

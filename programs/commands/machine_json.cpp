@@ -100,6 +100,14 @@ Json effects_json(const Machine& machine) {
   return out;
 }
 
+Json bounds_json(const Machine& machine) {
+  Json out = Json::array();
+  for (const InfluenceBound& b : machine.bounds)
+    out.push_back(
+        {{"influence", b.influence}, {"at_most_um", b.at_most_mm * 1e3}, {"source", b.source}});
+  return out;
+}
+
 std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -160,6 +168,7 @@ std::string machine_report_json(const MachineReport& report) {
          {"acceleration_mm_s2", m.motion.acceleration_mm_s2}}},
        {"sensors", sensors_json(m)},
        {"effects", effects_json(m)},
+       {"bounds", bounds_json(m)},
        {"virtual_machine",
         {{"seed", report.seed}, {"candidate", report.drawn.index[0]}, {"v", report.drawn.v[0]}}},
        {"components", components},

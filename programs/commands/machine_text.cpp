@@ -108,7 +108,12 @@ std::string equipment_text(const Machine& machine) {
                                 : fmt::format("  {} {}", key, value.word);
     out += "\n";
   }
-  return out + (machine.effects.empty() ? "  none beyond geometry, head and probe\n" : "");
+  if (machine.effects.empty()) out += "  none beyond geometry, head and probe\n";
+  if (!machine.bounds.empty()) out += "Bounds on influences that are not propagated\n";
+  for (const InfluenceBound& b : machine.bounds)
+    out += fmt::format("  {}  at most {:g} um at a touch ({})\n", b.influence, b.at_most_mm * 1e3,
+                       b.source);
+  return out;
 }
 
 /// A row of blocks from the lowest value to the highest.

@@ -148,6 +148,19 @@ class Refusals(harness.Case):
         self.assertEqual(report["characteristics"], [])
         self.assertIn("W0606", [m["code"] for m in report["messages"]])
 
+    def test_bounds_are_declared(self):
+        self.write("length.dmi", LENGTH)
+        machine = json.loads((harness.ROOT / "examples/machines/coord3-mc16.json").read_text())
+        machine["bounds"] = [{"influence": "thermal drift", "at_most_um": 0.3, "source": "drift test"}]
+        self.write("m.json", json.dumps(machine))
+        report = self.run_json("length.dmi", "--machine", "m.json", "--machines", 20)
+        self.assertIn({"name": "thermal drift", "status": "bounded", "at_most_um": 0.3, "source": "drift test"}, report["influences"])
+        self.assertIn("Bounds on influences", self.abbe("machine", "show", "m.json").stdout)
+        self.assertEqual(json.loads(self.abbe("machine", "show", "m.json", "--format", "json").stdout)["bounds"], machine["bounds"])
+        machine["effects"] = [{"name": "thermal.drift"}]
+        self.write("m.json", json.dumps(machine))
+        self.assertIn("W0434", self.abbe("run", "length.dmi", "--machine", "m.json", "--machines", 20).stdout)
+
     def test_files(self):
         self.write("length.dmi", LENGTH)
         self.refused("E0601", "run", "missing.dmi")

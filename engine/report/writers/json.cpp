@@ -74,6 +74,13 @@ Json message(const Diagnostic& d) {
           {"help", d.help}};
 }
 
+Json influence(const Influence& i) {
+  Json out = {{"name", i.name}, {"status", i.status}};
+  if (i.status == "bounded")
+    out.update({{"at_most_um", number(i.at_most_um)}, {"source", i.source}});
+  return out;
+}
+
 template <class T, class F>
 Json list(const std::vector<T>& items, F convert) {
   Json out = Json::array();
@@ -107,10 +114,7 @@ std::string write_json(const RunReport& r) {
                      [](const Trap& t) {
                        return Json{{"machine", t.machine}, {"line", t.line}, {"reason", t.reason}};
                      })},
-      {"influences", list(r.influences,
-                          [](const auto& i) {
-                            return Json{{"name", i.name}, {"status", i.status}};
-                          })},
+      {"influences", list(r.influences, influence)},
       {"messages", list(r.messages, message)}};
   // Labels keep the bytes of the program, which may be Latin-1: what is not UTF-8 is replaced.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -96,7 +96,8 @@ constexpr double kSmallestShown = 0.001;
 /// The budgets, one source a line, the largest first; nothing when none was asked for.
 std::string budget_table(const RunReport& r) {
   using enum Table::Align;
-  Table table({{"line"}, {"feature", left}, {"tolerance", left}, {"source", left}, {"u"}, {"share"}});
+  Table table(
+      {{"line"}, {"feature", left}, {"tolerance", left}, {"source", left}, {"u"}, {"share"}});
   bool any = false;
   for (const auto& c : r.characteristics) {
     const auto add = [&](const CharacteristicReport::BudgetLine& line) {
@@ -164,6 +165,16 @@ std::string not_modelled(const RunReport& r) {
   return names.empty() ? "" : "Not modelled: " + joined(names) + ".\n";
 }
 
+/// What is in no figure of the report, but known to be small.
+std::string bounded(const RunReport& r) {
+  std::string out;
+  for (const Influence& i : r.influences)
+    if (i.status == "bounded")
+      out += fmt::format("Bounded, not in u: {}, at most {:g} um at a touch ({}).\n", i.name,
+                         i.at_most_um, i.source);
+  return out;
+}
+
 /// "3 min 12 s", "12 s".
 std::string duration(double seconds) {
   const long whole = std::lround(seconds);
@@ -187,7 +198,7 @@ std::string write_text(const RunReport& r) {
   if (!r.characteristics.empty()) out += legend(r) + budget_table(r);
   const std::string remarks = trapped_machines(r) + lost_characteristics(r) + general_messages(r);
   if (!remarks.empty()) out += "\n" + remarks;
-  return out + not_modelled(r);
+  return out + bounded(r) + not_modelled(r);
 }
 
 }  // namespace

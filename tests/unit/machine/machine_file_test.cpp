@@ -70,6 +70,27 @@ TEST_CASE("the shipped machine of the paper holds Tables 1 and 2, in mm and rad"
   CHECK(side.radius_mm == 2);
 }
 
+TEST_CASE("bounds on influences name a known one, once, with a source") {
+  const Machine m = parse_machine("m.json", small_file(R"("bounds": [
+    {"influence": "vibration and outliers", "at_most_um": 0.3, "source": "floor survey"}])"));
+  REQUIRE(m.bounds.size() == 1);
+  CHECK(m.bounds[0].influence == "vibration and outliers");
+  CHECK(m.bounds[0].at_most_mm == doctest::Approx(0.0003));
+  CHECK(m.bounds[0].source == "floor survey");
+  const auto one = [](const std::string& influence, const std::string& rest) {
+    return R"({"influence": ")" + influence + R"(", )" + rest + "}";
+  };
+  const std::string good = R"("at_most_um": 1, "source": "s")";
+  const auto file = [&](const std::string& list) { return small_file(R"("bounds": [)" + list + "]"); };
+  check_fault(file(one("thermal drft", good)), Code::E0432, "thermal drft");
+  CHECK(faults(file(one("thermal drft", good)))[0].help == "did you mean \"thermal drift\"?");
+  check_fault(file(one("geometry", good)), Code::E0433, "part of every simulation");
+  check_fault(file(one("operator", good) + "," + one("operator", good)), Code::E0433, "already");
+  check_fault(file(one("operator", R"("at_most_um": 0, "source": "s")")), Code::E0406, "at_most_um");
+  check_fault(file(one("operator", R"("at_most_um": 1)")), Code::E0404, "source");
+  check_fault(file(one("operator", good + R"(, "u": 1)")), Code::E0402, "u");
+}
+
 TEST_CASE("every shipped machine reads, has its file's name, and stands at zero at home") {
   const std::vector<std::string> names = shipped_machines();
   CHECK(names.size() >= 3);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "engine/base/ids.hpp"
 #include "engine/report/influences.hpp"
@@ -111,7 +112,7 @@ TEST_CASE("runs of different plans are refused") {
 
 TEST_CASE("influences are declared; an effect of the machine file makes its influence modelled") {
   const auto status = [](const Machine& machine, const std::string& name) {
-    for (const Influence& influence : influences(machine))
+    for (const Influence& influence : declare_influences(machine).influences)
       if (influence.name == name) return influence.status;
     return std::string("missing");
   };
@@ -126,6 +127,47 @@ TEST_CASE("influences are declared; an effect of the machine file makes its infl
   CHECK(status(machine, "part temperature") == "modelled");
   CHECK(status(machine, "vibration and outliers") == "modelled");
   CHECK(status(machine, "thermal drift") == "not modelled");
+}
+
+TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpiece file goes first") {
+  Machine machine;
+  machine.bounds = {{"thermal drift", 0.0003, "drift test"}, {"fixturing", 0.002, "machine"}};
+  Workpiece workpiece;
+  workpiece.bounds = {{"fixturing", 0.001, "task"}};
+  const auto find = [&](const char* name) {
+    for (const Influence& influence : declare_influences(machine, &workpiece).influences)
+      if (influence.name == name) return influence;
+    return Influence{};
+  };
+  CHECK(find("thermal drift").status == "bounded");
+  CHECK(find("thermal drift").at_most_um == doctest::Approx(0.3));
+  CHECK(find("thermal drift").source == "drift test");
+  CHECK(find("fixturing").at_most_um == doctest::Approx(1));
+  CHECK(find("fixturing").source == "task");
+  CHECK(find("operator").status == "not modelled");
+  CHECK(declare_influences(machine, &workpiece).messages.empty());
+  machine.effects = {{"thermal.cycle", {}}};
+  CHECK(find("thermal drift").status == "modelled");
+  const auto messages = declare_influences(machine, &workpiece).messages;
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].code == Code::W0434);
+}
+
+TEST_CASE("everything that an effect can do belongs to an influence") {
+  // Effects of what is always modelled: they enlarge geometry, indexing and repeatability.
+  const std::set<std::string_view> of_the_model{
+      "head.reindexing", "machine.scale", "machine.squareness", "machine.straightness_angle_coupling",
+      "machine.ram_droop", "machine.map_scallops", "machine.step", "probe.cosine_error", "probe.step"};
+  for (const Effect* effect : effects()) {
+    Machine machine;
+    const auto before = declare_influences(machine).influences;
+    machine.effects = {{std::string(effect->name), {}}};
+    int changed = 0;
+    const auto after = declare_influences(machine).influences;
+    for (std::size_t i = 0; i < after.size(); ++i) changed += after[i].status != before[i].status;
+    CAPTURE(std::string(effect->name));
+    CHECK(changed == (of_the_model.contains(effect->name) ? 0 : 1));
+  }
 }
 
 TEST_CASE("samples as CSV: every machine, labels quoted, angles in degrees") {

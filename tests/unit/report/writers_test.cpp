@@ -153,6 +153,21 @@ TEST_CASE("the text report reads at a glance") {
         "Not modelled: part temperature, operator.\n");
 }
 
+TEST_CASE("a bounded influence shows its bound and who stated it") {
+  RunReport r = report();
+  r.influences[1] = {"part temperature", "bounded", 0.35, "climate log"};
+  const Json influences = Json::parse(written("json", r))["influences"];
+  CHECK(influences[1] == Json{{"name", "part temperature"},
+                              {"status", "bounded"},
+                              {"at_most_um", 0.35},
+                              {"source", "climate log"}});
+  CHECK(!influences[0].contains("at_most_um"));
+  const std::string text = written("text", r);
+  CHECK(text.ends_with(
+      "Bounded, not in u: part temperature, at most 0.35 um at a touch (climate log).\n"
+      "Not modelled: operator.\n"));
+}
+
 TEST_CASE("how effects are used is told when there are any") {
   RunReport r = report();
   CHECK(Json::parse(written("json", r))["effects_use"].is_null());

@@ -58,6 +58,16 @@ TEST_CASE("every way to write a quantity is understood") {
   CHECK(s[6].offset_mm.value == doctest::Approx(0.838));
 }
 
+TEST_CASE("a workpiece file may bound influences") {
+  const Workpiece w = parse(
+      R"("bounds": [{"influence": "fixturing", "at_most_um": 2, "source": "FE model of the clamps"}])");
+  REQUIRE(w.bounds.size() == 1);
+  CHECK(w.bounds[0].influence == "fixturing");
+  CHECK(w.bounds[0].at_most_mm == doctest::Approx(0.002));
+  CHECK(has(faults(R"("bounds": [{"influence": "fixtures", "at_most_um": 2, "source": "s"}])"),
+            "E0432 there is no influence \"fixtures\" | did you mean \"fixturing\"?"));
+}
+
 TEST_CASE("contradictions in a quantity are named (E0421)") {
   const auto offset = [](const std::string& members) {
     return faults(surface(R"("offset_um": {"value": 1, )" + members + "}"));
