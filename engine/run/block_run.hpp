@@ -68,6 +68,7 @@ class BlockRun {
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
   void add_effects(const plan::Touch&, int machines);
+  void set_temperatures(const Temperatures& estimate, EffectSet::Group&) const;
   void put_on_part(const plan::Touch&, const Lane& twin, int slot);
   void add_part(int machines);
   void observe_touch(const plan::Touch&, int slot);

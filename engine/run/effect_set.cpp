@@ -93,6 +93,14 @@ bool EffectSet::is_linear(const Active& a) {
   return a.effect->draws == 0 || a.effect->linear_in_draws;
 }
 
+bool EffectSet::sees_temperatures(const Active& a) {
+  return (a.effect->needs & (Covariate::part_temperature | Covariate::scale_temperature)) != 0;
+}
+
+bool EffectSet::sees_temperatures() const {
+  return std::any_of(active_.begin(), active_.end(), [](const Active& a) { return sees_temperatures(a); });
+}
+
 std::vector<EffectSet::Component> EffectSet::components_of(const Active& a) {
   std::vector<double> zero = a.value, certain = a.value;
   for (std::size_t p = 0; p < zero.size(); ++p) {
@@ -189,7 +197,8 @@ void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std:
     if (a.effect->draws_per == DrawsPer::touch) draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
     if (a.effect->draws_per == DrawsPer::visit)
       draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
-    if (a.linear)
+    const bool own_scenes = sees_temperatures(a) && !group.temperatures.empty();
+    if (a.linear && !own_scenes)
       add_linear(a, lanes.weights[e], draws, sum);
     else
       add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, sum);
@@ -226,9 +235,10 @@ void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, c
   ABBE_CHECK(parameters <= kMostNumbers && numbers <= kMostNumbers);
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
   double values[kMostNumbers], z[kMostNumbers] = {};
-  const TouchScene& scene = *sum.group.scene;
+  TouchScene scene = *sum.group.scene;
   const Vec3 estimate = a.corrected ? a.effect->displace(scene, a.value.data(), z) : Vec3{};
   for (int i = 0; i < sum.n; ++i) {
+    if (!sum.group.temperatures.empty()) scene.temperature = sum.group.temperatures[i];
     for (std::size_t p = 0; p < parameters; ++p) values[p] = theta[p * sum.lanes + sum.lane[i]];
     for (std::size_t j = 0; j < numbers; ++j) z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
     sum.error.set(i, sum.error.get(i) + a.effect->displace(scene, values, z) - estimate);

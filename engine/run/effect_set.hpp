@@ -4,7 +4,9 @@
 // Cost: the scene of a touch is the same for all machines on one path. So an effect that is linear in what differs between machines
 // (its uncertain parameters, its draws) is evaluated once per touch for each of these, not once per machine:
 //   d = D(certain) + sum over the uncertain parameters p of theta_p D(unit p),   D(.) = sum over the draws j of z_j D(., unit j)
-// leaves a sum of vectors with weights by machine (lanes/weighted_sum.hpp). Other effects are sampled machine by machine.
+// leaves a sum of vectors with weights by machine (lanes/weighted_sum.hpp). Other effects are sampled machine by machine, and so are
+// those that need the temperature of part or scales where every machine has its own: then not even the scene is the same for all. What is
+// corrected is what the best estimates of parameters and temperatures together give.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +30,8 @@ class EffectSet {
   bool empty() const { return active_.empty(); }
   int size() const { return static_cast<int>(active_.size()); }
   const Effect& effect(int k) const { return *active_[k].effect; }
+  /// Does any effect depend on the temperature of part or scales?
+  bool sees_temperatures() const;
 
   /// What differs between the lanes of a block: parameters by effect, then [parameter][lane], and what follows from them.
   struct LaneParameters {
@@ -44,6 +48,7 @@ class EffectSet {
     const TouchScene* scene = nullptr;
     std::vector<int> slots;                  ///< of the batch, machines only
     std::vector<std::uint32_t> indexings;    ///< by slot of the group: which indexing event the head is in
+    std::vector<Temperatures> temperatures;  ///< by slot of the group; empty: all have those of the scene
   };
   /// Adds effect `k` (every effect when k < 0) to the errors of a group. `site`: the ordinal of the touch.
   void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
@@ -64,6 +69,7 @@ class EffectSet {
   };
   struct Sum;                ///< of the effects on one group
   static bool is_linear(const Active&);
+  static bool sees_temperatures(const Active&);
   static std::vector<Component> components_of(const Active&);
   static std::vector<double> weights(const Active&, const std::vector<double>& theta, const std::vector<double>& machine_draws,
                                      int lanes);

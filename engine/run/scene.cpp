@@ -32,6 +32,8 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     group.indexings.push_back(lane.indexings);
   }
   const bool acting = executor.options_.contributors.effects && !executor.effects_.empty();
+  const bool own_temperatures =
+      acting && executor.part_.given() && temperatures_vary(executor.part_.workpiece()) && executor.effects_.sees_temperatures();
   for (int slot = machines; slot < touch_batch.n; ++slot) {
     const int index = touch_batch.lane[slot];
     Lane& twin = block.lanes[index];
@@ -62,9 +64,16 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     scene.visit = static_cast<int>(twin.indexings);
     set_levers(executor.machine_, scene);
     group->second.scene = &scene;
+    if (own_temperatures) set_temperatures(scene.temperature, group->second);
     executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.seed,
                           executor.site_[operation], touch_batch);
   }
+}
+
+/// The true temperatures of each machine of a group: what effects depend on, and what nobody knows.
+void BlockRun::set_temperatures(const Temperatures& estimate, EffectSet::Group& group) const {
+  for (const int slot : group.slots)
+    group.temperatures.push_back(drawn_temperatures(estimate, block.parts[touch_batch.lane[slot]].thermal));
 }
 
 void BlockRun::put_on_part(const plan::Touch& touch, const Lane& twin, int slot) {

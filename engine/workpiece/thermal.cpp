@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
@@ -42,6 +44,19 @@ ThermalDraw draw_thermal(const Workpiece& w, DrawFor who) {
     d.scale_K.fill(d.part_K - difference_K);
   }
   return d;
+}
+
+bool temperatures_vary(const Workpiece& w) {
+  const auto doubtful = [](const Uncertain& quantity) { return !quantity.exact(); };
+  return doubtful(w.part_C) || std::any_of(w.scale_C, w.scale_C + 3, doubtful) ||
+         (w.part_minus_scale_K && doubtful(*w.part_minus_scale_K));
+}
+
+Temperatures drawn_temperatures(const Temperatures& estimate, const ThermalDraw& draw) {
+  Temperatures t = estimate;
+  t.part += draw.part_K;
+  for (int k = 0; k < 3; ++k) t.scale[k] += draw.scale_K[k];
+  return t;
 }
 
 Vec3 strain(const Workpiece& w, const ThermalDraw& d, const Temperatures& estimate,

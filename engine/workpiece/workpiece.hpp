@@ -101,6 +101,11 @@ struct ThermalDraw {
   std::array<double, 3> scale_sensor_K{};
 };
 ThermalDraw draw_thermal(const Workpiece&, DrawFor);
+/// Are part or scales known with an uncertainty only, so that every virtual machine has its own
+/// temperatures?
+bool temperatures_vary(const Workpiece&);
+/// The temperatures of one virtual machine at a moment for which temperatures() gives `estimate`.
+Temperatures drawn_temperatures(const Temperatures& estimate, const ThermalDraw&);
 /// Displacement of a surface point per mm of its distance from the fixed point, by axis of the
 /// machine. `estimate`: what temperatures() gives for the moment of the touch.
 Vec3 strain(const Workpiece&, const ThermalDraw&, const Temperatures& estimate, bool compensated);

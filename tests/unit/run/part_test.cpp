@@ -217,6 +217,39 @@ TEST_CASE("effects of the machine see the temperatures and the load of the workp
   CHECK(r.samples[0].value[0] == doctest::Approx(500.0025).epsilon(1e-12));
 }
 
+TEST_CASE("effects of the machine see the temperatures that each virtual machine drew") {
+  // d = -(e (T - 20)) s over 500 mm along x, with e = 2 ppm/K and T = 22 +- 0.5 degrees C, and then with e +- 0.5 ppm/K too:
+  // var = L^2 [ (e u_T)^2 + (u_e (T - 20))^2 + (u_e u_T)^2 ], the product of two independent quantities.
+  constexpr int kMany = 4000;
+  constexpr double kLength_mm = 500, kE = 2e-6, kUE = 0.5e-6, kT = 2, kUT = 0.5;
+  const Workpiece w = workpiece(
+      R"("material": {"cte_ppm_per_K": 0}, "temperature": {"scale_C": {"value": 22, "u": 0.5}})");
+  const auto run_with = [&](double u, EffectUse use, int block_lanes, bool part) {
+    Machine machine = read_machine("coord3-mc16");
+    machine.effects = {{"thermal.scale_expansion", {{"cte_error_ppm_per_K", {2, u, ""}}}}};
+    RunOptions options;
+    options.contributors.geometry = options.contributors.head = options.contributors.probe = false;
+    options.contributors.part = part;
+    options.effect_use = use;
+    options.block_lanes = block_lanes;
+    options.workpiece = &w;
+    return run_plan(length(), machine, screened_machines(machine, 1, kMany, 2), options, no_source()).samples[0].value;
+  };
+  const auto check = [&](const Moments& m, double mean, double variance) {
+    CHECK(std::fabs(m.mean - mean) < 5 * std::sqrt(variance / kMany));
+    CHECK(m.sd * m.sd == doctest::Approx(variance).epsilon(0.12));  // five standard errors
+  };
+  const double temperature_alone = kLength_mm * kLength_mm * kE * kE * kUT * kUT;
+  const double both = kLength_mm * kLength_mm * (kE * kE * kUT * kUT + kUE * kUE * kT * kT + kUE * kUE * kUT * kUT);
+  const std::vector<double> drawn = run_with(0, EffectUse::left_in, 128, true);
+  check(moments(drawn), 500 - kE * kT * kLength_mm, temperature_alone);
+  check(moments(run_with(0.5, EffectUse::left_in, 128, true)), 500 - kE * kT * kLength_mm, both);
+  check(moments(run_with(0.5, EffectUse::corrected, 128, true)), 500, both);
+  // The temperatures are those of the machines, whatever else acts and however they are grouped.
+  CHECK(run_with(0, EffectUse::left_in, 37, true) == drawn);
+  CHECK(run_with(0, EffectUse::left_in, 128, false) == drawn);
+}
+
 TEST_CASE("a logged temperature acts at the time of the touch") {
   // The part warms by 1 K while the program goes to the second point: only that point has moved.
   Workpiece w = workpiece(R"("material": {"cte_ppm_per_K": 10})");
