@@ -61,6 +61,8 @@ void add_run(CLI::App& app, Chosen& chosen) {
       ->excludes("--machines");
   add_effects(command, settings.effect_use);
   command->add_flag("--budget", settings.budget, "share out the variance among all sources, and between alignment and features");
+  command->add_option("--coverage", settings.coverage, "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
+      ->type_name("P");
   command->add_flag("--only-valid", o->request.only_valid, "leave out statements with errors, and say what is lost");
   std::vector<std::string> formats;
   for (const ReportWriter* writer : report_writers()) formats.emplace_back(writer->name);

@@ -60,6 +60,7 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
   options.digits = settings.digits;
   options.budget = settings.budget;
+  options.coverage = settings.coverage;
   options.effect_use = settings.effect_use;
   options.threads = thread_count(settings.threads);
 

@@ -24,6 +24,7 @@ struct StudySettings {
   std::optional<int> digits;           ///< significant digits of u that must be stable; chooses the number of machines
   std::optional<std::uint64_t> seed;
   bool budget = false;
+  std::optional<double> coverage;      ///< of the further intervals
   EffectUse effect_use = EffectUse::left_in;
   int threads = 0;                     ///< 0: all of the computer
 };

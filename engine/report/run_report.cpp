@@ -21,13 +21,22 @@ std::optional<double> scaled(std::optional<double> value, double factor) {
   return value ? std::optional(*value * factor) : std::nullopt;
 }
 
-/// The values, moved by what a material condition makes the upper limit of a machine differ from that of
-/// the error-free one: each conforms to the common limits just when its own value did to its own.
+/// The values, moved by what a material condition makes the upper limit of a machine differ from
+/// that of the error-free one: each conforms to the common limits just when its own value did to
+/// its own.
 std::vector<double> against_common_limits(const Samples& samples) {
   std::vector<double> values = samples.value;
   for (std::size_t i = 0; i < samples.own_limits.size(); ++i)
     values[i] -= samples.own_limits[i].upper.value() - samples.limits.upper.value();
   return values;
+}
+
+CharacteristicReport::CoverageInterval interval_of(const Samples& samples, double factor,
+                                                   double coverage) {
+  std::vector<double> values = samples.value;
+  for (double& v : values) v *= factor;
+  const Summary s = summarize(values, coverage);
+  return {coverage, s.symmetric, s.shortest};
 }
 
 CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples,
@@ -54,8 +63,8 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.lower = scaled(samples.limits.lower, factor);
   report.upper = scaled(samples.limits.upper, factor);
   if (report.lower || report.upper)
-    report.conformance_probability =
-        conformance_probability(against_common_limits(samples), samples.limits.lower, samples.limits.upper);
+    report.conformance_probability = conformance_probability(
+        against_common_limits(samples), samples.limits.lower, samples.limits.upper);
   report.trapped = machines - static_cast<int>(samples.value.size());
   return report;
 }
@@ -65,7 +74,8 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
                                                          const RunResult& result,
                                                          const std::vector<ContributorRun>& alone,
-                                                         const BudgetRuns* budget) {
+                                                         const BudgetRuns* budget,
+                                                         std::optional<double> coverage) {
   for (const ContributorRun& run : alone)
     ABBE_CHECK(run.result.samples.size() == result.samples.size());
   std::vector<CharacteristicReport> reports;
@@ -73,15 +83,17 @@ std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
     const Samples& samples = result.samples[i];
     if (samples.value.size() < 2) continue;
     CharacteristicReport report = characteristic_report(plan, samples, result.machines);
+    if (coverage)
+      report.interval =
+          interval_of(samples, report_unit(plan, samples.characteristic).factor, *coverage);
     const plan::ToleranceDef& tolerance = plan[plan[samples.characteristic].tolerance];
     const Unit unit = unit_of(*tolerance.kind, tolerance.arguments);
     report.contributions = contributions(alone, i, unit);
     if (budget) {
       const double factor = report_unit(plan, samples.characteristic).factor;
       report.budget = variance_budget(budget->alone, i, unit, factor);
-      report.alignment_split =
-          alignment_split(samples, budget->alignment.samples.at(i), budget->feature.samples.at(i),
-                          unit, factor);
+      report.alignment_split = alignment_split(samples, budget->alignment.samples.at(i),
+                                               budget->feature.samples.at(i), unit, factor);
     }
     reports.push_back(std::move(report));
   }

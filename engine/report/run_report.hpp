@@ -27,6 +27,12 @@ struct CharacteristicReport {
   double nominal = 0, reference = 0;
   Summary summary;                     ///< of the values
   double lcl = 0, ucl = 0;             ///< limits of the 95 % interval minus reference
+  /// The interval of another coverage probability, of the values; none: not asked for.
+  struct CoverageInterval {
+    double coverage = 0.95;
+    Interval symmetric, shortest;  ///< JCGM 101, 7.7
+  };
+  std::optional<CoverageInterval> interval;
   std::optional<double> lower, upper;  ///< tolerance limits of the value
   std::optional<double> conformance_probability;
   struct Contribution {
@@ -83,9 +89,10 @@ struct BudgetRuns {
 /// Turns samples into the figures of the report; angles become degrees here. Characteristics that
 /// fewer than two machines reached have no figures and are left out. A contributor's share is the
 /// variance of its own run over the sum of those variances; variances of rounding, below (1e-9
-/// mm)^2 or (1e-12 rad)^2, count as 0.
+/// mm)^2 or (1e-12 rad)^2, count as 0. With `coverage` each has an interval of that probability.
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan&, const RunResult&,
                                                          const std::vector<ContributorRun>& alone,
-                                                         const BudgetRuns* budget = nullptr);
+                                                         const BudgetRuns* budget = nullptr,
+                                                         std::optional<double> coverage = {});
 
 }  // namespace abbe

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "engine/base/ids.hpp"
@@ -24,6 +25,14 @@ void check_options(const StudyOptions& options) {
         Code::E0603,
         fmt::format("{} significant digits of u were asked for; expected 1 or 2", *options.digits),
         "each further digit needs a hundred times as many machines"));
+  if (options.coverage && !(*options.coverage > 0 && *options.coverage < 1))
+    throw UserError(diagnostic(
+        Code::E0603,
+        fmt::format("a coverage probability of {:g} was asked for; expected between 0 and 1",
+                    *options.coverage),
+        *options.coverage > 1 && *options.coverage < 100
+            ? fmt::format("{:g} % is {:g}", *options.coverage, *options.coverage / 100)
+            : "99 % is 0.99"));
 }
 
 /// Every contributor acting alone, by the name under which its share is reported.
@@ -189,13 +198,15 @@ class StudyRun {
     if (!machine_.effects.empty()) report.effect_use = options_.effect_use;
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
-    report.characteristics = characteristic_reports(plan_, study_.result, alone, budget);
+    report.characteristics =
+        characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
     Declaration declaration = declare_influences(machine_, options_.workpiece);
     report.influences = std::move(declaration.influences);
     std::move(declaration.messages.begin(), declaration.messages.end(),
               std::back_inserter(report.messages));
     report.traps = study_.result.traps;
     add_unreached();
+    warn_of_few_machines();
     warn_of_screening();
     if (study_.result.samples.empty())
       message(Code::W0606, "the program evaluates no characteristic",
@@ -219,9 +230,22 @@ class StudyRun {
     }
   }
 
+  /// Beyond each end of an interval must be some values, or its ends are those of the sample.
+  void warn_of_few_machines() {
+    constexpr double kBeyond = 20;
+    if (!options_.coverage || study_.result.machines * (1 - *options_.coverage) >= kBeyond) return;
+    message(Code::W0435,
+            fmt::format("{} machines are few for a coverage of {:g}", study_.result.machines,
+                        *options_.coverage),
+            fmt::format("ask for --machines {:.0f} or more; JCGM 101, 7.2.2 recommends {:.0f}",
+                        std::ceil(kBeyond / (1 - *options_.coverage)),
+                        std::ceil(1e4 / (1 - *options_.coverage))));
+  }
+
   void warn_of_screening() {
     step("looking for a factor on e_max");
-    if (auto warning = screening_warning(machine_, study_.report.machines, options_.seed, options_.threads))
+    if (auto warning =
+            screening_warning(machine_, study_.report.machines, options_.seed, options_.threads))
       study_.report.messages.push_back(std::move(*warning));
   }
 

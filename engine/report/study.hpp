@@ -38,6 +38,7 @@ struct StudyOptions {
       100;  ///< blocks after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
   int threads = 1;
   bool budget = false;  ///< also each error function alone, and the alignment against the features
+  std::optional<double> coverage;  ///< in (0, 1): also report the intervals of this probability
   EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;                     ///< RunOptions::placement_mm
   const Workpiece* workpiece = nullptr;  ///< RunOptions::workpiece

@@ -24,7 +24,7 @@ def check_gauge_block(folder):
     # 95 % limits below. With 100 000 machines the standard errors are 0.113 nm (mean), 0.083 nm (u) and 0.32 nm (limits); six of
     # them are allowed: false alarm below 1e-8 in all.
     written = folder / "values.csv"
-    done = abbe("run", EXAMPLE / "gauge_block.dmi", "--format", "json", "--csv", written)
+    done = abbe("run", EXAMPLE / "gauge_block.dmi", "--coverage", 0.99, "--format", "json", "--csv", written)
     assert done.returncode == 0, done.stderr
     report = json.loads(done.stdout)
     length = report["characteristics"][0]
@@ -38,6 +38,15 @@ def check_gauge_block(folder):
     assert abs(length["u"] * 1e6 - u) < 1e-3, (length["u"], u)
     low, high = ((x - 50) * 1e6 for x in length["interval95"]["symmetric"])
     assert abs(low - LOW) < 6 * 0.32 and abs(high - HIGH) < 6 * 0.32, (low, high)
+    # JCGM 101, 9.5 gives the shortest 99 % interval as [744, 931] nm; by the 8 000 000 draws [744.0, 931.3], with the symmetric one
+    # [744.4, 931.7]. The density at the 0.5 % points is about 0.0004 per nm, so a limit has a standard error of sqrt(0.005/n)/0.0004
+    # = 0.56 nm; six of them for the symmetric one. The shortest wanders along a flat optimum with a few times that error.
+    interval = length["interval"]
+    assert interval["coverage"] == 0.99, interval
+    low, high = ((x - 50) * 1e6 for x in interval["symmetric"])
+    assert abs(low - 744.4) < 6 * 0.56 and abs(high - 931.7) < 6 * 0.56, (low, high)
+    low, high = ((x - 50) * 1e6 for x in interval["shortest"])
+    assert abs(low - 744) < 7 and abs(high - 931) < 7, (low, high)
     assert length["contributions"] == {"geometry": 0, "head": 0, "probe": 0, "part": 1}, length
     status = {i["name"]: i["status"] for i in report["influences"]}
     assert all(status[name] == "modelled" for name in ("part temperature", "scale temperature", "true size of the part")), status

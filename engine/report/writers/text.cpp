@@ -119,6 +119,30 @@ std::string budget_table(const RunReport& r) {
          "coordinate systems are built from\n(alignment) against the others (feature).\n";
 }
 
+/// The intervals of another coverage probability; nothing when none was asked for.
+std::string interval_table(const RunReport& r) {
+  using enum Table::Align;
+  if (r.characteristics.empty() || !r.characteristics.front().interval) return "";
+  const std::string percent =
+      fmt::format("{:g} %", 100 * r.characteristics.front().interval->coverage);
+  Table table({{"line"},
+               {"feature", left},
+               {"tolerance", left},
+               {"unit", left},
+               {"symmetric " + percent, left},
+               {"shortest " + percent, left}});
+  for (const auto& c : r.characteristics) {
+    const int decimals = decimals_for(c.summary.u);
+    const auto from_value = [&](const Interval& i) {
+      return fmt::format("{:+.{}f} to {:+.{}f}", i.low - c.reference, decimals,
+                         i.high - c.reference, decimals);
+    };
+    table.add({std::to_string(c.line), joined(c.features), c.tolerance, c.unit,
+               from_value(c.interval->symmetric), from_value(c.interval->shortest)});
+  }
+  return "\n" + table.to_text() + "\nlimits minus value.\n";
+}
+
 std::string legend(const RunReport& r) {
   double worst = 0;
   for (const auto& c : r.characteristics)
@@ -195,7 +219,7 @@ std::string header(const RunReport& r) {
 
 std::string write_text(const RunReport& r) {
   std::string out = header(r) + "\n" + characteristics_table(r);
-  if (!r.characteristics.empty()) out += legend(r) + budget_table(r);
+  if (!r.characteristics.empty()) out += legend(r) + interval_table(r) + budget_table(r);
   const std::string remarks = trapped_machines(r) + lost_characteristics(r) + general_messages(r);
   if (!remarks.empty()) out += "\n" + remarks;
   return out + bounded(r) + not_modelled(r);

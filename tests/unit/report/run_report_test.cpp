@@ -129,6 +129,16 @@ TEST_CASE("influences are declared; an effect of the machine file makes its infl
   CHECK(status(machine, "thermal drift") == "not modelled");
 }
 
+TEST_CASE("a coverage that is asked for gives its intervals beside those of 95 %") {
+  const RunResult run = run_of({samples(0, 500, {}, ramp(500, 1e-3))}, 1000);
+  CHECK(!characteristic_reports(length_and_angle(), run, {})[0].interval);
+  const auto report = characteristic_reports(length_and_angle(), run, {}, nullptr, 0.5)[0];
+  REQUIRE(report.interval);
+  CHECK(report.interval->coverage == 0.5);
+  CHECK(report.interval->symmetric.high - report.interval->symmetric.low == doctest::Approx(0.5));
+  CHECK(report.ucl - report.lcl == doctest::Approx(0.95));
+}
+
 TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpiece file goes first") {
   Machine machine;
   machine.bounds = {{"thermal drift", 0.0003, "drift test"}, {"fixturing", 0.002, "machine"}};

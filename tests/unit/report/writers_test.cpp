@@ -168,6 +168,20 @@ TEST_CASE("a bounded influence shows its bound and who stated it") {
       "Not modelled: operator.\n"));
 }
 
+TEST_CASE("an interval of another coverage is shown when it was asked for") {
+  RunReport r = report();
+  CHECK(!Json::parse(written("json", r))["characteristics"][0].contains("interval"));
+  CHECK(written("text", r).find("symmetric") == std::string::npos);
+  r.characteristics[0].reference = 500;
+  r.characteristics[0].interval = {0.99, {499.99, 500.012}, {499.991, 500.01}};
+  const Json interval = Json::parse(written("json", r))["characteristics"][0]["interval"];
+  CHECK(interval == Json{{"coverage", 0.99}, {"symmetric", {499.99, 500.012}}, {"shortest", {499.991, 500.01}}});
+  const std::string text = written("text", r);
+  CHECK(text.find("symmetric 99 %") != std::string::npos);
+  CHECK(text.find("-0.0100 to +0.0120") != std::string::npos);
+  CHECK(text.find("-0.0090 to +0.0100") != std::string::npos);
+}
+
 TEST_CASE("how effects are used is told when there are any") {
   RunReport r = report();
   CHECK(Json::parse(written("json", r))["effects_use"].is_null());
