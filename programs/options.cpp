@@ -140,7 +140,7 @@ void add_record(CLI::App& app, Chosen& chosen) {
   command->add_option("PROGRAM", o->program, "a DMIS program")->required();
   command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
   command->add_option("--workpiece", o->workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
-  command->add_option("--with", o->with, "let an effect act: EFFECT or EFFECT:parameter=value,... (may be repeated)")
+  command->add_option("--with", o->with, "let an effect act, left in: EFFECT or EFFECT:parameter=value,... (may be repeated)")
       ->type_name("EFFECT")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S")->check(not_negative());
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
