@@ -174,30 +174,39 @@ Matrix compressed(const Matrix& m) {
   return m * solver.eigenvectors().rightCols(values.size() - first);
 }
 
-void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
-  for (const Effect* effect : effects()) {
-    if (is_noise(*effect)) continue;
-    Explanation explanation;
-    explanation.name = std::string(effect->name);
-    explanation.effect = effect;
-    explanation.factor = factor_of(*effect);
-    explanation.missing = missing_of(*effect, t);
-    std::vector<Search> search;
-    for (const EffectParameter& p : effect->parameters) search.push_back(search_of(p, t));
-    const Evaluation evaluation(*effect, t, rows);
-    const VariantColumns variant(*effect, search, evaluation);
-    for (std::vector<double>& theta : settings(*effect, search)) {
-      Block block;
-      block.explanation = static_cast<int>(out.list.size());
-      block.theta = std::move(theta);
-      variant.fill(block);
-      if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
-      explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
-      out.blocks.push_back(std::move(block));
-    }
-    if (explanation.missing || explanation.blocks.empty()) out.unjudged.push_back({effect, explanation.missing});
-    if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
+void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  Explanation explanation;
+  explanation.name = std::string(effect.name);
+  explanation.effect = &effect;
+  explanation.factor = factor_of(effect);
+  explanation.missing = missing_of(effect, t);
+  std::vector<Search> search;
+  for (const EffectParameter& p : effect.parameters) search.push_back(search_of(p, t));
+  const Evaluation evaluation(effect, t, rows);
+  const VariantColumns variant(effect, search, evaluation);
+  for (std::vector<double>& theta : settings(effect, search)) {
+    Block block;
+    block.explanation = static_cast<int>(out.list.size());
+    block.theta = std::move(theta);
+    variant.fill(block);
+    if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
+    explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
+    out.blocks.push_back(std::move(block));
   }
+  if (explanation.missing || explanation.blocks.empty()) out.unjudged.push_back({&effect, explanation.missing});
+  if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
+}
+
+void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  for (const Effect* effect : effects())
+    if (!is_noise(*effect)) add_effect(*effect, t, rows, out);
+}
+
+Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows, const std::vector<std::string>& names) {
+  Explanations out;
+  for (const std::string& name : names) add_effect(*find_effect(name), t, rows, out);
+  for (Explanation& e : out.list) e.prior = 1.0 / double(out.list.size());
+  return out;
 }
 
 Explanations explanations_for(const RecordedTouches& t, const std::vector<int>& rows) {

@@ -63,6 +63,19 @@ void mask_outliers(Case& c) {
     if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));
 }
 
+/// Raw readings as they would be without the noise of the touch. A reading holds its own touch's noise, and so does the residual: where
+/// targets lie on a grid, any short period of the scale would seem to explain the one by the other.
+void free_readings_of_noise(Case& c) {
+  if ((c.touches.known & static_cast<unsigned>(Covariate::raw_reading)) == 0) return;
+  const Vector loo = leave_one_out(c.model, c.hyper);
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double noise_mm = 1e-3 * loo(i) * c.model.noise_um(i) * c.hyper.noise(c.model.noise_group[k]);
+    TouchScene& scene = c.touches.touches[c.rows[k]].scene;
+    scene.reading -= noise_mm * scene.normal;
+  }
+}
+
 BaselineSummary summary(const Case& c, bool known) {
   BaselineSummary b;
   b.known = known;
@@ -191,6 +204,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
     for (std::size_t i = 0; i < c.masked.size(); ++i) c.rows.push_back(static_cast<int>(i));
   } else {
     mask_outliers(c);
+    free_readings_of_noise(c);
   }
   c.explanations = explanations_for(c.touches, c.rows);
   out.baseline = summary(c, !machine.known_state.empty());

@@ -87,16 +87,23 @@ Evidence EvidenceSearch::evaluate(const Data& d) const {
 
 Evidence EvidenceSearch::evidence() const { return evaluate(of_recording()); }
 
-std::vector<Evidence> EvidenceSearch::bootstrap(int replicates, std::uint64_t seed, int threads) const {
-  std::vector<Evidence> out(replicates);
-  std::atomic<int> next = 0;
-  const auto work = [&] {
-    for (int r = next++; r < replicates; r = next++) out[r] = evaluate(simulated(seed, r));
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-    work();
+std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const {
+  constexpr int kBatch = 20, kEnough = 10;
+  std::vector<Evidence> out;
+  int extreme = 0;
+  while (static_cast<int>(out.size()) < replicates && extreme < kEnough) {
+    const int first = static_cast<int>(out.size()), count = std::min(kBatch, replicates - first);
+    out.resize(first + count);
+    std::atomic<int> next = first;
+    const auto work = [&] {
+      for (int r = next++; r < first + count; r = next++) out[r] = evaluate(simulated(seed, r));
+    };
+    {
+      std::vector<std::jthread> pool;
+      for (int t = 1; t < threads; ++t) pool.emplace_back(work);
+      work();
+    }
+    for (int r = first; r < first + count; ++r) extreme += out[r].statistic >= observed ? 1 : 0;
   }
   return out;
 }

@@ -29,8 +29,9 @@ class EvidenceSearch {
   Evidence evidence() const;
   const Level& level() const { return level_; }
 
-  /// Evidence of simulated recordings without mismatch. The same for any number of threads.
-  std::vector<Evidence> bootstrap(int replicates, std::uint64_t seed, int threads) const;
+  /// Evidence of simulated recordings without mismatch, at most `replicates`: fewer once enough of them are as extreme as `observed` to
+  /// know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991). The same for any number of threads.
+  std::vector<Evidence> bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const;
 
   /// G and u of a block at the level of the recording.
   struct Information {

@@ -58,8 +58,12 @@ inline constexpr double kSizes[] = {0.3, 1, 3, 10};
 /// Every explanation for these touches; `rows`: which touches take part.
 Explanations explanations_for(const RecordedTouches&, const std::vector<int>& rows);
 
+/// The effects of these names only, in the order of the names.
+Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows, const std::vector<std::string>& names);
+
 /// Appends the blocks of every effect of the registry (catalogue.cpp), and those of OTHER (other.cpp).
 void add_catalogue(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+void add_effect(const Effect&, const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
 /// The same space with as few orthogonal columns as its rank needs.

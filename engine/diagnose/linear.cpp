@@ -12,8 +12,16 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr double kScalePrior = 0.7, kNoisePrior = 0.5;   // of the logarithms
+constexpr double kDependent = 1e-9;
 constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
 constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
+
+/// Columns that span the same space and are independent: touches of few directions leave parts of a placement open.
+Matrix independent(const Matrix& columns) {
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  qr.setThreshold(kDependent);
+  return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
+}
 
 /// Rows divided by their standard deviation, then differenced so that neighbours are independent again.
 Matrix whitened(const Matrix& columns, const Vector& weight, double phi, const std::vector<char>& follows) {
@@ -34,10 +42,13 @@ Vector weights(const LinearModel& m, const Hyperparameters& h) {
 /// Moments of whitened rows by noise group, from which the likelihood at any noise and scale follows without a pass over the rows.
 class Likelihood {
  public:
-  Likelihood(const LinearModel& m, double phi) : model_(m), free_(m.free.cols()), q_(m.free.cols() + m.random.cols()), phi_(phi) {
+  Likelihood(const LinearModel& m, double phi) : model_(m), phi_(phi) {
     const Vector unit = m.noise_um.cwiseInverse();
+    const Matrix x = independent(m.free);
+    free_ = x.cols();
+    q_ = free_ + m.random.cols();
     Matrix w(m.y.size(), q_);
-    w << m.free, m.random;
+    w << x, m.random;
     const Matrix rows = whitened(w, unit, phi, m.follows), y = whitened(m.y, unit, phi, m.follows);
     for (int g = 0; g < m.noise_groups; ++g) {
       std::vector<Eigen::Index> in;
@@ -85,7 +96,7 @@ class Likelihood {
     double y_square = 0, rows = 0;
   };
   const LinearModel& model_;
-  Eigen::Index free_, q_;
+  Eigen::Index free_ = 0, q_ = 0;
   double phi_;
   std::vector<Moments> moments_;
 };
@@ -170,10 +181,7 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
 }
 
 Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation) {
-  const Matrix x = whiten(m.free);
-  Eigen::ColPivHouseholderQR<Matrix> qr(x);
-  qr.setThreshold(1e-9);
-  q_ = Matrix(qr.householderQ() * Matrix::Identity(x.rows(), qr.rank()));
+  q_ = independent(whiten(m.free));
   y_ = project(m.y);
   Matrix scaled = m.random;
   for (Eigen::Index k = 0; k < scaled.cols(); ++k)

@@ -11,7 +11,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kNoiseAlarm = 1e-3;
+/// Three looks at the variance may not cost more false alarms than a tenth of what the search allows itself.
+constexpr double kNoiseAlarm = 3e-4;
 
 /// The probability that a chi-squared variable of one degree of freedom exceeds x.
 double chi2_above_1(double x) { return std::erfc(std::sqrt(std::max(0.0, x) / 2)); }

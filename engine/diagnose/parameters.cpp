@@ -76,7 +76,7 @@ double grid_u(const std::vector<double>& grid, double value) {
   double nearest = 1e300;
   for (const double g : grid)
     if (g != value) nearest = std::min(nearest, std::abs(g - value));
-  return grid.size() > 1 ? nearest / std::sqrt(12.0) : 0;
+  return nearest < 1e300 ? nearest / std::sqrt(12.0) : 0;
 }
 
 class Estimator {
@@ -94,6 +94,7 @@ class Estimator {
     const Evidence evidence = search.evidence();
     std::vector<double> logs = evidence.block_log_bayes;
     const double total = log_sum_exp(logs);
+    for (const Block& b : mine.blocks) tried_.push_back(b.theta);
     for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
       const double weight = std::exp(logs[b] - total);
       if (weight < 1e-4) continue;
@@ -155,7 +156,7 @@ class Estimator {
 
   std::vector<Component> searched(std::size_t p) const {
     std::vector<double> grid;
-    for (const Variant& v : variants_) grid.push_back(v.block.theta[p]);
+    for (const std::vector<double>& theta : tried_) grid.push_back(theta[p]);
     std::vector<Component> mixture;
     for (const Variant& v : variants_) mixture.push_back({v.weight, v.block.theta[p], grid_u(grid, v.block.theta[p])});
     return normalised(mixture);
@@ -191,6 +192,7 @@ class Estimator {
   }
 
   const Explanation& explanation_;
+  std::vector<std::vector<double>> tried_;
   std::vector<Variant> variants_;
 };
 

@@ -10,6 +10,8 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kRounds = 3;
+/// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second name needs more.
+constexpr double kLaterAlarm = 1e-3;
 
 /// Probabilities of the explanations, given that one of them is there.
 std::vector<double> probabilities(const Explanations& explanations, const Evidence& evidence) {
@@ -64,7 +66,8 @@ Round round(const Case& c, const std::vector<Finding>& before, int number) {
   for (const Finding& f : before) removed.push_back(&c.explanations.blocks[f.block].signature);
   const LinearModel model = with_free(c.model, removed);
   const EvidenceSearch search(model, c.hyper, c.explanations);
-  Round r{search.evidence(), search.bootstrap(c.options.replicates, c.options.seed + static_cast<std::uint64_t>(number), c.options.threads), 1};
+  Round r{search.evidence(), {}, 1};
+  r.null = search.bootstrap(r.evidence.statistic, c.options.replicates, c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
   std::vector<double> simulated;
   for (const Evidence& e : r.null) simulated.push_back(e.statistic);
   r.p = tail_probability(r.evidence.statistic, std::move(simulated));
@@ -93,7 +96,7 @@ SearchResult search(const Case& c) {
       result.first = r.evidence;
       result.null = std::move(r.null);
     }
-    if (r.p > kAlarm || number == kRounds) break;
+    if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     Finding named = finding_of(c, r.evidence, true), other = finding_of(c, r.evidence, false);
     named.p = other.p = r.p;
     if (named.probability >= other.probability) {

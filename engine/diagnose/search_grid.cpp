@@ -49,7 +49,7 @@ std::vector<double> places(const RecordedTouches& t) {
 }
 
 std::vector<double> choices(const EffectParameter& p, const RecordedTouches& t) {
-  const double high = p.name == "sensor" ? static_cast<double>(t.sensors.size() > 1 ? t.sensors.size() : 0) : p.high;
+  const double high = p.name == "sensor" ? static_cast<double>(t.styli.size() > 1 ? t.styli.size() : 0) : p.high;
   std::vector<double> list;
   for (double v = p.low; v <= high; ++v) list.push_back(v);
   return list;
@@ -62,7 +62,7 @@ bool is_direction(const EffectParameter& p) { return p.name == "direction" && p.
 Search search_of(const EffectParameter& p, const RecordedTouches& t) {
   using Kind = Search::Kind;
   static const std::map<std::string_view, std::vector<double>> tried = {
-      {"period_um", {2, 4, 8, 10, 16, 20, 32, 40, 50, 100, 128, 200}},
+      {"period_um", {4, 8, 10, 16, 20, 32, 40, 50, 100, 128, 200}},
       {"spacing_mm", {20, 25, 40, 50, 100}},
       {"node_mm", {0, 5, 10, 12.5, 25, 37.5}},
       {"memory_mm", {0}},

@@ -115,9 +115,9 @@ class Sensors {
     const auto found = known_.find(key);
     if (found != known_.end()) return found->second;
     Sensor sensor = resolve(name, row, out);
-    const auto at = std::find(out.sensors.begin(), out.sensors.end(), sensor.name);
-    sensor.ordinal = static_cast<int>(at - out.sensors.begin()) + 1;
-    if (at == out.sensors.end()) out.sensors.push_back(sensor.name);
+    sensor.ordinal = stylus_ordinal(sensor, met_);
+    met_.push_back(sensor);
+    if (static_cast<int>(out.styli.size()) < sensor.ordinal) out.styli.push_back(sensor.name);
     return known_.emplace(key, std::move(sensor)).first->second;
   }
 
@@ -174,6 +174,7 @@ class Sensors {
   const Machine& machine_;
   std::string file_;
   std::map<std::string, Sensor> known_;
+  std::vector<Sensor> met_;
   bool said_ = false;
 };
 
@@ -196,9 +197,9 @@ Vec3 placement(const Recording& recording, const Machine& machine, const std::ve
 }
 
 int label_index(std::vector<std::string>& labels, const std::string& label) {
-  const auto at = std::find(labels.begin(), labels.end(), label);
-  if (at == labels.end()) labels.push_back(label);
-  return static_cast<int>(at - labels.begin());
+  const auto index = std::find(labels.begin(), labels.end(), label) - labels.begin();
+  if (index == static_cast<std::ptrdiff_t>(labels.size())) labels.push_back(label);
+  return static_cast<int>(index);
 }
 
 /// What the scene has of time, motion and temperatures; what was not logged stays at its usual value.
@@ -288,7 +289,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     if (row.reading_mm) s.reading = *row.reading_mm;
     out.touches.push_back(std::move(t));
   }
-  for (RecordedTouch& t : out.touches) t.scene.stylus.name = out.sensors[t.scene.stylus.ordinal - 1];
+  for (RecordedTouch& t : out.touches) t.scene.stylus.name = *out.names.insert(sensor_of[t.row]->name).first;
   follow_sequence(recording, out.touches);
   return out;
 }

@@ -8,6 +8,7 @@
 // with the centre of its targets as origin; other setups are brought onto them by the touches that they share (best rigid fit).
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ struct RecordedTouch {
 struct RecordedTouches {
   std::vector<RecordedTouch> touches; ///< in the order of time where it was logged, else of the rows
   std::vector<std::string> features;  ///< labels by TouchScene::feature
-  std::vector<std::string> sensors;   ///< names by StylusScene::ordinal - 1
+  std::vector<std::string> styli;     ///< by StylusScene::ordinal - 1: the name of the first sensor with that stylus
+  std::set<std::string> names;        ///< of the sensors; scenes point to them
   unsigned known = 0;                 ///< Covariates that every row gives
   unsigned varying = 0;               ///< of these, those that are not the same throughout
   std::vector<Diagnostic> messages;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/machine/head.hpp"
 
@@ -40,6 +41,18 @@ plan::SensorDef filled_in(plan::SensorDef def, const NamedSensor& sensor) {
 
 }  // namespace
 
+int stylus_ordinal(const Sensor& sensor, const std::vector<Sensor>& before) {
+  constexpr double kSame_mm = 1e-6;
+  int next = 1;
+  for (const Sensor& other : before) {
+    const bool same = norm(other.tip_in_r_mm - sensor.tip_in_r_mm) < kSame_mm && std::abs(other.radius_mm - sensor.radius_mm) < kSame_mm &&
+                      std::abs(other.shaft_diameter_mm - sensor.shaft_diameter_mm) < kSame_mm && other.indexed == sensor.indexed;
+    if (same) return other.ordinal;
+    next = std::max(next, other.ordinal + 1);
+  }
+  return next;
+}
+
 Sensor resolve_sensor(const plan::SensorDef& definition, const Machine& machine, const SourceFile& source) {
   const NamedSensor* named = definition.from_machine_file ? &machine_sensor(definition, machine, source) : nullptr;
   const plan::SensorDef def = named ? filled_in(definition, *named) : definition;
@@ -52,6 +65,7 @@ Sensor resolve_sensor(const plan::SensorDef& definition, const Machine& machine,
   s.young_MPa = named ? 1000 * named->young_GPa : 620e3;
   s.cte_per_K = named ? 1e-6 * named->cte_ppm_per_K : 5e-6;
   s.length_mm = norm(def.tip_in_r);
+  s.tip_in_r_mm = def.tip_in_r;
   s.indexed = def.indexed;
   s.radius_mm = def.radius_mm;
   if (!def.indexed) {

@@ -1,6 +1,8 @@
 // A stylus system as the touch kernel needs it: where its tip is, and how the head's indexing errors move it.
 #pragma once
 
+#include <vector>
+
 #include "engine/base/diagnostic.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/plan/plan.hpp"
@@ -9,7 +11,8 @@ namespace abbe {
 
 struct Sensor {
   std::string name;
-  int ordinal = 1;                 ///< 1, 2, ... in the order of the sensors' definitions
+  int ordinal = 1;                 ///< 1, 2, ...: stylus systems in the order of their first use (stylus_ordinal)
+  Vec3 tip_in_r_mm;                ///< tip centre in the last link of the head
   Vec3 tip_from_mount_mm;          ///< nominal tip centre seen from the mounting point, along the axes of W
   Mat3 R_WR;                       ///< the last link of the head in W: turns the probe's errors into W
   Vec3 per_rad_a_mm, per_rad_b_mm; ///< displacement of the tip per radian of indexing error; zero for a fixed sensor
@@ -20,6 +23,10 @@ struct Sensor {
   double length_mm = 0;            ///< from the head's centre (or the mounting point) to the tip
   double shaft_diameter_mm = 0, young_MPa = 0, cte_per_K = 0;  ///< of the stylus: the machine file's, or a usual one
 };
+
+/// The ordinal of the stylus system of `sensor` after those of `before`: one stylus in several orientations of the head is one system. So
+/// two sensors are of one system when tip, ball and shaft are the same in the last link of the head.
+int stylus_ordinal(const Sensor&, const std::vector<Sensor>& before);
 
 /// Resolves a sensor of the program against the machine. Throws UserError when the machine file has no sensor of that name.
 Sensor resolve_sensor(const plan::SensorDef&, const Machine&, const SourceFile&);
