@@ -4,6 +4,7 @@
 
 #include "engine/features/construct.hpp"
 #include "engine/features/feature.hpp"
+#include "engine/features/pattern.hpp"
 #include "engine/tolerances/tolerance.hpp"
 #include "lang/directives.hpp"
 #include "lang/statement.hpp"
@@ -35,7 +36,7 @@ std::vector<Entry> entries() {
   for (const Statement* s : statements())
     out.push_back({kStatements, s->word, form_of(*s), s->help, s->example, s->source});
   for (const FeatureKind* k : feature_kinds())
-    out.push_back({kFeatures, k->word, fmt::format("F(label)=FEAT/{},{}", k->word, k->signature),
+    out.push_back({kFeatures, k->word, fmt::format("F(label)=FEAT/{}{}{}", k->word, k->signature.empty() ? "" : ",", k->signature),
                    k->help, k->example, k->source});
   for (const Construction* c : constructions())
     out.push_back({kConstructions, c->word,
@@ -109,6 +110,9 @@ std::string reference_markdown() {
     out += fmt::format("| `{}` | {} | {} |\n", cell(e.form), cell(e.help),
                        e.example.empty() ? "" : fmt::format("`{}`", cell(e.example)));
   }
+  out += "\n## Default points\n\n| kind | where a MEAS without PTMEAS touches it |\n|---|---|\n";
+  for (const FeatureKind* k : feature_kinds())
+    if (!pattern_help(k->shape).empty()) out += fmt::format("| {} | {} |\n", k->word, pattern_help(k->shape));
   return out;
 }
 

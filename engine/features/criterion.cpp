@@ -176,7 +176,8 @@ void refit_line(std::span<const Vec3> points, Element& line) {
 const char* criterion_refusal(Shape shape, FitCriterion criterion) {
   const Shape s = acts_as(shape);
   if (criterion == FitCriterion::least_squares) return nullptr;
-  if (s == Shape::point || s == Shape::torus) return "only least squares is available for it";
+  const bool pair = shape == Shape::parallel_planes || shape == Shape::symmetry_plane;
+  if (pair || is_outline(s) || s == Shape::point || s == Shape::torus) return "only least squares is available for it";
   if (criterion == FitCriterion::minimum_zone) return nullptr;
   return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere ? nullptr
                                                                          : "nothing can be inscribed in it or circumscribed about it";
@@ -195,6 +196,8 @@ void refit(Shape shape, FitCriterion criterion, std::span<const Vec3> points, El
     case Shape::cone: solve<ConeProfile>(criterion, points, element); break;
     default: throw InternalError("a shape without such a fit");
   }
+  element.second = least_squares.second;
+  if (shape == Shape::arc) element.angle = least_squares.angle;
   if (dot(element.direction, least_squares.direction) < 0 && shape != Shape::cone) element = turned_over(shape, element);
 }
 

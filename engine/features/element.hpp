@@ -7,7 +7,10 @@
 namespace abbe {
 
 /// The geometric elements of ISO 22093 that Abbe knows. Each is described by its FeatureKind (feature.hpp).
-enum class Shape { point, line, plane, circle, cylinder, sphere, cone, torus };
+enum class Shape {
+  point, line, plane, circle, cylinder, sphere, cone, torus,
+  arc, edge_point, surface, slot, rectangle, ellipse, parallel_planes, symmetry_plane
+};
 
 /// A geometric element, in whatever frame its holder says (mm; directions are unit vectors).
 ///
@@ -21,11 +24,21 @@ enum class Shape { point, line, plane, circle, cylinder, sphere, cone, torus };
 /// | sphere   | centre                    | (unused)                | radius          |            |
 /// | cone     | point of the axis         | apex to open side       | radius at point | half angle |
 /// | torus    | centre                    | axis                    | major radius    |            |
+/// | arc      | as a circle; `second` from the centre to its start; `angle` how far it sweeps      |
+/// | edge_point | the point               | the edge's vector       | `second`: normal of the surface beside it |
+/// | surface  | mean of the touches       | (unused)                |                 |            |
+/// | slot     | centre                    | normal of its plane     | half length     | `minor_size`: half width |
+/// | rectangle | centre                   | third side              | half of first side | `minor_size`: half of the second |
+/// | ellipse  | centre                    | normal of its plane     | major half axis | `minor_size`: minor half axis |
+/// | parallel_planes, symmetry_plane | middle of the median plane | its normal | half width | |
 struct Element {
   Vec3 point;
   Vec3 direction{0, 0, 1};
   double size = 0;        ///< mm
   double minor_size = 0;  ///< torus: radius of the tube, mm
+  /// What turns the element about `direction`, a unit vector: along a slot, the first side of a rectangle, the major axis of an
+  /// ellipse; of a line the normal of its surface. Unused by others.
+  Vec3 second{1, 0, 0};
   double angle = 0;       ///< cone: half angle, rad
   /// Signed residuals of the fit, out of the material positive: form = high - low. For a 3-D line low = -high, where high
   /// is the largest distance, so that form is the diameter of the enclosing cylinder. Zero for what was not fitted.
@@ -40,6 +53,7 @@ constexpr Element operator*(const Rigid& X_AB, const Element& in_B) {
   Element in_A = in_B;
   in_A.point = X_AB * in_B.point;
   in_A.direction = X_AB.R * in_B.direction;
+  in_A.second = X_AB.R * in_B.second;
   return in_A;
 }
 

@@ -37,6 +37,8 @@ struct FeatureKind {
   /// Orthogonal least squares over lanes, Gauss-Newton from `start[lane]`, which must be within about 1 % of the size of the
   /// feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr or the reason.
   void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
+  /// Which of its values the points alone settle, so that they can be fitted without a nominal near them (fit.hpp).
+  bool fitted_anywhere = true;
 };
 
 /// Every kind of feature, in the order of the language reference.

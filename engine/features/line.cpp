@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "engine/features/feature.hpp"
 #include "engine/features/straight_fit.hpp"
 #include "engine/features/nominal.hpp"
@@ -5,21 +7,27 @@
 namespace abbe {
 namespace {
 
+/// (ni, nj, nk) as a unit vector; as it is when it has no length: touches usually bring their own.
+Vec3 surface_normal(const Arguments& arguments) {
+  const Vec3 n{arguments.number("ni"), arguments.number("nj"), arguments.number("nk")};
+  return norm(n) > 0 && std::isfinite(norm(n)) ? unit(n) : n;
+}
+
 /// From end to end: `point` is the middle, as the centroid of evenly spread touches is.
 Outcome<Element> bounded(const Arguments& arguments) {
   const Vec3 from{arguments.number("x1"), arguments.number("y1"), arguments.number("z1")};
   const Vec3 to{arguments.number("x2"), arguments.number("y2"), arguments.number("z2")};
   const double length = norm(to - from);
   if (!(length > 0)) return Outcome<Element>::failed("the two ends of the line are the same point");
-  return {{.point = 0.5 * (from + to), .direction = (to - from) / length, .begin = -length / 2, .end = length / 2}};
+  return {{.point = 0.5 * (from + to), .direction = (to - from) / length, .second = surface_normal(arguments),
+           .begin = -length / 2, .end = length / 2}};
 }
 
-// The normal (ni, nj, nk) of the surface has no place in Element: touches bring their own normals.
 Outcome<Element> nominal(const Arguments& arguments) {
   if (arguments.has("x1")) return bounded(arguments);
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
-  return {{.point = location(arguments), .direction = along.value}};
+  return {{.point = location(arguments), .direction = along.value, .second = surface_normal(arguments)}};
 }
 
 }  // namespace

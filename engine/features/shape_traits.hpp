@@ -5,9 +5,21 @@
 
 namespace abbe {
 
-/// The kind that a feature of this shape is treated as where only its point, direction and size matter:
-/// in constructions, alignments and as a datum.
-constexpr Shape acts_as(Shape s) { return s; }
+/// The shape that a feature is treated as where only its point, direction and radius matter: in constructions, alignments and
+/// tolerances of location. Pairs of planes are their median plane there.
+constexpr Shape acts_as(Shape s) {
+  switch (s) {
+    case Shape::arc: return Shape::circle;
+    case Shape::edge_point:
+    case Shape::surface: return Shape::point;
+    case Shape::parallel_planes:
+    case Shape::symmetry_plane: return Shape::plane;
+    default: return s;
+  }
+}
+
+/// Slots, rectangles and ellipses: curves in a plane, with a centre and a long side.
+constexpr bool is_outline(Shape s) { return s == Shape::slot || s == Shape::rectangle || s == Shape::ellipse; }
 
 /// Points and spheres: an Element whose direction says nothing about how the feature lies.
 constexpr bool is_spot(Shape s) { return s == Shape::point || s == Shape::sphere; }
@@ -15,7 +27,7 @@ constexpr bool has_axis(Shape s) {
   return s == Shape::line || s == Shape::cylinder || s == Shape::cone || s == Shape::torus;
 }
 constexpr bool has_centre(Shape s) {
-  return s == Shape::point || s == Shape::circle || s == Shape::sphere || s == Shape::torus;
+  return s == Shape::point || s == Shape::circle || s == Shape::sphere || s == Shape::torus || is_outline(s);
 }
 
 }  // namespace abbe

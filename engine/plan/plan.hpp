@@ -119,7 +119,9 @@ struct Move { Point to; };
 struct BeginMeasure { FeatureId feature; };
 /// One touch of the surface at `point` with outward vector `normal` (current frame, mm), for the feature being measured.
 /// Without `has_normal` the nominal of the feature supplies the vector.
-struct Touch { FeatureId feature; Point point; Point normal; bool has_normal = true; };
+/// With a `pattern_count` it is touch `pattern_index` of the default pattern of the feature instead (engine/features/pattern.hpp),
+/// in the frame in which the feature was defined.
+struct Touch { FeatureId feature; Point point; Point normal; bool has_normal = true; int pattern_index = 0, pattern_count = 0; };
 /// Ends the measurement: fits the feature to the touches since BeginMeasure.
 struct EndMeasure { FeatureId feature; FitCriterion criterion = FitCriterion::least_squares; };
 struct Construct {
@@ -135,8 +137,10 @@ struct DatumRef {
   AxisDirection direction;
   bool origin[3] = {false, false, false};
 };
-/// The next four make `result` and leave it current.
+/// The next five make `result` and leave it current.
 struct SetMachineFrame { FrameId result; };
+/// DATSET/TRMATX: at a known pose in the machine coordinate system of the program.
+struct SetMatrixFrame { FrameId result; Rigid X_MD; };
 struct SetDatumFrame { FrameId result; std::vector<DatumRef> datums; };
 struct OriginShift { Axis axis{}; FeatureId from; Operand by; };   ///< to the point of `from`, or by a length when it is not valid
 struct TranslateFrame { FrameId result; std::vector<OriginShift> shifts; };
@@ -144,6 +148,8 @@ struct RotateFrame { FrameId result; Axis axis{}; FeatureId to; AxisDirection to
 struct RecallFrame { FrameId frame; };
 
 struct Evaluate { CharacteristicId characteristic; };
+/// OUTPUT of a coordinate system: its pose goes to the result file.
+struct OutputFrame { FrameId frame; };
 /// OUTPUT: these features, in the current frame, and what was evaluated of them just before go to the result file.
 struct Output { std::vector<FeatureId> features; std::vector<CharacteristicId> characteristics; };
 /// What OBTAIN can read of a measured feature, in the current frame: mm, unit vector components, rad.
@@ -155,7 +161,7 @@ struct Jump { int target = 0; };
 struct JumpUnless { Expression condition; int target = 0; };
 
 using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
-                            SetMachineFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, Obtain, Assign, Jump, JumpUnless>;
+                            SetMachineFrame, SetMatrixFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, OutputFrame, Obtain, Assign, Jump, JumpUnless>;
 
 struct Operation {
   Action action;

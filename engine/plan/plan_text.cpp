@@ -107,6 +107,8 @@ class ActionText {
     return fmt::format("measure {}", name(o.feature));
   }
   std::string operator()(const Touch& o) const {
+    if (o.pattern_count > 0)
+      return fmt::format("touch {} pattern {} of {}", name(o.feature), o.pattern_index + 1, o.pattern_count);
     return fmt::format("touch {} at {}{}", name(o.feature), text(o.point),
                        o.has_normal ? fmt::format(" normal {}", text(o.normal)) : "");
   }
@@ -120,6 +122,10 @@ class ActionText {
   }
   std::string operator()(const SetMachineFrame& o) const {
     return fmt::format("frame {} = machine", plan_[o.result].label);
+  }
+  std::string operator()(const SetMatrixFrame& o) const {
+    return fmt::format("frame {} = matrix x {} y {} z {} at {}", plan_[o.result].label, text(o.X_MD.R.cx),
+                       text(o.X_MD.R.cy), text(o.X_MD.R.cz), text(o.X_MD.p));
   }
   std::string operator()(const SetDatumFrame& o) const {
     std::string out = fmt::format("frame {} = datums", plan_[o.result].label);
@@ -153,6 +159,9 @@ class ActionText {
     for (const CharacteristicId c : o.characteristics) out += fmt::format(" {}", plan_[plan_[c].tolerance].label);
     return out;
   }
+  std::string operator()(const OutputFrame& o) const {
+    return fmt::format("output frame {}", plan_[o.frame].label);
+  }
   std::string operator()(const Evaluate& o) const {
     const CharacteristicDef& c = plan_[o.characteristic];
     const ToleranceDef& t = plan_[c.tolerance];
@@ -162,6 +171,9 @@ class ActionText {
       out += fmt::format(" datum {}", name(FeatureId{d}));
     for (const int d : t.arguments.features("reference"))
       out += fmt::format(" reference {}", name(FeatureId{d}));
+    for (const MaterialCondition& m : c.widening)
+      out += fmt::format(" widened by {} of {} at {}", plan_[m.size].label, name(m.feature),
+                         m.condition == Condition::maximum_material ? "MMC" : "LMC");
     return out;
   }
   std::string operator()(const Obtain& o) const {

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 namespace abbe {
 
 namespace {
@@ -16,20 +20,58 @@ std::string numbers(const Vec3& v) { return number(v.x) + ", " + number(v.y) + "
 
 double degrees(double rad) { return rad * 180 / kPi; }
 
+std::string line_arguments(const Element& e, const std::string& place) {
+  const std::string surface = norm(e.second) > 0 ? ", " + numbers(e.second) : "";
+  if (e.begin == e.end) return "UNBND, CART, " + place + surface;
+  return "BND, CART, " + numbers(e.point + e.begin * e.direction) + ", " + numbers(e.point + e.end * e.direction) + surface;
+}
+
+std::string cylinder_arguments(const Element& e) {
+  const std::string length = e.end > e.begin ? ", " + number(e.end - e.begin) : "";
+  const Vec3 end = e.end > e.begin ? e.point + e.begin * e.direction : e.point;  // with a length the point is one end of the axis
+  return numbers(end) + ", " + numbers(e.direction) + ", " + number(2 * e.size) + length;
+}
+
+/// The apex, as FEAT has it; a constructed cone without angle keeps its point.
+Vec3 apex(const Element& e) { return e.angle > 0 ? e.point - e.size / std::tan(e.angle) * e.direction : e.point; }
+
+std::string rectangle_arguments(const Element& e) {
+  return numbers(e.point) + ", " + numbers(e.second) + ", " + number(2 * e.size) + ", " + numbers(cross(e.direction, e.second)) + ", " +
+         number(2 * e.minor_size) + ", " + numbers(e.direction) + ", " + number(e.end - e.begin);
+}
+
+std::string ellipse_arguments(const Element& e) {
+  const Vec3 focus = std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
+  return numbers(e.point - focus) + ", " + numbers(e.point + focus) + ", MAJOR, " + number(2 * e.size) + ", " + numbers(e.direction);
+}
+
+/// The start of the arc is written as its direction, with the start angle 0.
+std::string arc_arguments(const Element& e, const std::string& place) {
+  return place + ", " + number(e.size) + ", " + number(0) + ", " + number(degrees(e.angle)) + ", " + numbers(e.second);
+}
+
 std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
-  const std::string side = def.inner ? "INNER, CART, " : "OUTER, CART, ";
+  const std::string in = def.inner ? "INNER, " : "OUTER, ", side = in + "CART, ";
   const std::string place = numbers(e.point) + ", " + numbers(e.direction);
   switch (def.kind->shape) {
     case Shape::point:
     case Shape::plane: return "CART, " + place;
-    case Shape::line:
-      if (e.begin == e.end) return "UNBND, CART, " + place;
-      return "BND, CART, " + numbers(e.point + e.begin * e.direction) + ", " + numbers(e.point + e.end * e.direction);
-    case Shape::circle:
-    case Shape::cylinder: return side + place + ", " + number(2 * e.size);
+    case Shape::line: return line_arguments(e, place);
+    case Shape::circle: return side + place + ", " + number(2 * e.size);
+    case Shape::arc: return side + arc_arguments(e, place);
+    case Shape::cylinder: return side + cylinder_arguments(e);
     case Shape::sphere: return side + numbers(e.point) + ", " + number(2 * e.size);
-    case Shape::cone: return side + place + ", " + number(degrees(2 * e.angle));
+    case Shape::cone: return side + numbers(apex(e)) + ", " + numbers(e.direction) + ", " + number(degrees(2 * e.angle));
     case Shape::torus: return side + place + ", " + number(2 * e.size) + ", " + number(2 * e.minor_size);
+    case Shape::edge_point: return "CART, " + place + ", " + numbers(e.second);
+    case Shape::surface: return "";
+    case Shape::slot:
+      return in + (e.angle != 0 ? "FLAT" : "ROUND") + ", CART, " + place + ", " + numbers(e.second) + ", " + number(2 * e.size) + ", " +
+             number(2 * e.minor_size);
+    case Shape::rectangle: return side + rectangle_arguments(e);
+    case Shape::ellipse: return side + ellipse_arguments(e);
+    case Shape::parallel_planes: return in + "MIDPL, CART, " + place + ", " + number(2 * e.size);
+    case Shape::symmetry_plane: return side + place + ", " + number(2 * e.size);
   }
   ABBE_CHECK(false);
 }
@@ -48,26 +90,66 @@ std::string tolerance_arguments(const plan::ToleranceDef& def, const OutputRecor
   return fmt::format("{}{}{}, {}, {}", word, qualifier.empty() ? "" : ", ", qualifier, number(value), status);
 }
 
-}  // namespace
+std::string matrix_arguments(const Rigid& X_MD) {
+  const Mat3 R = transpose(X_MD.R);  // its rows are the axes of D in the machine system
+  return numbers({R.cx.x, R.cy.x, R.cz.x}) + ", " + numbers({R.cx.y, R.cy.y, R.cz.y}) + ", " + numbers({R.cx.z, R.cy.z, R.cz.z}) + ", " +
+         numbers(X_MD.p);
+}
 
-std::string dmis_result(const plan::Plan& plan, const std::vector<OutputRecord>& records) {
-  std::string out = fmt::format("FILNAM/'{}'\nUNITS/MM, ANGDEC\n", plan.name);
-  for (const OutputRecord& record : records) {
-    const auto& what = std::get<plan::Output>(plan.operations[record.operation].action);
+class ResultText {
+ public:
+  ResultText(const plan::Plan& plan, std::span<const CharacteristicReport> reports) : plan_(plan), reports_(reports) {}
+
+  void add(const OutputRecord& record) {
+    const plan::Action& action = plan_.operations[record.operation].action;
+    if (const auto* frame = std::get_if<plan::OutputFrame>(&action)) {
+      const std::string& label = plan_[frame->frame].label;
+      text += fmt::format("OUTPUT/DA({0})\nDA({0}) = DATSET/TRMATX, {1}\n", label, matrix_arguments(*record.frame));
+      return;
+    }
+    const auto& what = std::get<plan::Output>(action);
     std::string echo = "OUTPUT/";
-    for (std::size_t k = 0; k < what.features.size(); ++k) echo += fmt::format("{}FA({})", k ? ", " : "", plan[what.features[k]].label);
-    for (const auto& v : record.values) echo += fmt::format(", TA({})", plan[plan[v.characteristic].tolerance].label);
-    out += echo + "\n";
+    for (std::size_t k = 0; k < what.features.size(); ++k) echo += fmt::format("{}FA({})", k ? ", " : "", plan_[what.features[k]].label);
+    for (const auto& v : record.values) echo += fmt::format(", TA({})", plan_[plan_[v.characteristic].tolerance].label);
+    text += echo + "\n";
     for (std::size_t k = 0; k < what.features.size(); ++k) {
-      const plan::FeatureDef& def = plan[what.features[k]];
-      out += fmt::format("FA({}) = FEAT/{}, {}\n", def.label, def.kind->word, feature_arguments(def, record.features[k]));
+      const plan::FeatureDef& def = plan_[what.features[k]];
+      const std::string arguments = feature_arguments(def, record.features[k]);
+      text += fmt::format("FA({}) = FEAT/{}{}{}\n", def.label, def.kind->word, arguments.empty() ? "" : ", ", arguments);
     }
     for (const auto& v : record.values) {
-      const plan::ToleranceDef& def = plan[plan[v.characteristic].tolerance];
-      out += fmt::format("TA({}) = TOL/{}\n", def.label, tolerance_arguments(def, v));
+      const plan::ToleranceDef& def = plan_[plan_[v.characteristic].tolerance];
+      text += fmt::format("TA({}) = TOL/{}\n", def.label, tolerance_arguments(def, v));
+      add_uncertainty(v.characteristic, def.label);
     }
   }
-  return out + "ENDFIL\n";
+
+  std::string text;
+
+ private:
+  void add_uncertainty(plan::CharacteristicId id, const std::string& label) {
+    const int occurrence = ++written_[id.value];
+    for (const CharacteristicReport& r : reports_) {
+      if (r.line != plan_[id].line || r.tolerance != label || r.occurrence != occurrence) continue;
+      text += fmt::format("$$! u TA({}) {:.3g} lcl {:.3g} ucl {:.3g}", label, r.summary.u, r.lcl, r.ucl);
+      if (r.conformance_probability) text += fmt::format(" conforms {:.4g}", *r.conformance_probability);
+      text += "\n";
+      return;
+    }
+  }
+
+  const plan::Plan& plan_;
+  std::span<const CharacteristicReport> reports_;
+  std::map<int, int> written_;  ///< by characteristic
+};
+
+}  // namespace
+
+std::string dmis_result(const plan::Plan& plan, const std::vector<OutputRecord>& records, std::span<const CharacteristicReport> reports) {
+  ResultText result(plan, reports);
+  result.text = fmt::format("FILNAM/'{}'\nUNITS/MM, ANGDEC\n", plan.name);
+  for (const OutputRecord& record : records) result.add(record);
+  return result.text + "ENDFIL\n";
 }
 
 }  // namespace abbe

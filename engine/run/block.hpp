@@ -65,6 +65,7 @@ struct Lane {
   TouchMotion last_touch;             ///< twins only
   std::optional<Vec3> fixed_point;    ///< twins only: the first point touched, from which the part expands; W
   std::vector<Rigid> frames;          ///< X_WD by FrameId
+  std::vector<Rigid> defined_in;      ///< X_WD at the definition, by FeatureId; empty when the plan has no touches of patterns
   std::vector<double> columns;        ///< by ColumnId
   std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
   std::vector<Value> values;

@@ -30,12 +30,14 @@ class BlockRun {
   void operator()(const plan::EndMeasure&);
   void operator()(const plan::Construct&);
   void operator()(const plan::SetMachineFrame&);
+  void operator()(const plan::SetMatrixFrame&);
   void operator()(const plan::SetDatumFrame&);
   void operator()(const plan::TranslateFrame&);
   void operator()(const plan::RotateFrame&);
   void operator()(const plan::RecallFrame&);
   void operator()(const plan::Evaluate&);
   void operator()(const plan::Output&);
+  void operator()(const plan::OutputFrame&);
   void operator()(const plan::Obtain&);
   void operator()(const plan::Assign&);
   void operator()(const plan::Jump&);
@@ -63,6 +65,7 @@ class BlockRun {
   TouchBatch touch_batch;
   std::vector<Mat3> R_WR;              // by slot of touch_batch
   std::vector<PlaceOnPart> places;     // by slot of touch_batch, when a workpiece is given
+  std::vector<Target> targets;         // by slot of touch_batch: where the program put the surface, W
   std::vector<double> points_buffer;   // columns handed to the fits
 
   bool prepare_touch(int slot, int lane, const plan::Touch&);
@@ -73,7 +76,8 @@ class BlockRun {
   void add_part(int machines);
   void observe_touch(const plan::Touch&, int slot);
   RecordingRow recording_row(const plan::Touch&, int slot) const;
-  Target target_of(const plan::Touch&, const Lane& twin);
+  /// Where a touch of a pattern lies as this lane sees it: in the system in which it defined the feature; W.
+  Outcome<Target> pattern_target(const Lane&, const plan::Touch&) const;
   void keep_touches(plan::FeatureId);
   std::vector<TouchedPoint> touches_of(const Lane&, plan::FeatureId);
   /// The limits as the actual sizes on this lane widen them; nothing after trapping it.
@@ -83,8 +87,5 @@ class BlockRun {
   /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.
   void part_twins(Outcomes& condition);
 };
-
-/// The outward normal of the nominal surface nearest to `point`, same frame; for touches that give no vector.
-Outcome<Vec3> nominal_normal(Shape, const Element& nominal, bool inner, const Vec3& point);
 
 }  // namespace abbe

@@ -1,14 +1,15 @@
 // Handlers of constructions, coordinate systems, evaluations and control flow.
 #include <algorithm>
 
+#include "engine/features/shape_traits.hpp"
 #include "engine/run/block_run.hpp"
 
 namespace abbe {
 
 void BlockRun::operator()(const plan::Construct& construct) {
-  const Shape shape = executor.plan_[construct.result].kind->shape;
+  const Shape shape = acts_as(executor.plan_[construct.result].kind->shape);
   std::vector<Shape> shapes;
-  for (const plan::FeatureId id : construct.from) shapes.push_back(executor.plan_[id].kind->shape);
+  for (const plan::FeatureId id : construct.from) shapes.push_back(acts_as(executor.plan_[id].kind->shape));
   std::vector<Element> from(shapes.size());
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
@@ -22,7 +23,9 @@ void BlockRun::operator()(const plan::Construct& construct) {
     const Element nominal = inverse(twin.X_WD) * twin.nominal[construct.result.value];
     const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, construct.arguments);
     if (!made) return made.failure;
-    lane.actual[construct.result.value] = lane.X_WD * made.value;
+    Element element = made.value;
+    if (shape == Shape::line) element.second = nominal.second;  // the normal of its surface
+    lane.actual[construct.result.value] = lane.X_WD * element;
     if (executor.keeps_touches_[construct.result.value]) lane.touched[construct.result.value].clear();
     lane.has_actual[construct.result.value] = 1;
     return "";
@@ -38,6 +41,11 @@ void BlockRun::operator()(const plan::SetMachineFrame& set) {
   for (const int i : active) set_frame(block.lanes[i], set.result, {Mat3{}, executor.options_.placement_mm});
 }
 
+void BlockRun::operator()(const plan::SetMatrixFrame& set) {
+  for (const int i : active)
+    set_frame(block.lanes[i], set.result, Rigid{Mat3{}, executor.options_.placement_mm} * set.X_MD);
+}
+
 void BlockRun::operator()(const plan::SetDatumFrame& set) {
   std::vector<DatumUse> uses(set.datums.size());
   for_active([&](int i) -> std::string {
@@ -45,7 +53,7 @@ void BlockRun::operator()(const plan::SetDatumFrame& set) {
       const plan::DatumRef& datum = set.datums[k];
       const Element* element = actual(i, datum.feature);
       if (!element) return "";
-      uses[k] = {executor.plan_[datum.feature].kind->shape, *element, datum.gives_direction, datum.direction,
+      uses[k] = {acts_as(executor.plan_[datum.feature].kind->shape), *element, datum.gives_direction, datum.direction,
                  {datum.origin[0], datum.origin[1], datum.origin[2]}};
     }
     const Outcome<Rigid> made = datum_frame(block.lanes[i].X_WD, uses);
@@ -118,7 +126,7 @@ std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::Characterist
     const Element* element = actual(i, m.feature);
     if (!element) return std::nullopt;
     const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * twin.nominal[m.feature.value];
-    const Shape shape = plan[m.feature].kind->shape;
+    const Shape shape = acts_as(plan[m.feature].kind->shape);
     const Outcome<double> value =
         size.kind->evaluate(size.arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
     if (!value) return trap(i, value.failure), std::nullopt;
@@ -138,8 +146,8 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
   for (const int id : tolerance.arguments.features("datum")) datums.push_back({id});
 
   std::vector<Shape> shapes, datum_shapes;
-  for (const auto id : features) shapes.push_back(plan[id].kind->shape);
-  for (const auto id : datums) datum_shapes.push_back(plan[id].kind->shape);
+  for (const auto id : features) shapes.push_back(acts_as(plan[id].kind->shape));
+  for (const auto id : datums) datum_shapes.push_back(acts_as(plan[id].kind->shape));
   std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()), true_datums(datums.size());
 
   for_active([&](int i) -> std::string {
@@ -171,10 +179,17 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
   });
 }
 
+void BlockRun::operator()(const plan::OutputFrame& output) {
+  const Lane& lane = block.lanes[0];
+  if (!observed || active.empty() || active.front() != 0 || !lane.running) return;
+  const Rigid X_WM{Mat3{}, executor.options_.placement_mm};
+  observed->outputs.push_back({operation, {}, {}, inverse(X_WM) * lane.frames[output.frame.value]});
+}
+
 void BlockRun::operator()(const plan::Output& output) {
   const Lane& lane = block.lanes[0];
   if (!observed || active.empty() || active.front() != 0 || !lane.running) return;
-  OutputRecord record{operation, {}, {}};
+  OutputRecord record{operation, {}, {}, {}};
   for (const plan::FeatureId feature : output.features) {
     const Element* element = actual(0, feature);
     if (!element) return;

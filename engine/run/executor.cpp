@@ -15,11 +15,14 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
     if (plan[c.tolerance].kind->needs_touches) keeps_touches_[c.features.front().value] = 1;
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
-    sensors_.back().ordinal = static_cast<int>(sensors_.size());
+    sensors_.back().ordinal = stylus_ordinal(sensors_.back(), {sensors_.begin(), sensors_.end() - 1});
   }
   std::uint32_t touches = 0;
-  for (const plan::Operation& op : plan.operations)
-    site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
+  for (const plan::Operation& op : plan.operations) {
+    const auto* touch = std::get_if<plan::Touch>(&op.action);
+    site_.push_back(touch ? touches++ : 0);
+    has_patterns_ |= touch && touch->pattern_count > 0;
+  }
 }
 
 Block Executor::make_block(const VirtualMachines& machines, int first, int count) const {
@@ -31,6 +34,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.touched.resize(plan_.features.size());
   start.has_actual.assign(plan_.features.size(), 0);
   start.frames.resize(plan_.frames.size());
+  if (has_patterns_) start.defined_in.resize(plan_.features.size());
   start.columns.assign(plan_.columns, 0.0);
   start.visits.assign(plan_.operations.size(), 0);
 

@@ -64,6 +64,7 @@ class Executor {
   Part part_;
   std::vector<char> aligns_;         ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
+  bool has_patterns_ = false;        ///< touches that the program leaves to the machine
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

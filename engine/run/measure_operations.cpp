@@ -4,6 +4,9 @@
 #include <utility>
 
 #include "engine/features/fit.hpp"
+#include "engine/features/nominal_normal.hpp"
+#include "engine/features/pattern.hpp"
+#include "engine/features/shape_traits.hpp"
 #include "engine/features/solve.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/run/block_run.hpp"
@@ -14,6 +17,7 @@ void BlockRun::operator()(const plan::DefineFeature& define) {
   for (const int i : active) {
     Lane& lane = block.lanes[i];
     lane.has_actual[define.feature.value] = 0;
+    if (!lane.defined_in.empty()) lane.defined_in[define.feature.value] = lane.X_WD;
     if (block.is_twin(i)) lane.nominal[define.feature.value] = lane.X_WD * executor.plan_[define.feature].nominal;
   }
 }
@@ -67,16 +71,12 @@ void BlockRun::operator()(const plan::BeginMeasure&) {
   for (const int i : active) block.lanes[i].points.clear(), block.lanes[i].targets.clear();
 }
 
-Outcome<Vec3> nominal_normal(Shape shape, const Element& nominal, bool inner, const Vec3& point) {
-  if (shape == Shape::point || shape == Shape::plane) return {nominal.direction};
-  if (shape == Shape::line) return Outcome<Vec3>::failed("a touch on a line needs the vector of the surface in PTMEAS");
-  if (shape == Shape::torus) return Outcome<Vec3>::failed("a touch on a torus needs the vector of the surface in PTMEAS");
-  Vec3 out = point - nominal.point;
-  if (shape != Shape::sphere) out = perpendicular_part(out, nominal.direction);
-  if (norm(out) == 0) return Outcome<Vec3>::failed("the point lies on the axis of the feature: give the vector in PTMEAS");
-  out = unit(out);
-  if (shape == Shape::cone) out = std::cos(nominal.angle) * out - std::sin(nominal.angle) * nominal.direction;
-  return {inner ? -out : out};
+Outcome<Target> BlockRun::pattern_target(const Lane& lane, const plan::Touch& touch) const {
+  const plan::FeatureDef& def = executor.plan_[touch.feature];
+  const auto made = pattern_touch(def.kind->shape, def.nominal, def.inner, touch.pattern_index, touch.pattern_count);
+  if (!made) return Outcome<Target>::failed(made.failure);
+  const Rigid& X_WD = lane.defined_in[touch.feature.value];
+  return {{X_WD * made.value.point, X_WD.R * made.value.normal}};
 }
 
 bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
@@ -84,25 +84,35 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   const Lane& twin = twin_of(lane);
   if (!lane.sensor.valid()) return trap(index, "no sensor is selected (SNSLCT)"), false;
   const Sensor& sensor = executor.sensors_[lane.sensor.value];
-  const Vec3 surface = twin.X_WD * value(twin, touch.point);
-  Vec3 normal_D, true_normal;
-  if (touch.has_normal) {
-    normal_D = value(lane, touch.normal);
-    true_normal = twin.X_WD.R * value(twin, touch.normal);
-    if (norm(normal_D) == 0) return trap(index, "the vector of the touch has no length"), false;
+  Vec3 surface, true_normal, point, normal;
+  if (touch.pattern_count > 0) {
+    const Outcome<Target> own = pattern_target(lane, touch), meant = pattern_target(twin, touch);
+    if (!own) return trap(index, own.failure), false;
+    point = own.value.point, normal = own.value.normal;
+    surface = meant.value.point, true_normal = meant.value.normal;
   } else {
-    const plan::FeatureDef& def = executor.plan_[touch.feature];
-    const Outcome<Vec3> n = nominal_normal(def.kind->shape, twin.nominal[touch.feature.value], def.inner, surface);
-    if (!n) return trap(index, n.failure), false;
-    true_normal = n.value;
-    normal_D = transpose(twin.X_WD.R) * n.value;
+    surface = twin.X_WD * value(twin, touch.point);
+    Vec3 normal_D;
+    if (touch.has_normal) {
+      normal_D = value(lane, touch.normal);
+      true_normal = twin.X_WD.R * value(twin, touch.normal);
+      if (norm(normal_D) == 0) return trap(index, "the vector of the touch has no length"), false;
+    } else {
+      const plan::FeatureDef& def = executor.plan_[touch.feature];
+      const Outcome<Vec3> n = nominal_normal(def.kind->shape, twin.nominal[touch.feature.value], def.inner, surface);
+      if (!n) return trap(index, n.failure), false;
+      true_normal = n.value;
+      normal_D = transpose(twin.X_WD.R) * n.value;
+    }
+    normal = lane.X_WD.R * unit(normal_D);
+    point = lane.X_WD * value(lane, touch.point);
   }
-  const Vec3 normal = lane.X_WD.R * unit(normal_D);
-  const Vec3 commanded = lane.X_WD * value(lane, touch.point) + sensor.radius_mm * normal;
+  const Vec3 commanded = point + sensor.radius_mm * normal;
   touch_batch.commanded.set(slot, commanded);
   touch_batch.normal.set(slot, normal);
   touch_batch.surface.set(slot, surface);
   touch_batch.surface_normal.set(slot, unit(true_normal));
+  targets[static_cast<std::size_t>(slot)] = {surface, unit(true_normal)};
   touch_batch.tip.set(slot, sensor.tip_from_mount_mm);
   touch_batch.reading.set(slot, commanded - executor.machine_.home_offset() - sensor.tip_from_mount_mm);
   touch_batch.error.set(slot, lane.head_error_a_rad * sensor.per_rad_a_mm + lane.head_error_b_rad * sensor.per_rad_b_mm);
@@ -130,23 +140,11 @@ void BlockRun::add_errors(int machines) {
   b.n = all;
 }
 
-Target BlockRun::target_of(const plan::Touch& touch, const Lane& twin) {
-  Vec3 point = twin.X_WD * value(twin, touch.point), normal;
-  if (touch.has_normal) {
-    normal = twin.X_WD.R * unit(value(twin, touch.normal));
-  } else {
-    const plan::FeatureDef& def = executor.plan_[touch.feature];
-    normal = nominal_normal(def.kind->shape, twin.nominal[touch.feature.value], def.inner, point).value;
-  }
-  // Without compensation the points reported are centres of the tip.
-  if (!twin.compensation) point += executor.sensors_[twin.sensor.value].radius_mm * normal;
-  return {point, normal};
-}
-
 void BlockRun::operator()(const plan::Touch& touch) {
   touch_batch.resize(static_cast<int>(active.size()));
   R_WR.resize(active.size());
   places.resize(active.size());
+  targets.resize(active.size());
   int n = 0, machines = 0;
   for (const int lane : active) {
     if (!block.lanes[lane].running || !prepare_touch(n, lane, touch)) continue;
@@ -165,8 +163,12 @@ void BlockRun::operator()(const plan::Touch& touch) {
     Lane& lane = block.lanes[touch_batch.lane[i]];
     const double offset = touch_batch.travel[i] - (lane.compensation ? touch_batch.radius[i] : 0.0);
     lane.points.push_back(touch_batch.commanded.get(i) + offset * touch_batch.normal.get(i));
-    if (block.is_twin(touch_batch.lane[i])) lane.targets.push_back(target_of(touch, lane));
     if (observed) observe_touch(touch, i);
+    if (!block.is_twin(touch_batch.lane[i])) continue;
+    // Without compensation the points reported are centres of the tip.
+    Target target = targets[static_cast<std::size_t>(i)];
+    if (!lane.compensation) target.point += touch_batch.radius[i] * target.normal;
+    lane.targets.push_back(target);
   }
 }
 
@@ -208,7 +210,7 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
     if (!block.is_twin(i)) return "";
     const Element& nominal = lane.nominal[feature.value];
     Element& result = lane.actual[feature.value];
-    if (kind.shape == Shape::point) {
+    if (!kind.fitted_anywhere || kind.shape == Shape::point) {
       const char* failure = nullptr;
       points_buffer.clear();
       for (const Vec3& p : lane.points) points_buffer.insert(points_buffer.end(), {p.x, p.y, p.z});
@@ -217,9 +219,11 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
     } else if (const Element* known = executor.known_fit(operation, lane.points)) {
       result = *known;
     } else {
-      FitSolution solution = fit_error_free(kind.shape, lane.points, nominal);
+      FitSolution solution = fit_error_free(acts_as(kind.shape), lane.points, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
+      if (kind.shape == Shape::arc) result.angle = nominal.angle;
+      result.second = nominal.second;
       refit(kind.shape, criterion, lane.points, result);
       if (observed) observed->fits.push_back({operation, lane.points, result});
     }
@@ -250,7 +254,9 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
       trap(lanes[k], failure[k]);
       continue;
     }
-    refit(executor.plan_[feature].kind->shape, criterion, block.lanes[lanes[k]].points, result[k]);
+    const FeatureKind& kind = *executor.plan_[feature].kind;
+    if (kind.fitted_anywhere) result[k].second = start[k].second;
+    refit(kind.shape, criterion, block.lanes[lanes[k]].points, result[k]);
     block.lanes[lanes[k]].actual[feature.value] = result[k];
     block.lanes[lanes[k]].has_actual[feature.value] = 1;
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ struct OutputRecord {
     ToleranceLimits limits;
   };
   std::vector<Evaluated> values;
+  std::optional<Rigid> frame;           ///< of an OUTPUT of a coordinate system: its pose in the program's machine system
 };
 
 struct RunResult {

@@ -26,7 +26,7 @@ Outcome<double> cone_angle(const Arguments&, const EvaluationInput& in) {
 }
 
 const char* with_directions(const Arguments&, Shapes s) {
-  return is_spot(s[0]) || is_spot(s[1])
+  return is_spot(acts_as(s[0])) || is_spot(acts_as(s[1]))
              ? "a point or a sphere has no direction to make an angle with"
              : nullptr;
 }

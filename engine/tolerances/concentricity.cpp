@@ -15,7 +15,8 @@ namespace {
 
 const char* centred(const Arguments& arguments, Shapes shapes) {
   if (arguments.features("datum").size() > 3) return "a concentricity has at most three datums";
-  return has_axis(shapes[0]) || has_centre(shapes[0])
+  const Shape s = acts_as(shapes[0]);
+  return has_axis(s) || has_centre(s)
              ? nullptr
              : "concentricity is for features with a centre or an axis";
 }

@@ -22,6 +22,14 @@ struct Interval {
   double low = 0, high = 0;
 };
 
+/// How far an outline reaches from its centre along the unit vector e, to both sides.
+double outline_reach(Shape shape, const Element& o, const Vec3& e) {
+  const double u = std::fabs(dot(o.second, e)), v = std::fabs(dot(cross(o.direction, o.second), e));
+  if (shape == Shape::ellipse) return std::hypot(o.size * u, o.minor_size * v);
+  if (shape == Shape::rectangle || o.angle != 0) return o.size * u + o.minor_size * v;
+  return (o.size - o.minor_size) * u + o.minor_size * std::hypot(u, v);
+}
+
 /// How far the feature reaches from its point along the unit vector e.
 Interval reach(Shape shape, const Element& feature, const Vec3& e) {
   const double cosine = dot(feature.direction, e);
@@ -40,8 +48,13 @@ Interval reach(Shape shape, const Element& feature, const Vec3& e) {
     case Shape::cone:
       return {std::min(cosine * feature.begin, cosine * feature.end),
               std::max(cosine * feature.begin, cosine * feature.end)};
-    case Shape::point:
-    case Shape::torus:
+    case Shape::slot:
+    case Shape::rectangle:
+    case Shape::ellipse: {
+      const double r = outline_reach(shape, feature, e);
+      return {-r, r};
+    }
+    default:
       break;
   }
   return {};

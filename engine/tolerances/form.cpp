@@ -1,19 +1,20 @@
-// FLAT, STRGHT, CIRLTY, CYLCTY: the spread high - low of the residuals about the least-squares
-// element (reference element LS of ISO 12781, 12780, 12181 and 12180). For a line in space that is
-// the diameter of the enclosing cylinder about it. It is never less than the minimum-zone value.
+// FLAT, STRGHT, CIRLTY, CYLCTY: the spread high - low of the residuals about the fitted element: the
+// least-squares one (reference element LS of ISO 12781, 12780, 12181 and 12180) unless GEOALG chose
+// another; then the minimum zone, or the spread about the inscribed or circumscribed element. For a
+// line in space it is the diameter of the enclosing cylinder about it.
 #include "engine/tolerances/common.hpp"
 
 namespace abbe {
 namespace {
 
 const char* plane_only(const Arguments&, Shapes s) {
-  return s[0] == Shape::plane ? nullptr : "flatness is for planes";
+  return acts_as(s[0]) == Shape::plane ? nullptr : "flatness is for planes";
 }
 const char* line_only(const Arguments&, Shapes s) {
   return s[0] == Shape::line ? nullptr : "straightness is for lines";
 }
 const char* round_only(const Arguments&, Shapes s) {
-  return s[0] == Shape::circle || s[0] == Shape::sphere ? nullptr
+  return acts_as(s[0]) == Shape::circle || s[0] == Shape::sphere ? nullptr
                                                         : "circularity is for circles and spheres";
 }
 const char* cylinder_only(const Arguments&, Shapes s) {
@@ -29,7 +30,7 @@ Outcome<double> spread(const Arguments&, const EvaluationInput& in) {
 extern const ToleranceKind flatness_tolerance{
     .word = "FLAT",
     .signature = "zone:length",
-    .help = "flatness: spread of the touches about the least-squares plane",
+    .help = "flatness: spread of the touches about the fitted plane",
     .example = "T(F1)=TOL/FLAT,0.05",
     .source = "ISO 1101:2017, clause 17; ISO 12781-1 (LSPL)",
     .unit = Unit::mm,
@@ -44,7 +45,7 @@ extern const ToleranceKind straightness_tolerance{
     .word = "STRGHT",
     .signature = "zone:length",
     .help =
-        "straightness: diameter of the cylinder about the least-squares line that holds the "
+        "straightness: diameter of the cylinder about the fitted line that holds the "
         "touches",
     .example = "T(S1)=TOL/STRGHT,0.02",
     .source = "ISO 1101:2017, clause 17; ISO 12780-1 (LSLI)",
@@ -59,7 +60,7 @@ extern const ToleranceKind straightness_tolerance{
 extern const ToleranceKind circularity_tolerance{
     .word = "CIRLTY",
     .signature = "zone:length",
-    .help = "circularity: spread of the touches about the least-squares circle or sphere",
+    .help = "circularity: spread of the touches about the fitted circle or sphere",
     .example = "T(C1)=TOL/CIRLTY,0.01",
     .source = "ISO 1101:2017, clause 17; ISO 12181-1 (LSCI)",
     .unit = Unit::mm,
@@ -73,7 +74,7 @@ extern const ToleranceKind circularity_tolerance{
 extern const ToleranceKind cylindricity_tolerance{
     .word = "CYLCTY",
     .signature = "zone:length",
-    .help = "cylindricity: spread of the touches about the least-squares cylinder",
+    .help = "cylindricity: spread of the touches about the fitted cylinder",
     .example = "T(Y1)=TOL/CYLCTY,0.1",
     .source = "ISO 1101:2017, clause 17; ISO 12180-1 (LSCY)",
     .unit = Unit::mm,

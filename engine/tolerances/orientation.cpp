@@ -26,7 +26,7 @@ bool is_straight(Shape s) {
 }
 
 const char* with_extent(const Arguments&, Shapes shapes) {
-  return is_straight(shapes[0])
+  return is_straight(acts_as(shapes[0]))
              ? nullptr
              : "an orientation tolerance is for planes, lines, cylinders and cones";
 }

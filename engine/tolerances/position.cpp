@@ -5,6 +5,7 @@
 // datums, minus that of the nominal in the frame of the true datums; datums not named leave the
 // freedoms of the current coordinate system.
 //
+// - slots, rectangles, ellipses: their centre
 // - 2D: the feature's point, in the plane across the nominal direction (a sphere: across z)
 // - 3D, features with a centre: in space
 // - 3D, axes: both ends of the measured axis, distance from the nominal axis, the larger of the two
@@ -25,7 +26,7 @@ bool is_flat_zone(const Arguments& arguments) { return arguments.text("space") =
 
 const char* located(const Arguments& arguments, Shapes shapes) {
   if (arguments.features("datum").size() > 3) return "a position has at most three datums";
-  return shapes[0] == Shape::plane && is_flat_zone(arguments)
+  return acts_as(shapes[0]) == Shape::plane && is_flat_zone(arguments)
              ? "the position of a plane is written 3D"
              : nullptr;
 }

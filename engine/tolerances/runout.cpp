@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kSameSection_mm = 0.1;
 
-const char* turned(Shape s) {
+const char* turned(Shape written) {
+  const Shape s = acts_as(written);
   const bool round = s == Shape::circle || s == Shape::cylinder || s == Shape::sphere || s == Shape::cone;
   return round || s == Shape::plane ? nullptr : "a run-out is for round features and planes";
 }

@@ -1,6 +1,8 @@
 // Datums and coordinate systems: DATDEF, DATSET, TRANS, ROTATE, SAVE, RECALL.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "lang/statement.hpp"
 #include "lang/statements/words.hpp"
 
@@ -23,7 +25,24 @@ void use_datum(plan::DatumRef& datum, std::string_view word) {
   }
 }
 
+/// DATSET/TRMATX: nine elements by rows, each row an axis of the new system, and its origin. Files give
+/// them with five decimals, so they are squared up.
+void set_matrix_frame(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const Vec3 x = vector_of(match, "xi"), y = vector_of(match, "yi"), z = vector_of(match, "zi");
+  constexpr double kSlack = 1e-3;
+  const bool square = std::fabs(norm(x) - 1) < kSlack && std::fabs(norm(y) - 1) < kSlack &&
+                      std::fabs(dot(x, y)) < kSlack && norm(cross(x, y) - z) < kSlack;
+  if (!square)
+    return lowering.error(Code::E0252, match.values[0].span, "these nine numbers are no rotation",
+                          "each row is a unit vector, at right angles to the others, right-handed");
+  const Vec3 first = unit(x), second = unit(perpendicular_part(y, first));
+  lowering.emit(plan::SetMatrixFrame{lowering.new_frame(raw),
+                                     {{first, second, cross(first, second)}, vector_of(match, "tx")}});
+  lowering.frame_doubt.clear();
+}
+
 void set_frame(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  if (match.has("xi")) return set_matrix_frame(lowering, raw, match);
   if (match.values.empty()) {
     lowering.emit(plan::SetMachineFrame{lowering.new_frame(raw)});
     lowering.frame_doubt.clear();
@@ -120,12 +139,12 @@ const Statement kDatdef = {"DATDEF",
 const Statement kDatset = {
     "DATSET",
     "D",
-    "( MCS ; datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG, "
+    "( MCS ; TRMATX, xi:number, xj:number, xk:number, yi:number, yj:number, yk:number, zi:number, "
+    "zj:number, zk:number, tx:length, ty:length, tz:length ; datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG, "
     "{ ( datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ; "
     "use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ) } )",
     "Sets the coordinate system: from datums, each with the axis that it directs and the origins "
-    "that it fixes, or the "
-    "machine's own (MCS).",
+    "that it fixes; from a matrix (its rows are the axes) and an origin; or the machine's own (MCS).",
     "D(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG",
     "ISO 22093, DATSET",
     set_frame};

@@ -69,7 +69,8 @@ const Statement kMode = {
     "mode:AUTO|PROG|MAN, { mode:AUTO|PROG|MAN }",
     "Who chooses the touches, in order of preference: the machine (AUTO), the program (PROG), the "
     "operator (MAN). "
-    "Automatic patterns are not available, so a block is measured at its PTMEAS points.",
+    "A block is measured at its PTMEAS points; one without them at the default points of its feature, "
+    "unless MODE leaves AUTO out.",
     "MODE/PROG,MAN",
     "ISO 22093, MODE",
     set_mode};

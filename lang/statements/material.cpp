@@ -27,7 +27,7 @@ std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Mo
   const auto known = lowering.size_of.find(m.feature.value);
   if (known == lowering.size_of.end()) {
     const std::string& label = lowering.out.plan[m.feature].label;
-    lowering.warn(Code::W0250, use.span,
+    lowering.warn(Code::W0253, use.span,
                   fmt::format("{} has no size of FA({}) to widen the zone with", m.word->text, label),
                   fmt::format("name its size tolerance before it, for example OUTPUT/FA({}),TA(size)"
                               "; it is judged without bonus",
@@ -62,7 +62,9 @@ const char* no_simple_shift(const plan::Plan& plan, const std::vector<Modified>&
 }  // namespace
 
 void remember_size(Lowering& lowering, plan::FeatureId feature, plan::ToleranceId id) {
-  if (lowering.out.plan[id].kind->size_factor > 0) lowering.size_of[feature.value] = id;
+  const plan::ToleranceDef& def = lowering.out.plan[id];
+  const bool length = def.arguments.text("across") == "LONG";  // a slot fits by its width
+  if (def.kind->size_factor > 0 && !length) lowering.size_of[feature.value] = id;
 }
 
 std::vector<plan::MaterialCondition> material_conditions(Lowering& lowering,
@@ -80,7 +82,7 @@ std::vector<plan::MaterialCondition> material_conditions(Lowering& lowering,
   for (const Modified& datum : datums) {
     if (!datum.word) continue;
     if (const char* reason = no_simple_shift(lowering.out.plan, datums, datum, feature)) {
-      lowering.warn(Code::W0251, use.span,
+      lowering.warn(Code::W0254, use.span,
                     fmt::format("no datum shift is reckoned with: {}", reason),
                     "it is judged with the datum where it was measured, which is the safe side");
     } else if (auto made = condition_of(lowering, datum, use)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/features/pattern.hpp"
 #include "lang/statement.hpp"
 #include "lang/statements/words.hpp"
 
@@ -85,6 +86,32 @@ void touch(Lowering& lowering, const RawStatement& raw, const Match& match) {
   if (block.feature.valid() && !lowering.failed) lowering.emit(operation);
 }
 
+/// A block without PTMEAS: the machine chooses the points (engine/features/pattern.hpp).
+void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
+  const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
+  const auto& modes = lowering.modes;
+  if (!modes.empty() && std::find(modes.begin(), modes.end(), "AUTO") == modes.end())
+    return lowering.error(Code::E0203, block.span, "this MEAS has no PTMEAS, and MODE does not let the machine choose",
+                          "give the points with PTMEAS, or write MODE/AUTO,PROG,MAN before it");
+  if (pattern_help(kind.shape).empty())
+    return lowering.error(Code::E0203, block.span, fmt::format("this MEAS has no PTMEAS, and a {} has no default points", kind.word),
+                          "give the points with PTMEAS between MEAS and ENDMES");
+  if (!lowering.sensor_selected && lowering.sensor_doubt.empty())
+    return lowering.error(Code::E0207, block.span, "missing sensor: no sensor is selected here",
+                          "select one with SNSLCT/S(name) before measuring");
+  const int fewest = pattern_minimum(kind.shape);
+  if (block.declared < fewest || block.declared > kMostPatternTouches)
+    return lowering.error(block.declared < fewest ? Code::E0211 : Code::E0251, block.count_span,
+                          fmt::format("{} default touches, but a {} takes {} to {}", block.declared, kind.word, fewest,
+                                      kMostPatternTouches),
+                          "change the number in MEAS");
+  for (int k = 0; k < block.declared; ++k) {
+    plan::Touch touch{block.feature, {}, {}, false};
+    touch.pattern_index = k, touch.pattern_count = block.declared;
+    lowering.emit(touch);
+  }
+}
+
 void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
   if (!lowering.measuring)
     return lowering.error(Code::E0206, raw.word_span, "ENDMES without a MEAS",
@@ -93,9 +120,7 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
   if (block.feature.valid() && block.spoilt.empty()) {
     const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
     if (block.touches == 0) {
-      lowering.error(Code::E0203, block.span,
-                     "this MEAS has no PTMEAS, and automatic patterns are not available",
-                     "give the points with PTMEAS between MEAS and ENDMES");
+      measure_by_pattern(lowering, block);
     } else if (block.touches < kind.minimum_points) {
       lowering.error(Code::E0211, block.span,
                      fmt::format("{} touches, but a {} needs at least {}", block.touches, kind.word,
@@ -120,7 +145,8 @@ const Statement kMeas = {"MEAS",
                          "",
                          "kind:word, feature:feature, count:integer",
                          "Begins the measurement of a feature with this many touches; PTMEAS and "
-                         "GOTO follow, up to ENDMES.",
+                         "GOTO follow, up to ENDMES. Without PTMEAS the machine touches it at its "
+                         "default points.",
                          "MEAS/CIRCLE,F(BORE),4",
                          "ISO 22093, MEAS",
                          begin_measure};

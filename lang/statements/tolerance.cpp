@@ -147,7 +147,8 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
     if (v.type == ValueType::tolerance) tolerances.push_back(&v);
     if (v.type == ValueType::feature)
       features.push_back(lowering.actual_feature(v.label).value_or(plan::FeatureId{}));
-    if (v.type == ValueType::frame) lowering.frame(v.label);
+    if (v.type == ValueType::frame)
+      if (const auto frame = lowering.frame(v.label)) lowering.emit(plan::OutputFrame{*frame});
     if (v.type == ValueType::sensor) lowering.sensor(v.label);
   }
   if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty())

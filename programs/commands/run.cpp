@@ -37,7 +37,7 @@ int run_command(const RunCommandOptions& options) {
   const Study study = study_program(program, options.request.settings,
                                     [&](std::string_view step) { line.show(step); });
   if (options.csv) write_whole(*options.csv, samples_csv(program.compilation.plan, study));
-  if (options.dmo) write_whole(*options.dmo, dmis_result(program.compilation.plan, study.result.reference_outputs));
+  if (options.dmo) write_whole(*options.dmo, dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
   print_result(writer->write(study.report));
   return kDone;
 }

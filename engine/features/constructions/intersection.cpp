@@ -3,10 +3,14 @@
 // - line: two planes, n1 x n2; its point is the one nearest to the middle of the planes' points
 // - point: axis and plane; two axes (the middle of their shortest connection, so that lines
 //   measured at different heights meet); three planes (Cramer's rule)
+// - point, of a line and a circle or sphere, a plane and a circle, or two circles: of the two
+//   the one nearer to the nominal (round_intersection.cpp)
 // - circle: plane and sphere; plane and cylinder or cone whose axis is square to it within
-//   1 degree, else the section is an ellipse; the normal is that of the plane
+//   1 degree; the normal is that of the plane
+// - ellipse: plane and cylinder
 #include <cmath>
 
+#include "engine/features/constructions/round_intersection.hpp"
 #include "engine/features/constructions/tools.hpp"
 
 namespace abbe {
@@ -71,6 +75,15 @@ Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
   return {in_sense_of(nominal, circle)};
 }
 
+Outcome<Element> oblique_section(const Element& plane, const Element& body) {
+  const double cosine = std::fabs(dot(plane.direction, body.direction));
+  if (cosine < kParallel) return cannot("the plane runs along the axis of the cylinder");
+  const Vec3 along = perpendicular_part(body.direction, plane.direction);
+  const Vec3 major = norm(along) > 1e-9 ? unit(along) : any_perpendicular(plane.direction);
+  return {{.point = line_meets_plane(body.point, body.direction, plane), .direction = plane.direction,
+           .size = body.size / cosine, .minor_size = body.size, .second = major}};
+}
+
 Outcome<Element> intersect_two(Shape result, Shapes shapes, Elements from, const Element& nominal) {
   const int planes = (shapes[0] == Shape::plane) + (shapes[1] == Shape::plane);
   const int first = shapes[0] == Shape::plane ? 0 : 1, second = 1 - first;
@@ -83,10 +96,12 @@ Outcome<Element> intersect_two(Shape result, Shapes shapes, Elements from, const
   if (result == Shape::circle && planes == 1 &&
       (other == Shape::sphere || other == Shape::cylinder || other == Shape::cone))
     return section(from[first], other, from[second], nominal);
+  if (result == Shape::ellipse && planes == 1 && other == Shape::cylinder)
+    return oblique_section(from[first], from[second]);
+  if (result == Shape::point && meets_round(shapes)) return round_intersection(shapes, from, nominal);
   return cannot(
-      "INTOF makes a line of two planes, a point of two lines, of a line and a plane or of three "
-      "planes, or a circle "
-      "of a plane and a cylinder, cone or sphere");
+      "INTOF makes a line of two planes, a point of lines, planes and round features, or a circle or "
+      "ellipse of a plane and a cylinder, cone or sphere");
 }
 
 Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal,
@@ -105,7 +120,8 @@ extern const Construction intersection_method{
     .signature = "from:feature,from:feature,[from:feature]",
     .help =
         "intersection: line of two planes; point of two axes, axis and plane, or three planes; "
-        "circle of plane and round surface",
+        "point of a line with a circle or sphere, a plane with a circle, two circles (the one nearer "
+        "to the nominal); circle or ellipse of plane and round surface",
     .example = "CONST/LINE,F(L1),INTOF,FA(P1),FA(P2)",
     .source = "ISO 22093:2011, CONST INTOF",
     .construct = construct,

@@ -30,13 +30,14 @@ TEST_CASE("every shape has one kind, fully described") {
     CHECK(find_feature_kind(kind->word) == kind);
     CHECK(words.insert(kind->word).second);
     CHECK(kind->example.find(kind->word) != std::string_view::npos);
-    for (const std::string_view text : {kind->signature, kind->help, kind->source}) CHECK_FALSE(text.empty());
+    for (const std::string_view text : {kind->help, kind->source}) CHECK_FALSE(text.empty());
+    CHECK(kind->signature.empty() == (kind->shape == Shape::surface));  // a GSURF has no nominal
     CHECK(kind->minimum_points > 0);
     CHECK((kind->nominal != nullptr));
     CHECK((kind->fit_lanes != nullptr));
   }
-  CHECK(words.size() == 8);
-  CHECK(find_feature_kind("ELLIPS") == nullptr);
+  CHECK(words.size() == 16);
+  CHECK(find_feature_kind("GCURVE") == nullptr);
 }
 
 TEST_CASE("diameters become radii and vectors unit vectors") {
@@ -94,4 +95,42 @@ TEST_CASE("impossible values fail with a reason") {
   CHECK_FALSE(nominal("TORUS", {{"k", 1}, {"majdia", 0}, {"mindia", 1}}));
   CHECK_FALSE(nominal("TORUS", {{"k", 1}, {"majdia", 9}, {"mindia", -1}}));
   CHECK_FALSE(nominal("LINE", {{"x1", 3}, {"x2", 3}}));
+  CHECK_FALSE(nominal("ARC", {{"k", 1}, {"radius", 0}, {"sweep", 1}}));
+  CHECK_FALSE(nominal("ARC", {{"k", 1}, {"radius", 2}, {"sweep", 0}}));
+  CHECK_FALSE(nominal("EDGEPT", {{"k", 1}}));  // no surface beside it
+  CHECK_FALSE(nominal("CPARLN", {{"k", 1}, {"i2", 1}, {"length", 10}, {"width", 12}}));
+  CHECK_FALSE(nominal("CPARLN", {{"k", 1}, {"i2", 1}, {"k2", 1}, {"length", 30}, {"width", 12}}));
+  CHECK_FALSE(nominal("RCTNGL", {{"i1", 1}, {"len1", 60}, {"i2", 1}, {"len2", 40}, {"k3", 1}, {"len3", 20}}));
+  CHECK_FALSE(nominal("ELLIPS", {{"x1", -30}, {"x2", 30}, {"diam", 0}, {"k", 1}}));
+  CHECK_FALSE(nominal("PARPLN", {{"j", 1}, {"width", 0}}));
+  CHECK_FALSE(nominal("PARPLN", {{"i1", 1}, {"j2", 1}, {"x2", 10}}));
+  CHECK_FALSE(nominal("SYMPLN", {{"width", 10}}));
+}
+
+TEST_CASE("arcs start where they say") {
+  const auto arc = nominal("ARC", {{"x", 5}, {"k", 1}, {"radius", 20}, {"start", kPi / 2}, {"sweep", kPi}});
+  REQUIRE(arc);
+  CHECK(arc.value.size == 20);
+  CHECK(arc.value.angle == doctest::Approx(kPi));
+  check_vector(arc.value.second, {0, 1, 0});
+  check_vector(nominal("ARC", {{"i", 1}, {"radius", 20}, {"sweep", 1}}).value.second, {0, 1, 0});  // x runs along the normal
+  check_vector(nominal("ARC", {{"k", 1}, {"radius", 20}, {"sweep", 1}, {"is", 0}, {"js", -2}, {"ks", 0}}).value.second, {0, -1, 0});
+}
+
+TEST_CASE("two-sided features keep halves") {
+  const auto slot = nominal("CPARLN", {{"x", 1}, {"k", 1}, {"j2", 2}, {"length", 30}, {"width", 10}});
+  REQUIRE(slot);
+  CHECK(slot.value.size == 15);
+  CHECK(slot.value.minor_size == 5);
+  check_vector(slot.value.second, {0, 1, 0});
+  Arguments ellipse = arguments({{"x1", -30}, {"x2", 30}, {"diam", 100}, {"k", 1}});
+  ellipse.add_text("axis", "MAJOR");
+  CHECK(find_feature_kind("ELLIPS")->nominal(ellipse).value.minor_size == doctest::Approx(40));
+  const auto minor = nominal("ELLIPS", {{"x1", -30}, {"x2", 30}, {"diam", 80}, {"k", 1}});
+  CHECK(minor.value.size == doctest::Approx(50));
+  const auto planes = nominal("PARPLN", {{"y1", 3}, {"j1", -1}, {"y2", 13}, {"j2", 1}});
+  REQUIRE(planes);
+  check_vector(planes.value.point, {0, 8, 0});
+  CHECK(planes.value.size == 5);
+  CHECK(nominal("RCTNGL", {{"i1", 1}, {"len1", 60}, {"j2", 1}, {"len2", 40}, {"k3", 1}, {"len3", 20}}).value.minor_size == 20);
 }

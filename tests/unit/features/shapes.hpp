@@ -30,6 +30,9 @@ struct Part {
   double turn = 2 * kPi, length = 30, tube = 2 * kPi;
 };
 
+/// Kinds that are fitted from the points alone; arcs are circles.
+inline bool is_basic(const FeatureKind& kind) { return kind.fitted_anywhere && kind.shape != Shape::arc; }
+
 /// The point of the surface with parameters u, v in (0, 1), displaced by `out` mm along the normal.
 inline Vec3 surface_point(const Element& e, Shape shape, double u, double v, double out, const Part& part = {}) {
   const Vec3 z = e.direction, x = any_perpendicular(z), y = cross(z, x);
@@ -39,6 +42,7 @@ inline Vec3 surface_point(const Element& e, Shape shape, double u, double v, dou
     case Shape::point: return e.point + out * z;
     case Shape::line: return e.point + part.length * (u - 0.5) * z + out * radial;
     case Shape::plane: return e.point + part.length * ((u - 0.5) * x + (v - 0.5) * y) + out * z;
+    case Shape::arc:
     case Shape::circle: return e.point + (e.size + out) * radial;
     case Shape::cylinder: return e.point + h * z + (e.size + out) * radial;
     case Shape::sphere: {
@@ -53,6 +57,7 @@ inline Vec3 surface_point(const Element& e, Shape shape, double u, double v, dou
       const double tube = part.tube * (v - 0.5);
       return e.point + e.size * radial + (e.minor_size + out) * (std::cos(tube) * radial + std::sin(tube) * z);
     }
+    default: break;
   }
   throw InternalError("a Shape without a surface");
 }

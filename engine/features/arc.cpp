@@ -1,0 +1,49 @@
+#include <cmath>
+
+#include "engine/features/feature.hpp"
+#include "engine/features/lane_fit.hpp"
+#include "engine/features/nominal.hpp"
+
+namespace abbe {
+namespace {
+
+/// The direction of the start angle: from (is, js, ks), else from the x axis, across the normal.
+Vec3 start_of(const Arguments& arguments, const Vec3& normal) {
+  const Vec3 zero{arguments.number("is", 1), arguments.number("js"), arguments.number("ks")};
+  Vec3 x = perpendicular_part(zero, normal);
+  if (!(norm(x) > 1e-6)) x = perpendicular_part({0, 1, 0}, normal);
+  return rotation(normal, arguments.number("start")) * unit(x);
+}
+
+Outcome<Element> nominal(const Arguments& arguments) {
+  const Outcome<Vec3> along = direction(arguments);
+  if (!along) return Outcome<Element>::failed(along.failure);
+  const double radius = arguments.number("radius"), sweep = arguments.number("sweep");
+  if (!(radius > 0)) return Outcome<Element>::failed("the radius must be positive");
+  if (!(std::fabs(sweep) > 0)) return Outcome<Element>::failed("the arc must sweep over some angle");
+  return {{.point = location(arguments), .direction = along.value, .size = radius,
+           .second = start_of(arguments, along.value), .angle = sweep}};
+}
+
+/// A circle; the start and the sweep are those of the nominal.
+void fit(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
+  fit_lanes_of<CircleProfile>(columns, start, result, failure);
+  for (int l = 0; l < columns.lanes; ++l) result[l].second = start[l].second, result[l].angle = start[l].angle;
+}
+
+}  // namespace
+
+extern const FeatureKind arc_kind{
+    .shape = Shape::arc,
+    .word = "ARC",
+    .signature = "side:INNER|OUTER," ABBE_LOCATION "," ABBE_DIRECTION
+                 ",radius:length,start:angle,sweep:angle[,is:number,js:number,ks:number]",
+    .help = "an arc: centre, normal of its plane, radius, start angle from x or from is,js,ks, angle swept",
+    .example = "F(A1)=FEAT/ARC,INNER,CART,50,50,0,0,0,1,20,0,90",
+    .source = "ISO 22093:2011, FEAT/ARC; fitted as a circle",
+    .minimum_points = 3,
+    .nominal = nominal,
+    .fit_lanes = fit,
+};
+
+}  // namespace abbe
