@@ -1,0 +1,130 @@
+#include "lang/result_reader.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "engine/report/dmis_result.hpp"
+#include "lang/compile.hpp"
+
+using namespace abbe;
+using namespace abbe::lang;
+using doctest::Approx;
+
+namespace {
+
+struct Read {
+  DmisResult result;
+  std::string messages;
+};
+
+Read read(const std::string& text) {
+  const SourceFile source("result.dmo", text);
+  Sink sink;
+  Read r{read_dmis_result(source, sink), ""};
+  for (const Diagnostic& d : sink.sorted()) r.messages += std::string(info(d.code).name) + " ";
+  return r;
+}
+
+/// Every kind of feature once.
+constexpr const char* kProgram = R"(DMISMN/'all kinds'
+F(PT)=FEAT/POINT,CART,1,2,3,0,0,1
+F(LN)=FEAT/LINE,BND,CART,0,0,1,80,0,1,0,0,1
+F(PL)=FEAT/PLANE,CART,0,0,5,0,0.6,0.8
+F(CI)=FEAT/CIRCLE,INNER,CART,50,50,0,0,0,1,20
+F(CY)=FEAT/CYLNDR,OUTER,CART,50,50,0,0,0,1,20,30
+F(SP)=FEAT/SPHERE,OUTER,CART,100,100,50,25
+F(CO)=FEAT/CONE,INNER,CART,0,0,-40,0,0,1,60
+F(TO)=FEAT/TORUS,OUTER,CART,0,0,0,0,0,1,80,20
+F(AR)=FEAT/ARC,INNER,CART,50,50,0,0,0,1,20,30,90
+F(EL)=FEAT/ELLIPS,INNER,CART,-30,0,0,30,0,0,MAJOR,100,0,0,1
+F(SL)=FEAT/CPARLN,INNER,ROUND,CART,40,30,-5,0,0,1,1,0,0,30,10
+F(KE)=FEAT/CPARLN,OUTER,FLAT,CART,40,30,-5,0,0,1,0,1,0,30,10
+F(RE)=FEAT/RCTNGL,OUTER,CART,0,0,0,1,0,0,60,0,1,0,40,0,0,1,20
+F(PP)=FEAT/PARPLN,INNER,MIDPL,CART,40,30,-5,0,1,0,10
+F(SY)=FEAT/SYMPLN,OUTER,CART,0,0,0,1,0,0,80
+F(ED)=FEAT/EDGEPT,CART,100,20,0,1,0,0,0,0,1
+F(GS)=FEAT/GSURF
+ENDFIL
+)";
+
+void check_near(const Vec3& a, const Vec3& b) { CHECK(norm(a - b) < 2e-5); }
+
+}  // namespace
+
+TEST_CASE("what is written of every kind of feature is read again") {
+  const SourceFile source("all.dmi", kProgram);
+  Sink sink;
+  plan::Plan plan = compile(source, sink).plan;
+  REQUIRE_FALSE(sink.has_errors());
+  plan::Output output;
+  OutputRecord record{static_cast<int>(plan.operations.size()), {}, {}, {}};
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    output.features.push_back({static_cast<int>(i)});
+    record.features.push_back(plan.features[i].nominal);
+  }
+  plan.operations.push_back({output, {}, 0});
+  const Read back = read(dmis_result(plan, {record}));
+  CHECK(back.messages == "");
+  REQUIRE(back.result.features.size() == plan.features.size());
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const ResultFeature& f = back.result.features[i];
+    const Element &was = plan.features[i].nominal, &is = f.actual;
+    CAPTURE(f.label);
+    CHECK(f.label == plan.features[i].label);
+    CHECK(f.kind == plan.features[i].kind);
+    CHECK(f.inner == plan.features[i].inner);
+    check_near(is.point, was.point);
+    check_near(is.direction, was.direction);
+    check_near(is.second, was.second);
+    CHECK(is.size == Approx(was.size).epsilon(1e-6));
+    CHECK(is.minor_size == Approx(was.minor_size).epsilon(1e-6));
+    CHECK(is.angle == Approx(was.angle).epsilon(1e-6));
+    CHECK(is.end - is.begin == Approx(was.end - was.begin).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("coordinate systems, values and uncertainties are read again") {
+  const SourceFile source("frames.dmi", "DMISMN/'f'\nD(P)=DATSET/TRMATX,0,1,0,-1,0,0,0,0,1,10,20,30\nOUTPUT/DA(P)\nENDFIL\n");
+  Sink sink;
+  const plan::Plan plan = compile(source, sink).plan;
+  const Rigid X{{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}, {10, 20, 30}};
+  const OutputRecord record{static_cast<int>(plan.operations.size()) - 1, {}, {}, X};
+  const std::string text = dmis_result(plan, {record});
+  CHECK(text.find("DA(P) = DATSET/TRMATX, 0.00000, 1.00000, 0.00000, -1.00000") != std::string::npos);
+  const DmisResult back = read(text).result;
+  REQUIRE(back.frames.size() == 1);
+  CHECK(back.frames[0].label == "P");
+  check_near(back.frames[0].X_MD.p, X.p);
+  check_near(back.frames[0].X_MD.R * Vec3{1, 2, 3}, X.R * Vec3{1, 2, 3});
+}
+
+TEST_CASE("results of tolerances in all their forms") {
+  const Read r = read(
+      "UNITS/INCH,ANGDEC\nTA(D)=TOL/DIAM,2,INTOL\n$$! u TA(D) 0.0005 lcl -0.001 ucl 0.0011 conforms 0.98\n"
+      "TA(P) = TOL/POS, 3D, 0.5, OUTOL\n$$! u TA(OTHER) 9 lcl 9 ucl 9\nTA(L)=TOL/DISTB,INTOL,NOMINL,10,XAXIS\n"
+      "TA(A)=TOL/CORTOL,ANGLE,90,INTOL\n");
+  CHECK(r.messages == "");
+  REQUIRE(r.result.values.size() == 4);
+  const auto& v = r.result.values;
+  CHECK(v[0].value == Approx(50.8));
+  CHECK(v[0].in_tolerance);
+  REQUIRE(v[0].uncertainty.has_value());
+  CHECK(v[0].uncertainty->ucl == 0.0011);
+  CHECK(v[0].uncertainty->conformance == 0.98);
+  CHECK(v[1].qualifier == "3D");
+  CHECK_FALSE(v[1].in_tolerance);
+  CHECK_FALSE(v[1].uncertainty.has_value());
+  CHECK(v[2].value == Approx(254));
+  CHECK(v[2].qualifier == "XAXIS");
+  CHECK(v[3].value == Approx(kPi / 2));
+}
+
+TEST_CASE("what cannot be read is said, and the rest is read") {
+  const Read r = read(
+      "TA(A)=TOL/DIAM,INTOL\nFA(B)=FEAT/CIRCLE,INNER,CART,1,2\nFA(C)=FEAT/BLOB,1\nTA(D)=TOL/BLOB,1,INTOL\n"
+      "FA(E)=FEAT/PLANE,CART,0,0,0,0,0,0\nDA(F)=DATSET/TRMATX,1,0\nFA(G)=FEAT/POINT,CART,1,2,3,0,0,1\n");
+  CHECK(r.messages == "E0507 E0107 E0112 E0112 E0208 E0107 ");
+  REQUIRE(r.result.features.size() == 1);
+  CHECK(r.result.features[0].line == 7);
+}
