@@ -297,6 +297,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
 void complete_from_program(Recording& recording, const Recording& nominal, const std::string& file) {
   std::map<std::pair<std::string, int>, const RecordingRow*> partner;
   for (const RecordingRow& row : nominal.rows) partner[{row.feature, row.touch}] = &row;
+  for (const auto& line : nominal.metadata) recording.metadata.push_back(line);
   std::vector<std::string> lost;
   for (RecordingRow& row : recording.rows) {
     const auto found = partner.find({row.feature, row.touch});

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "engine/run/executor.hpp"
+#include "engine/run/recorded_sensor.hpp"
 
 namespace abbe {
 
@@ -169,6 +170,7 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   }
   MachineRecord record;
   record.recording.rows = std::move(observed.rows);
+  for (const plan::SensorDef& def : plan.sensors) record.recording.metadata.push_back(sensor_line(resolve_sensor(def, machine, source), machine));
   record.outputs = std::move(observed.outputs);
   return record;
 }

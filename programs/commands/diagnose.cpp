@@ -7,6 +7,7 @@
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 #include "engine/run/placement.hpp"
+#include "engine/run/recorded_sensor.hpp"
 #include "engine/run/recorded_touch.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
@@ -56,6 +57,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   if (name.empty()) name = kDefaultMachine;
   Machine machine = read_machine(options.known.value_or(name));
   if (options.program) complete_from_program(recording, nominal_recording(*options.program, machine), file);
+  add_recorded_sensors(recording, machine, file);
 
   DiagnoseOptions how;
   how.seed = options.seed.value_or(1);

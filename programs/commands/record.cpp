@@ -71,8 +71,10 @@ int record_command(const RecordOptions& options) {
   run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
   MachineRecord record = record_plan(plan, machine, screened_machines(machine, run.seed, 1, 1), run, program.source);
-  record.recording.metadata = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
-                        {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
+  auto& metadata = record.recording.metadata;
+  const std::pair<std::string, std::string> origin[] = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
+                                                        {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
+  metadata.insert(metadata.begin(), std::begin(origin), std::end(origin));
   write_whole(options.output, to_csv(record.recording));
   if (options.dmo) write_whole(*options.dmo, dmis_result(plan, record.outputs));
   return kDone;

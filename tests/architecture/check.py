@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 CONFINED = {
     "tao/pegtl": ["lang/parser.cpp"],
     "CLI/": ["programs/options.cpp"],
-    "Eigen/": ["engine/math/", "engine/features/"],
+    "Eigen/": ["engine/math/", "engine/features/", "engine/diagnose/"],
 }
 
 

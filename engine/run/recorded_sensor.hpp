@@ -1,0 +1,20 @@
+// Stylus systems in recordings. A recording names its sensors; what they are stands in the machine file, or, when the program defined
+// them (SNSDEF), in `# sensor NAME: ...` lines of the recording, so that it can be diagnosed without the program.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "engine/machine/machine.hpp"
+#include "engine/recording/recording.hpp"
+#include "engine/run/sensor.hpp"
+
+namespace abbe {
+
+/// The metadata line of a sensor: key and value, "head_deg A B tip_in_r_mm x y z diameter_mm d ..." in the words of the machine file.
+std::pair<std::string, std::string> sensor_line(const Sensor&, const Machine&);
+
+/// Adds the sensors that a recording describes to a machine that does not know them. Throws UserError for a line that cannot be read.
+void add_recorded_sensors(const Recording&, Machine&, const std::string& file);
+
+}  // namespace abbe

@@ -1,0 +1,158 @@
+"""abbe diagnose: recordings against the machine that made them."""
+import csv
+import io
+import json
+import pathlib
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"   # one sphere, five orientations of the head, 125 touches
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+
+class Diagnose(harness.Case):
+    def record(self, *options, name="rec.csv"):
+        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", name, *options)
+        return self.folder / name
+
+    def diagnosis(self, *args, code=0):
+        return json.loads(self.abbe("diagnose", *args, "--machine", MACHINE, "--format", "json", code=code).stdout)
+
+    def changed(self, path, change, name="changed.csv"):
+        """The recording with every row passed through `change`."""
+        lines = path.read_text().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        rows = [r for r in (change(dict(r)) for r in rows) if r is not None]
+        out = io.StringIO()
+        writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        return self.write(name, "\n".join(comments) + "\n" + out.getvalue())
+
+    def test_a_machine_in_order_agrees(self):
+        said = self.diagnosis(self.record("--seed", 4))
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertGreater(said["p_value"], 0.01)
+        self.assertEqual(said["effects"], [])
+        self.assertTrue(said["smallest_detectable"])
+
+    def test_an_effect_is_named_measured_and_modelled(self):
+        recording = self.record("--with", "probe.pretravel_lobing:amplitude_um=3")
+        said = self.diagnosis(recording, "--model-out", "improved.json", "--fail-on-mismatch", code=1)
+        self.assertIn(said["verdict"], ("named", "one_of"))
+        self.assertIn("probe.pretravel_lobing", said["effects"][0]["members"])
+        self.assertLess(said["p_value"], 0.001)
+        if said["effects"][0]["members"][0] == "probe.pretravel_lobing":
+            low, high = said["effects"][0]["parameters"]["amplitude_um"]["interval95"]
+            self.assertLess(low, 3.3)
+            self.assertGreater(high, 2.7)
+        self.assertGreater(said["improvement"]["log_score_gain"], 3)
+        self.assertLess(said["improvement"]["rms_um"]["after"], said["improvement"]["rms_um"]["before"])
+        # The machine file with the effect in it gives larger uncertainties than the one without.
+        u = lambda machine: json.loads(self.abbe("run", PROGRAM, "--machine", machine, "--machines", 200, "--format", "json").stdout)["characteristics"][0]
+        with_effect, without = u("improved.json"), u(MACHINE)
+        self.assertNotEqual(with_effect["mean"], without["mean"])
+        # And what was found is no mismatch any more for the machine as it is known now.
+        again = self.diagnosis(recording, "--known", "improved.json")
+        self.assertEqual(again["baseline"]["mode"], "known")
+
+    def test_the_answer_does_not_depend_on_threads(self):
+        recording = self.record("--with", "probe.tip_radius:amplitude_um=2")
+        answers = [self.abbe("diagnose", recording, "--machine", MACHINE, "--format", "json", "--threads", t).stdout for t in (1, 2)]
+        self.assertEqual(*answers)
+
+    def test_text_is_for_people(self):
+        text = self.abbe("diagnose", self.record("--with", "probe.tip_radius:amplitude_um=2"), "--machine", MACHINE).stdout
+        self.assertIn("are not what", text.splitlines()[0])
+        self.assertIn("On touches that the model had not seen", text)
+
+    def test_a_plan_tells_what_it_can_detect(self):
+        said = self.diagnosis(self.record(), "--design-only")
+        lobing = next(d for d in said["smallest_detectable"] if d["effect"] == "probe.pretravel_lobing")
+        self.assertTrue(0.05 < lobing["detect_um"] < 3, lobing)
+        self.assertEqual(said["effects"], [])
+
+    def test_a_missing_covariate_is_named(self):
+        def without_speed(row):
+            del row["speed_mm_s"]
+            return row
+        said = self.diagnosis(self.changed(self.record(), without_speed))
+        entry = next(c for c in said["cannot_judge"] if c["effect"] == "probe.trigger_delay")
+        self.assertEqual(entry["missing"], ["speed_mm_s"])
+
+    def test_targets_may_come_from_the_program(self):
+        def bare(row):
+            return {k: row[k] for k in ("feature", "touch", "x", "y", "z")}
+        bare_recording = self.changed(self.record("--with", "probe.tip_radius:amplitude_um=3"), bare)
+        said = self.diagnosis(bare_recording, "--program", PROGRAM)
+        self.assertNotEqual(said["verdict"], "no_mismatch")
+        self.refused("E0543", "diagnose", bare_recording, "--machine", MACHINE)
+
+        def renamed(row):
+            return bare(row) | {"feature": "ELSEWHERE"}
+        self.refused("E0544", "diagnose", self.changed(self.record(), renamed), "--program", PROGRAM, "--machine", MACHINE)
+
+    def test_data_problems_are_recognised(self):
+        recording = self.record()
+
+        def scaled(by):
+            return lambda row: row | {a: repr(by * float(row[a])) for a in "xyz"}
+
+        def swapped(row):
+            return row | {"x": row["y"], "y": row["x"]}
+
+        def without_radius(row):
+            return row | {a: repr(float(row[a]) - 2 * float(row["n" + a])) for a in "xyz"}
+        for what, change in (("metres", scaled(1e-3)), ("swapped", swapped), ("tip radius", without_radius)):
+            message = self.refused("E0701", "diagnose", self.changed(recording, change), "--machine", MACHINE)
+            self.assertIn(what, message)
+        rows = recording.read_text().splitlines()
+        twice = self.write("twice.csv", "\n".join(rows + rows[-3:]) + "\n")
+        self.assertIn("W0702", self.abbe("diagnose", twice, "--machine", MACHINE).stderr)
+
+    def test_a_real_part_is_compared_with_itself(self):
+        """Surfaces far from their targets: only what repeats differently is judged."""
+        offset = lambda row: row | {"z": repr(float(row["z"]) + 0.3 * float(row["nz"]) + 0.4 * float(row["ny"]) ** 2)}
+        done = self.abbe("diagnose", self.changed(self.record(), offset), "--machine", MACHINE)
+        self.assertIn("W0704", done.stderr)
+        bad = self.write("bad.csv", "# surfaces: perhaps\n" + self.record().read_text())
+        self.refused("E0703", "diagnose", bad, "--machine", MACHINE)
+
+    def test_bad_recordings(self):
+        head = "feature,touch,x,y,z,tx,ty,tz,nx,ny,nz\n"
+        row = "A,1,0,0,0,0,0,0,0,0,1\n"
+        for code, text in {"E0521": head + '"A,1,0,0,0,0,0,0,0,0,1\n', "E0522": "feature,touch,x,y,z,x\n", "E0523": head + "A,1,0\n", "E0524": "# nothing\n",
+                           "E0525": "# frame: there\n" + head + row, "E0526": "feature,touch,x,y,z,tempp_part_C\nA,1,0,0,0,20\n",
+                           "E0527": "feature,x,y,z\nA,0,0,0\n", "E0528": head + "A,1,0,0,,0,0,0,0,0,1\n", "E0529": head + "A,1,0,0,0,0,0,0,0,0,3\n",
+                           "E0530": head + "A,one,0,0,0,0,0,0,0,0,1\n", "E0705": head + row}.items():
+            self.refused(code, "diagnose", self.write("bad.csv", text), "--machine", MACHINE)
+
+        sensor = self.record().read_text().replace("# sensor H1: head_deg", "# sensor H1: head_degrees")
+        self.refused("E0545", "diagnose", self.write("bad.csv", sensor), "--machine", MACHINE)
+
+    def test_recordings_that_cannot_be_joined(self):
+        one = self.record()
+        other = self.write("other.csv", one.read_text().replace("# point: tip_centre", "# point: surface"))
+        self.refused("E0707", "diagnose", one, other, "--machine", MACHINE)
+
+    def test_what_a_recording_does_not_say_is_assumed_aloud(self):
+        def nameless(row):
+            for key in ("sensor", "head_A_deg", "head_B_deg", "visit"):
+                del row[key]
+            for a in ("x", "tx"):
+                row[a] = repr(float(row[a]) + 5000)
+            return row
+        done = self.abbe("diagnose", self.changed(self.record(), nameless), "--machine", MACHINE)
+        self.assertIn("W0541", done.stderr)
+        self.assertIn("W0542", done.stderr)
+
+    def test_a_broken_known_state_is_refused(self):
+        machine = json.loads(MACHINE.read_text())
+        machine["known_state"] = {"schema": "abbe.known_state/1", "mean": [1, 2], "factor": []}
+        known = self.write("known.json", json.dumps(machine))
+        self.refused("E0706", "diagnose", self.record(), "--known", known)
+
+
+if __name__ == "__main__":
+    harness.main()

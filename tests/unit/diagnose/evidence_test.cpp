@@ -1,0 +1,112 @@
+#include "engine/diagnose/evidence.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+#include "engine/lanes/random.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+double normal(std::uint32_t address) { return normal_quantile(uniform_pair({11, address, stream_of("evidence_test"), 0, 0, 0}).a); }
+
+LinearModel noise_only(int rows, std::uint32_t stream) {
+  LinearModel m;
+  m.free = Matrix::Ones(rows, 1);
+  m.random = Matrix::Zero(rows, 2);
+  for (int i = 0; i < rows; ++i) m.random(i, 0) = double(i) / rows, m.random(i, 1) = std::sin(0.1 * i);
+  m.random_group.assign(2, 0);
+  m.noise_um = Vector::Ones(rows);
+  m.noise_group.assign(static_cast<std::size_t>(rows), 0);
+  m.follows.assign(static_cast<std::size_t>(rows), 0);
+  m.y.resize(rows);
+  for (int i = 0; i < rows; ++i) m.y(i) = normal(stream + static_cast<std::uint32_t>(i));
+  return m;
+}
+
+/// Two explanations: a square wave and a parabola.
+Explanations two(int rows) {
+  Explanations all;
+  for (int k = 0; k < 2; ++k) {
+    Block b;
+    b.explanation = k;
+    b.columns = {{0, 0, 1}};
+    b.signature.resize(rows, 1);
+    for (int i = 0; i < rows; ++i) b.signature(i, 0) = k == 0 ? (i / 5 % 2 ? 1 : -1) : std::pow(2.0 * i / rows - 1, 2);
+    all.blocks.push_back(b);
+    Explanation e;
+    e.name = k == 0 ? "square" : "parabola";
+    e.prior = 0.5;
+    e.blocks = {k};
+    all.list.push_back(e);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the Bayes factor is that of the two normal densities") {
+  const int n = 60;
+  LinearModel m = noise_only(n, 1);
+  const Explanations all = two(n);
+  m.y += 0.7 * all.blocks[0].signature.col(0);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const EvidenceSearch search(m, h, all);
+  const double g2 = search.level().g2, s2 = search.level().s2;
+  // log N(y; 0, V + s^2 h h') - log N(y; 0, V) by definition, with the constant given a prior variance beyond all doubt.
+  const auto log_density = [&](double size) {
+    Matrix v = s2 * Matrix::Identity(n, n) + g2 * m.random * m.random.transpose() + 1e6 * m.free * m.free.transpose();
+    v += size * size * all.blocks[0].signature * all.blocks[0].signature.transpose();
+    const Eigen::LLT<Matrix> llt(v);
+    const Matrix l = llt.matrixL();
+    return -l.diagonal().array().log().sum() - 0.5 * m.y.dot(llt.solve(m.y));
+  };
+  std::vector<double> sizes;
+  for (const double s : kSizes) sizes.push_back(log_density(s) - log_density(0) - std::log(double(std::size(kSizes))));
+  CHECK(search.evidence().log_bayes[0] == doctest::Approx(log_sum_exp(sizes)).epsilon(1e-4));
+  CHECK(search.evidence().log_bayes[0] > search.evidence().log_bayes[1] + 3);
+}
+
+TEST_CASE("p-values without a mismatch are uniform") {
+  // 60 recordings: the smallest p-values follow a binomial law; P(4 or more of 60 below 0.01) = 0.3 %, P(10 or more below 0.05) = 0.1 %.
+  const int n = 50;
+  const Explanations all = two(n);
+  int below1 = 0, below5 = 0, above50 = 0;
+  for (int k = 0; k < 60; ++k) {
+    const LinearModel m = noise_only(n, static_cast<std::uint32_t>(1000 * (k + 1)));
+    Hyperparameters h;
+    h.noise = Vector::Ones(1);
+    const EvidenceSearch search(m, h, all);
+    const double observed = search.evidence().statistic;
+    std::vector<double> simulated;
+    for (const Evidence& e : search.bootstrap(observed, 300, 5, 2)) simulated.push_back(e.statistic);
+    const double p = tail_probability(observed, simulated);
+    below1 += p < 0.01, below5 += p < 0.05, above50 += p > 0.5;
+  }
+  CHECK(below1 <= 3);
+  CHECK(below5 <= 9);
+  CHECK(above50 >= 15);
+  CHECK(above50 <= 45);
+}
+
+TEST_CASE("simulated recordings do not depend on threads") {
+  const LinearModel m = noise_only(40, 3);
+  const Explanations all = two(40);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const EvidenceSearch search(m, h, all);
+  const auto one = search.bootstrap(1e9, 30, 1, 1), two_threads = search.bootstrap(1e9, 30, 1, 2);
+  for (std::size_t k = 0; k < one.size(); ++k) CHECK(one[k].statistic == two_threads[k].statistic);
+}
+
+TEST_CASE("far tails are extrapolated, near ones counted") {
+  std::vector<double> simulated;
+  for (int k = 1; k <= 1000; ++k) simulated.push_back(-std::log((k - 0.5) / 1000));   // exponential
+  CHECK(tail_probability(std::log(10.0), simulated) == doctest::Approx(0.1).epsilon(0.02));
+  CHECK(std::log(tail_probability(std::log(1e5), simulated)) == doctest::Approx(std::log(1e-5)).epsilon(0.1));
+}

@@ -1,0 +1,106 @@
+#include "engine/diagnose/linear.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <doctest/doctest.h>
+
+#include "engine/lanes/random.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+double normal(std::uint32_t address) {
+  return normal_quantile(uniform_pair({7, address, stream_of("linear_test"), 0, 0, 0}).a);
+}
+
+Matrix random_matrix(int rows, int columns, std::uint32_t stream) {
+  Matrix m(rows, columns);
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < columns; ++k) m(i, k) = normal(stream + static_cast<std::uint32_t>(1000 * i + k));
+  return m;
+}
+
+LinearModel model_of(int rows, double scale, double noise, double phi, std::uint32_t stream) {
+  LinearModel m;
+  m.free = random_matrix(rows, 3, stream + 1'000'000);
+  m.random = 2 * random_matrix(rows, 12, stream + 2'000'000);
+  m.random_group.assign(12, 0);
+  m.noise_um = Vector::Constant(rows, 0.5);
+  m.noise_group.assign(static_cast<std::size_t>(rows), 0);
+  m.follows.assign(static_cast<std::size_t>(rows), 1);
+  m.follows[0] = 0;
+  Vector e(rows), u(12);
+  for (int k = 0; k < 12; ++k) u(k) = scale * normal(stream + 3'000'000 + static_cast<std::uint32_t>(k));
+  for (int i = 0; i < rows; ++i) {
+    const double white = normal(stream + 4'000'000 + static_cast<std::uint32_t>(i));
+    e(i) = i == 0 ? white : phi * e(i - 1) + std::sqrt(1 - phi * phi) * white;
+  }
+  m.y = m.free * Vector::Constant(3, 40.0) + m.random * u + 0.5 * noise * e;
+  return m;
+}
+
+/// The inverse covariance with the free columns projected out, dense and by definition.
+Matrix dense_precision(const LinearModel& m, const Hyperparameters& h) {
+  const Eigen::Index n = m.y.size();
+  Matrix v = h.scale * h.scale * m.random * m.random.transpose();
+  for (Eigen::Index i = 0; i < n; ++i) v(i, i) += std::pow(m.noise_um(i) * h.noise(m.noise_group[static_cast<std::size_t>(i)]), 2);
+  const Matrix inverse = v.inverse(), x = m.free;
+  return inverse - inverse * x * (x.transpose() * inverse * x).inverse() * x.transpose() * inverse;
+}
+
+}  // namespace
+
+TEST_CASE("residuals predicted from all other rows are those of the dense formula") {
+  const LinearModel m = model_of(60, 1, 1, 0, 1);
+  Hyperparameters h;
+  h.scale = 1.3;
+  h.noise = Vector::Constant(1, 0.8);
+  const Matrix p = dense_precision(m, h);
+  const Vector py = p * m.y, loo = leave_one_out(m, h);
+  for (Eigen::Index i = 0; i < loo.size(); ++i) CHECK(loo(i) == doctest::Approx(py(i) / std::sqrt(p(i, i))).epsilon(1e-6));
+}
+
+TEST_CASE("the rotated basis keeps inner products") {
+  const LinearModel m = model_of(50, 1, 1, 0, 2);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const Rotated r(m, h);
+  const Matrix a = random_matrix(50, 4, 900), projected = r.project(a), z = r.coordinates(projected), rest = r.remainder(projected, z);
+  const Vector weight = (1 + r.lambda().array()).inverse();
+  const Matrix got = z.transpose() * weight.asDiagonal() * z + rest.transpose() * rest;
+  const Matrix expected = a.transpose() * dense_precision(m, h) * a;
+  CHECK((got - expected).cwiseAbs().maxCoeff() < 1e-8 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("scale, noise and correlation are found again") {
+  // 2 sd of the estimates: 1/sqrt(2 * 12) of the scale, 1/sqrt(2 * 400) of the noise.
+  const Hyperparameters h = estimate(model_of(400, 2, 1.4, 0, 3));
+  CHECK(std::abs(std::log(h.scale / 2)) < 0.5);
+  CHECK(h.noise(0) == doctest::Approx(1.4).epsilon(0.08));
+  CHECK(h.correlation == 0);
+  const Hyperparameters correlated = estimate(model_of(400, 1, 1, 0.5, 4));
+  CHECK(correlated.correlation > 0.25);
+  CHECK(correlated.correlation < 0.75);
+}
+
+TEST_CASE("unknowns that the rows do not determine do no harm") {
+  LinearModel m = model_of(80, 1, 1, 0, 5);
+  m.free.conservativeResize(Eigen::NoChange, 5);
+  m.free.col(3) = m.free.col(0) - m.free.col(1);
+  m.free.col(4).setZero();
+  const Hyperparameters h = estimate(m);
+  CHECK(h.noise(0) == doctest::Approx(1).epsilon(0.25));
+  CHECK(leave_one_out(m, h).allFinite());
+}
+
+TEST_CASE("level is fitted anew to any data") {
+  const LinearModel m = model_of(300, 1, 1, 0, 6);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const Rotated r(m, h);
+  const Vector z = r.z(), rest = r.remainder(r.y(), z);
+  const Level level = fit_level(r.lambda(), 1.5 * z, 2.25 * rest.squaredNorm(), r.rest_dof());
+  CHECK(level.s2 == doctest::Approx(2.25).epsilon(0.2));
+}

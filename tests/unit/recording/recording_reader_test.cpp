@@ -1,0 +1,56 @@
+#include <doctest/doctest.h>
+
+#include "engine/recording/recording.hpp"
+#include "engine/base/diagnostic.hpp"
+
+using namespace abbe;
+
+TEST_CASE("what is written is read back") {
+  Recording r;
+  r.metadata = {{"machine", "m"}};
+  RecordingRow row;
+  row.feature = "A \"quoted\", label";
+  row.touch = 3;
+  row.position_mm = {1.25, -2.5, 1e-3};
+  row.target_mm = Vec3{1, -2, 0};
+  row.normal = Vec3{0, 0, 1};
+  row.sensor = "S1";
+  row.head_a_deg = 90;
+  row.time_s = 12.5;
+  row.travel = Vec3{0, 0, -1};
+  row.reading_mm = Vec3{4, 5, 6};
+  r.rows = {row, row};
+  r.rows[1].sensor.reset();
+  r.rows[1].time_s.reset();
+  r.point = RecordedPoint::surface;
+  const Recording back = read_recording(SourceFile("r.csv", to_csv(r)));
+  REQUIRE(back.rows.size() == 2);
+  CHECK(back.metadata == r.metadata);
+  CHECK(back.point == RecordedPoint::surface);
+  CHECK(back.rows[0].feature == row.feature);
+  CHECK(back.rows[0].touch == 3);
+  CHECK(back.rows[0].position_mm == row.position_mm);
+  CHECK(*back.rows[0].normal == *row.normal);
+  CHECK(*back.rows[0].reading_mm == *row.reading_mm);
+  CHECK(*back.rows[0].sensor == "S1");
+  CHECK_FALSE(back.rows[1].time_s.has_value());
+  CHECK(back.rows[0].line == 5);
+}
+
+TEST_CASE("CRLF, byte order mark and blanks do not matter") {
+  const Recording r = read_recording(SourceFile("r.csv", "\xEF\xBB\xBF# free text\r\nfeature, touch, x,y,z\r\n A , 1, +1.5, 2,3\r\n\r\n"));
+  REQUIRE(r.rows.size() == 1);
+  CHECK(r.rows[0].feature == "A");
+  CHECK(r.rows[0].position_mm == Vec3{1.5, 2, 3});
+}
+
+TEST_CASE("every mistake has its place") {
+  try {
+    read_recording(SourceFile("r.csv", "feature,touch,x,y,z\nA,1,0,0,0\nA,two,0,0,0\nA,3,0,0,1e999\n"));
+    FAIL("a recording with mistakes was read");
+  } catch (const UserError& e) {
+    REQUIRE(e.diagnostics().size() >= 2);
+    CHECK(e.diagnostics()[0].place == Place{3, 3});
+    CHECK(e.diagnostics()[1].place == Place{4, 9});
+  }
+}
