@@ -77,13 +77,15 @@ void find_duplicates(const Recording& r, const std::string& file, std::vector<Di
   }
   if (twice > 0)
     messages.push_back(diagnostic(Code::W0702, fmt::format("{}: {} rows stand there twice, the first is {}", file, twice, first),
-                                  "each was counted once"));
+                                  "remove one of each pair"));
 }
 
 }  // namespace
 
 void check_data(const Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
   find_duplicates(r, file, messages);
+  const bool complete = std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
+  if (!complete) return;  // recorded_touches() says what is missing
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross < kGross_mm) return;
   check_units(r, file, gross);

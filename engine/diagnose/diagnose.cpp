@@ -143,7 +143,8 @@ bool judged(const Case& c, const Finding& f) {
     total += p;
     if (c.explanations.list[k].missing) open += p;
   }
-  return open < 0.4 * total;
+  constexpr double kMostly = 0.8;
+  return open < kMostly * total;
 }
 
 Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d) {

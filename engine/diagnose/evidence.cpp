@@ -26,7 +26,9 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
     blocks_.push_back(std::move(p));
   }
   const Data data = of_recording();
-  level_ = fit_level(rotated_.lambda(), data.z, data.rest_squares, rotated_.rest_dof());
+  // A plan has no values yet: what it can tell is judged at the level that was stated.
+  const bool plan = data.rest_squares == 0 && data.z.squaredNorm() == 0;
+  if (!plan) level_ = fit_level(rotated_.lambda(), data.z, data.rest_squares, rotated_.rest_dof());
 }
 
 EvidenceSearch::Data EvidenceSearch::of_recording() const {

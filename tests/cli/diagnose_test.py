@@ -113,7 +113,7 @@ class Diagnose(harness.Case):
 
     def test_a_real_part_is_compared_with_itself(self):
         """Surfaces far from their targets: only what repeats differently is judged."""
-        offset = lambda row: row | {"z": repr(float(row["z"]) + 0.3 * float(row["nz"]) + 0.4 * float(row["ny"]) ** 2)}
+        offset = lambda row: row | {"z": repr(float(row["z"]) + 0.8 * float(row["nz"]) + 0.9 * float(row["ny"]) ** 2)}
         done = self.abbe("diagnose", self.changed(self.record(), offset), "--machine", MACHINE)
         self.assertIn("W0704", done.stderr)
         bad = self.write("bad.csv", "# surfaces: perhaps\n" + self.record().read_text())
