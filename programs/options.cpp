@@ -59,6 +59,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   command->add_option("--digits", settings.digits, "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
       ->type_name("D")
       ->excludes("--machines");
+  command->add_option("--recording", settings.recording, "add the errors to these recorded points instead of to nominal ones")->type_name("REC.csv");
   add_effects(command, settings.effect_use);
   command->add_flag("--budget", settings.budget, "share out the variance among all sources, and between alignment and features");
   command->add_option("--coverage", settings.coverage, "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")

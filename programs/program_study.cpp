@@ -56,6 +56,9 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
 
   StudyOptions options;
   options.workpiece = workpiece ? &*workpiece : nullptr;
+  const std::optional<Recording> recorded =
+      settings.recording ? std::optional(read_recording(read_source(*settings.recording))) : std::nullopt;
+  options.recorded = recorded ? &*recorded : nullptr;
   options.seed = settings.seed.value_or(asked.seed.value_or(options.seed));
   options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
   options.digits = settings.digits;

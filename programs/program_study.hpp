@@ -20,6 +20,7 @@ inline constexpr int kDefaultMachines = 1000;
 struct StudySettings {
   std::optional<std::string> machine;  ///< file or shipped name
   std::optional<std::string> workpiece;  ///< file
+  std::optional<std::string> recording;  ///< file: errors are added to its points instead of to nominal ones
   std::optional<int> machines;
   std::optional<int> digits;           ///< significant digits of u that must be stable; chooses the number of machines
   std::optional<std::uint64_t> seed;

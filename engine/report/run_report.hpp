@@ -64,6 +64,7 @@ struct LostCharacteristic {
 struct RunReport {
   std::string program, machine, version;
   std::optional<std::string> workpiece;  ///< its name; none: exactly nominal, at 20 degrees C
+  bool recorded_points = false;          ///< errors were added to recorded points, not to nominal ones
   std::optional<EffectUse> effect_use;   ///< none: the machine file has no effects
   std::uint64_t seed = 1;
   double cycle_time_s = 0;  ///< estimated, of one run of the program (RunResult::cycle_time_s)

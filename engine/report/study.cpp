@@ -101,6 +101,7 @@ class StudyRun {
     options.effect_use = options_.effect_use;
     options.placement_mm = options_.placement_mm;
     options.workpiece = options_.workpiece;
+    options.recorded = options_.recorded;
     return run_plan(plan_, machine_, machines, options, source_);
   }
 
@@ -195,6 +196,7 @@ class StudyRun {
     report.program = source_.name();
     report.machine = machine_.name;
     if (options_.workpiece) report.workpiece = options_.workpiece->name;
+    report.recorded_points = options_.recorded != nullptr;
     if (!machine_.effects.empty()) report.effect_use = options_.effect_use;
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;

@@ -42,6 +42,7 @@ struct StudyOptions {
   EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;                     ///< RunOptions::placement_mm
   const Workpiece* workpiece = nullptr;  ///< RunOptions::workpiece
+  const Recording* recorded = nullptr;   ///< RunOptions::recorded
 };
 
 struct Study {

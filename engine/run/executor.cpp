@@ -17,12 +17,37 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = stylus_ordinal(sensors_.back(), {sensors_.begin(), sensors_.end() - 1});
   }
+  if (options.recorded) find_recorded_points();
   std::uint32_t touches = 0;
   for (const plan::Operation& op : plan.operations) {
     const auto* touch = std::get_if<plan::Touch>(&op.action);
     site_.push_back(touch ? touches++ : 0);
     has_patterns_ |= touch && touch->pattern_count > 0;
   }
+}
+
+void Executor::find_recorded_points() {
+  for (const RecordingRow& row : options_.recorded->rows) {
+    for (std::size_t f = 0; f < plan_.features.size(); ++f) {
+      if (plan_.features[f].label != row.feature) continue;
+      const Vec3 tip = row.position_mm + options_.placement_mm +
+                       (options_.recorded->point == RecordedPoint::surface && row.normal ? recorded_radius(row) * *row.normal : Vec3{});
+      recorded_.emplace(std::pair{static_cast<int>(f), static_cast<std::size_t>(row.touch - 1)}, tip);
+    }
+  }
+}
+
+double Executor::recorded_radius(const RecordingRow& row) const {
+  for (const Sensor& sensor : sensors_)
+    if (row.sensor && sensor.name == *row.sensor) return sensor.radius_mm;
+  return sensors_.empty() ? 0 : sensors_.front().radius_mm;
+}
+
+std::optional<Vec3> Executor::recorded_surface(plan::FeatureId feature, std::size_t touch, const Vec3& surface, const Vec3& normal,
+                                               double radius_mm) const {
+  const auto found = recorded_.find({feature.value, touch});
+  if (found == recorded_.end()) return std::nullopt;
+  return surface + (dot(normal, found->second - surface) - radius_mm) * normal;
 }
 
 Block Executor::make_block(const VirtualMachines& machines, int first, int count) const {

@@ -50,6 +50,10 @@ class Executor {
 
  private:
   friend class BlockRun;
+  /// The surface point moved along its normal to where the recording has it; nothing when it has no such touch. `touch`: 0, 1, ...
+  std::optional<Vec3> recorded_surface(plan::FeatureId, std::size_t touch, const Vec3& surface, const Vec3& normal, double radius_mm) const;
+  void find_recorded_points();
+  double recorded_radius(const RecordingRow&) const;
   const Element* known_fit(int operation, const std::vector<Vec3>& points) const;
   /// Whether touches of this feature have errors in this run.
   bool errors_act_on(plan::FeatureId) const;
@@ -62,6 +66,7 @@ class Executor {
   std::vector<Sensor> sensors_;      ///< by SensorId
   EffectSet effects_;
   Part part_;
+  std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< tip centres by feature and touch, W; of options_.recorded
   std::vector<char> aligns_;         ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
   bool has_patterns_ = false;        ///< touches that the program leaves to the machine

@@ -107,6 +107,12 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
     normal = lane.X_WD.R * unit(normal_D);
     point = lane.X_WD * value(lane, touch.point);
   }
+  if (executor.options_.recorded) {
+    const auto recorded = executor.recorded_surface(touch.feature, twin.points.size(), surface, unit(true_normal), sensor.radius_mm);
+    if (!recorded)
+      return trap(index, "the recording has no touch " + std::to_string(twin.points.size() + 1) + " of '" + executor.plan_[touch.feature].label + "'"), false;
+    surface = *recorded;
+  }
   const Vec3 commanded = point + sensor.radius_mm * normal;
   touch_batch.commanded.set(slot, commanded);
   touch_batch.normal.set(slot, normal);

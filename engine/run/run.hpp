@@ -36,6 +36,9 @@ struct RunOptions {
   EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;              ///< where the program's machine coordinate system lies in W (directive `place`)
   const Workpiece* workpiece = nullptr;  ///< the true part; none: exactly nominal, at 20 degrees C
+  /// The second recipe of simulation: errors are added to the points of this recording, in the program's machine coordinates, instead
+  /// of to nominal points. The reference is then what an error-free machine would make of the recorded points.
+  const Recording* recorded = nullptr;
 };
 
 /// The values of one characteristic, at its `occurrence`-th evaluation, on every machine. Values are mm or rad.

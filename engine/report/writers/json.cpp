@@ -99,6 +99,7 @@ std::string write_json(const RunReport& r) {
       {"program", r.program},
       {"machine", r.machine},
       {"workpiece", r.workpiece ? Json(*r.workpiece) : Json()},
+      {"errors_added_to", r.recorded_points ? "recorded points" : "nominal points"},
       {"effects_use", r.effect_use ? Json(name(*r.effect_use)) : Json()},
       {"seed", r.seed},
       {"version", r.version},

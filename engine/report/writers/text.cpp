@@ -213,6 +213,7 @@ std::string header(const RunReport& r) {
       "{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n",
       r.program, r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
   if (r.workpiece) out += fmt::format("workpiece {}\n", *r.workpiece);
+  if (r.recorded_points) out += "errors added to recorded points\n";
   if (r.effect_use) out += fmt::format("effects {}\n", name(*r.effect_use));
   return out + fmt::format("estimated cycle time {}\n", duration(r.cycle_time_s));
 }
