@@ -15,6 +15,8 @@ constexpr double kDetects = 4.5, kNames = 5.5;
 /// Share of the information beyond which nothing is left to tell two effects apart.
 constexpr double kInseparable = 0.03;
 constexpr double kConfounded = 0.7;
+/// An effect that would have to move a touch by more than this to be seen does, for these touches, nothing.
+constexpr double kNothing_um = 1e4;
 
 int first_linear(const Block& b) { return b.columns.empty() ? -1 : b.columns.front().parameter; }
 
@@ -48,6 +50,7 @@ class Design {
                  .unit = std::string(e.effect->parameters[static_cast<std::size_t>(parameter)].unit), .name = {}, .name_um = {}, .confounded_with = {}};
     d.detect = unit * kDetects / std::sqrt(most);
     d.detect_um = largest * kDetects / std::sqrt(most);
+    if (d.detect_um > kNothing_um) return std::nullopt;
     add_rivals(k, best, column, most, unit, largest, d);
     return d;
   }
