@@ -64,8 +64,8 @@ TEST_CASE("a workpiece file may bound influences") {
   REQUIRE(w.bounds.size() == 1);
   CHECK(w.bounds[0].influence == "fixturing");
   CHECK(w.bounds[0].at_most_mm == doctest::Approx(0.002));
-  CHECK(has(faults(R"("bounds": [{"influence": "fixtures", "at_most_um": 2, "source": "s"}])"),
-            "E0432 there is no influence \"fixtures\" | did you mean \"fixturing\"?"));
+  CHECK(has(faults(R"("bounds": [{"influence": "fixtring", "at_most_um": 2, "source": "s"}])"),
+            "E0432 there is no influence \"fixtring\" | did you mean \"fixturing\"?"));
 }
 
 TEST_CASE("contradictions in a quantity are named (E0421)") {
