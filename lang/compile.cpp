@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lang/directives.hpp"
+#include "lang/flow.hpp"
 #include "lang/follow_up.hpp"
 #include "lang/lines.hpp"
 #include "lang/lowering.hpp"
@@ -20,14 +21,19 @@ constexpr std::size_t kShortestSlip = 4;
 /// Drives the statements of one file through lookup, signature and lowering.
 class Compiler {
  public:
-  Compiler(const SourceFile& source, Sink& sink) : lowering_(source, sink) {}
+  Compiler(const SourceFile& source, Sink& sink, const CompileOptions& options) : lowering_(source, sink) {
+    for (const auto& [name, answer] : options.answers) lowering_.answers[upper(name)] = answer;
+  }
 
-  Compilation run() {
+  /// Throws Restart (flow.hpp).
+  Compilation run(Moving& moving) {
     lowering_.out.plan.name = lowering_.source.name();
-    for (const LogicalLine& line : logical_lines(lowering_.source)) {
-      read_directives(line, lowering_);
-      if (const auto raw = parse_statement(line, lowering_.source, lowering_.sink)) one(*raw);
-    }
+    std::vector<LogicalLine> lines = logical_lines(lowering_.source);
+    for (const LogicalLine& line : lines) read_directives(line, lowering_);
+    Routine program = make_routine(lowering_.source, std::move(lines), lowering_);
+    Flow(lowering_, moving, [this](const RawStatement& raw) { one(raw); }).run(program);
+    for (int at = 0; at < program.size(); ++at)
+      if (!program.visited[static_cast<std::size_t>(at)] && !program[at].skipped) never_run(program[at].raw);
     finish();
     return std::move(lowering_.out);
   }
@@ -39,13 +45,13 @@ class Compiler {
     if (!raw.usable && !raw.missing_slash) lowering_.fail("the statement is not complete");
     std::string_view word = raw.word;
     if (raw.target) {
-      not_supported("a jump target", raw.span);
+      outside(raw);
     } else if (const Statement* statement = find_statement(raw.word)) {
       known(*statement, raw);
     } else if (is_standard_word(raw.word)) {
       if (!outside(raw)) not_supported(raw.word, raw.word_span);
     } else {
-      meant_ = unknown(raw);
+      meant_ = outside(raw) ? "" : unknown(raw);
       word = meant_;
     }
     if (lowering_.failed) {
@@ -56,14 +62,21 @@ class Compiler {
     lowering_.statement = nullptr;
   }
 
+  /// A statement on a path that nothing takes: words can be checked, what they mean depends on the path.
+  void never_run(const RawStatement& raw) {
+    lowering_.statement = &raw;
+    if (!raw.target && !is_standard_word(raw.word) && !find_statement(raw.word)) unknown(raw);
+    lowering_.statement = nullptr;
+  }
+
   /// True for statements that are not part of the plan: in a skipped region, or after the end of
   /// the program.
   bool outside(const RawStatement& raw) {
     if (lowering_.skipping) return true;
-    if (lowering_.end_line == 0 && !second_program_) return false;
+    if (lowering_.end_line == 0 && !lowering_.second_program) return false;
     const bool asks = raw.word == "OUTPUT" || raw.word == "EVAL";
-    if (second_program_ && asks) lowering_.fail("it belongs to a second program in the file");
-    if (!second_program_ && !after_end_reported_) {
+    if (lowering_.second_program && asks) lowering_.fail("it belongs to a second program in the file");
+    if (!lowering_.second_program && !after_end_reported_) {
       lowering_.warn(Code::W0224, raw.word_span,
                      fmt::format("the program ended in line {}", lowering_.end_line),
                      "move ENDFIL to the end; what follows it is ignored");
@@ -83,11 +96,25 @@ class Compiler {
       return lowering_.error(Code::E0115, *raw.missing_slash,
                              fmt::format("expected '/' after {}", statement.word),
                              fmt::format("for example: {}", statement.example),
-                             fmt::format("/{}", lowering_.source.text(*raw.missing_slash)));
+                             fmt::format("/{}", lowering_.file->text(*raw.missing_slash)));
     if (!label_fits(statement, raw) || lowering_.failed) return;
-    if (const auto match = lowering_.match(statement.signature, raw, statement.word))
-      statement.lower(lowering_, raw, *match);
-    if (begins && lowering_.failed && lowering_.begin_line != 0) second_program_ = true;
+    if (const auto match = lowering_.match(statement.signature, raw, statement.word, 0, statement.varying))
+      lower(statement, raw, *match);
+    if (begins && lowering_.failed && lowering_.begin_line != 0) lowering_.second_program = true;
+  }
+
+  void lower(const Statement& statement, const RawStatement& raw, const Match& match) {
+    statement.lower(lowering_, raw, match);
+    if (lowering_.failed || raw.arguments.empty() || raw.label) return;
+    // For VALUE: what the statement sets, in the units of the program.
+    const auto text = [&](const RawArgument& a) {
+      for (const MatchedValue& v : match.values)
+        if (v.span == a.span && v.type <= ValueType::integer && a.kind != RawArgument::Kind::number)
+          return fmt::format("{}", v.number / (v.type == ValueType::length ? lowering_.units.mm_per_unit : v.type == ValueType::angle ? lowering_.units.rad_per_unit : 1));
+      return a.text;
+    };
+    lowering_.settings[raw.word] = text(raw.arguments.front());
+    if (raw.arguments.size() > 1) lowering_.settings[raw.word + "," + upper(raw.arguments.front().text)] = text(raw.arguments.back());
   }
 
   bool label_fits(const Statement& statement, const RawStatement& raw) {
@@ -95,8 +122,8 @@ class Compiler {
       lowering_.warn(Code::W0123, raw.label->span,
                      fmt::format("this label has {} characters", raw.label->name.size()),
                      fmt::format("a controller may refuse more than {}", kLongestLabel));
-    const std::string given = raw.label ? raw.label->kind : "";
-    if (statement.label == "*" || (given == statement.label && (!raw.label || !given.empty()))) {
+    const std::string given = !raw.label ? "" : raw.label->kind.empty() ? "=" : raw.label->kind;
+    if (statement.label == "*" || given == statement.label) {
       if (!raw.label || !raw.label->name.empty()) return true;
       lowering_.error(Code::E0109, raw.label->span, "this label is empty",
                       "write a name between the parentheses");
@@ -105,6 +132,7 @@ class Compiler {
     lowering_.error(Code::E0109, raw.label ? raw.label->span : raw.word_span,
                     statement.label.empty()
                         ? fmt::format("{} takes no label", statement.word)
+                    : statement.label == "=" ? fmt::format("{} needs a variable before it: X={}/...", statement.word, statement.word)
                         : fmt::format("{} needs a label {}(name)", statement.word, statement.label),
                     fmt::format("for example: {}", statement.example));
     return false;
@@ -120,12 +148,11 @@ class Compiler {
 
   /// Reports the word; the word that was probably meant, or "".
   std::string unknown(const RawStatement& raw) {
-    if (outside(raw)) return "";
     std::vector<std::string_view> words(standard_words().begin(), standard_words().end());
     const std::string near = nearest_word(raw.word, words);
     if (raw.missing_slash && (near.empty() || raw.word.size() < kShortestSlip)) {
       lowering_.error(Code::E0101, raw.span,
-                      fmt::format("'{}' is not a statement", lowering_.source.text(raw.span)),
+                      fmt::format("'{}' is not a statement", lowering_.file->text(raw.span)),
                       "a statement is WORD/argument,argument; a comment begins with $$");
       lowering_.failed = false;  // free text takes nothing away
       return "";
@@ -156,11 +183,21 @@ class Compiler {
 
   Lowering lowering_;
   std::string meant_;
-  bool second_program_ = false, after_end_reported_ = false;
+  bool after_end_reported_ = false;
 };
 
 }  // namespace
 
-Compilation compile(const SourceFile& source, Sink& sink) { return Compiler(source, sink).run(); }
+Compilation compile(const SourceFile& source, Sink& sink, const CompileOptions& options) {
+  for (Moving moving;;) {
+    Sink found;
+    try {
+      Compilation out = Compiler(source, found, options).run(moving);
+      for (const Diagnostic& d : found.list()) sink.add(d);
+      return out;
+    } catch (const Restart&) {  // with one more moving jump
+    }
+  }
+}
 
 }  // namespace abbe::lang

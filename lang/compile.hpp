@@ -1,6 +1,7 @@
 // The front end: the text of a measurement program (DMIS, ISO 22093) to a plan.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,13 @@ struct Compilation {
   std::vector<Lost> lost;
 };
 
-/// Never throws on a user's text: every mistake goes to the sink, and what can be used is used.
-Compilation compile(const SourceFile&, Sink&);
+/// What a compilation needs to know beyond the program.
+struct CompileOptions {
+  std::map<std::string, std::string> answers;  ///< to PROMPT: by the name of the variable, in any case
+};
+
+/// Never throws on a user's text: every mistake goes to the sink, and what can be used is used. Modules are read from the
+/// folder of the file.
+Compilation compile(const SourceFile&, Sink&, const CompileOptions& = {});
 
 }  // namespace abbe::lang

@@ -13,7 +13,7 @@ namespace {
 std::optional<std::string> label_argument(const Lowering& lowering, const RawStatement& raw,
                                           std::string_view kind, std::string_view other) {
   const std::string_view text =
-      lowering.source.text({raw.word_span.end, std::max(raw.word_span.end, raw.span.end)});
+      lowering.file->text({raw.word_span.end, std::max(raw.word_span.end, raw.span.end)});
   constexpr std::string_view kEnds = "/=,( \t";
   for (std::size_t open = text.find('('); open != std::string_view::npos;
        open = text.find('(', open + 1)) {

@@ -5,7 +5,11 @@
 namespace abbe::lang {
 
 void JoinedText::append(std::string_view piece, std::uint32_t file_offset) {
-  pieces_.push_back({text_.size(), file_offset});
+  append_instead(piece, {file_offset, file_offset + static_cast<std::uint32_t>(piece.size())});
+}
+
+void JoinedText::append_instead(std::string_view piece, Span place) {
+  pieces_.push_back({text_.size(), place.begin, place.end});
   text_ += piece;
 }
 
@@ -15,7 +19,8 @@ std::uint32_t JoinedText::file_offset(std::size_t offset) const {
       pieces_.begin(), pieces_.end(), offset,
       [](std::size_t value, const Piece& piece) { return value < piece.text_begin; });
   if (after != pieces_.begin()) --after;
-  return after->file_begin + static_cast<std::uint32_t>(offset - after->text_begin);
+  const auto inside = static_cast<std::uint32_t>(offset - after->text_begin);
+  return std::min(after->file_begin + inside, after->file_end);
 }
 
 Span JoinedText::span(std::size_t begin, std::size_t end) const {

@@ -26,6 +26,8 @@ class JoinedText {
   const std::string& text() const { return text_; }
   /// Adds bytes of the file that begin at `file_offset`.
   void append(std::string_view piece, std::uint32_t file_offset);
+  /// Adds text that stands in for the bytes `place` of the file: what a macro puts in.
+  void append_instead(std::string_view piece, Span place);
   /// Where in the file the byte at `offset` stands; one past the last byte maps to one past its
   /// place.
   std::uint32_t file_offset(std::size_t offset) const;
@@ -36,7 +38,7 @@ class JoinedText {
  private:
   struct Piece {
     std::size_t text_begin;
-    std::uint32_t file_begin;
+    std::uint32_t file_begin, file_end;
   };
   std::string text_;
   std::vector<Piece> pieces_;

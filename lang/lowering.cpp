@@ -38,17 +38,28 @@ std::string chain(std::string consequence, std::string_view cause) {
                      gap ? cause.substr(last) : cause);
 }
 
+void Lowering::add(Diagnostic d) {
+  const std::uint32_t at = d.span ? d.span->begin : 0;
+  if (!reported_.insert({d.code, file, at}).second) return;
+  if (!call.empty()) d.help = fmt::format("{}{}{}", d.help, d.help.empty() ? "" : " ", call);
+  sink.add(std::move(d));
+}
+
 void Lowering::error(Code code, Span span, std::string message, std::string help,
                      std::string replacement) {
   fail(message);
-  sink.add(diagnostic_at(source, span, code, std::move(message), std::move(help),
-                         std::move(replacement)));
+  add(diagnostic_at(*file, span, code, std::move(message), std::move(help),
+                    std::move(replacement)));
 }
 
 void Lowering::warn(Code code, Span span, std::string message, std::string help,
                     std::string replacement) {
-  sink.add(diagnostic_at(source, span, code, std::move(message), std::move(help),
-                         std::move(replacement)));
+  add(diagnostic_at(*file, span, code, std::move(message), std::move(help),
+                    std::move(replacement)));
+}
+
+void Lowering::mistake(const Mistake& m) {
+  error(m.code, statement->code->span(m.begin, m.end), m.message, m.help, m.replacement);
 }
 
 void Lowering::fail(std::string reason) {
@@ -56,17 +67,77 @@ void Lowering::fail(std::string reason) {
   failed = true;
 }
 
+namespace {
+
+/// Finds the variables of a program for its expressions.
+class VariablesOf : public Names {
+ public:
+  explicit VariablesOf(Lowering& lowering) : lowering_(lowering) {}
+  std::optional<Value> variable(std::string_view name, const std::optional<Value>& index) override {
+    Variable* found = find_variable(lowering_, name);
+    return found ? std::optional(read(lowering_, *found, index)) : std::nullopt;
+  }
+  std::string near(std::string_view name) override {
+    std::vector<std::string_view> names;
+    for (const auto& [key, v] : lowering_.variables) names.push_back(v.name);
+    return nearest_word(name, names);
+  }
+  Texts& texts() override { return lowering_.texts; }
+
+ private:
+  Lowering& lowering_;
+};
+
+}  // namespace
+
+std::optional<Value> Lowering::value(const RawArgument& argument) {
+  VariablesOf names(*this);
+  Evaluation result = evaluate(statement->code->text(), argument.begin, argument.end, names);
+  if (Value* v = std::get_if<Value>(&result)) return std::move(*v);
+  mistake(std::get<Mistake>(result));
+  return std::nullopt;
+}
+
 std::optional<Match> Lowering::match(std::string_view text, const RawStatement& raw,
-                                     std::string_view what, std::size_t first) {
+                                     std::string_view what, std::size_t first, Varying takes) {
   auto it = signatures_.find(text);
   if (it == signatures_.end()) it = signatures_.emplace(text, parse_signature(text)).first;
   const std::span<const RawArgument> arguments = std::span(raw.arguments).subspan(first);
-  auto result = lang::match(it->second, arguments, units);
-  if (Match* matched = std::get_if<Match>(&result)) return std::move(*matched);
-  Diagnostic d = describe(std::get<Mismatch>(result), arguments, what, first, raw.span, source);
-  fail(d.message);
-  sink.add(std::move(d));
-  return std::nullopt;
+  VariablesOf names(*this);
+  auto result = lang::match(it->second, arguments, units, [&](const RawArgument& a) {
+    return evaluate(raw.code->text(), a.begin, a.end, names);
+  });
+  if (const Mismatch* mismatch = std::get_if<Mismatch>(&result)) {
+    if (mismatch->mistake) {
+      mistake(*mismatch->mistake);
+    } else {
+      Diagnostic d = describe(*mismatch, arguments, what, first, raw.span, *file);
+      fail(d.message);
+      add(std::move(d));
+    }
+    return std::nullopt;
+  }
+  for (MatchedValue& v : std::get<Match>(result).values) {
+    if (!v.value || v.type == ValueType::value || v.type == ValueType::condition) continue;
+    if (takes == Varying::refused) {
+      error(Code::E0231, v.span, fmt::format("{} must be known before the machine runs, '{}' depends on a measured value", what, v.text),
+            "use a number, or a variable that nothing measured goes into");
+      return std::nullopt;
+    }
+    v.column = evaluated(v.value->parts[0]);
+  }
+  return std::move(std::get<Match>(result));
+}
+
+std::vector<plan::VaryingNumber> Lowering::varying(const Match& match) {
+  std::vector<plan::VaryingNumber> out;
+  std::map<std::string, int> counts;
+  for (const MatchedValue& v : match.values) {
+    if (v.type > ValueType::integer) continue;
+    const int index = counts[v.name]++;
+    if (v.column.valid()) out.push_back({v.name, index, v.column});
+  }
+  return out;
 }
 
 std::optional<Arguments> Lowering::arguments(const Match& match) {
@@ -93,6 +164,11 @@ typename Map::mapped_type* Lowering::find(Map& map, std::string_view kind, const
     fail(chain(fmt::format("{} {} is not usable", kind, written(label)), spoilt->second));
     return nullptr;
   }
+  if (it != map.end() && symbols.ambiguous.count(spoilt_key(label.kind, label.name))) {
+    error(Code::E0238, label.span, fmt::format("which {} {} means depends on a measured value", kind, written(label)),
+          "define it once, or use it on each path before they meet");
+    return nullptr;
+  }
   if (it != map.end()) return &it->second;
   std::vector<std::string_view> names;
   for (const auto& entry : map) names.push_back(entry.first);
@@ -117,7 +193,7 @@ std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
     fail(chain(fmt::format("FA({}) is not measured", label.name), actual(*id).spoilt));
     return std::nullopt;
   }
-  if (actual(*id).present) return id;
+  if (actual(*id).present || looping > 0) return id;  // a turn of a loop may have measured it
   const bool inside = measuring && measuring->feature == *id;
   error(Code::E0202, label.span,
         fmt::format("{} was not measured or constructed above", written(label)),
@@ -164,14 +240,92 @@ ToleranceSymbol* Lowering::tolerance(const LabelRef& label) {
 }
 
 void Lowering::emit(plan::Action action) {
-  out.plan.operations.push_back({std::move(action), statement->span, statement->line});
+  const auto [span, line] = place.value_or(std::pair{statement->span, statement->line});
+  out.plan.operations.push_back({std::move(action), span, line});
 }
 
 plan::FrameId Lowering::new_frame(const RawStatement& raw) {
+  const std::string key = upper(raw.label->name);
+  const auto known = symbols.frames.find(key);
+  if (parted > 0 && known != symbols.frames.end()) return known->second;
   const plan::FrameId id{static_cast<int>(out.plan.frames.size())};
   out.plan.frames.push_back({raw.label->name, raw.span});
-  symbols.frames[upper(raw.label->name)] = id;
+  symbols.frames[key] = id;
   return id;
+}
+
+namespace {
+
+std::vector<FormItem> form_of(const RawStatement& raw, const Match& match) {
+  std::vector<FormItem> form;
+  for (const RawArgument& a : raw.arguments) {
+    FormItem item{a.kind == RawArgument::Kind::word ? a.word : a.text, "", false, {}, {}};
+    for (const MatchedValue& v : match.values) {
+      if (v.span != a.span || v.type > ValueType::integer) continue;
+      item.name = v.name;
+      item.is_number = true;
+      item.type = v.type;
+      item.operand = Lowering::operand(v);
+    }
+    form.push_back(std::move(item));
+  }
+  return form;
+}
+
+}  // namespace
+
+void Lowering::define(const RawStatement& raw, plan::FeatureDef def, const Match& match) {
+  const std::string key = upper(raw.label->name);
+  const plan::FeatureId own{static_cast<int>(out.plan.features.size())};
+  const auto suits = [&](plan::FeatureId other) { return out.plan[other].kind == def.kind && out.plan[other].inner == def.inner; };
+  plan::FeatureId id = own;
+  if (parted > 0) {
+    const auto here = symbols.features.find(key);
+    const auto [elsewhere, first] = features_of_paths_.emplace(std::pair(key, parting), own);
+    if (here != symbols.features.end() && suits(here->second))
+      id = here->second;
+    else if (!first && suits(elsewhere->second))
+      id = elsewhere->second;
+  }
+  out.plan.features.push_back(std::move(def));
+  symbols.features[key] = id;
+  actual(id) = {};
+  forms[id.value] = form_of(raw, match);
+  emit(plan::DefineFeature{id, id == own ? plan::FeatureId{} : own});
+}
+
+ActualState& Lowering::actual(plan::FeatureId id) {
+  const auto index = static_cast<std::size_t>(id.value);
+  if (actuals.size() <= index) actuals.resize(index + 1);
+  return actuals[index];
+}
+
+plan::ColumnId Lowering::evaluated(const plan::Expression& value) {
+  const plan::ColumnId column{out.plan.columns++};
+  emit(plan::Assign{column, value});
+  return column;
+}
+
+plan::ColumnId Lowering::columns_of(const std::string& slot, int count) {
+  const auto [it, is_new] = columns_.emplace(slot, plan::ColumnId{out.plan.columns});
+  if (is_new) out.plan.columns += count;
+  return it->second;
+}
+
+plan::Expression Lowering::expression(const plan::Operand& o) {
+  return {o.column.valid() ? plan::Instruction(plan::PushColumn{o.column}) : plan::PushConstant{o.constant}};
+}
+
+plan::Operand Lowering::operand(const plan::Expression& e) {
+  const double* known = plan::constant(e);
+  return known ? plan::Operand{*known, {}} : plan::Operand{0, evaluated(e)};
+}
+
+plan::Point Lowering::polar(const Match& match) {
+  using namespace plan;
+  const Expression r = expression(operand(*match.find("r"))), a = expression(operand(*match.find("a")));
+  return {operand(combine(Op2::multiply, combine(Op1::cos, a), r)), operand(combine(Op2::multiply, combine(Op1::sin, a), r)),
+          operand(*match.find("h"))};
 }
 
 plan::Point Lowering::point(const Match& match, std::string_view first) {
@@ -186,6 +340,7 @@ std::string Lowering::blame() const {
 }
 
 std::string Lowering::doubt() const {
+  if (!flow_doubt.empty()) return chain("it is not known whether this is run", flow_doubt);
   if (!unit_doubt.empty()) return chain("the units are in doubt", unit_doubt);
   if (!frame_doubt.empty()) return chain("the coordinate system is in doubt", frame_doubt);
   return sensor_doubt.empty() ? "" : chain("the sensor is in doubt", sensor_doubt);

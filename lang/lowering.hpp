@@ -27,6 +27,7 @@
 #include "lang/parser.hpp"
 #include "lang/signature.hpp"
 #include "lang/units.hpp"
+#include "lang/variables.hpp"
 
 namespace abbe::lang {
 
@@ -55,6 +56,7 @@ struct OpenMeasure {
   Span span, count_span;
   int line = 0;
   std::string spoilt;  ///< why the measurement is of no use; empty while it is
+  bool varies = false;  ///< how many touches it has depends on what is measured
 };
 
 /// SNSMNT in force.
@@ -64,32 +66,77 @@ struct Mount {
 };
 
 /// Labels, folded to upper case. `spoilt` holds "F:NAME" and the reason why the label cannot be
-/// used.
+/// used;
+/// `ambiguous` holds labels that mean different things on paths that have met, in the same form.
 struct Symbols {
   std::map<std::string, plan::FeatureId> features, datums;
   std::map<std::string, plan::FrameId> frames;
   std::map<std::string, plan::SensorId> sensors;
   std::map<std::string, ToleranceSymbol> tolerances;
   std::map<std::string, std::string> spoilt;
+  std::set<std::string> ambiguous;
 };
 
-class Lowering {
+/// What holds at a place of the program. Where machines may part at a condition it is kept and restored, so that each path is
+/// lowered from the same beginning, and merged where they meet (merge.hpp).
+struct State {
+  Units units;
+  Symbols symbols;
+  std::vector<ActualState> actuals;  ///< by FeatureId
+  std::map<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
+  std::map<Shape, FitCriterion> criteria;    ///< GEOALG; a shape without an entry: least squares
+  std::optional<OpenMeasure> measuring;
+  bool sensor_selected = false;
+  std::optional<Mount> mount;
+  std::vector<std::string> modes;  ///< MODE, in order of preference
+  std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
+  std::string flow_doubt;  ///< an error in a statement of control: which statements run is unknown from there on
+  Variables variables;
+  std::map<std::string, std::string> settings;  ///< what VALUE reads: last argument of a setting as written, by its word
+  bool reachable = true;  ///< false after a jump
+};
+
+/// While a program is lowered, jumps name labels; this one marks an operation that finish leaves out.
+inline constexpr int kDropped = -1;
+
+/// Whether a statement can use a number that depends on what is measured.
+enum class Varying { refused, taken };
+
+/// One argument of a FEAT statement, as OBTAIN counts and reads them.
+struct FormItem {
+  std::string text;        ///< as written
+  std::string name;        ///< of a number, in the signature of its kind
+  bool is_number = false;
+  ValueType type{};
+  plan::Operand operand;   ///< mm, rad or as written
+};
+
+class Lowering : public State {
  public:
-  Lowering(const SourceFile& source_, Sink& sink_) : source(source_), sink(sink_) {}
+  Lowering(const SourceFile& source_, Sink& sink_) : source(source_), sink(sink_), file(&source_) {}
 
   // ---- messages; an error makes the current statement fail
   void error(Code, Span, std::string message, std::string help = "", std::string replacement = "");
   void warn(Code, Span, std::string message, std::string help = "", std::string replacement = "");
+  /// A message as it is, unless there was one of that code at that place: a loop repeats its statements, not its messages.
+  void add(Diagnostic);
   /// The statement fails without a message of its own: an earlier error is to blame.
   void fail(std::string reason);
 
   // ---- arguments
   /// Matches arguments from `first` on; reports a mismatch as an error of `what`.
   std::optional<Match> match(std::string_view signature, const RawStatement&, std::string_view what,
-                             std::size_t first = 0);
+                             std::size_t first = 0, Varying = Varying::refused);
   /// Values of a match for a kind of feature, tolerance or construction. Labels of features must
   /// have been measured; datums must be bound. Nothing after an error.
   std::optional<Arguments> arguments(const Match&);
+
+  /// The numbers of a match that stand in columns, as the Arguments of the same match name them.
+  static std::vector<plan::VaryingNumber> varying(const Match&);
+  /// The value of an argument of the current statement; nothing after an error.
+  std::optional<Value> value(const RawArgument&);
+  /// Reports why an expression of the current statement has no value.
+  void mistake(const Mistake&);
 
   // ---- labels: nothing after an error or when spoilt
   std::optional<plan::FeatureId> defined_feature(const LabelRef&);
@@ -105,9 +152,22 @@ class Lowering {
   void emit(plan::Action);
   /// A new coordinate system under the label of the statement.
   plan::FrameId new_frame(const RawStatement&);
-  ActualState& actual(plan::FeatureId id) { return actuals[static_cast<std::size_t>(id.value)]; }
+  /// The feature that a label stands for from here on. Where machines may have parted, definitions of one label and kind are
+  /// one feature, so that the paths may meet again.
+  /// `match` holds its arguments.
+  void define(const RawStatement&, plan::FeatureDef, const Match& match);
+  ActualState& actual(plan::FeatureId);
+  /// A column for the value of an expression, computed here.
+  plan::ColumnId evaluated(const plan::Expression&);
+  /// The columns that belong to `slot`, always the same ones.
+  plan::ColumnId columns_of(const std::string& slot, int count);
   /// The one way from a matched number to an operand.
-  static plan::Operand operand(const MatchedValue& value) { return {value.number, {}}; }
+  static plan::Operand operand(const MatchedValue& value) { return {value.number, value.column}; }
+  /// An operand as an expression, and back again.
+  static plan::Expression expression(const plan::Operand&);
+  plan::Operand operand(const plan::Expression&);
+  /// A point given by radius, angle and height: the numbers `r`, `a`, `h` of the match.
+  plan::Point polar(const Match&);
   /// Three numbers of the match that begin at the one named `first`.
   static plan::Point point(const Match&, std::string_view first);
 
@@ -115,16 +175,18 @@ class Lowering {
   Sink& sink;
   Compilation out;
 
-  Units units;
-  Symbols symbols;
-  std::vector<ActualState> actuals;  ///< by FeatureId
-  std::map<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
-  std::optional<OpenMeasure> measuring;
-  bool sensor_selected = false;
-  std::optional<Mount> mount;
-  std::map<Shape, FitCriterion> criteria;             ///< GEOALG; a shape without an entry: least squares
-  std::vector<std::string> modes;                     ///< MODE, in order of preference
-  std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
+  const SourceFile* file;            ///< that the current statement stands in: the program, or a module
+  std::string call;                  ///< where a macro or module was called, for messages; empty in the program itself
+  std::optional<std::pair<Span, int>> place;  ///< of the call in the program, for operations of a module
+  Texts texts;
+  std::vector<std::string> scopes;   ///< prefixes of local variables, of the macros that are being run
+  std::map<int, std::vector<FormItem>> forms;  ///< by FeatureId
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in upper case
+  int parted = 0;                    ///< conditions that machines may have decided differently here
+  int parting = 0;                   ///< counts the places where machines part while all were together
+  int looping = 0;                   ///< loops around here whose turns differ from machine to machine
+  bool second_program = false;       ///< the program has ended and another begins in the same file
+
   bool skipping = false;                              ///< DMESW/OFF
   int begin_line = 0, end_line = 0;                   ///< of DMISMN and ENDFIL; 0 before them
   std::set<std::string> reported_words;               ///< words warned about once
@@ -146,6 +208,9 @@ class Lowering {
                                   std::string_view next_step);
 
   std::map<std::string_view, Signature> signatures_;  ///< parsed once; signature texts are static
+  std::map<std::string, plan::ColumnId> columns_;     ///< by slot
+  std::map<std::pair<std::string, int>, plan::FeatureId> features_of_paths_;  ///< by label and parting
+  std::set<std::tuple<Code, const SourceFile*, std::uint32_t>> reported_;
 };
 
 /// "FA(X) is not measured <- line 12: a comma is missing": a reason and its cause, which may have a

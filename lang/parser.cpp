@@ -23,7 +23,8 @@ struct quoted : seq<one<'\''>, star<sor<two<'\''>, not_one<'\''>>>, one<'\''>> {
 struct label_kind : seq<letter, star<sor<letter, digit>>> {};
 struct label_name : star<not_one<'(', ')', ','>> {};
 struct labelled : seq<label_kind, blanks, one<'('>, label_name, one<')'>> {};
-struct variable : identifier {};
+struct index : seq<blanks, one<'['>, star<not_one<'[', ']', '='>>, one<']'>> {};
+struct variable : seq<identifier, opt<index>> {};
 struct label : sor<labelled, variable> {};
 struct labelling : seq<blanks, label, blanks, one<'='>, blanks> {};
 struct major_word : seq<alpha, star<sor<alnum, one<'_'>>>> {};
@@ -31,7 +32,8 @@ struct head : seq<if_then_else<at<labelling>, labelling, blanks>, major_word, bl
 struct group;
 struct group_part : sor<quoted, group, not_one<'(', ')', '\''>> {};
 struct group : seq<one<'('>, star<group_part>, one<')'>> {};
-struct argument : star<sor<quoted, group, not_one<',', '(', ')', '\''>>> {};
+struct element : seq<one<'['>, star<sor<group, not_one<'[', ']', '(', ')', '\''>>>, one<']'>> {};
+struct argument : star<sor<quoted, group, element, not_one<',', '(', ')', '\''>>> {};
 struct arguments : list<argument, one<','>> {};
 struct slash : one<'/'> {};
 struct leftover : star<any> {};
@@ -215,6 +217,7 @@ class LineParser {
         statement_.arguments[0].kind == RawArgument::Kind::empty)
       statement_.arguments.clear();
     if (statement_.word.empty()) return std::nullopt;
+    statement_.code = std::make_shared<const JoinedText>(line_.code);
     return std::move(statement_);
   }
 
@@ -268,6 +271,7 @@ class LineParser {
 
   std::optional<RawStatement> jump_target(const grammar::Found& found) {
     const Range name = trimmed(text_, *found.target);
+    statement_.code = std::make_shared<const JoinedText>(line_.code);
     statement_.target = LabelRef{"", std::string(slice(text_, name)), span(name)};
     return std::move(statement_);
   }
@@ -312,6 +316,8 @@ class LineParser {
     RawArgument out;
     out.text = text;
     out.span = span(r);
+    out.begin = r.begin;
+    out.end = r.end;
     using Kind = RawArgument::Kind;
     grammar::Found found;
     if (text.empty()) {

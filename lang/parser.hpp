@@ -9,6 +9,7 @@
 // Recovery after a mistake is the next line: each line is parsed by itself.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,8 @@
 
 namespace abbe::lang {
 
-/// `FA(BORE)`: kind in upper case, name as written. A bare identifier before `=` (a variable) has
-/// an empty kind.
+/// `FA(BORE)`: kind in upper case, name as written. A bare identifier before `=` (a variable,
+/// perhaps with an index: X[3]) has an empty kind.
 struct LabelRef {
   std::string kind, name;
   Span span;
@@ -41,6 +42,7 @@ struct RawArgument {
   double number = 0;  ///< as written, no unit applied
   LabelRef label;     ///< for Kind::label
   Span span;
+  std::size_t begin = 0, end = 0;  ///< where it stands in RawStatement::code
 };
 
 struct RawStatement {
@@ -48,6 +50,7 @@ struct RawStatement {
   std::string word;                ///< upper case; empty for a jump target
   std::optional<LabelRef> target;  ///< `(NAME)` alone on its line
   Span word_span, span;
+  std::shared_ptr<const JoinedText> code;  ///< of the line: expressions are read off it
   std::vector<RawArgument> arguments;
   int line = 1;
   std::optional<Span> missing_slash;  ///< text that follows the word without a slash: free text, or

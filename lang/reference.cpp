@@ -7,6 +7,7 @@
 #include "engine/features/pattern.hpp"
 #include "engine/tolerances/tolerance.hpp"
 #include "lang/directives.hpp"
+#include "lang/intrinsics.hpp"
 #include "lang/statement.hpp"
 
 namespace abbe::lang {
@@ -22,11 +23,11 @@ struct Entry {
 
 constexpr std::string_view kStatements = "Statements", kFeatures = "Features",
                            kConstructions = "Constructions", kTolerances = "Tolerances",
-                           kDirectives = "Directives";
+                           kFunctions = "Functions", kDirectives = "Directives";
 
 std::string form_of(const Statement& s) {
   const std::string label =
-      s.label.empty() || s.label == "*" ? "" : fmt::format("{}(label)=", s.label);
+      s.label.empty() || s.label == "*" ? "" : s.label == "=" ? "variable=" : fmt::format("{}(label)=", s.label);
   return s.signature.empty() ? fmt::format("{}{}", label, s.word)
                              : fmt::format("{}{}/{}", label, s.word, s.signature);
 }
@@ -45,6 +46,8 @@ std::vector<Entry> entries() {
   for (const ToleranceKind* t : tolerance_kinds())
     out.push_back({kTolerances, t->word, fmt::format("T(label)=TOL/{},{}", t->word, t->signature),
                    t->help, t->example, t->source});
+  for (const Intrinsic& f : intrinsics())
+    out.push_back({kFunctions, f.name, std::string(f.form), f.help, "", "ISO 22093, intrinsic functions"});
   for (const DirectiveHelp& d : directives())
     out.push_back({kDirectives, d.word, fmt::format("$$! {}", d.form), d.help, "",
                    "Abbe; a real controller skips it as a comment"});

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/ids.hpp"
+#include "lang/intrinsics.hpp"
 
 namespace abbe::lang {
 
@@ -33,6 +34,8 @@ constexpr std::array kTypes = {
     TypeInfo{ValueType::frame, "frame", "a coordinate system D(...)", {"DA", "D"}},
     TypeInfo{ValueType::label, "label", "a label", {}},
     TypeInfo{ValueType::word, "word", "a word", {}},
+    TypeInfo{ValueType::condition, "condition", "a condition", {}},
+    TypeInfo{ValueType::value, "value", "a value", {}},
 };
 
 const TypeInfo& type_info(ValueType type) { return kTypes[static_cast<std::size_t>(type)]; }
@@ -130,13 +133,17 @@ class NotationReader {
 /// Matches one signature against arguments and remembers the furthest failure.
 class Matcher {
  public:
-  Matcher(std::span<const RawArgument> arguments, const Units& units)
-      : arguments_(arguments), units_(units) {}
+  Matcher(std::span<const RawArgument> arguments, const Units& units, const Evaluator& evaluator)
+      : arguments_(arguments), units_(units), evaluator_(evaluator), computed_(arguments.size()) {}
 
   std::variant<Match, Mismatch> run(const Signature& signature) {
-    if (!sequence(signature)) return std::move(furthest_);
+    if (!sequence(signature)) {
+      furthest_.mistake = mistake_at(furthest_.argument);
+      return std::move(furthest_);
+    }
     if (!rest_taken_ && at_ < arguments_.size()) {
-      if (furthest_.argument < at_) furthest_ = {at_, {}, {}};
+      if (furthest_.argument < at_) furthest_ = {at_, {}, {}, {}};
+      furthest_.mistake = mistake_at(furthest_.argument);
       return std::move(furthest_);
     }
     match_.used = at_;
@@ -210,8 +217,7 @@ class Matcher {
       case ValueType::number:
         return take_number(item, argument, Quantity::number);
       case ValueType::integer:
-        return argument.number == std::floor(argument.number) &&
-               take_number(item, argument, Quantity::number);
+        return take_number(item, argument, Quantity::number);
       case ValueType::length:
         return take_number(item, argument, Quantity::length);
       case ValueType::angle:
@@ -219,6 +225,9 @@ class Matcher {
       case ValueType::text:
         if (argument.kind == RawArgument::Kind::text) keep(item, item.type, argument.text, 0);
         return argument.kind == RawArgument::Kind::text;
+      case ValueType::condition:
+      case ValueType::value:
+        return take_value(item, argument);
       case ValueType::word:
         if (is_word(argument)) keep(item, item.type, argument.word, 0);
         return is_word(argument);
@@ -228,9 +237,53 @@ class Matcher {
   }
 
   bool take_number(const SignatureItem& item, const RawArgument& argument, Quantity quantity) {
-    const std::optional<double> number = constant(argument, quantity, units_);
-    if (number) keep(item, item.type, argument.text, *number);
-    return number.has_value();
+    const auto suits = [&](double v) { return item.type != ValueType::integer || v == std::floor(v); };
+    if (const std::optional<double> number = constant(argument, quantity, units_)) {
+      if (suits(*number)) keep(item, item.type, argument.text, *number);
+      return suits(*number);
+    }
+    const Value* value = computed(argument);
+    if (!value || !value->is_number()) return false;
+    if (item.type == ValueType::integer && value->type == Type::real && !value->known()) return false;
+    Value scaled = *value;
+    const double factor = unit_of(quantity, units_);
+    if (factor != 1) scaled.parts[0] = combine(plan::Op2::multiply, std::move(scaled.parts[0]), {plan::PushConstant{factor}});
+    if (!scaled.known()) {
+      keep(item, item.type, argument.text, 0);
+      match_.values.back().value = std::move(scaled);
+      return true;
+    }
+    if (suits(scaled.constant())) keep(item, item.type, argument.text, scaled.constant());
+    return suits(scaled.constant());
+  }
+
+  bool take_value(const SignatureItem& item, const RawArgument& argument) {
+    const Value* value = computed(argument);
+    if (!value) must_have_value_ = at_;
+    if (!value || (item.type == ValueType::condition && value->type != Type::boolean)) return false;
+    keep(item, item.type, argument.text, 0);
+    match_.values.back().value = *value;
+    return true;
+  }
+
+  /// The value of an argument that may be an expression, computed once; nullptr when it has none.
+  const Value* computed(const RawArgument& argument) {
+    using K = RawArgument::Kind;
+    if (!evaluator_ || argument.kind == K::empty || argument.kind == K::several) return nullptr;
+    std::optional<Evaluation>& known = computed_[static_cast<std::size_t>(&argument - arguments_.data())];
+    if (!known) known = evaluator_(argument);
+    return std::get_if<Value>(&*known);
+  }
+
+  /// Why the argument that nothing suited has no value; nothing for a word or a label that may be meant as one.
+  std::optional<Mistake> mistake_at(std::size_t at) const {
+    if (at >= arguments_.size() || !computed_[at]) return std::nullopt;
+    const RawArgument& a = arguments_[at];
+    constexpr std::size_t kLongestLabelKind = 3;  // a longer word before a parenthesis is meant as a function
+    const bool function = a.kind == RawArgument::Kind::label && (find_intrinsic(a.label.kind) || a.label.kind.size() > kLongestLabelKind);
+    if (a.kind != RawArgument::Kind::expression && !function && at != must_have_value_) return std::nullopt;
+    const auto* mistake = std::get_if<Mistake>(&*computed_[at]);
+    return mistake ? std::optional(*mistake) : std::nullopt;
   }
 
   bool take_label(const SignatureItem& item, const RawArgument& argument) {
@@ -248,12 +301,11 @@ class Matcher {
   }
 
   void keep(const SignatureItem& item, ValueType type, std::string text, double number) {
-    match_.values.push_back(
-        {item.name, type, number, std::move(text), arguments_[at_].label, arguments_[at_].span});
+    match_.values.push_back({item.name, type, number, std::nullopt, {}, std::move(text), arguments_[at_].label, arguments_[at_].span});
   }
 
   void failed(std::string expected, const std::vector<std::string>& words) {
-    if (at_ > furthest_.argument) furthest_ = {at_, {}, {}};
+    if (at_ > furthest_.argument) furthest_ = {at_, {}, {}, {}};
     if (at_ < furthest_.argument) return;
     if (std::find(furthest_.expected.begin(), furthest_.expected.end(), expected) ==
         furthest_.expected.end())
@@ -263,9 +315,12 @@ class Matcher {
 
   std::span<const RawArgument> arguments_;
   const Units& units_;
+  const Evaluator& evaluator_;
+  std::vector<std::optional<Evaluation>> computed_;  ///< by argument
   Match match_;
   Mismatch furthest_;
   std::size_t at_ = 0;
+  std::optional<std::size_t> must_have_value_;  ///< an argument where only a value can stand
   bool rest_taken_ = false;
 };
 
@@ -314,9 +369,9 @@ std::string Match::text(std::string_view name, std::string_view otherwise) const
   return value ? value->text : std::string(otherwise);
 }
 
-std::variant<Match, Mismatch> match(const Signature& signature,
-                                    std::span<const RawArgument> arguments, const Units& units) {
-  return Matcher(arguments, units).run(signature);
+std::variant<Match, Mismatch> match(const Signature& signature, std::span<const RawArgument> arguments, const Units& units,
+                                    const Evaluator& evaluator) {
+  return Matcher(arguments, units, evaluator).run(signature);
 }
 
 Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> arguments,
@@ -349,7 +404,7 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
       fmt::format("argument {} of {} is {}, expected {}", number, what, as_written, expected);
   if (computed)
     return diagnostic_at(source, written.span, Code::E0111, message,
-                         "expressions and variables are not supported yet: write the value");
+                         "an expression gives a number or a logical value");
   const std::vector<std::string_view> words(mismatch.words.begin(), mismatch.words.end());
   const std::string near =
       written.kind == RawArgument::Kind::word ? nearest_word(written.word, words) : "";

@@ -7,20 +7,22 @@
 //   ...            whatever follows; a kind named earlier publishes the signature for it, or it has
 //   no meaning here l:label        any label whatever its kind, for words that are understood and
 //   skipped
-// Words are upper case, types lower case; that tells `side:INNER|OUTER` from `x:length`.
+//   c:condition    a logical value; v:value any value
+// A number, condition or value may be an expression over variables. Words are upper case, types lower case; that tells `side:INNER|OUTER` from `x:length`.
 //
 // Matching takes the first alternative that fits and never goes back into an option it has taken.
 // When nothing fits, the mismatch is the furthest argument reached and everything that could have
 // stood there.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "lang/parser.hpp"
+#include "lang/expression.hpp"
 #include "lang/units.hpp"
 
 namespace abbe::lang {
@@ -37,7 +39,9 @@ enum class ValueType {
   sensor,
   frame,
   label,
-  word
+  word,
+  condition,  ///< a logical value
+  value       ///< any value
 };
 
 struct SignatureItem {
@@ -58,6 +62,8 @@ struct MatchedValue {
   std::string name;
   ValueType type{};
   double number = 0;  ///< mm, rad or as written
+  std::optional<Value> value;  ///< of a condition or value; of a number only when it depends on what is measured, in units as above
+  plan::ColumnId column;       ///< then also where a statement finds it
   std::string text;   ///< word in upper case, text, or the name of a label
   LabelRef label;     ///< for labels
   Span span;
@@ -78,9 +84,13 @@ struct Mismatch {
   std::size_t argument = 0;  ///< index; the number of arguments when one is missing at the end
   std::vector<std::string> expected;  ///< descriptions; empty when an argument is one too many
   std::vector<std::string> words;     ///< the words that could have stood there
+  std::optional<Mistake> mistake;     ///< the argument is an expression that has no value: why
 };
 
-std::variant<Match, Mismatch> match(const Signature&, std::span<const RawArgument>, const Units&);
+/// The value of an argument that is an expression.
+using Evaluator = std::function<Evaluation(const RawArgument&)>;
+
+std::variant<Match, Mismatch> match(const Signature&, std::span<const RawArgument>, const Units&, const Evaluator& = {});
 
 /// The message for a mismatch, at the argument, or at `statement` when an argument is missing.
 /// `what` is the statement as the user knows it ("FEAT/CIRCLE"); `first` the number of its

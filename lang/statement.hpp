@@ -12,14 +12,38 @@
 
 namespace abbe::lang {
 
+/// Words that decide which statements run (flow.hpp).
+enum class Control {
+  none,
+  condition,      ///< IF
+  otherwise,      ///< ELSE
+  end_condition,  ///< ENDIF
+  loop,           ///< DO
+  end_loop,       ///< ENDDO
+  choice,         ///< SELECT
+  one_case,       ///< CASE
+  any_case,       ///< DFTCAS
+  end_case,       ///< ENDCAS
+  end_choice,     ///< ENDSEL
+  jump,           ///< JUMPTO
+  macro,          ///< MACRO
+  end_macro,      ///< ENDMAC
+  call,           ///< CALL
+  module,         ///< INCLUD, EXTFIL
+  lost,           ///< one of these that opens or closes nothing, already reported
+};
+
 struct Statement {
   std::string_view word;   ///< upper case
-  std::string_view label;  ///< kind of label before the `=`: "F"; "" for none; "*" for any or none
+  std::string_view label;  ///< kind of label before the `=`: "F"; "=" for a variable; "" for none; "*" for any or none
   std::string_view signature;  ///< notation: engine/base/arguments.hpp and lang/signature.hpp
   std::string_view help;       ///< what it does, in a line or two
   std::string_view example;    ///< a complete statement
   std::string_view source;     ///< standard, or where else the form was read
+  /// nullptr for a word of control
   void (*lower)(Lowering&, const RawStatement&, const Match&);
+  Varying varying = Varying::refused;  ///< whether its numbers may depend on what is measured
+  Control control = Control::none;
 };
 
 /// Every statement that Abbe knows, in the order of the language reference.

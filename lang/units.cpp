@@ -30,6 +30,10 @@ std::optional<double> sexagesimal(std::string_view text) {
 
 }  // namespace
 
+double unit_of(Quantity quantity, const Units& units) {
+  return quantity == Quantity::length ? units.mm_per_unit : quantity == Quantity::angle ? units.rad_per_unit : 1;
+}
+
 std::optional<double> constant(const RawArgument& argument, Quantity quantity, const Units& units) {
   const bool plain = argument.kind == RawArgument::Kind::number;
   if (quantity == Quantity::angle && argument.kind == RawArgument::Kind::expression) {
@@ -37,10 +41,7 @@ std::optional<double> constant(const RawArgument& argument, Quantity quantity, c
     return degrees ? std::optional(*degrees * Units::kRadPerDegree) : std::nullopt;
   }
   if (!plain) return std::nullopt;
-  const double factor = quantity == Quantity::length  ? units.mm_per_unit
-                        : quantity == Quantity::angle ? units.rad_per_unit
-                                                      : 1;
-  const double value = argument.number * factor;
+  const double value = argument.number * unit_of(quantity, units);
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

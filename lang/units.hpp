@@ -16,9 +16,11 @@ struct Units {
 
 enum class Quantity { number, length, angle };
 
+/// How many mm, rad or plain numbers one unit of the program is.
+double unit_of(Quantity, const Units&);
+
 /// The constant that the argument stands for: mm, rad, or as written for a plain number. Nothing
-/// when it is no constant. Angles may also be written degrees:minutes:seconds. Expressions over
-/// variables will be lowered from here.
+/// when it is no constant. Angles may also be written degrees:minutes:seconds.
 std::optional<double> constant(const RawArgument&, Quantity, const Units&);
 
 }  // namespace abbe::lang

@@ -49,6 +49,19 @@ void add_effects(CLI::App* command, EffectUse& use) {
       ->check(CLI::IsMember({std::string(name(EffectUse::left_in)), std::string(name(EffectUse::corrected))}));
 }
 
+/// What the operator would say.
+void add_answers(CLI::App* command, std::map<std::string, std::string>& answers) {
+  const auto take = [&answers](const std::vector<std::string>& list) {
+    for (const std::string& text : list) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos || equals == 0) throw CLI::ConversionError(text, "--answer: expected NAME=VALUE, as in --answer SERIAL=12");
+      answers[text.substr(0, equals)] = text.substr(equals + 1);
+    }
+  };
+  command->add_option_function<std::vector<std::string>>("--answer", take, "answer to a PROMPT of the program (may be repeated)")
+      ->type_name("NAME=VALUE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 void add_run(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("run", "run a program on virtual machines and report uncertainties");
   const auto o = chosen_by(command, chosen, run_command);
@@ -64,6 +77,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   command->add_flag("--budget", settings.budget, "share out the variance among all sources, and between alignment and features");
   command->add_option("--coverage", settings.coverage, "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
       ->type_name("P");
+  add_answers(command, o->request.answers);
   command->add_flag("--only-valid", o->request.only_valid, "leave out statements with errors, and say what is lost");
   std::vector<std::string> formats;
   for (const ReportWriter* writer : report_writers()) formats.emplace_back(writer->name);
@@ -76,6 +90,7 @@ void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("check", "read programs and list every message");
   const auto o = chosen_by(command, chosen, check_command);
   command->add_option("PROGRAM", o->programs, "DMIS programs")->required();
+  add_answers(command, o->answers);
   command->add_flag("--plan", o->plan, "also print what each program was compiled to");
   add_format(command, o->format, {"text", "json"});
 }

@@ -40,10 +40,10 @@ std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std:
   return read_workpiece(beside(program, *asked));
 }
 
-CompiledProgram compile_program(const std::string& path) {
+CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers) {
   SourceFile source = read_source(path);
   Sink sink;
-  lang::Compilation compilation = lang::compile(source, sink);
+  lang::Compilation compilation = lang::compile(source, sink, {answers});
   return {std::move(source), std::move(compilation), sink.sorted(), sink.has_errors()};
 }
 

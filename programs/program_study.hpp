@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,7 @@ struct StudyRequest {
   std::string program;
   StudySettings settings;
   bool only_valid = false;             ///< go on without the statements that have errors
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
 };
 
 /// A program and what its compilation gave; messages in the order of their places.
@@ -43,7 +45,7 @@ struct CompiledProgram {
   std::vector<Diagnostic> messages;
   bool has_errors = false;
 };
-CompiledProgram compile_program(const std::string& path);
+CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers = {});
 
 /// The machine to use, as read_machine takes it: what the command line chose, else what the program asks for (a file beside the
 /// program or a shipped machine), else the default.

@@ -36,6 +36,12 @@ struct Operand {
   ColumnId column;
 };
 using Point = std::array<Operand, 3>;
+/// A number of Arguments that stands in a column: the `index`-th under `name`.
+struct VaryingNumber {
+  std::string name;
+  int index = 0;
+  ColumnId column;
+};
 
 // ---- what the program defines ---------------------------------------------------------------------------------------
 
@@ -46,6 +52,9 @@ struct FeatureDef {
   Element nominal;              ///< in the frame current at the FEAT statement
   bool inner = false;           ///< INNER: the material is outside the radius
   Span span;
+  /// Where some of the nominal is known only while the program runs: what it is made of, and the columns. Else empty.
+  Arguments arguments = {};
+  std::vector<VaryingNumber> varying = {};
 };
 
 /// One SNSDEF, or a sensor of the machine file by name.
@@ -72,6 +81,7 @@ struct ToleranceDef {
   const ToleranceKind* kind = nullptr;
   Arguments arguments;              ///< features and datums as FeatureId values
   Span span;
+  std::vector<VaryingNumber> varying = {};
 };
 
 /// MMC or LMC of a characteristic, on its feature or on a datum (engine/tolerances/material.hpp).
@@ -97,14 +107,17 @@ enum class Op2 { add, subtract, multiply, divide, power, modulo, atan2, sign, mi
                  equal, not_equal, less, less_equal, greater, greater_equal, logical_and, logical_or };
 struct PushConstant { double value = 0; };
 struct PushColumn { ColumnId column; };
-using Instruction = std::variant<PushConstant, PushColumn, Op1, Op2>;
+/// Replaces the 1-based index on top by that element of an array: column first + stride (index - 1).
+struct PushElement { ColumnId first; int count = 0, stride = 1; };
+using Instruction = std::variant<PushConstant, PushColumn, PushElement, Op1, Op2>;
 /// Postfix; leaves exactly one number. Logical values are 0 and 1.
 using Expression = std::vector<Instruction>;
 
 // ---- operations -----------------------------------------------------------------------------------------------------
 
-/// The nominal of the feature is now in force, in the current frame.
-struct DefineFeature { FeatureId feature; };
+/// The nominal of the feature is now in force, in the current frame. A label defined on several paths is one feature: then
+/// `as` is the definition whose nominal it takes.
+struct DefineFeature { FeatureId feature; FeatureId as = {}; };
 struct SelectSensor { SensorId sensor; };
 /// PRCOMP: with compensation a touch yields the surface point, without it the centre of the tip.
 struct SetCompensation { bool on = true; };
@@ -129,6 +142,7 @@ struct Construct {
   const Construction* method = nullptr;
   std::vector<FeatureId> from;
   Arguments arguments;
+  std::vector<VaryingNumber> varying = {};
 };
 
 struct DatumRef {
@@ -153,15 +167,19 @@ struct OutputFrame { FrameId frame; };
 /// OUTPUT: these features, in the current frame, and what was evaluated of them just before go to the result file.
 struct Output { std::vector<FeatureId> features; std::vector<CharacteristicId> characteristics; };
 /// What OBTAIN can read of a measured feature, in the current frame: mm, unit vector components, rad.
-enum class Quantity { x, y, z, i, j, k, radius, minor_radius, half_angle, length, form };
+enum class Quantity { x, y, z, i, j, k, radius, minor_radius, half_angle, length, form,
+                      begin_x, begin_y, begin_z, end_x, end_y, end_z };  ///< the ends of a line: where its touches lie along it
 struct Obtain { ColumnId column; FeatureId feature; Quantity quantity{}; };
-struct Assign { ColumnId column; Expression value; };
+/// To `column`; with an `index` to that element of the array of `count` elements that begins there.
+struct Assign { ColumnId column; Expression value; Expression index = {}; int count = 0, stride = 1; };
+/// What was evaluated last of these characteristics on the lane: the value, mm or rad, or whether it is within its limits (1 or 0).
+struct ObtainEvaluation { ColumnId column; std::vector<CharacteristicId> characteristics; bool status = false; };
 struct Jump { int target = 0; };
 /// Goes to `target` on the lanes where the condition is 0.
 struct JumpUnless { Expression condition; int target = 0; };
 
 using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
-                            SetMachineFrame, SetMatrixFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, OutputFrame, Obtain, Assign, Jump, JumpUnless>;
+                            SetMachineFrame, SetMatrixFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, OutputFrame, Obtain, ObtainEvaluation, Assign, Jump, JumpUnless>;
 
 struct Operation {
   Action action;

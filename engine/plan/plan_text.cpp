@@ -31,7 +31,8 @@ constexpr std::string_view kOp2[] = {"+",   "-",  "*",  "/", "**", "mod", "atan2
 constexpr std::string_view kCriteria[] = {"", " minimum zone", " maximum inscribed",
                                           " minimum circumscribed"};
 constexpr std::string_view kQuantities[] = {
-    "x", "y", "z", "i", "j", "k", "radius", "minor_radius", "half_angle", "length", "form"};
+    "x", "y", "z", "i", "j", "k", "radius", "minor_radius", "half_angle", "length", "form",
+    "begin x", "begin y", "begin z", "end x", "end y", "end z"};
 
 template <class Enum>
 std::string_view name_of(Enum value, const auto& names) {
@@ -59,6 +60,9 @@ std::string text(const Expression& expression) {
     if (const auto* c = std::get_if<PushConstant>(&instruction)) out += text(c->value);
     if (const auto* c = std::get_if<PushColumn>(&instruction))
       out += fmt::format("column {}", c->column.value);
+    if (const auto* e = std::get_if<PushElement>(&instruction))
+      out += fmt::format("element of columns {} to {}", e->first.value,
+                         e->first.value + (e->count - 1) * e->stride);
     if (const auto* op = std::get_if<Op1>(&instruction)) out += name_of(*op, kOp1);
     if (const auto* op = std::get_if<Op2>(&instruction)) out += name_of(*op, kOp2);
   }
@@ -73,13 +77,14 @@ class ActionText {
   }
 
   std::string operator()(const DefineFeature& o) const {
-    const FeatureDef& f = plan_[o.feature];
+    const FeatureDef& f = plan_[o.as.valid() ? o.as : o.feature];
     std::string out =
         fmt::format("define {} = {}{} at {} along {}", name(o.feature), f.kind->word,
                     f.inner ? " inner" : "", text(f.nominal.point), text(f.nominal.direction));
     if (f.nominal.size != 0) out += fmt::format(" size {}", text(f.nominal.size));
     if (f.nominal.minor_size != 0) out += fmt::format(" minor {}", text(f.nominal.minor_size));
     if (f.nominal.angle != 0) out += fmt::format(" angle {}", text(f.nominal.angle));
+    for (const VaryingNumber& v : f.varying) out += fmt::format(" {} column {}", v.name, v.column.value);
     return out;
   }
   std::string operator()(const SelectSensor& o) const {
@@ -180,8 +185,15 @@ class ActionText {
     return fmt::format("column {} = {} of {}", o.column.value, name_of(o.quantity, kQuantities),
                        name(o.feature));
   }
+  std::string operator()(const ObtainEvaluation& o) const {
+    std::string out = fmt::format("column {} = {} of", o.column.value, o.status ? "status" : "value");
+    for (const CharacteristicId c : o.characteristics)
+      out += fmt::format(" {}", plan_[plan_[c].tolerance].label);
+    return out;
+  }
   std::string operator()(const Assign& o) const {
-    return fmt::format("column {} = {}", o.column.value, text(o.value));
+    if (o.index.empty()) return fmt::format("column {} = {}", o.column.value, text(o.value));
+    return fmt::format("column {} at {} = {}", o.column.value, text(o.index), text(o.value));
   }
   std::string operator()(const Jump& o) const { return fmt::format("jump {}", o.target); }
   std::string operator()(const JumpUnless& o) const {

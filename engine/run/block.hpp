@@ -60,13 +60,14 @@ struct Lane {
   std::vector<std::vector<Target>> meant;    ///< the same for targets; twins only
   std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
   std::vector<char> has_actual;
-  std::vector<Element> nominal;       ///< by FeatureId, in W; twins only
+  std::vector<Element> nominal;       ///< by FeatureId, in W; twins, and machines where it varies with them
+  std::vector<char> own_nominal;      ///< by FeatureId: the nominal varies with the machines
   std::optional<Motion> motion;       ///< twins only: their machines move with them
   TouchMotion last_touch;             ///< twins only
   std::optional<Vec3> fixed_point;    ///< twins only: the first point touched, from which the part expands; W
-  std::vector<Rigid> frames;          ///< X_WD by FrameId
+  std::vector<std::optional<Rigid>> frames;  ///< X_WD by FrameId; nothing before it is set
   std::vector<Rigid> defined_in;      ///< X_WD at the definition, by FeatureId; empty when the plan has no touches of patterns
-  std::vector<double> columns;        ///< by ColumnId
+  std::vector<double> columns;        ///< by ColumnId; NaN before the first assignment
   std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
   std::vector<Value> values;
   LaneTrap trap;

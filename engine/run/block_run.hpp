@@ -4,8 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "engine/plan/expression.hpp"
 #include "engine/run/executor.hpp"
-#include "engine/run/expression.hpp"
 
 namespace abbe {
 
@@ -39,6 +39,7 @@ class BlockRun {
   void operator()(const plan::Output&);
   void operator()(const plan::OutputFrame&);
   void operator()(const plan::Obtain&);
+  void operator()(const plan::ObtainEvaluation&);
   void operator()(const plan::Assign&);
   void operator()(const plan::Jump&);
   void operator()(const plan::JumpUnless&);
@@ -51,6 +52,9 @@ class BlockRun {
   Lane& twin_of(const Lane& lane) { return block.lanes[lane.twin]; }
   double value(const Lane&, const plan::Operand&) const;
   Vec3 value(const Lane&, const plan::Point&) const;
+  Outcome<double> evaluate(const Lane&, const plan::Expression&) const;
+  /// The arguments with what stands in columns filled in.
+  Arguments filled(const Lane&, const Arguments&, const std::vector<plan::VaryingNumber>&) const;
   /// The measured or constructed element, or nullptr after trapping the lane.
   const Element* actual(int lane, plan::FeatureId);
   void set_frame(Lane&, plan::FrameId, const Rigid& X_WD);

@@ -1,4 +1,4 @@
-// Handlers of constructions, coordinate systems, evaluations and control flow.
+// Handlers of constructions, coordinate systems and evaluations.
 #include <algorithm>
 
 #include "engine/features/shape_traits.hpp"
@@ -21,7 +21,7 @@ void BlockRun::operator()(const plan::Construct& construct) {
       from[k] = X_DW * *element;
     }
     const Element nominal = inverse(twin.X_WD) * twin.nominal[construct.result.value];
-    const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, construct.arguments);
+    const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, filled(lane, construct.arguments, construct.varying));
     if (!made) return made.failure;
     Element element = made.value;
     if (shape == Shape::line) element.second = nominal.second;  // the normal of its surface
@@ -101,7 +101,13 @@ void BlockRun::operator()(const plan::RotateFrame& rotate) {
 }
 
 void BlockRun::operator()(const plan::RecallFrame& recall) {
-  for (const int i : active) block.lanes[i].X_WD = block.lanes[i].frames[recall.frame.value];
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    if (!lane.frames[recall.frame.value])
+      return "coordinate system '" + executor.plan_[recall.frame].label + "' was not set on the path that was taken";
+    lane.X_WD = *lane.frames[recall.frame.value];
+    return "";
+  });
 }
 
 std::vector<TouchedPoint> BlockRun::touches_of(const Lane& lane, plan::FeatureId feature) {
@@ -127,10 +133,11 @@ std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::Characterist
     if (!element) return std::nullopt;
     const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * twin.nominal[m.feature.value];
     const Shape shape = acts_as(plan[m.feature].kind->shape);
+    const Arguments arguments = filled(lane, size.arguments, size.varying);
     const Outcome<double> value =
-        size.kind->evaluate(size.arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
+        size.kind->evaluate(arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
     if (!value) return trap(i, value.failure), std::nullopt;
-    limits.upper = limits.upper.value_or(0) + departure_mm(*size.kind, value.value, size.kind->limits(size.arguments, {&nominal, 1}),
+    limits.upper = limits.upper.value_or(0) + departure_mm(*size.kind, value.value, size.kind->limits(arguments, {&nominal, 1}),
                                                           plan[m.feature].inner, m.condition);
   }
   return limits;
@@ -158,7 +165,8 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
       const Element* element = actual(i, features[k]);
       if (!element) return "";
       actuals[k] = X_DW * *element;
-      nominals[k] = X_DW_true * twin.nominal[features[k].value];
+      const int id = features[k].value;
+      nominals[k] = lane.own_nominal[id] ? X_DW * lane.nominal[id] : X_DW_true * twin.nominal[id];
     }
     for (std::size_t k = 0; k < datums.size(); ++k) {
       const Element* element = actual(i, datums[k]);
@@ -168,13 +176,14 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
     }
     std::vector<TouchedPoint> touches;
     if (tolerance.kind->needs_touches) touches = touches_of(lane, features.front());
+    const Arguments arguments = filled(lane, tolerance.arguments, tolerance.varying);
     const Outcome<double> made = tolerance.kind->evaluate(
-        tolerance.arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums, touches});
+        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums, touches});
     if (!made) return made.failure;
-    const auto limits = widened(i, def, tolerance.kind->limits(tolerance.arguments, nominals));
+    const auto limits = widened(i, def, tolerance.kind->limits(arguments, nominals));
     if (!limits) return "";
     lane.values.push_back({evaluate.characteristic, static_cast<int>(lane.visits[operation]++), made.value,
-                           tolerance.kind->nominal(tolerance.arguments, nominals), *limits});
+                           tolerance.kind->nominal(arguments, nominals), *limits});
     return "";
   });
 }
@@ -200,91 +209,6 @@ void BlockRun::operator()(const plan::Output& output) {
     if (latest != lane.values.rend()) record.values.push_back({id, latest->value, latest->limits});
   }
   observed->outputs.push_back(std::move(record));
-}
-
-namespace {
-
-double quantity_of(const Element& element, plan::Quantity quantity) {
-  using enum plan::Quantity;
-  switch (quantity) {
-    case x: return element.point.x;
-    case y: return element.point.y;
-    case z: return element.point.z;
-    case i: return element.direction.x;
-    case j: return element.direction.y;
-    case k: return element.direction.z;
-    case radius: return element.size;
-    case minor_radius: return element.minor_size;
-    case half_angle: return element.angle;
-    case length: return element.end - element.begin;
-    case form: return element.high - element.low;
-  }
-  ABBE_CHECK(false);
-}
-
-}  // namespace
-
-void BlockRun::operator()(const plan::Obtain& obtain) {
-  for_active([&](int i) -> std::string {
-    const Element* element = actual(i, obtain.feature);
-    if (!element) return "";
-    Lane& lane = block.lanes[i];
-    lane.columns[obtain.column.value] = quantity_of(inverse(lane.X_WD) * *element, obtain.quantity);
-    return "";
-  });
-}
-
-void BlockRun::operator()(const plan::Assign& assign) {
-  for_active([&](int i) -> std::string {
-    Lane& lane = block.lanes[i];
-    const Outcome<double> v = abbe::evaluate(assign.value, [&](plan::ColumnId id) { return lane.columns[id.value]; });
-    if (!v) return v.failure;
-    lane.columns[assign.column.value] = v.value;
-    return "";
-  });
-}
-
-void BlockRun::operator()(const plan::Jump& jump) {
-  for (const int i : active) block.lanes[i].pc = jump.target;
-}
-
-void BlockRun::operator()(const plan::JumpUnless& jump) {
-  Outcomes condition(block.lanes.size(), 0);
-  for_active([&](int i) -> std::string {
-    const Lane& lane = block.lanes[i];
-    const Outcome<double> v = abbe::evaluate(jump.condition, [&](plan::ColumnId id) { return lane.columns[id.value]; });
-    if (!v) return v.failure;
-    condition[i] = v.value != 0;
-    return "";
-  });
-  part_twins(condition);
-  for (const int i : active)
-    if (block.lanes[i].running && !condition[i]) block.lanes[i].pc = jump.target;
-}
-
-void BlockRun::part_twins(Outcomes& condition) {
-  const std::vector<int> before = active;
-  for (const int t : before) {
-    if (!block.is_twin(t) || !block.lanes[t].running) continue;
-    std::vector<int> going[2];
-    for (const int i : before)
-      if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].twin == t) going[condition[i] != 0].push_back(i);
-    // The reference decides by itself; any other twin exists only for its machines and goes where they go.
-    if (t != block.reference()) {
-      if (going[0].empty() && going[1].empty()) {
-        block.lanes[t].running = false;
-        continue;
-      }
-      condition[t] = going[0].empty();
-    }
-    const std::vector<int>& parting = going[condition[t] == 0];
-    if (parting.empty()) continue;
-    const int clone = static_cast<int>(block.lanes.size());
-    block.lanes.push_back(Lane(block.lanes[t]));
-    condition.push_back(condition[t] == 0);
-    active.push_back(clone);
-    for (const int i : parting) block.lanes[i].twin = clone;
-  }
 }
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #include "engine/run/executor.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/run/alignment_features.hpp"
 #include "engine/run/block_run.hpp"
@@ -58,9 +59,10 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.actual.resize(plan_.features.size());
   start.touched.resize(plan_.features.size());
   start.has_actual.assign(plan_.features.size(), 0);
+  start.own_nominal.assign(plan_.features.size(), 0);
   start.frames.resize(plan_.frames.size());
   if (has_patterns_) start.defined_in.resize(plan_.features.size());
-  start.columns.assign(plan_.columns, 0.0);
+  start.columns.assign(plan_.columns, std::numeric_limits<double>::quiet_NaN());
   start.visits.assign(plan_.operations.size(), 0);
 
   const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);

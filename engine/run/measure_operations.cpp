@@ -14,12 +14,23 @@
 namespace abbe {
 
 void BlockRun::operator()(const plan::DefineFeature& define) {
-  for (const int i : active) {
+  const int id = define.feature.value;
+  const plan::FeatureDef& def = executor.plan_[define.as.valid() ? define.as : define.feature];
+  for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
-    lane.has_actual[define.feature.value] = 0;
-    if (!lane.defined_in.empty()) lane.defined_in[define.feature.value] = lane.X_WD;
-    if (block.is_twin(i)) lane.nominal[define.feature.value] = lane.X_WD * executor.plan_[define.feature].nominal;
-  }
+    lane.has_actual[id] = 0;
+    if (!lane.defined_in.empty()) lane.defined_in[id] = lane.X_WD;
+    lane.own_nominal[id] = def.varying.empty() ? 0 : 1;
+    if (def.varying.empty()) {
+      if (block.is_twin(i)) lane.nominal[id] = lane.X_WD * def.nominal;
+      return "";
+    }
+    const Outcome<Element> nominal = def.kind->nominal(filled(lane, def.arguments, def.varying));
+    if (!nominal) return nominal.failure;
+    lane.nominal.resize(executor.plan_.features.size());
+    lane.nominal[id] = lane.X_WD * nominal.value;
+    return "";
+  });
 }
 
 void BlockRun::operator()(const plan::SelectSensor& select) {

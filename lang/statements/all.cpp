@@ -9,7 +9,10 @@ namespace abbe::lang {
 extern const Statement kDmismn, kFilnam, kEndfil, kUnits, kDecpl, kMode, kPrcomp, kSnset, kFedrat,
     kAclrat, kFly, kFinpos, kWkplan, kGeoalg, kTecomp, kSnsmnt, kSnsdef, kSnslct, kFeat, kConst,
     kMeas, kPtmeas, kGoto, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol,
-    kOutput, kEval, kText, kDisply, kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause;
+    kOutput, kEval, kText, kDisply, kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause,
+    kDecl, kAssign, kObtain, kPrompt, kValue, kIf, kElse, kEndif, kDo, kEnddo, kSelect, kCase,
+    kDftcas, kEndcas, kEndsel, kJumpto, kMacro, kEndmac, kCall, kInclud, kXtern, kExtfil, kEndxtn,
+    kDmismd;
 
 std::span<const Statement* const> statements() {
   static constexpr std::array list = {
@@ -24,6 +27,11 @@ std::span<const Statement* const> statements() {
       &kDatdef, &kDatset, &kTrans, &kRotate, &kSave, &kRecall,
       // results
       &kTol, &kOutput, &kEval,
+      // values
+      &kDecl, &kAssign, &kObtain, &kPrompt, &kValue,
+      // control
+      &kIf, &kElse, &kEndif, &kDo, &kEnddo, &kSelect, &kCase, &kDftcas, &kEndcas, &kEndsel,
+      &kJumpto, &kMacro, &kEndmac, &kCall, &kInclud, &kXtern, &kExtfil, &kEndxtn, &kDmismd,
       // understood and skipped
       &kText, &kDisply, &kDevice, &kOpen, &kClose, &kVform, &kDecpl, &kPause};
   return list;

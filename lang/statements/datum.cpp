@@ -156,7 +156,8 @@ const Statement kTrans = {
     "Moves the origin of the current coordinate system, to a feature or by a length.",
     "D(PART)=TRANS/XORIG,FA(CORNER),ZORIG,-30",
     "ISO 22093, TRANS",
-    translate};
+    translate,
+    Varying::taken};
 const Statement kRotate = {"ROTATE",
                            "D",
                            "axis:XAXIS|YAXIS|ZAXIS, ( angle:angle ; ( to:feature ; to:datum ), "
@@ -165,7 +166,8 @@ const Statement kRotate = {"ROTATE",
                            "or until a feature points along a direction.",
                            "D(PART)=ROTATE/ZAXIS,FA(EDGE),XDIR",
                            "ISO 22093, ROTATE",
-                           rotate};
+                           rotate,
+                           Varying::taken};
 const Statement kSave = {
     "SAVE",
     "",

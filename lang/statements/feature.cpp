@@ -16,20 +16,19 @@ void define_feature(Lowering& lowering, const RawStatement& raw, const Match& ma
   const FeatureKind* kind = find_feature_kind(word.text);
   if (!kind) return unknown_kind(lowering, word, "FEAT", "kind of feature", feature_words());
   const std::optional<Match> rest =
-      lowering.match(kind->signature, raw, fmt::format("FEAT/{}", kind->word), match.used);
+      lowering.match(kind->signature, raw, fmt::format("FEAT/{}", kind->word), match.used, Varying::taken);
   const std::optional<Arguments> arguments = rest ? lowering.arguments(*rest) : std::nullopt;
   if (!arguments) return;
-  const Outcome<Element> nominal = kind->nominal(*arguments);
+  std::vector<plan::VaryingNumber> varying = Lowering::varying(*rest);
+  const Outcome<Element> nominal = varying.empty() ? kind->nominal(*arguments) : Outcome<Element>{};
   if (!nominal)
     return lowering.error(Code::E0208, raw.span,
                           fmt::format("this {} cannot be: {}", kind->word, nominal.failure),
                           fmt::format("a correct one: {}", kind->example));
-  const plan::FeatureId id{static_cast<int>(lowering.out.plan.features.size())};
-  lowering.out.plan.features.push_back(
-      {raw.label->name, kind, nominal.value, arguments->text("side") == "INNER", raw.span});
-  lowering.actuals.emplace_back();
-  lowering.symbols.features[upper(raw.label->name)] = id;
-  lowering.emit(plan::DefineFeature{id});
+  lowering.define(raw,
+                  {raw.label->name, kind, nominal.value, arguments->text("side") == "INNER", raw.span,
+                   varying.empty() ? Arguments{} : *arguments, std::move(varying)},
+                  *rest);
 }
 
 std::vector<std::string_view> method_words() {
@@ -46,10 +45,10 @@ void construct(Lowering& lowering, const RawStatement& raw, const Match& match) 
   const Construction* method = find_construction(word.text);
   if (!method) return unknown_kind(lowering, word, "CONST", "construction", method_words());
   const std::optional<Match> rest =
-      lowering.match(method->signature, raw, fmt::format("CONST/...,{}", method->word), match.used);
+      lowering.match(method->signature, raw, fmt::format("CONST/...,{}", method->word), match.used, Varying::taken);
   const std::optional<Arguments> arguments = rest ? lowering.arguments(*rest) : std::nullopt;
   if (arguments && result) {
-    plan::Construct operation{*result, method, {}, *arguments};
+    plan::Construct operation{*result, method, {}, *arguments, Lowering::varying(*rest)};
     for (const int id : arguments->features("from")) operation.from.push_back(plan::FeatureId{id});
     lowering.emit(std::move(operation));
     lowering.actual(*result) = {true, ""};

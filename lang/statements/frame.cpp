@@ -21,7 +21,8 @@ void end_program(Lowering& lowering, const RawStatement& raw, const Match&) {
   lowering.end_line = raw.line;
 }
 
-void set_units(Lowering& lowering, const RawStatement&, const Match& match) {
+void set_units(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const Units before = lowering.units;
   const std::string length = match.text("unit");
   lowering.units.mm_per_unit = length == "MM"     ? 1
                                : length == "CM"   ? 10
@@ -30,6 +31,9 @@ void set_units(Lowering& lowering, const RawStatement&, const Match& match) {
                                                   : 304.8;
   lowering.units.rad_per_unit = match.text("angle") == "ANGRAD" ? 1 : Units::kRadPerDegree;
   lowering.unit_doubt.clear();
+  const bool changed = before.mm_per_unit != lowering.units.mm_per_unit || before.rad_per_unit != lowering.units.rad_per_unit;
+  if (lowering.parted > 0 && changed)
+    lowering.error(Code::E0238, raw.span, "the units may not depend on a measured value", "write UNITS before the condition");
 }
 
 void set_mode(Lowering& lowering, const RawStatement&, const Match& match) {

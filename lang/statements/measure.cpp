@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "engine/features/pattern.hpp"
@@ -28,12 +27,9 @@ void close_block(Lowering& lowering) {
   }
   // Moves stay: the next block relies on where the tip is.
   const auto begin = operations.begin() + static_cast<std::ptrdiff_t>(block.first_operation);
-  operations.erase(std::remove_if(begin, operations.end(),
-                                  [](const plan::Operation& o) {
-                                    return std::holds_alternative<plan::BeginMeasure>(o.action) ||
-                                           std::holds_alternative<plan::Touch>(o.action);
-                                  }),
-                   operations.end());
+  for (auto o = begin; o != operations.end(); ++o)
+    if (std::holds_alternative<plan::BeginMeasure>(o->action) || std::holds_alternative<plan::Touch>(o->action))
+      o->action = plan::Jump{kDropped};
   if (block.feature.valid()) lowering.actual(block.feature) = {false, block.spoilt};
 }
 
@@ -74,11 +70,11 @@ void touch(Lowering& lowering, const RawStatement& raw, const Match& match) {
   if (match.has("x")) {
     operation.point = Lowering::point(match, "x");
   } else {
-    const double r = match.number("r"), a = match.number("a");
-    operation.point = {plan::Operand{r * std::cos(a), {}}, plan::Operand{r * std::sin(a), {}},
-                       Lowering::operand(*match.find("h"))};
+    operation.point = lowering.polar(match);
   }
-  if (operation.has_normal) {
+  if (operation.has_normal && is_varying(match, "i")) {
+    operation.normal = Lowering::point(match, "i");
+  } else if (operation.has_normal) {
     const std::optional<Vec3> n = direction_vector(lowering, match, "i");
     if (!n) return;
     operation.normal = {plan::Operand{n->x, {}}, plan::Operand{n->y, {}}, plan::Operand{n->z, {}}};
@@ -117,7 +113,7 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
     return lowering.error(Code::E0206, raw.word_span, "ENDMES without a MEAS",
                           "remove it, or write the MEAS that it should end");
   OpenMeasure& block = *lowering.measuring;
-  if (block.feature.valid() && block.spoilt.empty()) {
+  if (block.feature.valid() && block.spoilt.empty() && !block.varies) {
     const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
     if (block.touches == 0) {
       measure_by_pattern(lowering, block);
@@ -159,7 +155,8 @@ const Statement kPtmeas = {"PTMEAS",
                            "vector the nominal feature supplies it.",
                            "PTMEAS/CART,10,20,0,0,0,1",
                            "ISO 22093, PTMEAS",
-                           touch};
+                           touch,
+                           Varying::taken};
 const Statement kEndmes = {"ENDMES",   "",
                            "",         "Ends a measurement and fits the feature to its touches.",
                            "ENDMES",   "ISO 22093, ENDMES",

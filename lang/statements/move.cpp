@@ -1,6 +1,4 @@
 // GOTO: moves the tip in a straight line without measuring.
-#include <cmath>
-
 #include "lang/statement.hpp"
 
 namespace abbe::lang {
@@ -9,9 +7,7 @@ namespace {
 
 void go(Lowering& lowering, const RawStatement&, const Match& match) {
   if (match.has("x")) return lowering.emit(plan::Move{Lowering::point(match, "x")});
-  const double r = match.number("r"), a = match.number("a");
-  lowering.emit(plan::Move{{plan::Operand{r * std::cos(a), {}}, plan::Operand{r * std::sin(a), {}},
-                            Lowering::operand(*match.find("h"))}});
+  lowering.emit(plan::Move{lowering.polar(match)});
 }
 
 }  // namespace
@@ -26,6 +22,7 @@ const Statement kGoto = {
     "height.",
     "GOTO/10,20,30",
     "ISO 22093, GOTO",
-    go};
+    go,
+    Varying::taken};
 
 }  // namespace abbe::lang

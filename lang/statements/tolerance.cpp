@@ -45,7 +45,7 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   const ToleranceKind* kind = find_tolerance_kind(word.text);
   if (!kind) return unknown_kind(lowering, word, "TOL", "tolerance", tolerance_words());
   std::optional<Match> rest =
-      lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used);
+      lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used, Varying::taken);
   if (!rest) return;
   note_redefinition(lowering, raw, *kind, *rest);
   lowering.symbols.tolerances[upper(raw.label->name)] = {
@@ -78,7 +78,7 @@ std::optional<plan::ToleranceId> instance(Lowering& lowering, ToleranceSymbol& s
     if (known == ids) return id;
   const plan::ToleranceId id{static_cast<int>(lowering.out.plan.tolerances.size())};
   lowering.out.plan.tolerances.push_back(
-      {symbol.label, symbol.kind, *lowering.arguments(symbol.match), symbol.span});
+      {symbol.label, symbol.kind, *lowering.arguments(symbol.match), symbol.span, Lowering::varying(symbol.match)});
   symbol.instances.push_back({ids, id});
   return id;
 }

@@ -26,6 +26,12 @@ inline Vec3 vector_of(const Match& match, std::string_view first) {
   return {p[0].constant, p[1].constant, p[2].constant};
 }
 
+/// Whether one of the three depends on what is measured.
+inline bool is_varying(const Match& match, std::string_view first) {
+  const plan::Point p = Lowering::point(match, first);
+  return p[0].column.valid() || p[1].column.valid() || p[2].column.valid();
+}
+
 /// The same as a unit vector; an error at its first component when it is zero.
 inline std::optional<Vec3> direction_vector(Lowering& lowering, const Match& match,
                                             std::string_view first) {

@@ -17,9 +17,9 @@ struct Checked {
   plan::Plan plan;
 };
 
-Checked check(const std::string& path) {
+Checked check(const std::string& path, const std::map<std::string, std::string>& answers) {
   Sink sink;
-  lang::Compilation compilation = lang::compile(read_source(path), sink);
+  lang::Compilation compilation = lang::compile(read_source(path), sink, {answers});
   return {sink.sorted(), std::move(compilation.plan)};
 }
 
@@ -54,7 +54,7 @@ int check_command(const CheckOptions& options) {
                          plans = nlohmann::ordered_json::object();
   std::size_t errors = 0, warnings = 0;
   for (const std::string& program : options.programs) {
-    const Checked checked = check(program);
+    const Checked checked = check(program, options.answers);
     for (const Diagnostic& d : checked.messages) {
       errors += d.severity() == Severity::error ? 1 : 0;
       warnings += d.severity() == Severity::warning ? 1 : 0;

@@ -31,6 +31,7 @@ int run_command(const RunCommandOptions&);
 struct CheckOptions {
   std::vector<std::string> programs;
   bool plan = false;            ///< also print the plan of each program
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
   std::string format = "text";  ///< text or json
 };
 int check_command(const CheckOptions&);

@@ -29,7 +29,7 @@ void refuse_errors(const CompiledProgram& program) {
 
 int run_command(const RunCommandOptions& options) {
   const ReportWriter* writer = find_report_writer(options.format);
-  const CompiledProgram program = compile_program(options.request.program);
+  const CompiledProgram program = compile_program(options.request.program, options.request.answers);
   print_messages(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
 

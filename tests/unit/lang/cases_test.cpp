@@ -79,7 +79,7 @@ void check_messages_are_sound(const SourceFile& source, const Sink& sink) {
 
 void run_case(const fs::path& path) {
   INFO(path.string());
-  const SourceFile source(path.filename().string(), read_text(path));
+  const SourceFile source(path.string(), read_text(path));  // modules lie beside it
   Sink sink;
   const Compilation compilation = compile(source, sink);
   INFO(all_messages(sink));

@@ -1,4 +1,4 @@
-#include "engine/run/expression.hpp"
+#include "engine/plan/expression.hpp"
 
 #include <doctest/doctest.h>
 

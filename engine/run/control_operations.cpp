@@ -1,0 +1,129 @@
+// Handlers of variables and control flow.
+#include <algorithm>
+
+#include "engine/run/block_run.hpp"
+
+namespace abbe {
+
+Outcome<double> BlockRun::evaluate(const Lane& lane, const plan::Expression& expression) const {
+  return plan::evaluate(expression, [&](plan::ColumnId id) { return lane.columns[id.value]; });
+}
+
+Arguments BlockRun::filled(const Lane& lane, const Arguments& arguments, const std::vector<plan::VaryingNumber>& varying) const {
+  Arguments all = arguments;
+  for (const plan::VaryingNumber& v : varying) all.set_number(v.name, v.index, lane.columns[v.column.value]);
+  return all;
+}
+
+namespace {
+
+double quantity_of(const Element& element, plan::Quantity quantity) {
+  using enum plan::Quantity;
+  switch (quantity) {
+    case x: return element.point.x;
+    case y: return element.point.y;
+    case z: return element.point.z;
+    case i: return element.direction.x;
+    case j: return element.direction.y;
+    case k: return element.direction.z;
+    case radius: return element.size;
+    case minor_radius: return element.minor_size;
+    case half_angle: return element.angle;
+    case length: return element.end - element.begin;
+    case form: return element.high - element.low;
+    case begin_x: return element.point.x + element.begin * element.direction.x;
+    case begin_y: return element.point.y + element.begin * element.direction.y;
+    case begin_z: return element.point.z + element.begin * element.direction.z;
+    case end_x: return element.point.x + element.end * element.direction.x;
+    case end_y: return element.point.y + element.end * element.direction.y;
+    case end_z: return element.point.z + element.end * element.direction.z;
+  }
+  ABBE_CHECK(false);
+}
+
+}  // namespace
+
+void BlockRun::operator()(const plan::Obtain& obtain) {
+  for_active([&](int i) -> std::string {
+    const Element* element = actual(i, obtain.feature);
+    if (!element) return "";
+    Lane& lane = block.lanes[i];
+    lane.columns[obtain.column.value] = quantity_of(inverse(lane.X_WD) * *element, obtain.quantity);
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::ObtainEvaluation& obtain) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    const auto latest = std::find_if(lane.values.rbegin(), lane.values.rend(), [&](const Value& v) {
+      return std::find(obtain.characteristics.begin(), obtain.characteristics.end(), v.characteristic) != obtain.characteristics.end();
+    });
+    if (latest == lane.values.rend()) return "a tolerance is obtained that was not evaluated on the path that was taken";
+    const ToleranceLimits& limits = latest->limits;
+    const bool inside = !(limits.lower && latest->value < *limits.lower) && !(limits.upper && latest->value > *limits.upper);
+    lane.columns[obtain.column.value] = obtain.status ? (inside ? 1 : 0) : latest->value;
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::Assign& assign) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    const Outcome<double> v = evaluate(lane, assign.value);
+    if (!v) return v.failure;
+    int offset = 0;
+    if (!assign.index.empty()) {
+      const Outcome<double> index = evaluate(lane, assign.index);
+      if (!index) return index.failure;
+      offset = plan::element_offset(index.value, assign.count);
+      if (offset < 0) return plan::kOutsideArray;
+    }
+    lane.columns[assign.column.value + offset * assign.stride] = v.value;
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::Jump& jump) {
+  for (const int i : active) block.lanes[i].pc = jump.target;
+}
+
+void BlockRun::operator()(const plan::JumpUnless& jump) {
+  Outcomes condition(block.lanes.size(), 0);
+  for_active([&](int i) -> std::string {
+    const Outcome<double> v = evaluate(block.lanes[i], jump.condition);
+    if (!v) return v.failure;
+    condition[i] = v.value != 0;
+    return "";
+  });
+  part_twins(condition);
+  for (const int i : active)
+    if (block.lanes[i].running && !condition[i]) block.lanes[i].pc = jump.target;
+}
+
+void BlockRun::part_twins(Outcomes& condition) {
+  const std::vector<int> before = active;
+  for (const int t : before) {
+    if (!block.is_twin(t) || !block.lanes[t].running) continue;
+    std::vector<int> going[2];
+    for (const int i : before)
+      if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].twin == t) going[condition[i] != 0].push_back(i);
+    // The reference decides by itself; any other twin exists only for its machines and goes where they go.
+    if (t != block.reference()) {
+      if (going[0].empty() && going[1].empty()) {
+        block.lanes[t].running = false;
+        continue;
+      }
+      condition[t] = going[0].empty();
+    }
+    const std::vector<int>& parting = going[condition[t] == 0];
+    if (parting.empty()) continue;
+    const int clone = static_cast<int>(block.lanes.size());
+    block.lanes.push_back(Lane(block.lanes[t]));
+    condition.push_back(condition[t] == 0);
+    active.push_back(clone);
+    for (const int i : parting) block.lanes[i].twin = clone;
+  }
+}
+
+}  // namespace abbe

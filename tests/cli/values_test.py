@@ -1,0 +1,37 @@
+"""Variables and questions from the command line, and messages of a machine that cannot go on where a value is missing."""
+import harness
+
+ASKING = """DMISMN/'asking',5.2
+DECL/REAL,X
+DECL/CHAR,20,NAME
+X=PROMPT/'how far'
+NAME=PROMPT/'which'
+F(@NAME)=FEAT/POINT,CART,X,0,0,0,0,1
+ENDFIL
+"""
+
+
+class Values(harness.Case):
+    def test_answers_come_from_the_command_line(self):
+        self.write("asking.dmi", ASKING)
+        plan = self.abbe("check", "--plan", "asking.dmi", "--answer", "x=12.5", "--answer", "NAME=BORE").stdout
+        self.assertIn("define BORE = POINT at 12.5 0 0", plan)
+
+    def test_a_question_without_answer_names_the_option(self):
+        self.write("asking.dmi", ASKING)
+        self.assertIn("--answer X=VALUE", self.abbe("check", "asking.dmi", code=1).stderr)
+
+    def test_answers_have_a_name(self):
+        self.write("asking.dmi", ASKING)
+        self.assertIn("NAME=VALUE", self.refused("E0609", "check", "asking.dmi", "--answer", "12"))
+
+    def test_a_measured_value_decides(self):
+        program = harness.LENGTH.replace("OUTPUT/", "DECL/REAL,X\nX=OBTAIN/FA(B),4\nIF/(X .GT. 100)\nF(C)=FEAT/POINT,CART,50,0,0,1,0,0\n"
+                                         "MEAS/POINT,F(C),1\nPTMEAS/CART,50,0,0,1,0,0\nENDMES\nENDIF\nOUTPUT/").replace(
+            "ENDFIL", "T(X)=TOL/CORTOL,XAXIS,-1,1\nIF/(X .GT. 100)\nOUTPUT/FA(C),TA(X)\nENDIF\nENDFIL")
+        self.write("deciding.dmi", program)
+        out = self.abbe("run", "--machines", "50", "deciding.dmi").stdout
+        self.assertIn("LEN", out)
+
+
+harness.main()
