@@ -1,4 +1,6 @@
 // What holds where two paths meet.
+#include <algorithm>
+
 #include "lang/flow.hpp"
 
 namespace abbe::lang {
@@ -39,7 +41,10 @@ void merge(State& into, const State& other) {
     into.actuals[k].present |= other.actuals[k].present;
     if (into.actuals[k].spoilt.empty()) into.actuals[k].spoilt = other.actuals[k].spoilt;
   }
-  if (into.measuring && other.measuring && into.measuring->spoilt.empty()) into.measuring->spoilt = other.measuring->spoilt;
+  if (into.measuring && other.measuring) {
+    if (into.measuring->spoilt.empty()) into.measuring->spoilt = other.measuring->spoilt;
+    into.measuring->touches = std::max(into.measuring->touches, other.measuring->touches);
+  }
   into.sensor_selected |= other.sensor_selected;
   for (const auto doubt : {&State::frame_doubt, &State::unit_doubt, &State::sensor_doubt, &State::flow_doubt})
     if ((into.*doubt).empty()) into.*doubt = other.*doubt;

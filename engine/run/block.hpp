@@ -61,6 +61,7 @@ struct Lane {
   std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
   std::vector<char> has_actual;
   std::vector<Element> nominal;       ///< by FeatureId, in W; twins, and machines where it varies with them
+  std::vector<plan::FeatureId> definition;  ///< by FeatureId: the FEAT statement in force
   std::vector<char> own_nominal;      ///< by FeatureId: the nominal varies with the machines
   std::optional<Motion> motion;       ///< twins only: their machines move with them
   TouchMotion last_touch;             ///< twins only

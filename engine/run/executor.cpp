@@ -59,6 +59,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.actual.resize(plan_.features.size());
   start.touched.resize(plan_.features.size());
   start.has_actual.assign(plan_.features.size(), 0);
+  start.definition.resize(plan_.features.size());
   start.own_nominal.assign(plan_.features.size(), 0);
   start.frames.resize(plan_.frames.size());
   if (has_patterns_) start.defined_in.resize(plan_.features.size());

@@ -19,6 +19,7 @@ void BlockRun::operator()(const plan::DefineFeature& define) {
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
     lane.has_actual[id] = 0;
+    lane.definition[id] = define.as.valid() ? define.as : define.feature;
     if (!lane.defined_in.empty()) lane.defined_in[id] = lane.X_WD;
     lane.own_nominal[id] = def.varying.empty() ? 0 : 1;
     if (def.varying.empty()) {
@@ -78,13 +79,22 @@ void BlockRun::operator()(const plan::Move& move) {
   observed->stops.push_back({reading, operation, false});
 }
 
-void BlockRun::operator()(const plan::BeginMeasure&) {
-  for (const int i : active) block.lanes[i].points.clear(), block.lanes[i].targets.clear();
+void BlockRun::operator()(const plan::BeginMeasure& begin) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    if (!lane.definition[begin.feature.value].valid())
+      return "feature '" + executor.plan_[begin.feature].label + "' was not defined on the path that was taken";
+    lane.points.clear();
+    lane.targets.clear();
+    return "";
+  });
 }
 
 Outcome<Target> BlockRun::pattern_target(const Lane& lane, const plan::Touch& touch) const {
   const plan::FeatureDef& def = executor.plan_[touch.feature];
-  const auto made = pattern_touch(def.kind->shape, def.nominal, def.inner, touch.pattern_index, touch.pattern_count);
+  const int id = touch.feature.value;
+  const Element nominal = lane.own_nominal[id] ? inverse(lane.defined_in[id]) * lane.nominal[id] : executor.plan_[lane.definition[id]].nominal;
+  const auto made = pattern_touch(def.kind->shape, nominal, def.inner, touch.pattern_index, touch.pattern_count);
   if (!made) return Outcome<Target>::failed(made.failure);
   const Rigid& X_WD = lane.defined_in[touch.feature.value];
   return {{X_WD * made.value.point, X_WD.R * made.value.normal}};

@@ -113,7 +113,7 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
     return lowering.error(Code::E0206, raw.word_span, "ENDMES without a MEAS",
                           "remove it, or write the MEAS that it should end");
   OpenMeasure& block = *lowering.measuring;
-  if (block.feature.valid() && block.spoilt.empty() && !block.varies) {
+  if (block.feature.valid() && block.spoilt.empty() && (!block.varies || block.touches == 0)) {
     const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
     if (block.touches == 0) {
       measure_by_pattern(lowering, block);
