@@ -191,8 +191,10 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
 void BlockRun::operator()(const plan::OutputFrame& output) {
   const Lane& lane = block.lanes[0];
   if (!observed || active.empty() || active.front() != 0 || !lane.running) return;
+  const std::optional<Rigid>& X_WD = lane.frames[output.frame.value];
+  if (!X_WD) return trap(0, "the coordinate system is not defined on this path");
   const Rigid X_WM{Mat3{}, executor.options_.placement_mm};
-  observed->outputs.push_back({operation, {}, {}, inverse(X_WM) * lane.frames[output.frame.value]});
+  observed->outputs.push_back({operation, {}, {}, inverse(X_WM) * *X_WD});
 }
 
 void BlockRun::operator()(const plan::Output& output) {

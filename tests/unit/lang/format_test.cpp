@@ -109,12 +109,14 @@ TEST_CASE("blanks and cuts of lines leave no trace") {
       plain += line + "\n";
       const bool statement = line.find('/') != std::string::npos;  // free text stays as it is
       bool quote = false;
-      int depth = 0;
+      int depth = 0, slashes = 0;
       for (const char c : line) {
         if (c == '\'') quote = !quote;
         depth += quote ? 0 : c == '(' ? 1 : c == ')' ? -1 : 0;
+        // A second slash divides: blanks within expressions are the writer's.
+        slashes += !quote && c == '/' ? 1 : 0;
         const bool separator =
-            statement && !quote && depth == 0 && (c == ',' || c == '/' || c == '=');
+            statement && !quote && depth == 0 && (c == ',' || (c == '/' && slashes == 1) || c == '=');
         if (separator && below(4) == 0) mutated += " ";
         mutated += c;
         if (separator && below(4) == 0) mutated += "\t ";
