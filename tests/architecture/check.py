@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files [COMPILER]
+"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files [COMPILER EIGEN]
 
 includes  every #include of a layer names that layer or one that CMakeLists.txt lets it use; the heavy libraries stay where they belong
 headers   every header compiles alone
@@ -77,9 +77,9 @@ def check_includes():
     return wrong
 
 
-def check_headers(compiler):
+def check_headers(compiler, eigen):
     def compile_alone(path):
-        run = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-I", str(ROOT),
+        run = subprocess.run([compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-I", str(ROOT), "-isystem", eigen,
                               "-include", str(path), "-x", "c++", "/dev/null"], capture_output=True, text=True)
         return [] if run.returncode == 0 else [f"{path.relative_to(ROOT)} does not compile alone:\n{run.stderr}"]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -111,7 +111,7 @@ def check_files():
 def main():
     what = sys.argv[1]
     wrong = {"includes": check_includes, "codes": check_codes, "files": check_files,
-             "headers": lambda: check_headers(sys.argv[2])}[what]()
+             "headers": lambda: check_headers(*sys.argv[2:])}[what]()
     print("\n".join(wrong) if wrong else f"{what}: good")
     return 1 if wrong else 0
 

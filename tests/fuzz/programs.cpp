@@ -77,6 +77,10 @@ class Generator {
         return "V(" + name() + ")";
       case ValueType::word:
         return one_of(feature_kinds())->word.data();
+      case ValueType::condition:
+        return below(8) == 0 ? "X .LT. 1" : number(3) + (below(2) == 0 ? " .LT. " : " .EQ. ") + number(3);
+      case ValueType::value:
+        return below(2) == 0 ? number(5) + "+" + number(5) : "'text'";
     }
     return "";
   }
