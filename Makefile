@@ -1,8 +1,9 @@
 # The two commands of the README: `make run` and `make test`. Both set up, build and then do their work.
 BUILD ?= build
 JOBS  ?= $(shell nproc)
+PYTHON ?= python3
 
-.PHONY: all setup build run test figures clean
+.PHONY: all setup build run test figures evidence clean
 all: build
 
 setup:            ## installs the Debian packages that are missing
@@ -23,6 +24,12 @@ figures: build    ## draws the figures of docs/ anew; the only thing here that n
 	@npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
 	@mkdir -p docs/figures/effects
 	@python3 tests/docs/figures.py $(BUILD)/abbe --write
+
+evidence: build   ## the concealed cases of docs/evidence.md again, its tables and figures; ROUND, SCALE and SECRET change the round
+	@command -v npm >/dev/null || { echo "figures need Node 18 or later and npm: apt-get install nodejs npm"; exit 1; }
+	@npm ci --ignore-scripts --no-audit --no-fund --loglevel=error
+	@$(PYTHON) -B tests/concealed/evidence.py --abbe $(BUILD)/abbe --work $(BUILD)/evidence --jobs $(JOBS) \
+	  $(if $(ROUND),--round $(ROUND)) $(if $(SCALE),--scale $(SCALE)) $(if $(SECRET),--secret $(SECRET))
 
 clean:
 	@rm -rf $(BUILD)

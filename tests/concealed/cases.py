@@ -15,6 +15,7 @@ from seal import generator
 from world import LADDER, Baseline, scaled, short
 
 COUNTS = {"null": 400, "single": 288, "pair": 60, "unknown": 80, "missing": 40, "covariance": 40}
+STRIDE = 7  # has no divisor in common with the number of families, so that all come
 # Parameters with one meaning everywhere (docs/formats.md), by which answers are judged.
 FIXED = {
     "thermal.part_expansion": ["cte_error_ppm_per_K"],
@@ -51,11 +52,10 @@ def plan(counts, final=False):
     out = [Spec("null", detail=("clean", "hard")[i % 2]) for i in range(counts["null"])]
     families = sorted(CATALOGUE)
     for i in range(counts["single"]):
-        out.append(
-            Spec(
-                "single", families[(i // len(LADDER) + 5 * (i % len(LADDER))) % len(families)], LADDER[i % len(LADDER)]
-            )
-        )
+        # The stride spreads the families of every ratio over the whole catalogue, in a small round too: power by
+        # ratio must not compare one family with another.
+        family = families[(STRIDE * (i // len(LADDER)) + 5 * (i % len(LADDER))) % len(families)]
+        out.append(Spec("single", family, LADDER[i % len(LADDER)]))
     out += [
         Spec("pair", snr=(8.0, 10.0)[i % 2], detail=("separable", "decoy", "masking")[i % 3])
         for i in range(counts["pair"])
@@ -99,8 +99,8 @@ class Stage:
                 "noise_scale": float(rng.uniform(0.7, 1.5)),
             }
         draw = cmm.rough_geometry if self.nuisance["geometry"] == "rough" else cmm.paper_geometry
-        geometry = draw(self.machine, rng, self.nuisance["geometry_scale"])
-        more = (self.nuisance["noise"], self.nuisance["noise_scale"])
+        self.geometry = geometry = draw(self.machine, rng, self.nuisance["geometry_scale"])
+        self.noise = more = (self.nuisance["noise"], self.nuisance["noise_scale"])
         self.base = Baseline(self.scene, geometry, rng, *more)
         self.calibration = Baseline(designs.build("K", self.machine, rng), geometry, rng, *more) if known else None
         self._null = None

@@ -190,13 +190,19 @@ SIZES = {"A": 75, "C": 225, "D": 450, "E": 300, "K": 450}
 ARTEFACTS = {"A": "ball", "C": "ball plate", "D": "ball frame", "E": "step gauges and sphere", "K": "ball frame"}
 
 
+def fits(scene):
+    """Is every reading inside the travels?"""
+    m = scene.machine
+    low, high = np.array([sorted((0, m.direction[a] * m.travel[a])) for a in cmm.AXES]).T
+    return (scene.reading > low + 5).all() and (scene.reading < high - 5).all()
+
+
 def build(design, machine, rng, size=None):
     """A complete scene; its parts shrink towards the middle until every reading is inside the travels."""
     scene = BUILDERS[design](machine, rng, size or SIZES[design])
     for shrink in (1, 0.9, 0.8, 0.7, 0.6, 0.5):
         touches(scene, shrink, np.random.Generator(np.random.PCG64(int(rng.integers(2**62)))))
-        low, high = np.array([sorted((0, machine.direction[a] * machine.travel[a])) for a in cmm.AXES]).T
-        if (scene.reading > low + 5).all() and (scene.reading < high - 5).all():
+        if fits(scene):
             break
     else:
         raise ValueError(f"design {design} does not fit into {machine.name}")

@@ -45,6 +45,19 @@ def numbered(secret, counts, final):
     return [(f"{i + 1:04d}", specs[k]) for i, k in enumerate(order)]
 
 
+def write_round(kind, secret, numbered_cases, root, sealed, jobs=1):
+    """Writes all cases, their truths and their seals; the folder `cases` appears last, when everything is there."""
+    for folder in (root, sealed):
+        folder.mkdir(parents=True, exist_ok=True)
+    (sealed / "secret.txt").write_text(secret + "\n")
+    work = [(secret, *case, root, sealed) for case in numbered_cases]
+    with concurrent.futures.ProcessPoolExecutor(jobs) as pool:
+        seals = list(pool.map(write_case, work, chunksize=4))
+    head = f"# SHA-256(salt || truth) of every case of the {kind} round\n"
+    (root / "SEAL.txt").write_text(head + "".join(f"{n} {h}\n" for n, h in sorted(seals)))
+    (root / "cases.tmp").rename(root / "cases")
+
+
 def main(argv=None):
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--round", choices=("development", "rehearsal", "final"), required=True)
@@ -60,16 +73,9 @@ def main(argv=None):
     secret = f"{given.round} {secret}"
     counts = {kind: max(1, round(n * given.scale)) for kind, n in cases.COUNTS.items()}
     sealed = given.sealed or given.out / "sealed"
-    for folder in (given.out, sealed):
-        folder.mkdir(parents=True, exist_ok=True)
-    (sealed / "secret.txt").write_text(secret + "\n")
-    jobs = [(secret, *case, given.out, sealed) for case in numbered(secret, counts, given.round == "final")]
-    with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
-        seals = list(pool.map(write_case, jobs, chunksize=4))
-    head = f"# SHA-256(salt || truth) of every case of the {given.round} round\n"
-    (given.out / "SEAL.txt").write_text(head + "".join(f"{n} {h}\n" for n, h in sorted(seals)))
-    (given.out / "cases.tmp").rename(given.out / "cases")
-    print(f"{len(jobs)} cases in {given.out}/cases; truths in {sealed}")
+    numbers = numbered(secret, counts, given.round == "final")
+    write_round(given.round, secret, numbers, given.out, sealed, given.jobs)
+    print(f"{len(numbers)} cases in {given.out}/cases; truths in {sealed}")
 
 
 if __name__ == "__main__":

@@ -46,14 +46,21 @@ def parameters(truth, said):
 
 
 def over_detectable(truth, said):
-    """Size of the concealed effect over the smallest that the program says it would have detected; None when
-    it does not say."""
+    """Size of the concealed effect over the smallest that the program says it would have detected, both in the
+    unit of the parameter; None when it does not say."""
     for entry in said.get("smallest_detectable") or []:
         for effect in truth["effects"]:
             size = effect["parameters"].get(entry.get("parameter"))
-            if entry.get("effect") == effect["name"] and isinstance(size, (int, float)) and entry.get("detect_um"):
-                return abs(size) / entry["detect_um"]
+            if entry.get("effect") == effect["name"] and isinstance(size, (int, float)) and entry.get("detect"):
+                return abs(size) / entry["detect"]
     return None
+
+
+def places(truth):
+    """Factors in which the effect may rightly be located. In design A the runs follow each other: there a run is a
+    stretch of time."""
+    allowed = {f for e in truth["effects"] for f in e["factors"]}
+    return allowed | {"run"} if truth["design"] == "A" and "time" in allowed else allowed
 
 
 def rivals(truth, said):
@@ -92,7 +99,6 @@ def row(truth, stored):
     sets, names = names_of(said), set(out["families"])
     first = said["effects"][0] if said.get("effects") else {}
     located = said.get("location") or []
-    allowed = {f for e in truth["effects"] for f in e["factors"]}
     improvement = said.get("improvement") or {}
     out.update(
         verdict=said.get("verdict"),
@@ -107,7 +113,7 @@ def row(truth, stored):
             e.get("probability", 0) > 0.95 and not names & set(e.get("members", [])) for e in said.get("effects", [])
         ),
         factor=located[0].get("factor") if located else None,
-        located=bool(located) and located[0].get("factor") in allowed,
+        located=bool(located) and located[0].get("factor") in places(truth),
         gain=improvement.get("log_score_gain"),
         gain_se=improvement.get("se"),
         over_detectable=over_detectable(truth, said),
@@ -117,6 +123,7 @@ def row(truth, stored):
         parameters=parameters(truth, said),
         rivals=rivals(truth, said),
         nearest=truth.get("nearest"),
+        runner_up=(said.get("runner_up") or {}).get("members"),
         other_names=[r[0] for r in truth.get("rivals", [])],
         next_measurement=[m.get("change") for m in said.get("next_measurement", [])][:1],
     )

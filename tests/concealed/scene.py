@@ -47,6 +47,7 @@ class Scene:
     def __init__(self, machine, design, styli, placements):
         self.machine, self.design, self.styli, self.placements = machine, design, styli, placements
         self.blocks, self.logs_readings = [], design in "DE"
+        self.first_styli = styli  # sizes of effects refer to these, also when another stylus is mounted later
 
     @property
     def duration(self):
@@ -88,6 +89,7 @@ def touches(scene, shrink, rng):
     place = np.stack([s.placements[k - 1][1] for k in s.setup]) * shrink + rest
     s.target = np.einsum("nij,nj->ni", s.turn, s.part_point) + place + s.tip_radius[:, None] * s.normal
     s.reading = s.target - cmm.home_offset(m) - s.tip
+    s.middle, s.shrink = s.target.mean(0), shrink
     s.travel = oblique(s, rng)
 
 

@@ -14,11 +14,13 @@ try:
     import judge
     import measures
     import seal
+    import stories
 except ModuleNotFoundError as missing:
     sys.exit(f"score: needs {missing.name} (Debian: python3-numpy)")
 
 
 METHOD_FIGURES = ("false_alarms", "power", "right", "confident_wrong")
+WORST = ("case", "kind", "detail", "design", "mode", "snr", "families", "verdict", "members", "probability", "p_value", "exit")
 
 
 def badness(r):
@@ -35,22 +37,8 @@ def badness(r):
 
 
 def worst(rows, count=10):
-    keys = (
-        "case",
-        "kind",
-        "detail",
-        "design",
-        "mode",
-        "snr",
-        "families",
-        "verdict",
-        "members",
-        "probability",
-        "p_value",
-        "exit",
-    )
     bad = sorted((r for r in rows if badness(r) > 0), key=lambda r: (-badness(r), r["case"]))
-    return [{k: r.get(k) for k in keys} for r in bad[:count]]
+    return [{**{k: r.get(k) for k in WORST}, "story": stories.story(r)} for r in bad[:count]]
 
 
 def percent(figure):
@@ -76,38 +64,26 @@ def family_row(name, rows):
     return [f"`{name}`", len(mine), len(seen), sum(r["right"] for r in seen)]
 
 
-def worst_row(r):
-    chance = "" if r["probability"] is None else f"{r['probability']:.2f}"
-    what = f"{r['kind']} {r['detail']}".strip()
-    truth, said = ", ".join(r["families"]) or "nothing", ", ".join(r["members"] or [])
-    return [r["case"], what, f"{r['design']} {r['mode']}", f"{r['snr']:g}", truth, r["verdict"], said, chance]
-
-
-def markdown(result):
-    """The targets; power by design; nulls by noise; families; other methods; the gallery of failures."""
+def tables(result):
+    """The tables of a round in Markdown, by name."""
     m, rows = result["measures"], result["rows"]
     steps = list(m["power"]["steps"])
     powers = [[d, *(percent(b["steps"].get(s)) for s in steps)] for d, b in m["power_by_design"].items()]
     nulls = [[k, b["n"], percent(b)] for part in ("noise", "design") for k, b in m[f"false_alarms_by_{part}"].items()]
     families = [family_row(f, rows) for f in [*m["power_by_family"], *m["covariance"]]]
     methods = [[name, *(percent(block.get(k)) for k in METHOD_FIGURES)] for name, block in m["compared"].items()]
-    parts = [
-        table(["what", "target", "observed", "95 % limits", "n", "met"], map(target_row, result["targets"])),
-        "Detected, by design and signal-to-noise ratio:\n",
-        table(["design", *steps], powers),
-        "False alarms among the hard nulls by noise, and among all nulls by design:\n",
-        table(["noise or design", "n", "false alarms"], nulls),
-        "Detected and named rightly, by family:\n",
-        table(["family", "n", "detected", "right, of the detected"], families),
-        "Other methods on the same nulls and single effects (detected; named rightly, of all):\n",
-        table(["method", "false alarms", "detected", "right", "confident and wrong"], methods),
-        "Worst answers:\n",
-        table(
-            ["case", "what", "design", "SNR", "truth", "verdict", "said", "probability"],
-            map(worst_row, result["worst"]),
-        ),
-    ]
-    return "\n".join(parts)
+    return {
+        "targets": table(["what", "target", "observed", "95 % limits", "n", "met"], map(target_row, result["targets"])),
+        "power by design": table(["design", *(f"s = {s}" for s in steps)], powers),
+        "false alarms": table(["noise (hard nulls) or design (all)", "n", "false alarms"], nulls),
+        "families": table(["family", "n", "detected", "right, of the detected"], families),
+        "other methods": table(["method", "false alarms", "detected", "right", "confident and wrong"], methods),
+        "worst": table(["case", "what happened"], [[w["case"], w["story"]] for w in result["worst"]]),
+    }
+
+
+def markdown(result):
+    return "\n".join(f"{name.capitalize()}:\n\n{text}" for name, text in tables(result).items())
 
 
 def scored(root, sealed=None):

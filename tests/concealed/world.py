@@ -15,18 +15,16 @@ def short(value):
     return float(f"{value:.6g}")
 
 
-def placed(scene, rng):
-    """The true part is not where the alignment says: 3 um and 10 urad for each placement; um along the
-    normal."""
+def placed(scene, poses, rng):
+    """The true part is not where the alignment says: 3 um and 10 urad for each placement; um along the normal. poses:
+    {setup: (shift um, turn rad)}, those that are missing are drawn."""
     out = np.zeros(scene.size)
     for k in np.unique(scene.setup):
-        mine = scene.setup == k
-        centre = scene.target[mine] - scene.target.mean(0)
-        move = (
-            rng.normal(0, 3, 3)
-            + cmm.rotate(np.tile(rng.normal(0, 1e-5, 3), (mine.sum(), 1)), centre) * 1e3
-            - centre * 1e3
-        )
+        if k not in poses:
+            poses[k] = (rng.normal(0, 3, 3), rng.normal(0, 1e-5, 3))
+        mine, (shift, turn) = scene.setup == k, poses[k]
+        centre = scene.target[mine] - scene.middle
+        move = shift + cmm.rotate(np.tile(turn, (mine.sum(), 1)), centre) * 1e3 - centre * 1e3
         out[mine] = np.sum(scene.normal[mine] * move, 1)
     return out
 
@@ -48,21 +46,23 @@ def indexing(scene, rng):
     return np.sum(scene.normal * (turned - scene.arm), 1) * 1e3
 
 
-def qualified(scene, rng):
-    """Each stylus was qualified on the reference sphere with its own small error of place; um."""
-    offset = rng.normal(0, scene.machine.qualification_sd, (len(scene.styli), 3))
-    return np.sum(scene.normal * offset[scene.sensor], 1)
-
-
 class Baseline:
-    """A recording without any effect: residuals r in um, and what effects need to be added to it."""
+    """A recording without any effect: residuals r in um, and what effects need to be added to it.
 
-    def __init__(self, scene, geometry, rng, kind="white", noise_scale=1.0):
+    before: the Baseline of an earlier recording of the same machine; placements and qualified styli that it has keep
+    their errors. Each stylus was qualified on the reference sphere with its own small error of place, um."""
+
+    def __init__(self, scene, geometry, rng, kind="white", noise_scale=1.0, before=None):
         self.scene, self.kind = scene, kind
         self.carriages = geometry.carriages(scene.machine, scene.reading)
         self.geometric = along_normal(scene, self.carriages)
         self.noise = noise.probe_noise(scene, rng, kind, noise_scale)
-        self.r = self.geometric + indexing(scene, rng) + qualified(scene, rng) + placed(scene, rng) + self.noise
+        self.r = self.geometric + indexing(scene, rng)
+        same_styli = before is not None and before.scene.styli == scene.styli
+        self.offsets = before.offsets if same_styli else rng.normal(0, scene.machine.qualification_sd, (len(scene.styli), 3))
+        self.r = self.r + np.sum(scene.normal * self.offsets[scene.sensor], 1)
+        self.poses = dict(before.poses) if before is not None else {}
+        self.r = self.r + placed(scene, self.poses, rng) + self.noise
         scene.raw = scene.reading + self.r[:, None] * 1e-3 * scene.normal
 
     def signature(self, effect, parameters):

@@ -3,7 +3,7 @@ latency. Forces N, moduli GPa."""
 
 import numpy as np
 
-from scene import BALL
+from scene import BALL, MATERIALS
 
 from .base import Change, effect, unit
 
@@ -73,10 +73,9 @@ def change_lobing(scene, p):
         if mine.any():  # the mean over the hemisphere of the qualification is part of the tip radius
             one = [v[mine][:1] for v in (scene.length, scene.shaft, scene.young)]
             out[mine] = np.mean(pretravel(2 * np.pi * u[:, 0], np.arcsin(u[:, 1]), *one, p)) - value[mine]
-    reference = min(scene.styli, key=lambda s: s.length)
-    mine = scene.length == reference.length
+    reference = min(scene.first_styli, key=lambda s: s.length)
     ring = pretravel(
-        round_equator, 0 * round_equator, scene.length[mine][0], scene.shaft[mine][0], scene.young[mine][0], p
+        round_equator, 0 * round_equator, reference.length, reference.shaft, MATERIALS[reference.material][0], p
     )
     return Change(along=p["amplitude_um"] * out / ((ring.max() - ring.min()) / 2))
 

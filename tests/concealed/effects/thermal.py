@@ -165,7 +165,7 @@ effect(
     change_scales,
     ["cte_error_ppm_per_K"],
     10,
-    [HEAT, PLACE, "setup"],
+    [HEAT, PLACE, "feature", "setup"],
     needs=("temp_x_C", "temp_y_C", "temp_z_C"),
     designs="D",
 )

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""A small round of concealed cases, from generating to the page of evidence. usage: small_test.py PATH-OF-ABBE
+
+Clear cases of the public development secret, whose right answer nobody doubts: effects of a signal-to-noise ratio of 15,
+nulls, a stranger, a missing column, a decoy. Every step of `make evidence` but the drawing is done. Skipped (77) without numpy.
+"""
+
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy  # noqa: F401
+except ModuleNotFoundError:
+    print("needs numpy (Debian: python3-numpy)")
+    sys.exit(77)
+
+import evidence
+import follow
+import generate
+import plots
+import run
+import score
+from cases import Spec
+
+ABBE = pathlib.Path(sys.argv.pop()).resolve()
+SECRET = f"development {generate.PUBLIC}"
+ROUND = {
+    "0001": Spec("null", detail="clean"),
+    "0002": Spec("null", detail="hard"),
+    "0003": Spec("single", "thermal.drift", 15.0),
+    "0004": Spec("single", "probe.pretravel_lobing", 15.0),
+    "0005": Spec("single", "probe.stylus_length", 15.0),
+    "0006": Spec("unknown", "dent", 16.0),
+    "0007": Spec("missing", "thermal.part_expansion", 10.0, "stuck"),
+    "0009": Spec("pair", snr=10.0, detail="decoy"),
+}
+
+
+class SmallRound(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = root = pathlib.Path(cls.folder.name)
+        generate.write_round("development", SECRET, ROUND.items(), root, root / "sealed", jobs=2)
+        run.main([str(root), "--abbe", str(ABBE), "--jobs", "2"])
+        cls.result = score.scored(root)
+        cls.rows = {r["case"]: r for r in cls.result["rows"]}
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_nulls_are_left_alone(self):
+        for number in ("0001", "0002"):
+            self.assertEqual(self.rows[number]["verdict"], "no_mismatch", number)
+
+    def test_clear_effects_are_named(self):
+        for number in ("0003", "0004", "0005"):
+            r = self.rows[number]
+            self.assertTrue(r["detected"] and r["right"], r)
+            self.assertLess(r["p_value"], 0.01)
+            self.assertGreater(r["gain"], 3)
+
+    def test_a_stranger_is_not_named(self):
+        self.assertEqual(self.rows["0006"]["verdict"], "unexplained")
+
+    def test_what_was_not_logged_cannot_be_judged(self):
+        self.assertIn("thermal.part_expansion", self.rows["0007"]["cannot_judge"])
+
+    def test_a_decoy_keeps_the_truth_and_is_followed(self):
+        self.assertTrue(self.rows["0009"]["right"])
+        followed = follow.followed(self.root, ABBE)
+        self.assertEqual([r["case"] for r in followed["rows"]], ["0009"])
+        self.assertIn("|", follow.text(followed))
+        self.assertEqual(follow.followed(self.root, ABBE), followed)
+
+    def test_the_page_takes_every_block(self):
+        followed = {"rows": []}
+        specifications = plots.figures(self.result, followed)
+        names = plots.written(specifications, self.root / "plots")
+        self.assertGreaterEqual(len(names), 10)
+        for name in names:
+            spec = json.loads((self.root / f"plots/{name}.vl.json").read_text())
+            self.assertTrue(spec["title"]["text"])
+        blocks = evidence.blocks_of(self.result, followed, names, specifications, "round")
+        page = evidence.PAGE.read_text()
+        self.assertEqual(evidence.filled(evidence.filled(page, blocks), blocks), evidence.filled(page, blocks))
+        with self.assertRaises(SystemExit):
+            evidence.filled(page.replace("<!-- evidence targets -->", "<!-- evidence tragets -->"), blocks)
+
+    def test_another_program_may_not_go_on(self):
+        other = self.root / "other"
+        other.write_text("#!/bin/sh\necho abbe 0\n")
+        other.chmod(0o755)
+        with self.assertRaises(SystemExit):
+            run.main([str(self.root), "--abbe", str(other)])
+
+
+if __name__ == "__main__":
+    unittest.main()
