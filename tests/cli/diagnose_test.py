@@ -49,6 +49,9 @@ class Diagnose(harness.Case):
             self.assertGreater(high, 2.7)
         self.assertGreater(said["improvement"]["log_score_gain"], 3)
         self.assertLess(said["improvement"]["rms_um"]["after"], said["improvement"]["rms_um"]["before"])
+        residuals = said["residuals"]
+        self.assertEqual({len(column) for column in residuals.values()}, {said["touches"]})
+        self.assertLess(sum(r * r for r in residuals["after_um"]), sum(r * r for r in residuals["before_um"]))
         # The machine file with the effect in it gives larger uncertainties than the one without.
         u = lambda machine: json.loads(self.abbe("run", PROGRAM, "--machine", machine, "--machines", 200, "--format", "json").stdout)["characteristics"][0]
         with_effect, without = u("improved.json"), u(MACHINE)

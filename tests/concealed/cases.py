@@ -217,12 +217,12 @@ def make_unknown(rng, spec):
     )
 
 
-def nearest(rng, stage, d, draws=4):
-    """Catalogue effects by how well some of their draws together can imitate d: [[name, correlation], ...]."""
+def nearest(rng, stage, d):
+    """Catalogue effects by how well combinations of their draws can imitate d: [[name, correlation], ...]."""
     out = []
     for name, effect in sorted(CATALOGUE.items()):
         if stage.design in effect.designs:
-            columns = [stage.base.signature(effect, effect.draw(stage.scene, rng)) for _ in range(draws)]
+            columns = [stage.base.signature(effect, effect.draw(stage.scene, rng)) for _ in range(effect.spans)]
             out.append([name, stage.null.correlation(d, np.column_stack(columns))])
     return sorted(out, key=lambda row: -row[1])
 

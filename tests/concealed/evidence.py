@@ -83,7 +83,9 @@ def blocks_of(result, followed, names, specifications, first):
     figures = {}
     for name, specification in specifications.items():
         shown = f"![{plots.title_of(specification)}](evidence/{name}.svg)"
-        figures[f"figure {name}"] = shown if name in names else "No case of this round shows it."
+        group = "before and after" if name.startswith("before_after") else f"figure {name}"
+        figures.setdefault(group, []).extend([shown] if name in names else [])
+    figures = {group: "\n\n".join(shown) or "No case of this round shows it." for group, shown in figures.items()}
     return {"round": first, **score.tables(result), "decoys": follow.text(followed), **figures}
 
 
@@ -108,7 +110,7 @@ def main(argv=None):
     result = score.scored(given.work)
     (given.work / "results.json").write_text(json.dumps(result, indent=1) + "\n")
     followed = follow.followed(given.work, None if given.answered else given.abbe)
-    specifications = plots.figures(result, followed)
+    specifications = {**plots.figures(result, followed), **plots.residual_maps(result, given.work / "answers")}
     names = drawn(specifications, given.work, given.page.with_suffix(""))
     tool = json.loads((given.work / "answers/tool.txt").read_text())
     blocks = blocks_of(result, followed, names, specifications, record(given, result, tool))

@@ -160,7 +160,7 @@ def followed(root, abbe):
     decoys = [(n, t) for n, t in seal.verified(root).items() if t["detail"] == "decoy"]
     result = {"rows": [row(root, str(abbe), secret, n, t) for n, t in decoys]}
     kept.write_text(json.dumps(result, indent=1) + "\n")
-    return result
+    return json.loads(kept.read_text())
 
 
 STAGES = {"before": "the first recording", "wish": "and a second as the program wished", "random": "and a second with a random change"}

@@ -3,10 +3,11 @@ docs/formats.md has the answer's keys.
 
 Rules, fixed before any final round: something is *detected* when the verdict is a mismatch. A name is *right*
 when the truth is among the members of the first effect (of any effect, for a pair). It is *confidently wrong*
-when an effect with a probability above 0.95 has no truth among its members. Noise properties that a hard null
-really has may be named.
+when an effect with a probability above 0.95 has no truth among its members, nor what the truth cannot be told
+from. Noise properties that a hard null really has may be named.
 """
 
+INDISTINCT = 0.95  # correlation, as where effects are put into one class
 MISMATCH = ("named", "one_of", "unexplained")
 
 
@@ -82,6 +83,11 @@ def rivals(truth, said):
     }
 
 
+def likenesses(truth):
+    """Catalogue effects that a stranger cannot be told from: no name for these is wrong, though the better answer is none."""
+    return {name for name, correlation in truth.get("nearest") or [] if correlation > INDISTINCT}
+
+
 def row(truth, stored):
     """Everything that the scorer counts, of one case."""
     said = stored.get("answer")
@@ -110,12 +116,15 @@ def row(truth, stored):
         right=bool(sets)
         and (bool(names & set(sets[0])) if truth["kind"] != "pair" else all(any(n in s for s in sets) for n in names)),
         confident_wrong=any(
-            e.get("probability", 0) > 0.95 and not names & set(e.get("members", [])) for e in said.get("effects", [])
+            e.get("probability", 0) > 0.95 and not (names | likenesses(truth)) & set(e.get("members", []))
+            for e in said.get("effects", [])
         ),
         factor=located[0].get("factor") if located else None,
         located=bool(located) and located[0].get("factor") in places(truth),
         gain=improvement.get("log_score_gain"),
         gain_se=improvement.get("se"),
+        scheme=improvement.get("scheme"),
+        has_residuals=bool(said.get("residuals")),
         over_detectable=over_detectable(truth, said),
         bias=improvement.get("bias_um"),
         unexplained=said.get("unexplained"),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the results of a round. usage: plots.py results.json OUT/ [--follow follow.json]
+"""Draws the results of a round. usage: plots.py results.json OUT/ [--follow follow.json] [--answers DIR/answers]
 
 Writes one Vega-Lite v6 specification a figure, data inside; docs/figures/render.mjs makes pictures of them. A
 figure without data is left out.
@@ -11,6 +11,7 @@ import pathlib
 
 import plots_detection as detection
 import plots_naming as naming
+import showcases
 from charts import values_of
 
 
@@ -33,6 +34,16 @@ def figures(result, follow=None):
     }
 
 
+def residual_maps(result, answers):
+    """before_after_1 ...: cases chosen by rule, with the residuals of their answers."""
+    out = {f"before_after_{i}": None for i in range(1, 7)}
+    cases = showcases.chosen(result["rows"])
+    for i, r in enumerate(cases, 1):
+        residuals = json.loads((answers / f"{r['case']}.json").read_text())["answer"]["residuals"]
+        out[f"before_after_{i}"] = naming.residual_map(showcases.shown(r, residuals))
+    return out
+
+
 def title_of(specification):
     return specification["title"]["text"] if specification else ""
 
@@ -51,9 +62,11 @@ def main(argv=None):
     parser.add_argument("results", type=pathlib.Path)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--follow", type=pathlib.Path, help="results of follow.py")
+    parser.add_argument("--answers", type=pathlib.Path, help="for the residuals of some cases before and after")
     given = parser.parse_args(argv)
-    follow = json.loads(given.follow.read_text()) if given.follow else None
-    written(figures(json.loads(given.results.read_text()), follow), given.out)
+    follow, result = json.loads(given.follow.read_text()) if given.follow else None, json.loads(given.results.read_text())
+    maps = residual_maps(result, given.answers) if given.answers else {}
+    written({**figures(result, follow), **maps}, given.out)
 
 
 if __name__ == "__main__":

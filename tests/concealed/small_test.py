@@ -79,9 +79,10 @@ class SmallRound(unittest.TestCase):
 
     def test_the_page_takes_every_block(self):
         followed = {"rows": []}
-        specifications = plots.figures(self.result, followed)
+        specifications = {**plots.figures(self.result, followed), **plots.residual_maps(self.result, self.root / "answers")}
         names = plots.written(specifications, self.root / "plots")
-        self.assertGreaterEqual(len(names), 10)
+        self.assertGreaterEqual(len(names), 14)
+        self.assertIn("before_after_4", names)
         for name in names:
             spec = json.loads((self.root / f"plots/{name}.vl.json").read_text())
             self.assertTrue(spec["title"]["text"])

@@ -84,6 +84,22 @@ Json rivals(const Rivals& r) {
           {"best_bayes_factor", {{"members", Json::array({r.best_bayes_factor})}, {"probability", number(r.best_bayes_probability)}}}};
 }
 
+/// One list per column: a recording has a thousand touches.
+Json residuals(const std::vector<ResidualRow>& rows) {
+  if (rows.empty()) return {};
+  const auto column = [&](auto value) { return array(rows, value); };
+  return {{"feature", column([](const ResidualRow& r) { return Json(r.feature); })},
+          {"touch", column([](const ResidualRow& r) { return Json(r.touch); })},
+          {"setup", column([](const ResidualRow& r) { return Json(r.setup); })},
+          {"run", column([](const ResidualRow& r) { return Json(r.run); })},
+          {"time_s", column([](const ResidualRow& r) { return number(r.time_s); })},
+          {"x_mm", column([](const ResidualRow& r) { return number(r.x_mm); })},
+          {"y_mm", column([](const ResidualRow& r) { return number(r.y_mm); })},
+          {"z_mm", column([](const ResidualRow& r) { return number(r.z_mm); })},
+          {"before_um", column([](const ResidualRow& r) { return number(r.before_um); })},
+          {"after_um", column([](const ResidualRow& r) { return number(r.after_um); })}};
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
@@ -96,6 +112,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"location", array(d.location, location)},
       {"unexplained", unexplained(d.unexplained)},
       {"improvement", improvement(d.improvement)},
+      {"residuals", residuals(d.residuals)},
       {"runner_up", d.runner_up ? Json{{"members", d.runner_up->members}, {"log_score_gain", number(d.runner_up->log_score_gain)}} : Json()},
       {"cannot_judge", array(d.cannot_judge, [](const CannotJudge& c) { return Json{{"effect", c.effect}, {"missing", c.missing}}; })},
       {"smallest_detectable", array(d.smallest_detectable, detectable)},

@@ -30,6 +30,7 @@ class Effect:
     needs: tuple = ()  # columns of the recording without which it cannot be judged
     designs: str = "ACDE"
     known: bool = False  # hopeless on an unknown machine
+    spans: int = 4  # draws whose combinations are the effect again; many where it is a sum of many free terms
 
 
 CATALOGUE = {}

@@ -71,6 +71,7 @@ effect(
     ["head", "sensor"],
     needs=HEAD,
     designs="CD",
+    spans=48,
 )
 effect("head.sag", draw_sag, change_sag, ["bending_um", "joint_um"], 5, ["head", "sensor"], needs=HEAD, designs="CD")
 effect(

@@ -112,5 +112,5 @@ effect(
     ["feature", "position", "setup"],
     designs="CD",
 )
-effect("part.form", draw_form, change_form, ["amplitude_um"], 3, ["direction", "feature"], designs="AE")
+effect("part.form", draw_form, change_form, ["amplitude_um"], 3, ["direction", "feature"], designs="AE", spans=16)
 effect("part.shift", draw_shift, change_shift, ["amplitude_um"], 50, ["time", "setup"], needs=("time_s",))

@@ -191,7 +191,7 @@ HEAD = ("head_A_deg", "head_B_deg", "sensor")
 effect("probe.pretravel_lobing", draw_lobing, change_lobing, ["amplitude_um"], 16, BODY)
 effect("probe.stylus_bending", draw_bending, change_bending, ["force_change_N"], 0.2, BODY)
 effect("probe.tip_radius", draw_radius, change_radius, ["amplitude_um"], 3, ["direction", "sensor", "feature"])
-effect("probe.tip_form", draw_form, change_form, ["amplitude_um"], 1.0, BODY)
+effect("probe.tip_form", draw_form, change_form, ["amplitude_um"], 1.0, BODY, spans=40)  # 32 harmonics
 effect(
     "probe.contact_flattening",
     draw_flattening,
