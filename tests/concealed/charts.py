@@ -7,6 +7,7 @@ COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7"]
 CONFIG = {
     "font": "sans-serif",
     "background": "white",
+    "aria": False,
     "title": {"anchor": "start", "fontSize": 13, "subtitleFontSize": 11, "subtitlePadding": 4},
     "axis": {"labelFontSize": 11, "titleFontSize": 11, "titleFontWeight": "normal", "gridColor": "#eeeeee", "labelLimit": 400},
     "legend": {"labelFontSize": 11, "titleFontSize": 11},
