@@ -75,10 +75,10 @@ def plan(counts, final=False):
         Spec("missing", without[i % len(without)], 10.0, ("dropped", "stuck")[i % 2]) for i in range(counts["missing"])
     ]
     spreads = sorted(noise.SPREADS)
-    out += [
-        Spec("covariance", spreads[i % len(spreads)], (6.0, 9.0, 15.0)[i // len(spreads) % 3])
-        for i in range(counts["covariance"])
-    ]
+    for i in range(counts["covariance"]):
+        name = spreads[i % len(spreads)]
+        sized = noise.SPREADS[name].columns is not None  # dirt and resolution are no Gaussians: they have no ratio
+        out.append(Spec("covariance", name, (6.0, 9.0, 15.0)[i // len(spreads) % 3] if sized else 0.0))
     return out
 
 

@@ -1,4 +1,5 @@
-"""Pieces of Vega-Lite specifications that the figures of a round share, in the looks of the other figures of the documentation."""
+"""Pieces of Vega-Lite specifications that the figures of a round share, in the looks of the other figures of the
+documentation."""
 
 import math
 

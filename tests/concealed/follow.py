@@ -150,7 +150,8 @@ def row(root, abbe, secret, number, truth):
 
 
 def followed(root, abbe):
-    """All decoys of a round that was answered by this program; kept in DIR/follow.json. Without a program: what was kept."""
+    """All decoys of a round that was answered by this program; kept in DIR/follow.json. Without a program: what was
+    kept."""
     secret, kept = (root / "sealed/secret.txt").read_text().strip(), root / "follow.json"
     if kept.exists():
         return json.loads(kept.read_text())
@@ -167,15 +168,16 @@ STAGES = {"before": "the first recording", "wish": "and a second as the program 
 
 
 def text(result):
-    """Markdown: how many decoys were resolved."""
-    lines = []
-    if not result["rows"]:
+    """Markdown: how many decoys a second recording resolves; the last column: of those that the first left open."""
+    rows, lines = result["rows"], []
+    if not rows:
         return "No decoy of this round was followed.\n"
     for stage, name in STAGES.items():
-        kinds = [r[stage]["class"] for r in result["rows"]]
-        alone, held = share([k == "truth alone" for k in kinds]), share([k != "other" for k in kinds])
-        lines.append([name, len(kinds), percent(alone), percent(held)])
-    return table(["answer on", "decoys", "truth alone", "truth in the set"], lines)
+        alone = [r[stage]["class"] == "truth alone" for r in rows]
+        held = [r[stage]["class"] != "other" for r in rows]
+        left_open = [a for a, r in zip(alone, rows) if r["before"]["class"] == "truth in the set"]
+        lines.append([name, len(rows), percent(share(alone)), percent(share(held)), f"{sum(left_open)} of {len(left_open)}"])
+    return table(["answer on", "decoys", "truth alone", "truth in the set", "resolved, of those left open"], lines)
 
 
 def main(argv=None):

@@ -84,7 +84,7 @@ def rivals(truth, said):
 
 
 def likenesses(truth):
-    """Catalogue effects that a stranger cannot be told from: no name for these is wrong, though the better answer is none."""
+    """Catalogue effects that a stranger cannot be told from: to name these is not wrong, though no name is better."""
     return {name for name, correlation in truth.get("nearest") or [] if correlation > INDISTINCT}
 
 

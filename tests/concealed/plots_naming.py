@@ -84,7 +84,8 @@ def unknown_panel(rows):
 
 
 def decoys(follow):
-    """Answers on decoys: first recording alone, with a second one by the program's own wish, and by a change drawn at random."""
+    """Answers on decoys: first recording alone, with a second one by the program's own wish, and by a change drawn at
+    random."""
     if not follow or not follow["rows"]:
         return None
     values = []
@@ -99,7 +100,8 @@ def decoys(follow):
 
 
 def residual_map(shown):
-    """Residuals of one case over two coordinates, predicted from the touches of all other groups: without and with the named effect."""
+    """Residuals of one case over two coordinates without and with the named effect, which is predicted from the touches
+    of all other groups."""
     values = [{**point, "model": model, "um": point[key]} for point in shown["points"] for model, key in (("before", "before_um"), ("after", "after_um"))]
     if not values:
         return None

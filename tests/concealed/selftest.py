@@ -17,6 +17,7 @@ except ModuleNotFoundError:
     sys.exit(77)
 
 import cases
+import follow
 import generate
 import judge
 import machine as cmm
@@ -191,6 +192,46 @@ class Physics(unittest.TestCase):
             )
             for key in (*effect.scale, *cases.FIXED.get(effect.name, [])):
                 self.assertIn(key, p, effect.name)
+
+
+class Rounds(unittest.TestCase):
+    def test_small_rounds_spread_families_over_the_ratios(self):
+        counts = {kind: max(1, round(n * 0.2)) for kind, n in cases.COUNTS.items()}
+        groups = {}
+        for spec in cases.plan(counts):
+            if spec.kind == "single":
+                groups.setdefault(spec.snr, set()).add(spec.family.split(".")[0])
+        self.assertEqual(sorted(groups), sorted(world.LADDER))
+        for snr, some in groups.items():
+            self.assertGreaterEqual(len(some), 4, snr)
+
+    def test_five_lobes_are_a_tip_form(self):
+        s, effect = stage("C"), unknown.UNKNOWN["five_lobes"]
+        d = s.base.signature(effect, effect.draw(s.scene, seal.generator("selftest", "lobes")))
+        name, correlation = cases.nearest(seal.generator("selftest", "near"), s, d)[0]
+        self.assertEqual(name, "probe.tip_form")
+        self.assertGreater(correlation, judge.INDISTINCT)
+
+    def test_a_second_recording_is_of_the_same_machine(self):
+        s = stage("C")
+        for what, value, keeps in (("again", 0, True), ("speed", 15.0, True), ("temperature", 2.0, True), ("part", 90.0, False)):
+            scene = follow.second_scene(s.scene, what, value, seal.generator("selftest", what))
+            second = world.Baseline(scene, s.geometry, seal.generator("selftest", 2), *s.noise, before=s.base)
+            self.assertGreater(scene.time[0], s.scene.time[-1])
+            self.assertFalse(set(scene.visit) & set(s.scene.visit))
+            np.testing.assert_array_equal(second.offsets, s.base.offsets)
+            self.assertEqual(set(scene.setup) == set(s.scene.setup), keeps)
+            if keeps:
+                np.testing.assert_allclose(second.geometric, s.base.geometric, atol=1e-9)
+                self.assertEqual(set(second.poses), set(s.base.poses))
+        longer = follow.second_scene(s.scene, "length", 120.0, seal.generator("selftest", "length"))
+        second = world.Baseline(longer, s.geometry, seal.generator("selftest", 3), *s.noise, before=s.base)
+        self.assertGreater(np.abs(second.offsets - s.base.offsets).max(), 0)
+
+    def test_wishes_are_understood(self):
+        self.assertEqual(follow.understood("repeat with probing speed 15 mm/s"), ("speed", 15.0))
+        self.assertEqual(follow.understood("repeat the whole sequence once more"), ("again", 0.0))
+        self.assertIsNone(follow.understood("paint the machine blue"))
 
 
 class Files(unittest.TestCase):

@@ -30,4 +30,5 @@ def story(r):
         return f"Nothing was concealed ({where}; {r['detail']}, noise {r['noise']}), but {said_of(r)} was said{p}."
     truth = " and ".join(r["families"])
     seen = f"was called {said_of(r)}" if r.get("detected") else f"was not seen{p}"
-    return f"{truth} of s = {r['snr']:g} ({where}) {seen}.{resemblance(r)}"
+    size = f" of s = {r['snr']:g}" if r["snr"] else ""
+    return f"{truth}{size} ({where}) {seen}.{resemblance(r)}"
