@@ -43,7 +43,7 @@ struct Target {
 struct Lane {
   int pc = 0;
   bool running = true;
-  int twin = 0;                       ///< lane of the error-free machine that shares this lane's path
+  int twin = 0;                       ///< lane of the error-free machine that shares this lane's path; a twin's own
   std::uint32_t machine_index = 0;    ///< keys the random numbers; unused on twins
   Rigid X_WD;                         ///< current coordinate system
   plan::SensorId sensor;

@@ -120,6 +120,7 @@ void BlockRun::part_twins(Outcomes& condition) {
     if (parting.empty()) continue;
     const int clone = static_cast<int>(block.lanes.size());
     block.lanes.push_back(Lane(block.lanes[t]));
+    block.lanes.back().twin = clone;
     condition.push_back(condition[t] == 0);
     active.push_back(clone);
     for (const int i : parting) block.lanes[i].twin = clone;
