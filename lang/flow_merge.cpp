@@ -46,6 +46,7 @@ void merge(State& into, const State& other) {
     into.measuring->touches = std::max(into.measuring->touches, other.measuring->touches);
   }
   into.sensor_selected |= other.sensor_selected;
+  into.home_known |= other.home_known;
   for (const auto doubt : {&State::frame_doubt, &State::unit_doubt, &State::sensor_doubt, &State::flow_doubt})
     if ((into.*doubt).empty()) into.*doubt = other.*doubt;
   std::erase_if(into.settings, [&](const auto& setting) {

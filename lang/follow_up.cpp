@@ -42,7 +42,7 @@ void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_
                        const std::string& reason) {
   if (lowering.measuring) {
     if (lowering.measuring->spoilt.empty()) lowering.measuring->spoilt = reason;
-  } else if (word == "MEAS") {
+  } else if (one_of(word, {"MEAS", "RMEAS", "CALIB"})) {
     OpenMeasure block;  // its PTMEAS and ENDMES are no mistakes of their own
     block.line = raw.line;
     block.span = raw.span;

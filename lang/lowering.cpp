@@ -254,25 +254,21 @@ plan::FrameId Lowering::new_frame(const RawStatement& raw) {
   return id;
 }
 
-namespace {
-
-std::vector<FormItem> form_of(const RawStatement& raw, const Match& match) {
+std::vector<FormItem> written_form(const RawStatement& raw, const Match& match) {
   std::vector<FormItem> form;
   for (const RawArgument& a : raw.arguments) {
     FormItem item{a.kind == RawArgument::Kind::word ? a.word : a.text, "", false, {}, {}};
     for (const MatchedValue& v : match.values) {
-      if (v.span != a.span || v.type > ValueType::integer) continue;
+      if (v.span != a.span) continue;
       item.name = v.name;
-      item.is_number = true;
+      item.is_number = v.type <= ValueType::integer;
       item.type = v.type;
-      item.operand = Lowering::operand(v);
+      if (item.is_number) item.operand = Lowering::operand(v);
     }
     form.push_back(std::move(item));
   }
   return form;
 }
-
-}  // namespace
 
 void Lowering::define(const RawStatement& raw, plan::FeatureDef def, const Match& match) {
   const std::string key = upper(raw.label->name);
@@ -290,7 +286,7 @@ void Lowering::define(const RawStatement& raw, plan::FeatureDef def, const Match
   out.plan.features.push_back(std::move(def));
   symbols.features[key] = id;
   actual(id) = {};
-  forms[id.value] = form_of(raw, match);
+  forms[id.value] = written_form(raw, match);
   emit(plan::DefineFeature{id, id == own ? plan::FeatureId{} : own});
 }
 

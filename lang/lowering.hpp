@@ -31,6 +31,18 @@
 
 namespace abbe::lang {
 
+/// One argument of a FEAT, TOL or SNSDEF statement, as OBTAIN counts and reads them.
+struct FormItem {
+  std::string text;        ///< as written
+  std::string name;        ///< of a number, or of a choice of words, in the signature
+  bool is_number = false;
+  ValueType type{};
+  plan::Operand operand;   ///< mm, rad or as written
+};
+
+/// The arguments of a statement from its first on; `match` names those that a signature matched.
+std::vector<FormItem> written_form(const RawStatement&, const Match&);
+
 /// The tolerance stays as it was written until OUTPUT or EVAL names it: datums may be bound after
 /// TOL.
 struct ToleranceSymbol {
@@ -40,6 +52,7 @@ struct ToleranceSymbol {
   std::string label;
   std::vector<std::pair<std::vector<int>, plan::ToleranceId>>
       instances;  ///< by the features that its labels meant
+  std::vector<FormItem> form;
 };
 
 /// Whether a feature has been measured or constructed at this place of the program.
@@ -57,6 +70,7 @@ struct OpenMeasure {
   int line = 0;
   std::string spoilt;  ///< why the measurement is of no use; empty while it is
   bool varies = false;  ///< how many touches it has depends on what is measured
+  std::optional<plan::Point> displaced;  ///< RMEAS: by how much the touches lie beside their points
 };
 
 /// SNSMNT in force.
@@ -87,6 +101,7 @@ struct State {
   std::map<Shape, FitCriterion> criteria;    ///< GEOALG; a shape without an entry: least squares
   std::optional<OpenMeasure> measuring;
   bool sensor_selected = false;
+  bool home_known = false;  ///< FROM on some path
   std::optional<Mount> mount;
   std::vector<std::string> modes;  ///< MODE, in order of preference
   std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
@@ -101,15 +116,6 @@ inline constexpr int kDropped = -1;
 
 /// Whether a statement can use a number that depends on what is measured.
 enum class Varying { refused, taken };
-
-/// One argument of a FEAT statement, as OBTAIN counts and reads them.
-struct FormItem {
-  std::string text;        ///< as written
-  std::string name;        ///< of a number, in the signature of its kind
-  bool is_number = false;
-  ValueType type{};
-  plan::Operand operand;   ///< mm, rad or as written
-};
 
 class Lowering : public State {
  public:
@@ -181,6 +187,7 @@ class Lowering : public State {
   Texts texts;
   std::vector<std::string> scopes;   ///< prefixes of local variables, of the macros that are being run
   std::map<int, std::vector<FormItem>> forms;  ///< by FeatureId
+  std::map<int, std::vector<FormItem>> sensor_forms;  ///< by SensorId, of those that the program defines
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in upper case
   int parted = 0;                    ///< conditions that machines may have decided differently here
   int parting = 0;                   ///< counts the places where machines part while all were together

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "engine/features/construct.hpp"
 #include "engine/features/feature.hpp"
 #include "engine/features/pattern.hpp"
@@ -52,6 +54,21 @@ std::vector<Entry> entries() {
     out.push_back({kDirectives, d.word, fmt::format("$$! {}", d.form), d.help, "",
                    "Abbe; a real controller skips it as a comment"});
   return out;
+}
+
+/// All words of the standard, by what becomes of them.
+std::string words_markdown() {
+  std::vector<std::string_view> supported, skipped, later;
+  for (const Statement* s : statements()) (s->lower == skip ? skipped : supported).push_back(s->word);
+  for (const std::string_view word : standard_words())
+    if (!find_statement(word)) later.push_back(word);
+  const auto row = [](std::string_view what, std::vector<std::string_view>& words) {
+    std::sort(words.begin(), words.end());
+    return fmt::format("| {} | {} |\n", what, fmt::join(words, " "));
+  };
+  return "## Words\n\n| what becomes of it | words |\n|---|---|\n" + row("supported", supported) +
+         row("accepted and ignored: nothing depends on it here", skipped) +
+         row("not yet: one warning each, and skipped", later);
 }
 
 /// Bars end a cell of a Markdown table.
@@ -116,7 +133,7 @@ std::string reference_markdown() {
   out += "\n## Default points\n\n| kind | where a MEAS without PTMEAS touches it |\n|---|---|\n";
   for (const FeatureKind* k : feature_kinds())
     if (!pattern_help(k->shape).empty()) out += fmt::format("| {} | {} |\n", k->word, pattern_help(k->shape));
-  return out;
+  return out + "\n" + words_markdown();
 }
 
 }  // namespace abbe::lang

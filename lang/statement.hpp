@@ -46,6 +46,9 @@ struct Statement {
   Control control = Control::none;
 };
 
+/// `lower` of a statement that means nothing to a virtual machine: understood, and skipped without a message.
+void skip(Lowering&, const RawStatement&, const Match&);
+
 /// Every statement that Abbe knows, in the order of the language reference.
 std::span<const Statement* const> statements();
 /// nullptr when there is none. Upper case.

@@ -127,13 +127,16 @@ struct SetTemperatureCompensation { bool on = true; };
 enum class MotionSetting { approach, search, retract, clearance, depth, positioning_speed, measuring_speed, scan_speed,
                            positioning_acceleration, measuring_acceleration, fly_radius };
 struct SetMotion { MotionSetting setting{}; double value = 0; bool percent = false; };
-/// Straight move of the tip centre, current frame, mm.
-struct Move { Point to; };
+/// Straight move of the tip centre, current frame, mm; `relative`: by `to`, from where the tip is.
+struct Move { Point to; bool relative = false; };
+/// FROM: keeps a point of the current frame as the home of the tip. GoHome moves there, or nowhere without a home.
+struct SetHome { Point at; };
+struct GoHome {};
 struct BeginMeasure { FeatureId feature; };
 /// One touch of the surface at `point` with outward vector `normal` (current frame, mm), for the feature being measured.
 /// Without `has_normal` the nominal of the feature supplies the vector.
 /// With a `pattern_count` it is touch `pattern_index` of the default pattern of the feature instead (engine/features/pattern.hpp),
-/// in the frame in which the feature was defined.
+/// in the frame in which the feature was defined, displaced by `point` in the current frame.
 struct Touch { FeatureId feature; Point point; Point normal; bool has_normal = true; int pattern_index = 0, pattern_count = 0; };
 /// Ends the measurement: fits the feature to the touches since BeginMeasure.
 struct EndMeasure { FeatureId feature; FitCriterion criterion = FitCriterion::least_squares; };
@@ -166,10 +169,17 @@ struct Evaluate { CharacteristicId characteristic; };
 struct OutputFrame { FrameId frame; };
 /// OUTPUT: these features, in the current frame, and what was evaluated of them just before go to the result file.
 struct Output { std::vector<FeatureId> features; std::vector<CharacteristicId> characteristics; };
-/// What OBTAIN can read of a measured feature, in the current frame: mm, unit vector components, rad.
-enum class Quantity { x, y, z, i, j, k, radius, minor_radius, half_angle, length, form,
-                      begin_x, begin_y, begin_z, end_x, end_y, end_z };  ///< the ends of a line: where its touches lie along it
+/// What OBTAIN can read of a measured feature, in the current frame. First vectors, a component each: its point (mm), its direction, the
+/// ends of its touches along it, the vector that turns it and the third one square to both, the apex of a cone, the foci of an
+/// ellipse, the points of two opposite faces. Then numbers: mm or rad.
+enum class Quantity {
+  x, y, z, i, j, k, begin_x, begin_y, begin_z, end_x, end_y, end_z, second_i, second_j, second_k, third_i, third_j, third_k,
+  apex_x, apex_y, apex_z, focus1_x, focus1_y, focus1_z, focus2_x, focus2_y, focus2_z, face1_x, face1_y, face1_z, face2_x, face2_y, face2_z,
+  radius, minor_radius, angle, length, form
+};
 struct Obtain { ColumnId column; FeatureId feature; Quantity quantity{}; };
+/// How far a measured feature lies from its nominal (engine/features/displacement.hpp): current frame, to three columns.
+struct ObtainDisplacement { ColumnId first; FeatureId feature; };
 /// To `column`; with an `index` to that element of the array of `count` elements that begins there.
 struct Assign { ColumnId column; Expression value; Expression index = {}; int count = 0, stride = 1; };
 /// What was evaluated last of these characteristics on the lane: the value, mm or rad, or whether it is within its limits (1 or 0).
@@ -178,8 +188,8 @@ struct Jump { int target = 0; };
 /// Goes to `target` on the lanes where the condition is 0.
 struct JumpUnless { Expression condition; int target = 0; };
 
-using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, BeginMeasure, Touch, EndMeasure, Construct,
-                            SetMachineFrame, SetMatrixFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, OutputFrame, Obtain, ObtainEvaluation, Assign, Jump, JumpUnless>;
+using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, SetHome, GoHome, BeginMeasure, Touch, EndMeasure, Construct,
+                            SetMachineFrame, SetMatrixFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output, OutputFrame, Obtain, ObtainDisplacement, ObtainEvaluation, Assign, Jump, JumpUnless>;
 
 struct Operation {
   Action action;

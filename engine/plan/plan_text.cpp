@@ -31,8 +31,11 @@ constexpr std::string_view kOp2[] = {"+",   "-",  "*",  "/", "**", "mod", "atan2
 constexpr std::string_view kCriteria[] = {"", " minimum zone", " maximum inscribed",
                                           " minimum circumscribed"};
 constexpr std::string_view kQuantities[] = {
-    "x", "y", "z", "i", "j", "k", "radius", "minor_radius", "half_angle", "length", "form",
-    "begin x", "begin y", "begin z", "end x", "end y", "end z"};
+    "x",        "y",        "z",        "i",        "j",        "k",        "begin x",  "begin y",
+    "begin z",  "end x",    "end y",    "end z",    "second i", "second j", "second k", "third i",
+    "third j",  "third k",  "apex x",   "apex y",   "apex z",   "focus1 x", "focus1 y", "focus1 z",
+    "focus2 x", "focus2 y", "focus2 z", "face1 x",  "face1 y",  "face1 z",  "face2 x",  "face2 y",
+    "face2 z",  "radius",   "minor_radius", "angle", "length",  "form"};
 
 template <class Enum>
 std::string_view name_of(Enum value, const auto& names) {
@@ -51,6 +54,12 @@ std::string text(const Operand& o) {
 std::string text(const Vec3& v) { return fmt::format("{} {} {}", text(v.x), text(v.y), text(v.z)); }
 std::string text(const Point& p) {
   return fmt::format("{} {} {}", text(p[0]), text(p[1]), text(p[2]));
+}
+
+bool is_zero(const Point& p) {
+  for (const Operand& o : p)
+    if (o.column.valid() || o.constant != 0) return false;
+  return true;
 }
 
 std::string text(const Expression& expression) {
@@ -107,13 +116,18 @@ class ActionText {
     return fmt::format("set {} {}{}", name_of(o.setting, kSettings), text(o.value),
                        o.percent ? " percent" : "");
   }
-  std::string operator()(const Move& o) const { return fmt::format("move {}", text(o.to)); }
+  std::string operator()(const Move& o) const {
+    return fmt::format("move {}{}", o.relative ? "by " : "", text(o.to));
+  }
+  std::string operator()(const SetHome& o) const { return fmt::format("home {}", text(o.at)); }
+  std::string operator()(const GoHome&) const { return "move home"; }
   std::string operator()(const BeginMeasure& o) const {
     return fmt::format("measure {}", name(o.feature));
   }
   std::string operator()(const Touch& o) const {
     if (o.pattern_count > 0)
-      return fmt::format("touch {} pattern {} of {}", name(o.feature), o.pattern_index + 1, o.pattern_count);
+      return fmt::format("touch {} pattern {} of {}{}", name(o.feature), o.pattern_index + 1, o.pattern_count,
+                         is_zero(o.point) ? "" : fmt::format(" displaced {}", text(o.point)));
     return fmt::format("touch {} at {}{}", name(o.feature), text(o.point),
                        o.has_normal ? fmt::format(" normal {}", text(o.normal)) : "");
   }
@@ -184,6 +198,9 @@ class ActionText {
   std::string operator()(const Obtain& o) const {
     return fmt::format("column {} = {} of {}", o.column.value, name_of(o.quantity, kQuantities),
                        name(o.feature));
+  }
+  std::string operator()(const ObtainDisplacement& o) const {
+    return fmt::format("columns {} to {} = displacement of {}", o.first.value, o.first.value + 2, name(o.feature));
   }
   std::string operator()(const ObtainEvaluation& o) const {
     std::string out = fmt::format("column {} = {} of", o.column.value, o.status ? "status" : "value");

@@ -65,9 +65,10 @@ struct Lane {
   std::vector<char> own_nominal;      ///< by FeatureId: the nominal varies with the machines
   std::optional<Motion> motion;       ///< twins only: their machines move with them
   TouchMotion last_touch;             ///< twins only
+  std::optional<Vec3> home;           ///< twins only: FROM, W
   std::optional<Vec3> fixed_point;    ///< twins only: the first point touched, from which the part expands; W
   std::vector<std::optional<Rigid>> frames;  ///< X_WD by FrameId; nothing before it is set
-  std::vector<Rigid> defined_in;      ///< X_WD at the definition, by FeatureId; empty when the plan has no touches of patterns
+  std::vector<Rigid> defined_in;      ///< X_WD at the definition, by FeatureId; empty when nothing in the plan needs it
   std::vector<double> columns;        ///< by ColumnId; NaN before the first assignment
   std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
   std::vector<Value> values;

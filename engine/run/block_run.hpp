@@ -25,6 +25,8 @@ class BlockRun {
   void operator()(const plan::SetTemperatureCompensation&);
   void operator()(const plan::SetMotion&);
   void operator()(const plan::Move&);
+  void operator()(const plan::SetHome&);
+  void operator()(const plan::GoHome&);
   void operator()(const plan::BeginMeasure&);
   void operator()(const plan::Touch&);
   void operator()(const plan::EndMeasure&);
@@ -39,6 +41,7 @@ class BlockRun {
   void operator()(const plan::Output&);
   void operator()(const plan::OutputFrame&);
   void operator()(const plan::Obtain&);
+  void operator()(const plan::ObtainDisplacement&);
   void operator()(const plan::ObtainEvaluation&);
   void operator()(const plan::Assign&);
   void operator()(const plan::Jump&);
@@ -72,6 +75,8 @@ class BlockRun {
   std::vector<Target> targets;         // by slot of touch_batch: where the program put the surface, W
   std::vector<double> points_buffer;   // columns handed to the fits
 
+  /// The tip of the lane's machine goes to a point in W; `lane` is a twin.
+  void go_to(int lane, const Vec3& point);
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
   void add_effects(const plan::Touch&, int machines);

@@ -1,6 +1,8 @@
 // Handlers of variables and control flow.
 #include <algorithm>
+#include <cmath>
 
+#include "engine/features/displacement.hpp"
 #include "engine/run/block_run.hpp"
 
 namespace abbe {
@@ -17,28 +19,34 @@ Arguments BlockRun::filled(const Lane& lane, const Arguments& arguments, const s
 
 namespace {
 
-double quantity_of(const Element& element, plan::Quantity quantity) {
-  using enum plan::Quantity;
-  switch (quantity) {
-    case x: return element.point.x;
-    case y: return element.point.y;
-    case z: return element.point.z;
-    case i: return element.direction.x;
-    case j: return element.direction.y;
-    case k: return element.direction.z;
-    case radius: return element.size;
-    case minor_radius: return element.minor_size;
-    case half_angle: return element.angle;
-    case length: return element.end - element.begin;
-    case form: return element.high - element.low;
-    case begin_x: return element.point.x + element.begin * element.direction.x;
-    case begin_y: return element.point.y + element.begin * element.direction.y;
-    case begin_z: return element.point.z + element.begin * element.direction.z;
-    case end_x: return element.point.x + element.end * element.direction.x;
-    case end_y: return element.point.y + element.end * element.direction.y;
-    case end_z: return element.point.z + element.end * element.direction.z;
+/// The vectors of plan::Quantity, in its order.
+Vec3 vector_of(const Element& e, int which) {
+  switch (which) {
+    case 0: return e.point;
+    case 1: return e.direction;
+    case 2: return e.point + e.begin * e.direction;
+    case 3: return e.point + e.end * e.direction;
+    case 4: return e.second;
+    case 5: return cross(e.direction, e.second);
+    case 6: return e.angle > 0 ? e.point - e.size / std::tan(e.angle) * e.direction : e.point;
+    case 7:
+    case 8: return e.point + (which == 7 ? -1 : 1) * std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
+    case 9:
+    case 10: return e.point + (which == 9 ? 1 : -1) * e.size * e.direction;
   }
   ABBE_CHECK(false);
+}
+
+double quantity_of(const Element& e, plan::Quantity quantity) {
+  using enum plan::Quantity;
+  switch (quantity) {
+    case radius: return e.size;
+    case minor_radius: return e.minor_size;
+    case angle: return e.angle;
+    case length: return e.end - e.begin;
+    case form: return e.high - e.low;
+    default: return vector_of(e, static_cast<int>(quantity) / 3)[static_cast<int>(quantity) % 3];
+  }
 }
 
 }  // namespace
@@ -49,6 +57,20 @@ void BlockRun::operator()(const plan::Obtain& obtain) {
     if (!element) return "";
     Lane& lane = block.lanes[i];
     lane.columns[obtain.column.value] = quantity_of(inverse(lane.X_WD) * *element, obtain.quantity);
+    return "";
+  });
+}
+
+void BlockRun::operator()(const plan::ObtainDisplacement& obtain) {
+  const int id = obtain.feature.value;
+  for_active([&](int i) -> std::string {
+    const Element* element = actual(i, obtain.feature);
+    if (!element) return "";
+    Lane& lane = block.lanes[i];
+    const Lane& twin = twin_of(lane);
+    const Element nominal = lane.own_nominal[id] ? lane.nominal[id] : lane.defined_in[id] * (inverse(twin.defined_in[id]) * twin.nominal[id]);
+    const Vec3 by = transpose(lane.X_WD.R) * displacement(executor.plan_[obtain.feature].kind->shape, *element, nominal);
+    for (int k = 0; k < 3; ++k) lane.columns[obtain.first.value + k] = by[k];
     return "";
   });
 }

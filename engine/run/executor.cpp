@@ -23,7 +23,7 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   for (const plan::Operation& op : plan.operations) {
     const auto* touch = std::get_if<plan::Touch>(&op.action);
     site_.push_back(touch ? touches++ : 0);
-    has_patterns_ |= touch && touch->pattern_count > 0;
+    needs_definitions_ |= (touch && touch->pattern_count > 0) || std::holds_alternative<plan::ObtainDisplacement>(op.action);
   }
 }
 
@@ -62,7 +62,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.definition.resize(plan_.features.size());
   start.own_nominal.assign(plan_.features.size(), 0);
   start.frames.resize(plan_.frames.size());
-  if (has_patterns_) start.defined_in.resize(plan_.features.size());
+  if (needs_definitions_) start.defined_in.resize(plan_.features.size());
   start.columns.assign(plan_.columns, std::numeric_limits<double>::quiet_NaN());
   start.visits.assign(plan_.operations.size(), 0);
 

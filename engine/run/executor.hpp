@@ -69,7 +69,7 @@ class Executor {
   std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< tip centres by feature and touch, W; of options_.recorded
   std::vector<char> aligns_;         ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
-  bool has_patterns_ = false;        ///< touches that the program leaves to the machine
+  bool needs_definitions_ = false;   ///< where features were defined: touches of patterns, displacements from nominals
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

@@ -68,15 +68,31 @@ void BlockRun::operator()(const plan::SetMotion& set) {
     if (block.is_twin(i)) apply(block.lanes[i].motion->settings(), set, executor.machine_);
 }
 
-void BlockRun::operator()(const plan::Move& move) {
-  for (const int i : active)
-    if (block.is_twin(i)) block.lanes[i].motion->move_to(block.lanes[i].X_WD * value(block.lanes[i], move.to));
-  if (!observed) return;
-  const Lane& reference = block.lanes[block.reference()];
-  if (!reference.sensor.valid()) return;
-  const Vec3 reading = reference.X_WD * value(reference, move.to) - executor.machine_.home_offset() -
-                       executor.sensors_[reference.sensor.value].tip_from_mount_mm;
+void BlockRun::go_to(int lane, const Vec3& point) {
+  const Lane& twin = block.lanes[lane];
+  block.lanes[lane].motion->move_to(point);
+  if (!observed || lane != block.reference() || !twin.sensor.valid()) return;
+  const Vec3 reading = point - executor.machine_.home_offset() - executor.sensors_[twin.sensor.value].tip_from_mount_mm;
   observed->stops.push_back({reading, operation, false});
+}
+
+void BlockRun::operator()(const plan::Move& move) {
+  for (const int i : active) {
+    if (!block.is_twin(i)) continue;
+    const Lane& lane = block.lanes[i];
+    const Vec3 to = value(lane, move.to);
+    go_to(i, move.relative ? lane.motion->position() + lane.X_WD.R * to : lane.X_WD * to);
+  }
+}
+
+void BlockRun::operator()(const plan::SetHome& set) {
+  for (const int i : active)
+    if (block.is_twin(i)) block.lanes[i].home = block.lanes[i].X_WD * value(block.lanes[i], set.at);
+}
+
+void BlockRun::operator()(const plan::GoHome&) {
+  for (const int i : active)
+    if (block.is_twin(i) && block.lanes[i].home) go_to(i, *block.lanes[i].home);
 }
 
 void BlockRun::operator()(const plan::BeginMeasure& begin) {
@@ -97,7 +113,7 @@ Outcome<Target> BlockRun::pattern_target(const Lane& lane, const plan::Touch& to
   const auto made = pattern_touch(def.kind->shape, nominal, def.inner, touch.pattern_index, touch.pattern_count);
   if (!made) return Outcome<Target>::failed(made.failure);
   const Rigid& X_WD = lane.defined_in[touch.feature.value];
-  return {{X_WD * made.value.point, X_WD.R * made.value.normal}};
+  return {{X_WD * made.value.point + lane.X_WD.R * value(lane, touch.point), X_WD.R * made.value.normal}};
 }
 
 bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {

@@ -41,6 +41,7 @@ class Motion {
 
   MotionSettings& settings() { return settings_; }
   double time_s() const { return time_s_; }
+  const Vec3& position() const { return position_; }
   void move_to(const Vec3& target);
   /// The tip centre meets the surface at `contact`, coming along -normal.
   TouchMotion touch(const Vec3& contact, const Vec3& normal);

@@ -8,8 +8,8 @@ namespace abbe::lang {
 
 extern const Statement kDmismn, kFilnam, kEndfil, kUnits, kDecpl, kMode, kPrcomp, kSnset, kFedrat,
     kAclrat, kFly, kFinpos, kWkplan, kGeoalg, kTecomp, kSnsmnt, kSnsdef, kSnslct, kFeat, kConst,
-    kMeas, kPtmeas, kGoto, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol,
-    kOutput, kEval, kText, kDisply, kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause,
+    kMeas, kRmeas, kCalib, kPtmeas, kGoto, kFrom, kGohome, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol,
+    kOutput, kEval, kText, kDisply, kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause, kRead, kWrite,
     kDecl, kAssign, kObtain, kPrompt, kValue, kIf, kElse, kEndif, kDo, kEnddo, kSelect, kCase,
     kDftcas, kEndcas, kEndsel, kJumpto, kMacro, kEndmac, kCall, kInclud, kXtern, kExtfil, kEndxtn,
     kDmismd;
@@ -22,7 +22,7 @@ std::span<const Statement* const> statements() {
       &kPrcomp, &kSnset, &kFedrat, &kAclrat, &kFly, &kFinpos, &kWkplan, &kGeoalg, &kTecomp,
       &kSnsmnt, &kSnsdef, &kSnslct,
       // measuring
-      &kFeat, &kMeas, &kPtmeas, &kGoto, &kEndmes, &kConst,
+      &kFeat, &kMeas, &kRmeas, &kCalib, &kPtmeas, &kEndmes, &kGoto, &kFrom, &kGohome, &kConst,
       // coordinate systems
       &kDatdef, &kDatset, &kTrans, &kRotate, &kSave, &kRecall,
       // results
@@ -33,7 +33,7 @@ std::span<const Statement* const> statements() {
       &kIf, &kElse, &kEndif, &kDo, &kEnddo, &kSelect, &kCase, &kDftcas, &kEndcas, &kEndsel,
       &kJumpto, &kMacro, &kEndmac, &kCall, &kInclud, &kXtern, &kExtfil, &kEndxtn, &kDmismd,
       // understood and skipped
-      &kText, &kDisply, &kDevice, &kOpen, &kClose, &kVform, &kDecpl, &kPause};
+      &kText, &kDisply, &kDevice, &kOpen, &kClose, &kVform, &kDecpl, &kPause, &kRead, &kWrite};
   return list;
 }
 

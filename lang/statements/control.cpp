@@ -37,7 +37,7 @@ const Statement kExtfil = {"EXTFIL", "", "DMIS, file:text", "Makes the macros of
                            "ISO 22093, EXTFIL", nullptr, Varying::taken, Control::module};
 
 namespace {
-void skip(Lowering&, const RawStatement&, const Match&) {}
+void only_marks(Lowering&, const RawStatement&, const Match&) {}
 
 /// A module may be checked by itself.
 void begin_module(Lowering& lowering, const RawStatement& raw, const Match&) {
@@ -45,8 +45,8 @@ void begin_module(Lowering& lowering, const RawStatement& raw, const Match&) {
 }
 }  // namespace
 
-const Statement kXtern = {"XTERN", "", "", "Begins the list of external files.", "XTERN", "ISO 22093, XTERN", skip};
-const Statement kEndxtn = {"ENDXTN", "", "", "Ends the list of external files.", "ENDXTN", "ISO 22093, ENDXTN", skip};
+const Statement kXtern = {"XTERN", "", "", "Begins the list of external files.", "XTERN", "ISO 22093, XTERN", only_marks};
+const Statement kEndxtn = {"ENDXTN", "", "", "Ends the list of external files.", "ENDXTN", "ISO 22093, ENDXTN", only_marks};
 const Statement kDmismd = {"DMISMD", "", "name:text, [ version:number, ... ]", "Begins a module: a file that programs read with INCLUD, EXTFIL or CALL.", "DMISMD/'sensors',5.2",
                            "ISO 22093, DMISMD", begin_module};
 

@@ -93,6 +93,6 @@ const Statement kDmeswv = {"DMESWV",
                            "Names the version of the software of a real machine. Skipped.",
                            "DMESWV/'4.0'",
                            "ISO 22093, DMESWV",
-                           [](Lowering&, const RawStatement&, const Match&) {}};
+                           skip};
 
 }  // namespace abbe::lang

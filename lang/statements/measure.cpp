@@ -1,4 +1,12 @@
-// A measurement: MEAS, PTMEAS, ENDMES.
+// A measurement: MEAS, RMEAS or CALIB, then PTMEAS, up to ENDMES.
+//
+// RMEAS moves its touches by what a feature measured before lies beside its nominal: the machine goes where the part is, not
+// where the drawing has it. The true surface moves with the error-free machine, so what is left of it on a virtual machine is
+// the error of the earlier feature.
+//
+// CALIB qualifies a sensor on a sphere. A virtual machine's sensors are qualified already: what qualification leaves of errors
+// is said by its machine file (head, probe and their effects). So the touches are made, take their time and give FA(sphere),
+// and the sensor stays as it is.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,7 +41,7 @@ void close_block(Lowering& lowering) {
   if (block.feature.valid()) lowering.actual(block.feature) = {false, block.spoilt};
 }
 
-void begin_measure(Lowering& lowering, const RawStatement& raw, const Match& match) {
+void open_block(Lowering& lowering, const RawStatement& raw, const Match& match) {
   if (lowering.measuring) {
     const int line = lowering.measuring->line;
     lowering.measuring->spoilt = fmt::format("its MEAS in line {} has no ENDMES", line);
@@ -50,11 +58,63 @@ void begin_measure(Lowering& lowering, const RawStatement& raw, const Match& mat
   block.first_operation = lowering.out.plan.operations.size();
   if (const auto feature = lowering.defined_feature(match.find("feature")->label)) {
     block.feature = *feature;
-    check_kind(lowering, *match.find("kind"), *feature);
+    if (const MatchedValue* kind = match.find("kind")) check_kind(lowering, *kind, *feature);
     lowering.emit(plan::BeginMeasure{*feature});
   }
   if (lowering.failed) block.spoilt = lowering.blame();
   lowering.measuring = block;
+}
+
+void begin_measure(Lowering& lowering, const RawStatement& raw, const Match& match) { open_block(lowering, raw, match); }
+
+/// The displacement of FA(f), or the part of it along an axis; nothing for F(f), the nominal itself.
+std::optional<plan::Point> displacement_of(Lowering& lowering, const Match& match) {
+  const MatchedValue& reference = *match.find("reference");
+  if (reference.label.kind != "FA") {
+    lowering.defined_feature(reference.label);
+    return std::nullopt;
+  }
+  const auto feature = lowering.actual_feature(reference.label);
+  if (!feature) return std::nullopt;
+  const plan::ColumnId first{lowering.out.plan.columns};
+  lowering.out.plan.columns += 3;
+  lowering.emit(plan::ObtainDisplacement{first, *feature});
+  const std::string axis = match.text("axis");
+  plan::Point by;
+  for (int k = 0; k < 3; ++k)
+    if (axis.empty() || static_cast<int>(axis_of(axis)) == k) by[k].column = plan::ColumnId{first.value + k};
+  return by;
+}
+
+void begin_relative(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  std::optional<plan::Point> displaced;
+  if (match.has("reference")) {
+    displaced = displacement_of(lowering, match);
+  } else {
+    lowering.warn(Code::W0255, match.find("radius")->span, "the touches that only look for the direction of the surface are left out",
+                  "the machine drives along the vectors of PTMEAS");
+  }
+  const bool known = !lowering.failed;
+  open_block(lowering, raw, match);
+  lowering.measuring->displaced = displaced;
+  if (!known) lowering.measuring->spoilt = lowering.blame();
+}
+
+void begin_calibration(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  if (const MatchedValue* sensor = match.find("sensor")) {
+    if (sensor->label.kind == "SA") lowering.sensor_of_machine_file(sensor->label);
+    const auto id = lowering.sensor(sensor->label);
+    if (id) lowering.emit(plan::SelectSensor{*id});
+    lowering.sensor_selected |= id.has_value();
+  }
+  open_block(lowering, raw, match);
+}
+
+plan::Point sum(Lowering& lowering, const plan::Point& a, const plan::Point& b) {
+  plan::Point out;
+  for (int k = 0; k < 3; ++k)
+    out[k] = lowering.operand(combine(plan::Op2::add, Lowering::expression(a[k]), Lowering::expression(b[k])));
+  return out;
 }
 
 void touch(Lowering& lowering, const RawStatement& raw, const Match& match) {
@@ -79,6 +139,7 @@ void touch(Lowering& lowering, const RawStatement& raw, const Match& match) {
     if (!n) return;
     operation.normal = {plan::Operand{n->x, {}}, plan::Operand{n->y, {}}, plan::Operand{n->z, {}}};
   }
+  if (block.displaced) operation.point = sum(lowering, operation.point, *block.displaced);
   if (block.feature.valid() && !lowering.failed) lowering.emit(operation);
 }
 
@@ -104,6 +165,7 @@ void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
   for (int k = 0; k < block.declared; ++k) {
     plan::Touch touch{block.feature, {}, {}, false};
     touch.pattern_index = k, touch.pattern_count = block.declared;
+    if (block.displaced) touch.point = *block.displaced;
     lowering.emit(touch);
   }
 }
@@ -135,7 +197,7 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
 
 }  // namespace
 
-extern const Statement kMeas, kPtmeas, kEndmes;
+extern const Statement kMeas, kRmeas, kCalib, kPtmeas, kEndmes;
 
 const Statement kMeas = {"MEAS",
                          "",
@@ -146,6 +208,28 @@ const Statement kMeas = {"MEAS",
                          "MEAS/CIRCLE,F(BORE),4",
                          "ISO 22093, MEAS",
                          begin_measure};
+const Statement kRmeas = {
+    "RMEAS",
+    "",
+    "kind:word, feature:feature, count:integer, ( VECBLD, radius:length, touches:integer ; "
+    "reference:feature, [ axis:XAXIS|YAXIS|ZAXIS ] )",
+    "Begins a measurement as MEAS does, relative to a feature measured before: every touch is "
+    "displaced by what FA(reference) lies beside its nominal, or by the part of that along an axis. "
+    "VECBLD, which looks for the direction of the surface first, measures along the vectors of "
+    "PTMEAS, with a warning.",
+    "RMEAS/CIRCLE,F(BORE),4,FA(FACE)",
+    "ISO 22093, RMEAS",
+    begin_relative};
+const Statement kCalib = {
+    "CALIB",
+    "",
+    "( SENS, sensor:sensor, feature:feature, count:integer ; MASTER, feature:feature, count:integer )",
+    "Qualifies a sensor on a sphere; PTMEAS follow, up to ENDMES. The touches are made and FA(sphere) "
+    "is measured. The sensor stays as the machine file describes it: what a qualification leaves of "
+    "errors is part of the machine, by the effects of its head and probe.",
+    "CALIB/SENS,S(P1),F(BALL),25",
+    "ISO 22093, CALIB",
+    begin_calibration};
 const Statement kPtmeas = {"PTMEAS",
                            "",
                            "( CART, x:length, y:length, z:length ; POL, r:length, a:angle, "

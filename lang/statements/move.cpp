@@ -1,28 +1,76 @@
-// GOTO: moves the tip in a straight line without measuring.
+// Moves of the tip without measuring: GOTO, and the way home (FROM, GOHOME).
+#include <fmt/format.h>
+
 #include "lang/statement.hpp"
+#include "lang/statements/words.hpp"
 
 namespace abbe::lang {
 
 namespace {
 
-void go(Lowering& lowering, const RawStatement&, const Match& match) {
-  if (match.has("x")) return lowering.emit(plan::Move{Lowering::point(match, "x")});
-  lowering.emit(plan::Move{lowering.polar(match)});
+plan::Point point_of(Lowering& lowering, const Match& match) {
+  return match.has("x") ? Lowering::point(match, "x") : lowering.polar(match);
+}
+
+/// INCR: a distance along a vector, from where the tip is.
+void go_by(Lowering& lowering, const Match& match) {
+  if (is_varying(match, "i"))
+    return lowering.error(Code::E0231, match.find("i")->span, "the direction of GOTO/INCR must be known before the machine runs",
+                          "give the point instead: GOTO/x,y,z takes measured values");
+  const std::optional<Vec3> along = direction_vector(lowering, match, "i");
+  if (!along) return;
+  const plan::Expression distance = Lowering::expression(Lowering::operand(*match.find("distance")));
+  plan::Move move{{}, true};
+  for (int k = 0; k < 3; ++k)
+    move.to[k] = lowering.operand(combine(plan::Op2::multiply, distance, {plan::PushConstant{(*along)[k]}}));
+  lowering.emit(move);
+}
+
+void go(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  if (const MatchedValue* turn = match.find("turn"))
+    return lowering.error(Code::E0256, turn->span, fmt::format("GOTO does not turn the head here: {} and what follows it cannot be used", turn->text),
+                          "define a sensor for every orientation with SNSDEF and turn the head with SNSLCT");
+  if (match.used < raw.arguments.size())
+    return lowering.error(Code::E0108, raw.arguments[match.used].span, "GOTO has an argument too many", "for example: GOTO/10,20,30");
+  if (match.has("distance")) return go_by(lowering, match);
+  lowering.emit(plan::Move{point_of(lowering, match)});
+}
+
+void set_home(Lowering& lowering, const RawStatement&, const Match& match) {
+  lowering.emit(plan::SetHome{point_of(lowering, match)});
+  lowering.home_known = true;
+}
+
+void go_home(Lowering& lowering, const RawStatement& raw, const Match&) {
+  if (!lowering.home_known)
+    lowering.warn(Code::W0257, raw.word_span, "no FROM says where home is: GOHOME moves nowhere", "write FROM/x,y,z before it");
+  lowering.emit(plan::GoHome{});
 }
 
 }  // namespace
 
-extern const Statement kGoto;
+extern const Statement kGoto, kFrom, kGohome;
 
 const Statement kGoto = {
     "GOTO",
     "",
-    "( POL, r:length, a:angle, h:length ; [ CART ], x:length, y:length, z:length )",
+    "( POL, r:length, a:angle, h:length ; INCR, distance:length, i:number, j:number, k:number ; "
+    "[ CART ], x:length, y:length, z:length ), [ turn:HEADCS|PROBCS|DATUMCS|SNSLCT|WRIST ], ...",
     "Moves the centre of the tip to a point of the current coordinate system; POL: radius, angle, "
-    "height.",
+    "height; INCR: by a distance along a vector. The head is turned by SNSLCT, not by GOTO.",
     "GOTO/10,20,30",
     "ISO 22093, GOTO",
     go,
     Varying::taken};
+const Statement kFrom = {
+    "FROM",
+    "",
+    "( POL, r:length, a:angle, h:length ; [ CART ], x:length, y:length, z:length )",
+    "Says where the tip is at home: a point of the coordinate system current here. GOHOME moves there.",
+    "FROM/0,0,200",
+    "ISO 22093, FROM",
+    set_home,
+    Varying::taken};
+const Statement kGohome = {"GOHOME", "", "", "Moves the centre of the tip to where FROM says.", "GOHOME", "ISO 22093, GOHOME", go_home};
 
 }  // namespace abbe::lang

@@ -6,19 +6,30 @@
 
 namespace abbe::lang {
 
-namespace {
-
 void skip(Lowering&, const RawStatement&, const Match&) {}
+
+namespace {
 
 void no_effect(Lowering& lowering, const RawStatement& raw, const Match&) {
   lowering.warn(Code::W0122, raw.span, fmt::format("{} has no effect here yet", raw.word),
                 "the results are those without it");
 }
 
+void read_file(Lowering& lowering, const RawStatement& raw, const Match&) {
+  lowering.error(Code::E0258, raw.span, "READ takes values from a file of the real machine, which is not here",
+                 "give the values with ASSIGN, or ask for them: X=PROMPT/'text' and --answer X=VALUE");
+}
+
+void write_file(Lowering& lowering, const RawStatement& raw, const Match&) {
+  if (!lowering.reported_words.insert(raw.word).second) return;
+  lowering.warn(Code::W0122, raw.word_span, "WRITE makes no file here and is skipped wherever it stands",
+                "results: `abbe run --csv`, `--dmo` or `--format json`");
+}
+
 }  // namespace
 
 extern const Statement kFilnam, kDisply, kText, kDevice, kOpen, kClose, kVform, kDecpl, kFinpos,
-    kWkplan, kPause;
+    kWkplan, kPause, kRead, kWrite;
 
 const Statement kFilnam = {"FILNAM",
                            "",
@@ -95,5 +106,19 @@ const Statement kPause = {
     "PAUSE",
     "production programs",
     no_effect};
+const Statement kRead = {"READ",
+                         "",
+                         "device:label, ...",
+                         "Reads values from a file. An error: give them with ASSIGN or PROMPT instead.",
+                         "READ/DID(IN),X,Y",
+                         "ISO 22093, READ",
+                         read_file};
+const Statement kWrite = {"WRITE",
+                          "",
+                          "device:label, ...",
+                          "Writes to a file. Skipped, with one warning: no file is written.",
+                          "WRITE/DID(OUT),'bore ',X",
+                          "ISO 22093, WRITE",
+                          write_file};
 
 }  // namespace abbe::lang

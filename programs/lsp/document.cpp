@@ -172,9 +172,11 @@ json Document::outline() const {
   Sink ignored;
   for (const lang::LogicalLine& line : lang::logical_lines(source_)) {
     const auto raw = lang::parse_statement(line, source_, ignored);
-    if (raw && (raw->word == "MEAS" || raw->word == "OUTPUT"))
-      add(std::string(source_.text(raw->span)),
-          raw->word == "MEAS" ? Symbol::method : Symbol::event, raw->span, raw->word_span, "");
+    if (!raw) continue;
+    const bool measures = raw->word == "MEAS" || raw->word == "RMEAS" || raw->word == "CALIB";
+    if (measures || raw->word == "OUTPUT")
+      add(std::string(source_.text(raw->span)), measures ? Symbol::method : Symbol::event,
+          raw->span, raw->word_span, "");
   }
   return list;
 }
