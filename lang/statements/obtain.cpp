@@ -1,8 +1,8 @@
-// OBTAIN: what a measured feature or an evaluated tolerance is, argument by argument.
+// OBTAIN: what a feature, tolerance or sensor is, argument by argument.
 //
-// Arguments are counted as the statement in the result file has them, its word being the first: in
-// FA(P)=FEAT/POINT,CART,x,y,z,i,j,k the x is number 4. Of a feature the form is that of its FEAT statement; of a tolerance
-// that of the result file: TA(T)=TOL/DIAM,value,INTOL.
+// Arguments are counted as the statement has them, its word being the first: in FA(P)=FEAT/POINT,CART,x,y,z,i,j,k the x is
+// number 4. F, T and S are what the program defined. FA is the feature as measured, in the form of its FEAT statement and the
+// current coordinate system. TA is the evaluated tolerance in the form of the result file: TA(T)=TOL/DIAM,value,INTOL.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,20 +15,79 @@ namespace abbe::lang {
 namespace {
 
 using plan::Op1, plan::Op2, plan::Quantity;
+using Form = std::vector<FormItem>;
 
-struct Readable {
-  std::string_view name;  ///< of an argument of FEAT
-  Quantity quantity;
+/// What of a measured element an argument is: a quantity, times a factor.
+struct Reading {
+  Quantity quantity{};
   double times = 1;
 };
-constexpr std::array kReadable = {
-    Readable{"x", Quantity::x},           Readable{"y", Quantity::y},           Readable{"z", Quantity::z},
-    Readable{"i", Quantity::i},           Readable{"j", Quantity::j},           Readable{"k", Quantity::k},
-    Readable{"h", Quantity::z},           Readable{"diam", Quantity::radius, 2}, Readable{"radius", Quantity::radius},
-    Readable{"majdia", Quantity::radius, 2}, Readable{"mindia", Quantity::minor_radius, 2}, Readable{"angle", Quantity::half_angle, 2},
-    Readable{"length", Quantity::length}, Readable{"x1", Quantity::begin_x},    Readable{"y1", Quantity::begin_y},
-    Readable{"z1", Quantity::begin_z},    Readable{"x2", Quantity::end_x},      Readable{"y2", Quantity::end_y},
-    Readable{"z2", Quantity::end_z}};
+
+const FormItem* item_of(const Form& form, std::string_view name) {
+  for (const FormItem& item : form)
+    if (item.name == name) return &item;
+  return nullptr;
+}
+
+/// Three constants of the form that are named by letters and a suffix: "x1", "y1", "z1".
+Vec3 given(const Form& form, std::string_view letters, std::string_view suffix) {
+  Vec3 v;
+  for (int k = 0; k < 3; ++k)
+    if (const FormItem* item = item_of(form, fmt::format("{}{}", letters[k], suffix))) v[k] = item->operand.constant;
+  return v;
+}
+
+double sign_of(double v) { return v < 0 ? -1 : 1; }
+
+/// The first component of the vector named by a letter (x for places, i for directions) and a suffix.
+std::optional<Reading> vector_reading(const plan::FeatureDef& def, const Form& form, char letter, std::string_view suffix) {
+  const Shape shape = def.kind->shape;
+  const Element& nominal = def.nominal;
+  const bool place = letter == 'x', faces = shape == Shape::parallel_planes;
+  if (suffix.empty()) return place ? Reading{shape == Shape::cone ? Quantity::apex_x : Quantity::x} : Reading{Quantity::i};
+  if (suffix == "s" || suffix == "n") return Reading{Quantity::second_i};
+  const bool first = suffix == "1";
+  if (place && shape == Shape::line) return Reading{first ? Quantity::begin_x : Quantity::end_x};
+  if (place && shape == Shape::ellipse) return Reading{first ? Quantity::focus1_x : Quantity::focus2_x};
+  if (place && faces) return Reading{dot(given(form, "xyz", suffix) - nominal.point, nominal.direction) > 0 ? Quantity::face1_x : Quantity::face2_x};
+  if (faces) return Reading{Quantity::i, sign_of(dot(given(form, "ijk", suffix), nominal.direction))};
+  if (shape == Shape::slot || (shape == Shape::rectangle && first)) return Reading{Quantity::second_i};
+  if (shape == Shape::rectangle && suffix == "2")
+    return Reading{Quantity::third_i, sign_of(dot(given(form, "ijk", "2"), cross(nominal.direction, nominal.second)))};
+  return shape == Shape::rectangle ? std::optional(Reading{Quantity::i}) : std::nullopt;
+}
+
+/// Sizes and angles.
+std::optional<Reading> size_reading(const plan::FeatureDef& def, const Form& form, std::string_view name) {
+  const Shape shape = def.kind->shape;
+  if (name == "diam") {
+    const FormItem* axis = item_of(form, "axis");
+    return Reading{axis && axis->text == "MINOR" ? Quantity::minor_radius : Quantity::radius, 2};
+  }
+  if (name == "radius") return Reading{Quantity::radius};
+  if (name == "majdia" || name == "len1") return Reading{Quantity::radius, 2};
+  if (name == "mindia" || name == "len2") return Reading{Quantity::minor_radius, 2};
+  if (name == "width") return Reading{shape == Shape::slot ? Quantity::minor_radius : Quantity::radius, 2};
+  if (name == "length") return shape == Shape::slot ? Reading{Quantity::radius, 2} : Reading{Quantity::length};
+  if (name == "len3") return Reading{Quantity::length};
+  if (name == "angle") return Reading{Quantity::angle, 2};
+  return name == "sweep" ? std::optional(Reading{Quantity::angle}) : std::nullopt;
+}
+
+/// "y2" to the second component of the vector x2; "nj" and "js" are components of the vector that turns the feature.
+std::optional<Reading> reading_of(const plan::FeatureDef& def, const Form& form, std::string_view name) {
+  const bool prefixed = name.size() == 2 && name[0] == 'n';
+  const char letter = prefixed ? name[1] : name[0];
+  const std::string_view suffix = prefixed ? name.substr(0, 1) : name.substr(1);
+  for (const std::string_view letters : {"xyz", "ijk"}) {
+    const std::size_t component = letters.find(letter);
+    if (component == std::string_view::npos || suffix.size() > 1) continue;
+    std::optional<Reading> reading = vector_reading(def, form, letters[0], suffix);
+    if (reading) reading->quantity = static_cast<Quantity>(static_cast<int>(reading->quantity) + static_cast<int>(component));
+    return reading;
+  }
+  return name == "h" ? Reading{Quantity::z} : size_reading(def, form, name);
+}
 
 plan::Expression obtained(Lowering& lowering, plan::FeatureId feature, Quantity quantity) {
   const plan::ColumnId column{lowering.out.plan.columns++};
@@ -47,17 +106,24 @@ double to_program(ValueType type, const Units& units) {
 
 Value word_value(Lowering& lowering, const std::string& word) { return lowering.texts.value(word); }
 
-/// The actual of one number of the form; nothing when it cannot be read.
-std::optional<Value> actual_number(Lowering& lowering, plan::FeatureId feature, const FormItem& item) {
-  const double unit = to_program(item.type, lowering.units);
-  if (item.name == "r" || item.name == "a") {
-    const plan::Expression x = obtained(lowering, feature, Quantity::x), y = obtained(lowering, feature, Quantity::y);
-    const plan::Expression squares = combine(Op2::add, combine(Op2::multiply, x, x), combine(Op2::multiply, y, y));
-    return Value{Type::real, {scaled(item.name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
-  }
-  for (const Readable& r : kReadable)
-    if (r.name == item.name) return Value{Type::real, {scaled(obtained(lowering, feature, r.quantity), r.times * unit)}};
-  return std::nullopt;
+/// An argument as the program wrote it.
+Value written(Lowering& lowering, const FormItem& item) {
+  if (!item.is_number) return word_value(lowering, item.text);
+  return Value{Type::real, {scaled(Lowering::expression(item.operand), to_program(item.type, lowering.units))}};
+}
+
+/// The argument that an index names, the word of the statement being the first; nothing after an error.
+const FormItem* indexed(Lowering& lowering, const Form& form, const MatchedValue& index, std::string_view what, std::string_view word,
+                        std::string_view example) {
+  static const FormItem words[] = {{"FEAT", "", false, {}, {}}, {"TOL", "", false, {}, {}}, {"SNSDEF", "", false, {}, {}}};
+  if (index.number == 1)
+    for (const FormItem& item : words)
+      if (item.text == word) return &item;
+  const double k = index.number - 2;
+  if (k >= 0 && k < static_cast<double>(form.size())) return &form[static_cast<std::size_t>(k)];
+  lowering.error(Code::E0245, index.span, fmt::format("{} has {} arguments, {} counted as 1; there is no {}", what, form.size() + 1, word, index.number),
+                 fmt::format("for example: {}", example));
+  return nullptr;
 }
 
 std::optional<Value> from_feature(Lowering& lowering, const MatchedValue& label, const MatchedValue& index) {
@@ -65,25 +131,36 @@ std::optional<Value> from_feature(Lowering& lowering, const MatchedValue& label,
   const auto feature = actual ? lowering.actual_feature(label.label) : lowering.defined_feature(label.label);
   if (!feature) return std::nullopt;
   const plan::FeatureDef& def = lowering.out.plan[*feature];
-  const std::vector<FormItem>& form = lowering.forms[feature->value];
-  const double k = index.number - 2;  // FEAT is 1, the kind 2
-  if (index.number == 1) return word_value(lowering, "FEAT");
-  if (k >= 0 && k < static_cast<double>(form.size())) {
-    const FormItem& item = form[static_cast<std::size_t>(k)];
-    if (!item.is_number) return word_value(lowering, item.text);
-    if (!actual) return Value{Type::real, {scaled(Lowering::expression(item.operand), to_program(item.type, lowering.units))}};
-    if (auto value = actual_number(lowering, *feature, item)) return value;
-    lowering.error(Code::E0245, index.span, fmt::format("argument {} ({}) of a measured {} cannot be read", index.number, item.name, def.kind->word), "read it from the nominal: F instead of FA");
-    return std::nullopt;
+  const Form& form = lowering.forms[feature->value];
+  const FormItem* item = indexed(lowering, form, index, def.kind->word, "FEAT", def.kind->example);
+  if (!item) return std::nullopt;
+  // Where an arc starts is not measured.
+  if (!actual || !item->is_number || item->name == "start") return written(lowering, *item);
+  const double unit = to_program(item->type, lowering.units);
+  if (item->name == "r" || item->name == "a") {
+    const plan::Expression x = obtained(lowering, *feature, Quantity::x), y = obtained(lowering, *feature, Quantity::y);
+    const plan::Expression squares = combine(Op2::add, combine(Op2::multiply, x, x), combine(Op2::multiply, y, y));
+    return Value{Type::real, {scaled(item->name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
   }
-  lowering.error(Code::E0245, index.span, fmt::format("{} has {} arguments, FEAT counted as 1; there is no {}", def.kind->word, form.size() + 1, index.number),
-                 fmt::format("for example: {}", def.kind->example));
-  return std::nullopt;
+  const std::optional<Reading> reading = reading_of(def, form, item->name);
+  ABBE_CHECK(reading);
+  return Value{Type::real, {scaled(obtained(lowering, *feature, reading->quantity), reading->times * unit)}};
 }
 
-std::optional<Value> from_tolerance(Lowering& lowering, const MatchedValue& label, const MatchedValue& index) {
-  const ToleranceSymbol* symbol = lowering.tolerance(label.label);
-  if (!symbol) return std::nullopt;
+/// TA in the form of the result file.
+std::vector<std::string> result_form(const ToleranceKind& kind, const Arguments& arguments) {
+  const std::string qualifier = arguments.text("axis", arguments.text("space"));
+  std::vector<std::string> form = {"TOL", std::string(kind.word)};
+  if (kind.word.starts_with("DIST")) {
+    form.insert(form.end(), {"status", "NOMINL", "value", qualifier});
+  } else {
+    if (!qualifier.empty()) form.push_back(qualifier);
+    form.insert(form.end(), {"value", "status"});
+  }
+  return form;
+}
+
+std::optional<Value> from_evaluation(Lowering& lowering, const ToleranceSymbol& symbol, const MatchedValue& label, const MatchedValue& index) {
   std::vector<plan::CharacteristicId> evaluated;
   for (std::size_t c = 0; c < lowering.out.plan.characteristics.size(); ++c) {
     const plan::CharacteristicId id{static_cast<int>(c)};
@@ -99,31 +176,45 @@ std::optional<Value> from_tolerance(Lowering& lowering, const MatchedValue& labe
     lowering.emit(plan::ObtainEvaluation{column, evaluated, status});
     return plan::Expression{plan::PushColumn{column}};
   };
-  const bool distance = symbol->kind->word.starts_with("DIST");
-  const std::string qualifier = arguments.text("axis", arguments.text("space"));
-  std::vector<std::string> form = {"TOL", std::string(symbol->kind->word)};
-  if (distance)
-    form.insert(form.end(), {"status", "NOMINL", "value", qualifier});
-  else {
-    if (!qualifier.empty()) form.push_back(qualifier);
-    form.insert(form.end(), {"value", "status"});
-  }
+  const std::vector<std::string> form = result_form(*symbol.kind, arguments);
   if (index.number < 1 || index.number > static_cast<double>(form.size())) {
     lowering.error(Code::E0245, index.span, fmt::format("TA({}) has {} arguments, TOL counted as 1; there is no {}", label.label.name, form.size(), index.number),
-                   "in the result file it is TOL/" + std::string(symbol->kind->word) + ",...,value,INTOL");
+                   "in the result file it is TOL/" + std::string(symbol.kind->word) + ",...,value,INTOL");
     return std::nullopt;
   }
   const std::string& item = form[static_cast<std::size_t>(index.number) - 1];
-  const ValueType type = unit_of(*symbol->kind, arguments) == Unit::rad ? ValueType::angle : ValueType::length;
+  const ValueType type = unit_of(*symbol.kind, arguments) == Unit::rad ? ValueType::angle : ValueType::length;
   if (item == "value") return Value{Type::real, {scaled(read(false), to_program(type, lowering.units))}};
   if (item != "status") return word_value(lowering, item);
   const double in = lowering.texts.value("INTOL").constant(), out = lowering.texts.value("OUTOL").constant();
   return Value{Type::text, {combine(Op2::add, scaled(read(true), in - out), {plan::PushConstant{out}})}};
 }
 
+std::optional<Value> from_tolerance(Lowering& lowering, const MatchedValue& label, const MatchedValue& index) {
+  const ToleranceSymbol* symbol = lowering.tolerance(label.label);
+  if (!symbol) return std::nullopt;
+  if (label.label.kind == "TA") return from_evaluation(lowering, *symbol, label, index);
+  const FormItem* item = indexed(lowering, symbol->form, index, fmt::format("T({})", label.label.name), "TOL", symbol->kind->example);
+  return item ? std::optional(written(lowering, *item)) : std::nullopt;
+}
+
+std::optional<Value> from_sensor(Lowering& lowering, const MatchedValue& label, const MatchedValue& index) {
+  const auto sensor = lowering.sensor(label.label);
+  if (!sensor) return std::nullopt;
+  const auto form = lowering.sensor_forms.find(sensor->value);
+  if (form == lowering.sensor_forms.end()) {
+    lowering.error(Code::E0245, label.span, fmt::format("{}({}) is described by the machine file, not by the program", label.label.kind, label.label.name),
+                   "define it with SNSDEF to read its numbers");
+    return std::nullopt;
+  }
+  const FormItem* item = indexed(lowering, form->second, index, fmt::format("S({})", label.label.name), "SNSDEF", "S(P1)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4");
+  return item ? std::optional(written(lowering, *item)) : std::nullopt;
+}
+
 void obtain(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const MatchedValue& what = match.values[0];
-  const auto value = what.type == ValueType::feature ? from_feature(lowering, what, *match.find("index")) : from_tolerance(lowering, what, *match.find("index"));
+  const auto from = what.type == ValueType::feature ? from_feature : what.type == ValueType::sensor ? from_sensor : from_tolerance;
+  const std::optional<Value> value = from(lowering, what, *match.find("index"));
   if (value) assign_to_label(lowering, raw, *value);
 }
 
@@ -132,10 +223,10 @@ void obtain(Lowering& lowering, const RawStatement& raw, const Match& match) {
 extern const Statement kObtain;
 const Statement kObtain = {"OBTAIN",
                            "=",
-                           "( feature:feature ; tolerance:tolerance ), index:integer",
-                           "Reads argument number index of a feature, FEAT counted as 1: of F(l) as defined, of FA(l) as measured, in the current coordinate system; or of "
-                           "an evaluated tolerance TA(t), TOL counted as 1: value and INTOL or OUTOL as in the result file.",
-                           "X=OBTAIN/FA(P1),4",
+                           "( feature:feature ; tolerance:tolerance ; sensor:sensor ), index:integer",
+                           "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as measured, in the current "
+                           "coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
+                           "X=OBTAIN/FA(BORE),5",
                            "ISO 22093, OBTAIN",
                            obtain};
 

@@ -105,6 +105,7 @@ void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& mat
   }
   lowering.symbols.sensors[upper(def.label)] =
       plan::SensorId{static_cast<int>(lowering.out.plan.sensors.size())};
+  lowering.sensor_forms[static_cast<int>(lowering.out.plan.sensors.size())] = written_form(raw, match);
   lowering.out.plan.sensors.push_back(std::move(def));
 }
 

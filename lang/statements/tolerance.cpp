@@ -49,7 +49,7 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   if (!rest) return;
   note_redefinition(lowering, raw, *kind, *rest);
   lowering.symbols.tolerances[upper(raw.label->name)] = {
-      kind, std::move(*rest), raw.span, raw.label->name, {}};
+      kind, *rest, raw.span, raw.label->name, {}, written_form(raw, *rest)};
 }
 
 /// The features and datums that the labels of the tolerance mean now; -1 for one that cannot be
