@@ -99,6 +99,54 @@ TEST_CASE("coordinate systems, values and uncertainties are read again") {
   check_near(back.frames[0].X_MD.R * Vec3{1, 2, 3}, X.R * Vec3{1, 2, 3});
 }
 
+TEST_CASE("every form of a result and its uncertainty comes back as it was written") {
+  const SourceFile source("results.dmi",
+                          "DMISMN/'r'\nSNSLCT/SA(P)\nF(C)=FEAT/CIRCLE,INNER,CART,5,0,0,0,0,1,20\nMEAS/CIRCLE,F(C),4\nENDMES\n"
+                          "F(E)=FEAT/CIRCLE,INNER,CART,50,0,0,0,0,1,20\nMEAS/CIRCLE,F(E),4\nENDMES\nT(SIZE)=TOL/DIAM,-0.1,0.1\nT(PLACE)=TOL/POS,2D,0.1\n"
+                          "T(ANGLE)=TOL/CORTOL,ANGLE,-1,1\nT(APART)=TOL/DISTB,NOMINL,45,-0.1,0.1,XAXIS\nOUTPUT/FA(C),TA(SIZE),TA(PLACE),TA(ANGLE)\n"
+                          "OUTPUT/FA(C),FA(E),TA(APART)\nOUTPUT/FA(C),TA(SIZE)\nENDFIL\n");
+  Sink sink;
+  const plan::Plan plan = compile(source, sink).plan;
+  REQUIRE_FALSE(sink.has_errors());
+  std::vector<OutputRecord> records;
+  std::vector<CharacteristicReport> reports;
+  std::vector<double> written;
+  for (std::size_t i = 0; i < plan.operations.size(); ++i) {
+    const auto* output = std::get_if<plan::Output>(&plan.operations[i].action);
+    if (!output) continue;
+    OutputRecord record{static_cast<int>(i), {}, {}, {}};
+    for (const plan::FeatureId f : output->features) record.features.push_back(plan[f].nominal);
+    for (const plan::CharacteristicId c : output->characteristics) {
+      const double value = 0.01 * static_cast<double>(written.size() + 1);
+      const bool inside = written.size() % 2 == 0;
+      record.values.push_back({c, value, {std::nullopt, inside ? 1.0 : 0.0}});
+      CharacteristicReport report;
+      report.tolerance = plan[plan[c].tolerance].label, report.line = plan[c].line;
+      report.summary.u = value / 100, report.lcl = -value / 50, report.ucl = value / 40;
+      if (inside) report.conformance_probability = 0.75;
+      reports.push_back(report);
+      written.push_back(value);
+    }
+    records.push_back(std::move(record));
+  }
+  const Read back = read(dmis_result(plan, records, reports));
+  CHECK(back.messages == "");
+  REQUIRE(back.result.values.size() == 5);
+  REQUIRE(written.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const ResultValue& v = back.result.values[i];
+    CAPTURE(v.label);
+    CHECK(v.label == reports[i].tolerance);
+    CHECK(v.value == Approx(written[i]).epsilon(1e-4));
+    CHECK(v.in_tolerance == (i % 2 == 0));
+    REQUIRE(v.uncertainty.has_value());
+    CHECK(v.uncertainty->u == Approx(written[i] / 100));
+    CHECK(v.uncertainty->lcl == Approx(-written[i] / 50));
+    CHECK(v.uncertainty->ucl == Approx(written[i] / 40));
+    CHECK(v.uncertainty->conformance.has_value() == (i % 2 == 0));
+  }
+}
+
 TEST_CASE("results of tolerances in all their forms") {
   const Read r = read(
       "UNITS/INCH,ANGDEC\nTA(D)=TOL/DIAM,2,INTOL\n$$! u TA(D) 0.0005 lcl -0.001 ucl 0.0011 conforms 0.98\n"
