@@ -30,6 +30,7 @@ class Compiler {
     lowering_.out.plan.name = lowering_.source.name();
     std::vector<LogicalLine> lines = logical_lines(lowering_.source);
     for (const LogicalLine& line : lines) read_directives(line, lowering_);
+    lowering_.answers.insert(lowering_.out.directives.answers.begin(), lowering_.out.directives.answers.end());
     Routine program = make_routine(lowering_.source, std::move(lines), lowering_);
     Flow(lowering_, moving, [this](const RawStatement& raw) { one(raw); }).run(program);
     for (int at = 0; at < program.size(); ++at)
@@ -195,7 +196,7 @@ Compilation compile(const SourceFile& source, Sink& sink, const CompileOptions& 
       Compilation out = Compiler(source, found, options).run(moving);
       for (const Diagnostic& d : found.list()) sink.add(d);
       return out;
-    } catch (const Restart&) {  // with one more moving jump
+    } catch (const Restart&) {  // with more moving jumps
     }
   }
 }

@@ -28,6 +28,7 @@ struct Directives {
   std::optional<int> machines;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> workpiece;
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in upper case
   std::optional<Vec3> place_mm;      ///< where the program's machine coordinate system lies in W
   std::vector<Expectation> expectations;
 };
@@ -46,7 +47,7 @@ struct Compilation {
 
 /// What a compilation needs to know beyond the program.
 struct CompileOptions {
-  std::map<std::string, std::string> answers;  ///< to PROMPT: by the name of the variable, in any case
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in any case; they win over directives
 };
 
 /// Never throws on a user's text: every mistake goes to the sink, and what can be used is used. Modules are read from the

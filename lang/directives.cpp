@@ -18,6 +18,8 @@ constexpr std::array kDirectives = {
     DirectiveHelp{"workpiece", "workpiece FILE", "true sizes and calibration of the part"},
     DirectiveHelp{"place", "place X Y Z",
                   "where the program's machine coordinate system lies in the machine, mm"},
+    DirectiveHelp{"answer", "answer NAME=VALUE",
+                  "what PROMPT gives to the variable NAME; the command line wins"},
     DirectiveHelp{"expect",
                   "expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B",
                   "an expected result, checked by `abbe test`; also: expect accepted between A B"}};
@@ -28,7 +30,13 @@ constexpr std::array<std::string_view, 7> kQuantities = {"u",    "u95",   "lcl",
 struct Token {
   std::string text;
   Span span;
+  std::size_t begin = 0;  ///< in the comment
 };
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
+}
 
 /// Thrown inside this file to leave a directive that has a mistake; the message is in the sink.
 struct Abandoned {};
@@ -57,7 +65,7 @@ class DirectiveReader {
       for (int depth = 0;
            end < text.size() && (depth > 0 || (text[end] != ' ' && text[end] != '\t')); ++end)
         depth += text[end] == '(' ? 1 : text[end] == ')' && depth > 0 ? -1 : 0;
-      tokens_.push_back({text.substr(begin, end - begin), comment_.span(begin, end)});
+      tokens_.push_back({text.substr(begin, end - begin), comment_.span(begin, end), begin});
       i = end;
     }
     whole_ = comment_.span(0, text.size());
@@ -121,11 +129,27 @@ class DirectiveReader {
       Vec3 place;
       for (int k = 0; k < 3; ++k) place[k] = number<double>("place", "a number in mm");
       out.place_mm = place;
+    } else if (name == "ANSWER") {
+      answer();
     } else if (name == "EXPECT") {
       expect();
     } else {
       unknown(word);
     }
+  }
+
+  /// Takes the rest of the comment: an answer may hold blanks.
+  void answer() {
+    const Token& first = take("answer", "NAME=VALUE");
+    const std::string rest = comment_.text().substr(first.begin);
+    next_ = tokens_.size();
+    const std::size_t equals = rest.find('=');
+    const std::string variable = upper(trimmed(rest.substr(0, equals)));
+    if (equals == std::string::npos || variable.empty())
+      mistake(Code::E0114, first.span, "directive 'answer': NAME=VALUE is expected here", help_for("answer"));
+    if (!lowering_.out.directives.answers.emplace(variable, trimmed(rest.substr(equals + 1))).second)
+      mistake(Code::E0114, first.span, fmt::format("directive 'answer': {} has an answer already", variable),
+              "give every variable one answer");
   }
 
   [[noreturn]] void unknown(const Token& word) {

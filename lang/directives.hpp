@@ -1,10 +1,11 @@
 // Comments that begin with `$$!`: what only the simulator needs. A real controller skips them.
 //
 //   machine NAME            machines N            seed N            workpiece FILE
-//   place X Y Z             where the program's machine coordinate system lies in the machine, mm
-//   whatever UNITS says expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B
+//   place X Y Z             where the program's machine coordinate system lies in the machine, mm whatever UNITS says
+//   answer NAME=VALUE       what PROMPT gives to a variable
+//   expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B
 //   expect accepted between A B
-// Several may stand in one comment; `expect` takes the rest of it.
+// Several may stand in one comment; `answer` and `expect` take the rest of it.
 #pragma once
 
 #include "lang/lowering.hpp"

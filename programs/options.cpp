@@ -101,6 +101,7 @@ void add_test(CLI::App& app, Chosen& chosen) {
   command->add_option("PATH", o->paths, "programs, and folders to search for .dmi files")->required();
   command->add_option("--junit", o->junit, "write the results as JUnit XML to this file")->type_name("J.xml");
   add_settings(command, o->settings);
+  add_answers(command, o->answers);
 }
 
 /// "i,j,k".
@@ -159,6 +160,7 @@ void add_record(CLI::App& app, Chosen& chosen) {
   command->add_option("--with", o->with, "let an effect act, left in: EFFECT or EFFECT:parameter=value,... (may be repeated)")
       ->type_name("EFFECT")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S")->check(not_negative());
+  add_answers(command, o->answers);
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
   command->add_option("--dmo", o->dmo, "write the DMIS result file of the recorded machine")->type_name("D.dmo");
 }

@@ -119,7 +119,7 @@ void prompt(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const auto answer = lowering.answers.find(upper(name));
   if (answer == lowering.answers.end())
     return lowering.error(Code::E0235, raw.span, fmt::format("nobody is here to answer '{}'", match.text("question")),
-                          fmt::format("give the answer on the command line: --answer {}=VALUE", name));
+                          fmt::format("give the answer on the command line, --answer {0}=VALUE, or in the program: $$! answer {0}=VALUE", name));
   if (const auto value = answer_value(lowering, answer->second, find_variable(lowering, name)))
     assign_to_label(lowering, raw, *value);
   else
@@ -156,7 +156,7 @@ const Statement kAssign = {"ASSIGN",
 const Statement kPrompt = {"PROMPT",
                            "=",
                            "question:text, ...",
-                           "Asks the operator. Here the answer comes from the command line: --answer X=VALUE.",
+                           "Asks the operator. Here the answer comes from the command line, --answer X=VALUE, or from a directive: $$! answer X=VALUE.",
                            "X=PROMPT/'serial number'",
                            "ISO 22093, PROMPT",
                            prompt};

@@ -40,6 +40,7 @@ struct TestOptions {
   std::vector<std::string> paths;    ///< programs, and folders to search for them
   std::optional<std::string> junit;  ///< where the JUnit XML goes
   StudySettings settings;
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
 };
 int test_command(const TestOptions&);
 
@@ -65,6 +66,7 @@ struct RecordOptions {
   std::optional<std::string> dmo;           ///< where the result file of the recorded machine goes
   std::optional<std::string> machine, workpiece;
   std::optional<std::uint64_t> seed;
+  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
   std::vector<std::string> with;            ///< "EFFECT" or "EFFECT:parameter=value,..."
 };
 int record_command(const RecordOptions&);

@@ -53,7 +53,7 @@ std::string describe(const std::vector<std::string>& with) { return with.empty()
 }  // namespace
 
 int record_command(const RecordOptions& options) {
-  const CompiledProgram program = compile_program(options.program);
+  const CompiledProgram program = compile_program(options.program, options.answers);
   print_messages(program.messages);
   if (program.has_errors) {
     throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()),

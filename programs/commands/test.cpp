@@ -84,9 +84,8 @@ void fail_unreadable(TestSuite& suite, const Errors& errors,
   }
 }
 
-TestSuite test_program(const std::string& path, const StudySettings& settings,
-                       ProgressLine& progress) {
-  const CompiledProgram program = compile_program(path);
+TestSuite test_program(const std::string& path, const TestOptions& options, ProgressLine& progress) {
+  const CompiledProgram program = compile_program(path, options.answers);
   const auto& expectations = program.compilation.directives.expectations;
   const Errors errors = errors_of(program);
   TestSuite suite{path, {}};
@@ -97,7 +96,7 @@ TestSuite test_program(const std::string& path, const StudySettings& settings,
     return suite;
   }
   try {
-    const Study study = study_program(program, settings, [&](std::string_view step) {
+    const Study study = study_program(program, options.settings, [&](std::string_view step) {
       progress.show(fmt::format("{}: {}", path, step));
     });
     for (const lang::Expectation& e : expectations) {
@@ -118,7 +117,7 @@ int test_command(const TestOptions& options) {
   int passed = 0, failed = 0;
   for (const std::string& path : programs_of(options.paths)) {
     ProgressLine progress;
-    TestSuite suite = test_program(path, options.settings, progress);
+    TestSuite suite = test_program(path, options, progress);
     if (suite.cases.empty()) continue;
     for (const TestCase& c : suite.cases) {
       ++(c.passed ? passed : failed);

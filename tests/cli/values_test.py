@@ -21,6 +21,19 @@ class Values(harness.Case):
         self.write("asking.dmi", ASKING)
         self.assertIn("--answer X=VALUE", self.abbe("check", "asking.dmi", code=1).stderr)
 
+    def test_answers_may_stand_in_the_program_and_the_command_line_wins(self):
+        self.write("asking.dmi", ASKING.replace("ENDFIL", "$$! answer x = 12.5\n$$! answer NAME=BORE\nENDFIL"))
+        self.assertIn("define BORE = POINT at 12.5 0 0", self.abbe("check", "--plan", "asking.dmi").stdout)
+        self.assertIn("define BORE = POINT at 7 0 0", self.abbe("check", "--plan", "asking.dmi", "--answer", "X=7").stdout)
+
+    def test_programs_that_ask_can_be_tests_and_be_recorded(self):
+        asking = harness.LENGTH.replace("UNITS", "DECL/REAL,UPPER\nUPPER=PROMPT/'upper limit'\nUNITS", 1).replace("ENDFIL", "$$! expect TA(LEN) u >= 0\nENDFIL")
+        self.write("asking.dmi", asking)
+        self.abbe("test", "asking.dmi", "--machines", "20", code=1)
+        self.abbe("test", "asking.dmi", "--machines", "20", "--answer", "UPPER=0.1")
+        self.refused("E0604", "record", "asking.dmi", "-o", "r.csv")
+        self.abbe("record", "asking.dmi", "-o", "r.csv", "--answer", "UPPER=0.1")
+
     def test_answers_have_a_name(self):
         self.write("asking.dmi", ASKING)
         self.assertIn("NAME=VALUE", self.refused("E0609", "check", "asking.dmi", "--answer", "12"))
