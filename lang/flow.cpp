@@ -16,9 +16,11 @@ void Flow::run(Routine& program) {
   try {
     range(0, program.size(), -1);
   } catch (const TooLong&) {
+    if (again_) throw Restart{};
     lowering_.statement = nullptr;
     lowering_.end_line = lowering_.source.line_count();  // where it would have ended is not known
   }
+  if (again_) throw Restart{};
   finish_plan();
 }
 
@@ -38,8 +40,9 @@ void Flow::failed_control() {
 /// Lowers the lines [begin, end), which are those of the block that line `level` opens. Returns where a jump leads to that
 /// leaves them.
 Flow::Jump Flow::range(int begin, int end, int level) {
+  const std::vector<Interval> intervals = moving_intervals(level);
   for (int at = begin; at < end && lowering_.reachable;) {
-    if (const auto moving = region_at(at, level)) {
+    if (const auto moving = region_at(at, intervals)) {
       region(*moving, at == moving->first ? std::nullopt : std::optional(at));
       at = moving->last + 1;
       continue;

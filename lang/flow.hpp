@@ -6,8 +6,8 @@
 // is lowered once, and jumps of the plan lead the machines (docs/architecture.md, "Running a plan").
 //
 // A jump that only some machines take is found while the program is lowered, but what lies between it and its target has to be
-// lowered for parted machines from the start. So the program is lowered again with that jump among the *moving* ones; each
-// time there is one more, and a program has finitely many.
+// lowered for parted machines from the start. So lowering goes on to the end, to find as many of these *moving* jumps as can be
+// found, and then the program is lowered again; each time there is at least one more, and a program has finitely many.
 #pragma once
 
 #include <functional>
@@ -93,7 +93,8 @@ class Flow {
 
   // flow_jumps.cpp
   Step jump(int at);
-  std::optional<Interval> region_at(int at, int level) const;
+  std::vector<Interval> moving_intervals(int level) const;
+  static std::optional<Interval> region_at(int at, const std::vector<Interval>&);
   int opener_of(int otherwise) const;
   void region(Interval, std::optional<int> entry);
   void arrive(int at, const VariableNames&, const State& before);
@@ -119,6 +120,7 @@ class Flow {
   std::map<std::string, Macro> macros_;
   std::map<std::string, Module> modules_;  ///< by path
   int statements_ = 0, calls_ = 0, depth_ = 0;
+  bool again_ = false;  ///< there are more moving jumps than were known
 };
 
 /// Where two paths meet: what holds on either of them, and what cannot be told any more.

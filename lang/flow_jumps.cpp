@@ -50,8 +50,10 @@ Flow::Step Flow::jump(int at) {
   if (lowering_.parted == 0) return {at + 1, target};
   const auto active = targets_.find(target);
   if (active == targets_.end()) {
-    moving_.insert({routine_->file->name(), raw.span.begin});
-    throw Restart{};
+    again_ |= moving_.insert({routine_->file->name(), raw.span.begin}).second;
+    ABBE_CHECK(again_);
+    lowering_.reachable = false;
+    return nowhere;
   }
   store(lowering_, active->second.names);
   if (active->second.passed) check_same_meaning(*active->second.passed);
@@ -61,13 +63,13 @@ Flow::Step Flow::jump(int at) {
   return nowhere;
 }
 
-/// The region around line `at` of the block `level`; nothing when no moving jump passes it.
-std::optional<Flow::Interval> Flow::region_at(int at, int level) const {
-  if (moving_.empty()) return std::nullopt;
+/// The lines of the block `level` that moving jumps pass, each from the block that the jump stands in to its target or back.
+std::vector<Flow::Interval> Flow::moving_intervals(int level) const {
   std::vector<Interval> intervals;
-  for (int k = 0; k < routine_->size(); ++k) {
+  if (moving_.empty()) return intervals;
+  for (const int k : routine_->jumps) {
     const Line& line = (*routine_)[k];
-    if (line.control != Control::jump || !moving_.count({routine_->file->name(), line.raw.span.begin})) continue;
+    if (!moving_.count({routine_->file->name(), line.raw.span.begin})) continue;
     const auto target = routine_->targets.find(upper(target_name(line.raw)));
     if (target == routine_->targets.end() || (*routine_)[target->second].parent != level || !routine_->within(k, level)) continue;
     int top = k;
@@ -75,6 +77,11 @@ std::optional<Flow::Interval> Flow::region_at(int at, int level) const {
     if ((*routine_)[top].control == Control::otherwise) top = opener_of(top);
     intervals.push_back({std::min(top, target->second), std::max(routine_->end_of(top), target->second)});
   }
+  return intervals;
+}
+
+/// The region around line `at`: all intervals that hang together with one that holds it; nothing when none does.
+std::optional<Flow::Interval> Flow::region_at(int at, const std::vector<Interval>& intervals) {
   std::optional<Interval> region;
   for (const Interval& i : intervals)
     if (i.first <= at && at <= i.last) region = i;

@@ -152,6 +152,8 @@ Routine make_routine(const SourceFile& file, std::vector<LogicalLine> text, Lowe
   }
   routine.visited.resize(routine.lines.size());
   Blocks(routine, lowering).find();
+  for (int at = 0; at < routine.size(); ++at)
+    if (routine[at].control == Control::jump) routine.jumps.push_back(at);
   return routine;
 }
 

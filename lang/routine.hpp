@@ -31,6 +31,7 @@ struct Routine {
   std::vector<LogicalLine> text;
   std::vector<Line> lines;
   std::map<std::string, int> targets;  ///< of jumps, by name in upper case
+  std::vector<int> jumps;              ///< the lines with JUMPTO
   std::vector<char> visited;           ///< by line: it was lowered at least once
 
   int size() const { return static_cast<int>(lines.size()); }
