@@ -1,12 +1,14 @@
 // abbe_bench: what docs/benchmarks.md records, measured inside one process on one thread. Costs are per candidate, touch or machine, at
-// several sizes, so that their growth shows.
+// several sizes, so that their growth shows. `abbe_bench program` prints the large program that one of the benchmarks runs.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <fstream>
 #include <functional>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/effects/effect.hpp"
@@ -17,16 +19,16 @@ namespace {
 
 using namespace abbe;
 
-/// Median time of five calls, s.
-double seconds(const std::function<void()>& work) {
+/// Median processor time of some calls, s: other users of the computer do not change it much.
+double seconds(const std::function<void()>& work, int calls = 5) {
   std::vector<double> times;
-  for (int i = 0; i < 5; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < calls; ++i) {
+    const std::clock_t begin = std::clock();
     work();
-    times.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    times.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
-  std::nth_element(times.begin(), times.begin() + 2, times.end());
-  return times[2];
+  std::nth_element(times.begin(), times.begin() + calls / 2, times.end());
+  return times[static_cast<std::size_t>(calls / 2)];
 }
 
 /// A program that measures a sphere with 25 touches so many times and evaluates its diameter each time.
@@ -44,6 +46,59 @@ SourceFile spheres(int count) {
     text += "ENDMES\nOUTPUT/FA(BALL),TA(DIA)\n";
   }
   return SourceFile("bench", text + "ENDFIL\n");
+}
+
+/// Circles and planes in turn, in the manner of production software: every feature with moves, tolerance and output of its own; now and then
+/// a macro, a loop, and a condition on what was measured. 28.6 lines a feature: 700 of them make 20 000 lines.
+std::string large_program(int features) {
+  std::string text =
+      "DMISMN/'large',5.2\nUNITS/MM,ANGDEC\nPRCOMP/ON\nDECL/REAL,X,Y\nDECL/INTGR,I\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(P)\n"
+      "D(B)=TRANS/XORIG,500,YORIG,300,ZORIG,-500\nM(REPORT)=MACRO/'NAME','TOLERANCE',SIZE\nT('TOLERANCE')=TOL/DIAM,-SIZE,SIZE\nOUTPUT/FA('NAME'),TA('TOLERANCE')\nENDMAC\n";
+  for (int f = 0; f < features; ++f) {
+    const double x = 20.0 * (f % 30), y = 20.0 * (f / 30);
+    const bool round = f % 2 == 0;
+    text += fmt::format("$$ feature {0}\nF(F{0})=FEAT/{1}\nGOTO/{2},{3},20\nMEAS/{4},F(F{0}),8\n", f,
+                        round ? fmt::format("CIRCLE,INNER,CART,{},{},-5,0,0,1,10", x, y) : fmt::format("PLANE,CART,{},{},0,0,0,1", x, y), x, y,
+                        round ? "CIRCLE" : "PLANE");
+    for (int k = 0; k < 8; ++k) {
+      const double a = kPi / 4 * k, i = std::cos(a), j = std::sin(a);
+      text += fmt::format("GOTO/{:.4f},{:.4f},{}\n", x + 2 * i, y + 2 * j, round ? -5 : 5);
+      text += round ? fmt::format("PTMEAS/CART,{:.6f},{:.6f},-5,{:.6f},{:.6f},0\n", x + 5 * i, y + 5 * j, -i, -j)
+                    : fmt::format("PTMEAS/CART,{:.6f},{:.6f},0,0,0,1\n", x + 4 * i, y + 4 * j);
+    }
+    text += fmt::format("ENDMES\nX=OBTAIN/FA(F{}),{}\n", f, round ? 5 : 4);
+    text += round ? fmt::format("CALL/M(REPORT),'F{0}','T{0}',0.05\n", f) : fmt::format("T(T{0})=TOL/FLAT,0.02\nOUTPUT/FA(F{0}),TA(T{0})\n", f);
+    if (f % 4 == 0) text += fmt::format("IF/(X .GT. {})\nGOTO/{},{},30\nENDIF\n", x, x, y);
+    if (f % 4 == 2) text += fmt::format("DO/I,1,3\nGOTO/{},{}+I,30\nENDDO\n", x, y);
+    text += "$$\nSNSET/APPRCH,2\nSNSET/RETRCT,2\n";
+  }
+  return text + "ENDFIL\n";
+}
+
+/// The most memory that this process has held so far, MB.
+double peak_memory() {
+  std::ifstream status("/proc/self/status");
+  double kilobytes = 0;
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) std::istringstream(line.substr(6)) >> kilobytes;
+  return kilobytes / 1024;
+}
+
+void large_programs(const Machine& machine) {
+  fmt::print("\n lines  features  operations  machines   compile, s   run, s   peak memory, MB\n");
+  for (const auto& [features, count] : {std::pair{175, 1000}, {350, 1000}, {700, 250}, {700, 1000}, {700, 4000}}) {
+    const SourceFile source("large", large_program(features));
+    plan::Plan plan;
+    const double compile = seconds([&] {
+      Sink sink;
+      plan = lang::compile(source, sink).plan;
+      ABBE_CHECK(!sink.has_errors());
+    }, 3);
+    const VirtualMachines machines = screened_machines(machine, 1, count, 1);
+    const double run = seconds([&] { run_plan(plan, machine, machines, {}, source); }, 1);
+    fmt::print("{:6}  {:8}  {:10}  {:8}   {:10.3f}   {:6.2f}   {:15.0f}\n", source.line_count(), plan.features.size(), plan.operations.size(), count, compile,
+               run, peak_memory());
+  }
 }
 
 std::string processor() {
@@ -96,9 +151,14 @@ void effects_cost(Machine machine) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "program") {
+    fmt::print("{}", large_program(700));
+    return 0;
+  }
   fmt::print("{}; one thread; medians of five\n", processor());
   const Machine machine = read_machine("coord3-mc16");
+  large_programs(machine);
   screening(machine);
   touches(machine);
   effects_cost(machine);

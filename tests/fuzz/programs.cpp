@@ -30,7 +30,7 @@ class Generator {
         "chance',5.2\nUNITS/MM,ANGDEC\nS(A)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(A)\n"
         "D(A)=TRANS/XORIG,800,YORIG,500,ZORIG,-500\n";
     const std::size_t count = 3 + below(25);
-    for (std::size_t i = 0; i < count; ++i) below(3) == 0 ? any_statement() : measured_feature();
+    for (std::size_t i = 0; i < count; ++i) below(5) == 0 ? any_statement() : measured_feature();
     if (below(8) != 0) out_ += "ENDFIL\n";
     return std::move(out_);
   }
@@ -119,7 +119,7 @@ class Generator {
 
   void any_statement() {
     const lang::Statement& s = *one_of(lang::statements());
-    if (s.word == "ENDFIL" || s.word == "DMISMN" || s.word == "SNSDEF") return;
+    if (s.word == "ENDFIL" || s.word == "DMISMN" || s.word == "SNSDEF" || s.word == "READ") return;
     const std::string label =
         s.label.empty() || s.label == "*" ? "" : std::string(s.label) + "(" + name() + ")=";
     const std::string head = label + std::string(s.word);
@@ -134,6 +134,8 @@ class Generator {
     } else {
       statement(head, s.signature);
     }
+    const bool opens = s.word == "MEAS" || s.word == "RMEAS" || s.word == "CALIB";
+    if (opens && below(8) != 0) out_ += "ENDMES\n";
   }
 
   /// A feature and its measurement, so that what follows has something to work with.
