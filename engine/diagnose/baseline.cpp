@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "engine/diagnose/rough_geometry.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/screening.hpp"
 
@@ -131,10 +132,11 @@ void add_head(const RecordedTouches& t, const Machine& machine, Columns& random)
     sensitivity(rows, machine.head.sd_a_rad, &RecordedTouch::per_rad_a_mm);
     sensitivity(rows, machine.head.sd_b_rad, &RecordedTouch::per_rad_b_mm);
   }
+  const double probe_um = kUmPerMm * norm(machine.probe.sd_mm) / std::sqrt(3.0);
   for (const auto& [which, rows] : qualified) {
     for (int k = 0; k < 3; ++k) {
       Vector& column = random.add();
-      for (const int i : rows) column(i) = kQualification_um * t.touches[i].scene.normal[k];
+      for (const int i : rows) column(i) = kQualificationShare * probe_um * t.touches[i].scene.normal[k];
     }
   }
 }
@@ -192,6 +194,15 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   m.random_group.resize(random.count(), 1);
   m.free = free.joined();
   m.random = random.joined();
+  const Matrix rough = rough_geometry(t, machine);
+  if (!options.known) {
+    m.rough = rough;
+  } else {
+    // What an earlier recording left open, and what its harmonics could not follow.
+    constexpr double kNotFollowed = 0.4;
+    m.rough.resize(n, geometry.cols() + rough.cols());
+    m.rough << geometry, kNotFollowed * rough;
+  }
   m.y.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) m.y(i) = kUmPerMm * t.touches[i].residual_mm;
   m.y -= out.geometry_um * out.mean;

@@ -45,8 +45,8 @@ struct Baseline {
 
 Baseline baseline_of(const RecordedTouches&, const Machine&, const BaselineOptions&);
 
-/// Standard deviation of a qualified tip centre, um: what a qualification on a reference sphere leaves.
-inline constexpr double kQualification_um = 0.3;
+/// Standard deviation of a qualified tip centre, over that of the probe: a sphere of eight touches (3 / 8 of the variance of one).
+inline constexpr double kQualificationShare = 0.6;
 /// Machines that the covariance of the coefficients is taken from.
 inline constexpr int kEnsemble = 800;
 

@@ -49,11 +49,12 @@ struct SearchResult {
   Evidence first;                    ///< before any finding
   std::vector<Evidence> null;        ///< simulated, before any finding
 };
-SearchResult search(const Case&);
+/// `first`: the evidence of the whole recording.
+SearchResult search(const Case&, const EvidenceSearch& first);
 
 /// Steps that fill parts of the answer.
 void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
-std::vector<Location> locate(const Case&, const SearchResult&);
+std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
 std::vector<DiagnosedParameter> estimate_parameters(const Case&, const SearchResult&, std::size_t finding);
 Unexplained describe_unexplained(const Case&, const SearchResult&);
 struct NoiseFinding {

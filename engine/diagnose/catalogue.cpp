@@ -144,7 +144,7 @@ bool repeats(const Block& block, const Explanation& of, const std::vector<Block>
   return false;
 }
 
-/// In what an effect shows first, for explanations that have no better place: what it needs, the rarest covariate first.
+/// In what an effect shows first: what it needs, the rarest covariate first.
 Factor factor_of(const Effect& effect) {
   const std::pair<unsigned, Factor> order[] = {
       {Covariate::part_temperature | Covariate::scale_temperature | Covariate::air_temperature, Factor::temperature},
@@ -153,7 +153,8 @@ Factor factor_of(const Effect& effect) {
       {0u | Covariate::time, Factor::time},
       {Covariate::head | Covariate::visit, Factor::head},
       {0u | Covariate::sensor, Factor::sensor},
-      {Covariate::position | Covariate::part_frame | Covariate::raw_reading, Factor::position}};
+      {0u | Covariate::part_frame, Factor::feature},
+      {Covariate::position | Covariate::raw_reading, Factor::position}};
   for (const auto& [covariates, factor] : order)
     if (effect.needs & covariates) return factor;
   return Factor::direction;

@@ -29,19 +29,23 @@ Eigen::Index strongest(const Matrix& g) {
 
 class Design {
  public:
-  Design(const Case& c, const EvidenceSearch& search) : all_(c.explanations), search_(search) {}
+  Design(const Case& c, const EvidenceSearch& search) : all_(c.explanations), search_(search) {
+    for (int b = 0; b < static_cast<int>(all_.blocks.size()); ++b) {
+      const Matrix g = search.between(b, b);
+      information_.emplace_back(g + 1e-9 * (g.trace() + 1e-300) * Matrix::Identity(g.rows(), g.cols()));
+      strongest_.push_back(strongest(g));
+      most_.push_back(g.diagonal().maxCoeff());
+    }
+  }
 
   std::optional<Detectable> of(std::size_t k) const {
     const Explanation& e = all_.list[k];
-    int best = -1;
-    double most = 0;
-    for (const int b : e.blocks) {
-      const double information = search_.between(b, b).diagonal().maxCoeff();
-      if (information > most) most = information, best = b;
-    }
-    if (best < 0 || most <= 1e-12) return std::nullopt;
+    if (e.blocks.empty()) return std::nullopt;
+    const int best = *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return most_[a] < most_[b]; });
+    const double most = most_[static_cast<std::size_t>(best)];
+    if (most <= 1e-12) return std::nullopt;
     const Block& block = all_.blocks[static_cast<std::size_t>(best)];
-    const Eigen::Index column = strongest(search_.between(best, best));
+    const Eigen::Index column = strongest_[static_cast<std::size_t>(best)];
     const int p = block.joined ? first_parameter(*e.effect) : std::max(0, first_linear(block));
     const int parameter = block.joined ? p : block.columns[static_cast<std::size_t>(column)].parameter;
     const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(p)].typical : block.columns[static_cast<std::size_t>(column)].unit;
@@ -62,20 +66,18 @@ class Design {
     return 0;
   }
 
-  /// What is left of the information on one column once a rival takes what it can.
-  double left(int block, Eigen::Index column, int rival) const {
-    const Vector cross = search_.between(rival, block).col(column);
-    const Matrix g = search_.between(rival, rival);
-    const double own = search_.between(block, block)(column, column);
-    return own - cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross));
-  }
-
   void add_rivals(std::size_t k, int block, Eigen::Index column, double information, double unit, double largest, Detectable& d) const {
+    // What is left of the information on the column once a rival takes what it can.
+    const Vector cross = search_.against_all(block, column);
+    const auto left = [&](int rival) {
+      const Vector with = cross.segment(search_.first_column(rival), all_.blocks[static_cast<std::size_t>(rival)].signature.cols());
+      return information - with.dot(information_[static_cast<std::size_t>(rival)].solve(with));
+    };
     std::vector<std::pair<double, std::string>> shares;
     for (std::size_t j = 0; j < all_.list.size(); ++j) {
       if (j == k || !all_.list[j].effect) continue;
       double least = 1;
-      for (const int b : all_.list[j].blocks) least = std::min(least, left(block, column, b) / information);
+      for (const int b : all_.list[j].blocks) least = std::min(least, left(b) / information);
       shares.emplace_back(std::max(0.0, least), all_.list[j].name);
     }
     std::stable_sort(shares.begin(), shares.end());
@@ -89,6 +91,9 @@ class Design {
 
   const Explanations& all_;
   const EvidenceSearch& search_;
+  std::vector<Eigen::LDLT<Matrix>> information_;   ///< by block
+  std::vector<Eigen::Index> strongest_;            ///< by block: the column that stands for it
+  std::vector<double> most_;                       ///< by block: the information on that column
 };
 
 /// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).

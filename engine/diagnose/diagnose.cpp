@@ -41,8 +41,9 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<D
 /// Gross outliers out, the rest fitted again, until none is left.
 void mask_outliers(Case& c) {
   c.masked.assign(c.touches.touches.size(), 0);
+  const LinearModel whole = compact(c.baseline.model);
   for (int round = 0; round < kMaskings; ++round) {
-    c.model = without_rows(c.baseline.model, c.masked);
+    c.model = without_rows(whole, c.masked);
     c.hyper = estimate(c.model);
     const Vector loo = leave_one_out(c.model, c.hyper);
     Eigen::Index k = 0;
@@ -56,7 +57,7 @@ void mask_outliers(Case& c) {
     }
     if (!found) break;
   }
-  c.model = without_rows(c.baseline.model, c.masked);
+  c.model = without_rows(whole, c.masked);
   c.hyper = estimate(c.model);
   c.rows.clear();
   for (std::size_t i = 0; i < c.masked.size(); ++i)
@@ -199,7 +200,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   Case c = on_the_bench(recording, machine, options, file, out);
   if (options.design_only) {
     c.masked.assign(c.touches.touches.size(), 0);
-    c.model = c.baseline.model;
+    c.model = compact(c.baseline.model);
     c.model.y.setZero();
     c.hyper.noise = Vector::Ones(c.model.noise_groups);
     for (std::size_t i = 0; i < c.masked.size(); ++i) c.rows.push_back(static_cast<int>(i));
@@ -216,14 +217,14 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
     out.next_measurement = next_measurements(c, nullptr);
     return out;
   }
-  const SearchResult result = search(c);
+  const SearchResult result = search(c, first);
   out.p_value = result.p_value;
   out.rivals = rivals(c, first, result.first);
   tell_findings(c, result, out);
   tell_noise(judge_noise(c, result), out);
   if (result.other) out.unexplained = describe_unexplained(c, result);
   out.verdict = verdict_of(c, result, out);
-  if (out.verdict != Verdict::no_mismatch) out.location = locate(c, result);
+  if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result);
   if (options.keep_state) out.known_state = write_known_state(posterior(c.baseline, c.hyper, c.masked), c.hyper);

@@ -1,93 +1,72 @@
 #include "engine/diagnose/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <thread>
 
-#include "engine/lanes/random.hpp"
-
 namespace abbe::diagnose {
 
-struct EvidenceSearch::Data {
-  Vector z, rest;                   ///< in the basis of the ensemble, and what is outside of it
-  double rest_squares = 0;
-};
+namespace {
 
-EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
-    : explanations_(explanations.list), rotated_(model, h) {
-  for (const Block& block : explanations.blocks) {
-    const Matrix projected = rotated_.project(block.signature);
-    Projected p;
-    p.coordinates = rotated_.coordinates(projected);
-    p.remainder = rotated_.remainder(projected, p.coordinates);
-    p.square = p.remainder.transpose() * p.remainder;
-    blocks_.push_back(std::move(p));
+/// Belief before the data that the machine's errors are rougher than the harmonics of the specification.
+constexpr double kPriorRough = 0.2;
+/// Nats below the better ensemble from which on the other makes no difference.
+constexpr double kOutOfQuestion = 8;
+
+template <class T>
+std::size_t index_of_largest(const std::vector<T>& v) {
+  return static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+}
+
+}  // namespace
+
+EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations) : explanations_(explanations.list) {
+  const bool plan = model.y.squaredNorm() == 0;
+  ensembles_.emplace_back(model, h, std::log(1 - kPriorRough));
+  y_ = ensembles_[0].rotated().y();
+  if (model.rough.cols() > 0 && !plan) {
+    Ensemble rough(rougher(model), h, std::log(kPriorRough));
+    const double harmonic = log_sum_exp(ensembles_[0].judge(y_).alone), other = log_sum_exp(rough.judge(y_).alone);
+    rough_ = 1 / (1 + std::exp(harmonic - other));
+    if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   }
-  const Data data = of_recording();
+  for (Ensemble& e : ensembles_) e.prepare(explanations.blocks);
   // A plan has no values yet: what it can tell is judged at the level that was stated.
-  const bool plan = data.rest_squares == 0 && data.z.squaredNorm() == 0;
-  if (!plan) level_ = fit_level(rotated_.lambda(), data.z, data.rest_squares, rotated_.rest_dof());
+  if (!plan) evidence_ = judge(y_, &alone_, &with_);
 }
 
-EvidenceSearch::Data EvidenceSearch::of_recording() const {
-  Data d;
-  d.z = rotated_.z();
-  d.rest = rotated_.remainder(rotated_.y(), d.z);
-  d.rest_squares = d.rest.squaredNorm();
-  return d;
-}
-
-EvidenceSearch::Data EvidenceSearch::simulated(std::uint64_t seed, int replicate) const {
-  constexpr std::uint32_t stream = stream_of("diagnose.bootstrap");
-  const auto normals = [&](Vector& v, std::uint32_t site) {
-    for (Eigen::Index i = 0; i < v.size(); i += 2) {
-      const UniformPair p = uniform_pair({seed, static_cast<std::uint32_t>(replicate), stream, site + static_cast<std::uint32_t>(i), 0, 0});
-      v(i) = normal_quantile(p.a);
-      if (i + 1 < v.size()) v(i + 1) = normal_quantile(p.b);
-    }
-  };
-  Data d;
-  d.z.resize(rotated_.rank());
-  normals(d.z, 0);
-  d.z = (level_.g2 * rotated_.lambda().array() + level_.s2).sqrt() * d.z.array();
-  Vector white(rotated_.rows());
-  normals(white, 1u << 20);
-  d.rest = rotated_.off_model(white) * std::sqrt(level_.s2);
-  d.rest_squares = d.rest.squaredNorm();
-  return d;
-}
-
-Evidence EvidenceSearch::evaluate(const Data& d) const {
-  const Level level = fit_level(rotated_.lambda(), d.z, d.rest_squares, rotated_.rest_dof());
-  const Vector weight = (level.g2 * rotated_.lambda().array() + level.s2).inverse();
-  const Vector z = weight.array() * d.z.array();
+Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
+  std::vector<Ensemble::Verdicts> verdicts;
+  for (const Ensemble& e : ensembles_) verdicts.push_back(e.judge(y));
+  std::vector<double> nulls;
+  for (const auto& v : verdicts) nulls.push_back(log_sum_exp(v.alone));
+  const double null = log_sum_exp(nulls);
   Evidence out;
-  for (const Projected& p : blocks_) {
-    const Matrix g = p.coordinates.transpose() * weight.asDiagonal() * p.coordinates + p.square / level.s2;
-    const Vector u = p.coordinates.transpose() * z + p.remainder.transpose() * d.rest / level.s2;
-    std::vector<double> sizes;
-    for (const double s : kSizes) {
-      const Matrix m = Matrix::Identity(g.rows(), g.cols()) + s * s * g;
-      const Eigen::LLT<Matrix> llt(m);
-      const Vector v = llt.matrixL().solve(u);
-      sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() - std::log(double(std::size(kSizes))));
-    }
-    out.block_log_bayes.push_back(log_sum_exp(sizes));
+  for (std::size_t k = 0; k < verdicts[0].with.size(); ++k) {
+    std::vector<double> logs;
+    for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[k]));
+    out.block_log_bayes.push_back(log_sum_exp(logs) - null);
   }
   std::vector<double> all;
-  for (const Explanation& e : explanations_) {
+  for (const Explanation& x : explanations_) {
     std::vector<double> variants;
-    for (const int k : e.blocks) variants.push_back(out.block_log_bayes[k] - std::log(double(e.blocks.size())));
+    for (const int k : x.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] - std::log(double(x.blocks.size())));
     out.log_bayes.push_back(log_sum_exp(variants));
-    all.push_back(std::log(e.prior) + out.log_bayes.back());
+    all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
   out.statistic = log_sum_exp(all);
+  if (!alone) return out;
+  const std::size_t e = index_of_largest(nulls), block = index_of_largest(out.block_log_bayes);
+  const Vector& squares = verdicts[e].squares;
+  *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, {squares.begin(), squares.end()})};
+  if (out.block_log_bayes[block] <= 0) return out;
+  std::vector<double> logs;
+  for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[block]));
+  const std::size_t f = index_of_largest(logs);
+  *with = {f, ensembles_[f].level(verdicts[f].with[block], verdicts[f].squares_with[block])};
   return out;
 }
-
-Evidence EvidenceSearch::evidence() const { return evaluate(of_recording()); }
 
 std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const {
   constexpr int kBatch = 20, kEnough = 10;
@@ -98,7 +77,7 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates,
     out.resize(first + count);
     std::atomic<int> next = first;
     const auto work = [&] {
-      for (int r = next++; r < first + count; r = next++) out[r] = evaluate(simulated(seed, r));
+      for (int r = next++; r < first + count; r = next++) out[r] = judge(ensembles_[alone_.ensemble].simulated(alone_.level, seed, r), nullptr, nullptr);
     };
     {
       std::vector<std::jthread> pool;
@@ -108,19 +87,6 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates,
     for (int r = first; r < first + count; ++r) extreme += out[r].statistic >= observed ? 1 : 0;
   }
   return out;
-}
-
-EvidenceSearch::Information EvidenceSearch::information(int block) const {
-  const Data d = of_recording();
-  const Projected& p = blocks_[block];
-  const Vector weight = (level_.g2 * rotated_.lambda().array() + level_.s2).inverse();
-  return {between(block, block), p.coordinates.transpose() * Vector(weight.array() * d.z.array()) + p.remainder.transpose() * d.rest / level_.s2};
-}
-
-Matrix EvidenceSearch::between(int a, int b) const {
-  const Vector weight = (level_.g2 * rotated_.lambda().array() + level_.s2).inverse();
-  return blocks_[a].coordinates.transpose() * weight.asDiagonal() * blocks_[b].coordinates +
-         blocks_[a].remainder.transpose() * blocks_[b].remainder / level_.s2;
 }
 
 double tail_probability(double observed, std::vector<double> simulated) {

@@ -1,17 +1,13 @@
 // The evidence of every explanation, and the p-value of the whole search.
 //
-// For a block with signature H (columns in units of the prior) and a size s, the Bayes factor against the baseline V is closed form:
-//     log B = -1/2 log|1 + s^2 G| + 1/2 s^2 u' (1 + s^2 G)^-1 u,      G = H' P H,  u = H' P y,
-// P the inverse of V with X projected out. An explanation averages over its blocks and over the sizes kSizes. The statistic of the search
-// is the logarithm of the average over all explanations; its distribution without any mismatch is simulated at the fitted
-// hyperparameters, with scale and noise fitted anew to every replicate (parametric bootstrap), so that one p-value holds for all that
-// was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
+// The baseline is the ensemble of the specification or, less probably, one of the same size and rougher functions; at any scale
+// (ensemble.hpp). The Bayes factor of an explanation is its likelihood averaged over ensembles, scales, sizes and its blocks, over that of the
+// baseline averaged over ensembles and scales. The statistic of the search is the logarithm of the average Bayes factor of all
+// explanations; its distribution without any mismatch is simulated at the fitted baseline and evaluated with the same averages (parametric
+// bootstrap), so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
-#include "engine/diagnose/explanation.hpp"
+#include "engine/diagnose/ensemble.hpp"
 
 namespace abbe::diagnose {
 
@@ -26,36 +22,42 @@ class EvidenceSearch {
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
   /// Of the recording.
-  Evidence evidence() const;
-  const Level& level() const { return level_; }
+  const Evidence& evidence() const { return evidence_; }
+  /// The belief that the machine's errors are rougher than the specification's ensemble, without any explanation.
+  double rough() const { return rough_; }
 
   /// Evidence of simulated recordings without mismatch, at most `replicates`: fewer once enough of them are as extreme as `observed` to
   /// know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991). The same for any number of threads.
   std::vector<Evidence> bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const;
 
-  /// G and u of a block at the level of the recording.
+  /// G and u of a block at the level of the recording, which is that with the likeliest explanation.
   struct Information {
     Matrix g;
     Vector u;
   };
-  Information information(int block) const;
+  Information information(int block) const { return {between(block, block), likely().with_data(with_.level, block, y_)}; }
   /// H_a' P H_b at the level of the recording.
-  Matrix between(int a, int b) const;
-  const Rotated& rotated() const { return rotated_; }
+  Matrix between(int a, int b) const { return likely().between(with_.level, a, b); }
+  /// H' P h of the columns of all blocks, one after the other, with one column of a block.
+  Vector against_all(int block, Eigen::Index column) const { return likely().against_all(with_.level, block, column); }
+  Eigen::Index first_column(int block) const { return likely().first_column(block); }
+  /// The sizes at which a block was judged.
+  const std::vector<Size>& sizes(int block) const { return likely().sizes(block); }
 
  private:
-  struct Data;
-  Data of_recording() const;
-  Data simulated(std::uint64_t seed, int replicate) const;
-  Evidence evaluate(const Data&) const;
+  struct Baseline {
+    std::size_t ensemble = 0;
+    Level level;
+  };
+  Evidence judge(const Vector& y, Baseline* alone, Baseline* with) const;
+  const Ensemble& likely() const { return ensembles_[with_.ensemble]; }
 
   std::vector<Explanation> explanations_;
-  Rotated rotated_;
-  struct Projected {
-    Matrix coordinates, remainder, square;   ///< a = U'h, b = h - U a, b'b
-  };
-  std::vector<Projected> blocks_;
-  Level level_;
+  std::vector<Ensemble> ensembles_;
+  Vector y_;
+  Evidence evidence_;
+  Baseline alone_, with_;
+  double rough_ = 0;
 };
 
 /// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail by the exponential law that

@@ -52,9 +52,6 @@ struct Explanations {
 
 /// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
 inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
-/// Factors on the typical size of an effect: its size is known within these orders only.
-inline constexpr double kSizes[] = {0.3, 1, 3, 10};
-
 /// Every explanation for these touches; `rows`: which touches take part.
 Explanations explanations_for(const RecordedTouches&, const std::vector<int>& rows);
 

@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kScalePrior = 0.7, kNoisePrior = 0.5;   // of the logarithms
+constexpr double kNoisePrior = 0.5;   // of the logarithm
 constexpr double kDependent = 1e-9;
 constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
 constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
@@ -73,7 +73,7 @@ class Likelihood {
       log_noise += 2 * moments_[g].rows * std::log(h.noise(g));
       prior += std::pow(std::log(h.noise(g)) / kNoisePrior, 2);
     }
-    prior += std::pow(std::log(h.scale) / kScalePrior, 2);
+    prior += std::pow(std::log(h.scale) / model_.scale_spread, 2);
     double log_scale = 0;
     for (Eigen::Index k = 0; k < model_.random.cols(); ++k) {
       const double s2 = model_.random_group[k] == 0 ? h.scale * h.scale : 1;
@@ -127,6 +127,25 @@ double maximise(const Likelihood& likelihood, Hyperparameters& h, double first_s
   return best;
 }
 
+/// Columns of Z that are of group 0, or those that are not.
+std::vector<Eigen::Index> columns_of_group(const LinearModel& m, bool scaled) {
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index k = 0; k < m.random.cols(); ++k)
+    if ((m.random_group[static_cast<std::size_t>(k)] == 0) == scaled) out.push_back(k);
+  return out;
+}
+
+/// The model with other columns in group 0.
+LinearModel with_ensemble(const LinearModel& m, const Matrix& ensemble) {
+  const std::vector<Eigen::Index> others = columns_of_group(m, false);
+  LinearModel out = m;
+  out.random.resize(m.random.rows(), ensemble.cols() + static_cast<Eigen::Index>(others.size()));
+  out.random << ensemble, m.random(Eigen::all, others);
+  out.random_group.assign(static_cast<std::size_t>(ensemble.cols()), 0);
+  for (const Eigen::Index k : others) out.random_group.push_back(m.random_group[static_cast<std::size_t>(k)]);
+  return out;
+}
+
 }  // namespace
 
 Hyperparameters estimate(const LinearModel& m) {
@@ -160,6 +179,24 @@ Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
   return out;
 }
 
+LinearModel compact(const LinearModel& m) {
+  constexpr double kNegligible = 1e-3;   // of the variance of one row, over all rows together
+  const Vector weight = m.noise_um.cwiseInverse();
+  const auto kept = [&](const Matrix& z) -> Matrix {
+    if (z.cols() == 0) return z;
+    const Matrix white = weight.asDiagonal() * z;
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(white.transpose() * white);
+    Eigen::Index first = 0;
+    while (first < z.cols() && solver.eigenvalues()(first) < kNegligible) ++first;
+    return z * solver.eigenvectors().rightCols(z.cols() - first);
+  };
+  LinearModel out = with_ensemble(m, kept(m.random(Eigen::all, columns_of_group(m, true))));
+  out.rough = kept(m.rough);
+  return out;
+}
+
+LinearModel rougher(const LinearModel& m) { return with_ensemble(m, m.rough); }
+
 LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < m.y.size(); ++i)
@@ -168,7 +205,9 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
   out.y = m.y(kept);
   out.free = m.free(kept, Eigen::all);
   out.random = m.random(kept, Eigen::all);
+  if (m.rough.cols() > 0) out.rough = m.rough(kept, Eigen::all);
   out.random_group = m.random_group;
+  out.scale_spread = m.scale_spread;
   out.noise_um = m.noise_um(kept);
   out.noise_groups = m.noise_groups;
   Eigen::Index before = -2;
@@ -218,34 +257,6 @@ Vector Rotated::precision_diagonal() const {
   Vector d = Vector::Ones(y_.size()) - q_.rowwise().squaredNorm();
   const Vector taken = (lambda_.array() / (1 + lambda_.array())).sqrt();
   return d - (basis_ * taken.asDiagonal()).rowwise().squaredNorm();
-}
-
-Level fit_level(const Vector& lambda, const Vector& z, double rest_squares, int rest_dof) {
-  const auto value = [&](double log_g2, double log_s2) {
-    const double g2 = std::exp(log_g2), s2 = std::exp(log_s2);
-    const auto v = g2 * lambda.array() + s2;
-    return -0.5 * (v.log().sum() + (z.array().square() / v).sum() + rest_dof * log_s2 + rest_squares / s2 +
-                   std::pow(log_g2 / (2 * kScalePrior), 2) + std::pow(log_s2 / (2 * kNoisePrior), 2));
-  };
-  double x[2] = {0, 0}, best = value(0, 0);
-  for (double step = 0.4; step > 0.02; step /= 2.5) {
-    for (bool moved = true; moved;) {
-      moved = false;
-      for (int p = 0; p < 2; ++p) {
-        for (const double by : {step, -step}) {
-          x[p] += by;
-          const double trial = value(x[0], x[1]);
-          if (trial > best + 1e-4) {
-            best = trial;
-            moved = true;
-            break;
-          }
-          x[p] -= by;
-        }
-      }
-    }
-  }
-  return {std::exp(x[0]), std::exp(x[1])};
 }
 
 }  // namespace abbe::diagnose

@@ -27,9 +27,11 @@ struct LinearModel {
   Matrix free;                      ///< X, one column per unknown of which nothing is known
   Matrix random;                    ///< Z, um per standard deviation
   std::vector<int> random_group;    ///< by column of Z; 0 is the group whose scale is estimated, the others keep theirs
+  Matrix rough;                     ///< another ensemble in the place of group 0: no columns when there is none (rough_geometry.hpp)
   Vector noise_um;                  ///< standard deviation of a row as the machine file states it
   std::vector<int> noise_group;     ///< by row
   int noise_groups = 1;
+  double scale_spread = 0.7;        ///< of the logarithm of the scale of group 0: how far a machine's errors may be from the specification's
   std::vector<char> follows;        ///< by row: measured right after the row before, with the same stylus
 };
 
@@ -44,6 +46,12 @@ Hyperparameters estimate(const LinearModel&);
 
 /// Standardised residual of each row, predicted from all other rows.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);
+
+/// The same model without the combinations of group 0 of Z, and of the other ensemble, that stay far below the noise.
+LinearModel compact(const LinearModel&);
+
+/// The model whose group 0 of Z is the other ensemble.
+LinearModel rougher(const LinearModel&);
 
 /// The model without some rows.
 LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);
@@ -63,6 +71,8 @@ class Rotated {
   Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
   /// What of projected columns the ensemble cannot do.
   Matrix remainder(const Matrix& projected, const Matrix& coordinates) const { return projected - basis_ * coordinates; }
+  /// The rows that have these coordinates, and this outside of them.
+  Vector recombined(const Vector& coordinates, const Vector& rest) const { return basis_ * coordinates + rest; }
   /// What of a whitened row vector neither X nor the ensemble reaches.
   Vector off_model(const Vector& white) const;
   const Vector& y() const { return y_; }             ///< projected
@@ -80,12 +90,5 @@ class Rotated {
   Vector lambda_, y_;
   int rest_dof_ = 0;
 };
-
-/// The two numbers that are estimated anew for every set of data: common factors on ensemble and noise.
-struct Level {
-  double g2 = 1, s2 = 1;
-};
-/// Level of data z (rank), rest (sum of squares and degrees of freedom) in the rotated basis; weak priors as in estimate().
-Level fit_level(const Vector& lambda, const Vector& z, double rest_squares, int rest_dof);
 
 }  // namespace abbe::diagnose

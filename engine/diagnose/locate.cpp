@@ -1,4 +1,6 @@
-// In which factor a mismatch lies: how much of it a free pattern in that factor alone describes.
+// In which factor a mismatch lies. Every explanation shows in one factor: an effect in that of which it is a function, OTHER in its own. A
+// factor is believed as much as all its explanations together, so a mismatch that has a name lies where that physics acts, and one that
+// has none where the best pattern of no physics lies.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -22,11 +24,11 @@ Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) 
   const auto info = search.information(index);
   Pattern best;
   double best_score = -1e300;
-  for (const double s : kSizes) {
+  for (const auto& [s, log_prior] : search.sizes(index)) {
     const Matrix m = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (s * s);
     const Eigen::LLT<Matrix> llt(m);
     const Vector mean = llt.solve(info.u);
-    const double score = 0.5 * info.u.dot(mean) - llt.matrixLLT().diagonal().array().log().sum() - double(info.g.rows()) * std::log(s);
+    const double score = 0.5 * info.u.dot(mean) - llt.matrixLLT().diagonal().array().log().sum() - double(info.g.rows()) * std::log(s) + log_prior;
     if (score < best_score) continue;
     best_score = score;
     best = {block.signature * mean, info.u.dot(mean)};
@@ -81,49 +83,53 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
   return {};
 }
 
-/// The best pattern of each factor, in one set of evidence.
-std::map<Factor, int> best_by_factor(const Explanations& all, const Evidence& evidence) {
-  std::map<Factor, int> best;
-  for (std::size_t k = 0; k < all.list.size(); ++k) {
-    if (all.list[k].effect) continue;
-    const auto found = best.find(all.list[k].factor);
-    if (found == best.end() || evidence.log_bayes[k] > evidence.log_bayes[found->second]) best[all.list[k].factor] = static_cast<int>(k);
+/// The explanations of one factor.
+struct Located {
+  int best = -1;                     ///< the likeliest
+  std::vector<double> log_belief;    ///< of each
+
+  void add(int explanation, double belief, const Evidence& evidence) {
+    if (best < 0 || evidence.log_bayes[explanation] > evidence.log_bayes[best]) best = explanation;
+    log_belief.push_back(belief);
   }
-  return best;
+};
+
+std::map<Factor, Located> by_factor(const Explanations& all, const Evidence& evidence) {
+  std::map<Factor, Located> out;
+  for (std::size_t k = 0; k < all.list.size(); ++k)
+    out[all.list[k].factor].add(static_cast<int>(k), std::log(all.list[k].prior) + evidence.log_bayes[k], evidence);
+  return out;
+}
+
+int best_block(const Explanation& e, const Evidence& evidence) {
+  return *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
 }
 
 }  // namespace
 
-std::vector<Location> locate(const Case& c, const SearchResult& result) {
-  const EvidenceSearch search(c.model, c.hyper, c.explanations);
+std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const SearchResult& result) {
   const Explanations& all = c.explanations;
-  double most = 0;
-  for (std::size_t k = 0; k < all.list.size(); ++k)
-    for (const int b : all.list[k].blocks)
-      if (result.first.block_log_bayes[b] > result.first.statistic - 5) most = std::max(most, pattern_of(search, all.blocks[b], b).energy);
+  std::vector<double> simulated;
+  for (const Evidence& null : result.null) simulated.push_back(*std::max_element(null.log_bayes.begin(), null.log_bayes.end()));
   struct Entry {
     Location location;
-    double log_bayes;
+    double belief, energy;
   };
   std::vector<Entry> entries;
-  for (const auto& [factor, k] : best_by_factor(all, result.first)) {
-    const int block = all.list[k].blocks.front();
+  for (const auto& [factor, located] : by_factor(all, result.first)) {
+    const int block = best_block(all.list[located.best], result.first);
     const Pattern pattern = pattern_of(search, all.blocks[block], block);
-    std::vector<double> simulated;
-    for (const Evidence& null : result.null) {
-      double top = -1e300;
-      for (const auto& [f, j] : best_by_factor(all, null)) top = std::max(top, null.log_bayes[j]);
-      simulated.push_back(top);
-    }
-    const double share = most > 0 ? std::clamp(pattern.energy / most, 0.0, 1.0) : 0;
-    entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), share,
-                        tail_probability(result.first.log_bayes[k], std::move(simulated))},
-                       result.first.log_bayes[k]});
+    entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
+                        tail_probability(result.first.log_bayes[located.best], simulated)},
+                       log_sum_exp(located.log_belief), pattern.energy});
   }
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.log_bayes > b.log_bayes; });
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.belief > b.belief; });
+  const double most = std::max_element(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.energy < b.energy; })->energy;
   std::vector<Location> out;
-  for (Entry& e : entries)
+  for (Entry& e : entries) {
+    e.location.share = most > 0 ? e.energy / most : 0;
     if (e.location.p <= 0.05 || out.empty()) out.push_back(std::move(e.location));
+  }
   return out;
 }
 

@@ -61,11 +61,7 @@ struct Round {
   double p = 1;
 };
 
-Round round(const Case& c, const std::vector<Finding>& before, int number) {
-  std::vector<const Matrix*> removed;
-  for (const Finding& f : before) removed.push_back(&c.explanations.blocks[f.block].signature);
-  const LinearModel model = with_free(c.model, removed);
-  const EvidenceSearch search(model, c.hyper, c.explanations);
+Round round(const Case& c, const EvidenceSearch& search, int number) {
   Round r{search.evidence(), {}, 1};
   r.null = search.bootstrap(r.evidence.statistic, c.options.replicates, c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
   std::vector<double> simulated;
@@ -87,10 +83,16 @@ Finding renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
 
 }  // namespace
 
-SearchResult search(const Case& c) {
+SearchResult search(const Case& c, const EvidenceSearch& first) {
   SearchResult result;
   for (int number = 0; number <= kRounds; ++number) {
-    Round r = round(c, result.findings, number);
+    std::optional<EvidenceSearch> rest;
+    if (number > 0) {
+      std::vector<const Matrix*> removed;
+      for (const Finding& f : result.findings) removed.push_back(&c.explanations.blocks[f.block].signature);
+      rest.emplace(with_free(c.model, removed), c.hyper, c.explanations);
+    }
+    Round r = round(c, rest ? *rest : first, number);
     if (number == 0) {
       result.p_value = r.p;
       result.first = r.evidence;

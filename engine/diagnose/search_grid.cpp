@@ -49,7 +49,9 @@ std::vector<double> places(const RecordedTouches& t) {
 }
 
 std::vector<double> choices(const EffectParameter& p, const RecordedTouches& t) {
-  const double high = p.name == "sensor" ? static_cast<double>(t.styli.size() > 1 ? t.styli.size() : 0) : p.high;
+  double high = p.high;
+  if (p.name == "sensor") high = t.styli.size() > 1 ? double(t.styli.size()) : 0;
+  if (p.name == "tip") high = t.tips > int(t.styli.size()) ? t.tips : 0;
   std::vector<double> list;
   for (double v = p.low; v <= high; ++v) list.push_back(v);
   return list;
@@ -72,7 +74,7 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
       {"half_size_mm", {250}},
   };
   if (is_direction(p)) return {Kind::direction, {0, 1, 2}};
-  if (!p.choices.empty() || p.name == "sensor") return {Kind::tried, choices(p, t)};
+  if (!p.choices.empty() || p.name == "sensor" || p.name == "tip") return {Kind::tried, choices(p, t)};
   if (p.name == "t0_s") return {Kind::tried, moments(t)};
   if (p.name == "period_s") return {Kind::tried, periods(t)};
   if (p.name == "tau_s") return {Kind::tried, time_constants(t)};

@@ -31,6 +31,7 @@ struct StylusScene {
   double head_a_rad = 0, head_b_rad = 0;
   bool indexed = false;
   int ordinal = 1;             ///< 1, 2, ...: stylus systems in the order of their first use
+  int tip_ordinal = 1;         ///< 1, 2, ...: qualified tips (a stylus system in one orientation) in the order of their first use
 };
 
 /// Temperatures in degrees C; 20 where nothing is known.
@@ -83,6 +84,7 @@ struct TouchScene {
   double load_kg = 0;
   int touch = 0;              ///< ordinal in the program or recording
   int feature = 0;            ///< ordinal of the feature measured
+  bool curved = true;         ///< its normals differ (a ball, a bore), other than on a face, a slot or a line
   int setup = 0, run = 0, visit = 0, qualification = 0;
   Vec3 travel_length_mm{1000, 1000, 1000};  ///< of the machine's axes
   /// From the origin of each carriage's frame (x, y, z) to the tip, W: the arm on which a rotation of that carriage acts. For x it

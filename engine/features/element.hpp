@@ -12,6 +12,11 @@ enum class Shape {
   arc, edge_point, surface, slot, rectangle, ellipse, parallel_planes, symmetry_plane
 };
 
+/// Whether a feature is made of faces. All others are curved, or points of a surface of which no more is known.
+constexpr bool is_flat(Shape s) {
+  return s == Shape::line || s == Shape::plane || s == Shape::slot || s == Shape::rectangle || s == Shape::parallel_planes || s == Shape::symmetry_plane;
+}
+
 /// A geometric element, in whatever frame its holder says (mm; directions are unit vectors).
 ///
 /// | shape    | point                     | direction               | size            | angle      |

@@ -17,6 +17,7 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = stylus_ordinal(sensors_.back(), {sensors_.begin(), sensors_.end() - 1});
+    sensors_.back().tip_ordinal = static_cast<int>(sensors_.size());
   }
   if (options.recorded) find_recorded_points();
   std::uint32_t touches = 0;

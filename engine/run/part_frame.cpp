@@ -1,29 +1,81 @@
 #include "engine/run/part_frame.hpp"
 
+#include <optional>
 #include <utility>
-#include <vector>
 
 #include "engine/math/rigid_fit.hpp"
 
 namespace abbe {
 
-PartFrames::PartFrames(const Recording& recording) {
-  std::map<int, std::map<std::pair<std::string, int>, Vec3>> targets;
-  for (const RecordingRow& row : recording.rows) targets[row.setup][{row.feature, row.touch}] = *row.target_mm;
-  const auto& first = targets.begin()->second;
-  Vec3 centre;
-  for (const auto& [key, point] : first) centre += point / static_cast<double>(first.size());
-  const Rigid X_P1{Mat3{}, -centre};
-  for (const auto& [setup, points] : targets) {
-    std::vector<Vec3> here, there;
-    Vec3 middle;
-    for (const auto& [key, point] : points) {
-      middle += point / static_cast<double>(points.size());
-      const auto same = first.find(key);
-      if (same != first.end()) here.push_back(point), there.push_back(same->second);
-    }
-    const std::optional<Rigid> X_1W = rigid_fit(here, there);
-    X_PW_[setup] = X_1W ? X_P1 * *X_1W : Rigid{Mat3{}, -middle};
+namespace {
+
+/// Targets of one point of the part in two placements agree this well: they come from one drawing.
+constexpr double kSamePoint_mm = 0.1;
+
+Vec3 middle_of(const std::vector<Vec3>& points) {
+  Vec3 sum;
+  for (const Vec3& p : points) sum += p / static_cast<double>(points.size());
+  return sum;
+}
+
+/// The point c that lies at one distance behind all touches of a feature: surface = c + rho normal, by least squares. Nothing for a feature
+/// that is touched from too few sides (a face, a line), which has no such point.
+std::optional<Vec3> centre_of(const std::vector<const AimedTouch*>& touches) {
+  std::vector<Vec3> normals, surfaces;
+  for (const AimedTouch* t : touches) normals.push_back(t->normal), surfaces.push_back(t->surface);
+  const Vec3 n = middle_of(normals), s = middle_of(surfaces);
+  double spread = 0, product = 0;
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    spread += dot(normals[i] - n, normals[i] - n);
+    product += dot(normals[i] - n, surfaces[i] - s);
+  }
+  constexpr double kFlat = 0.05;   // mean square spread of the normals
+  if (touches.size() < 3 || spread < kFlat * double(touches.size())) return std::nullopt;
+  const double rho = product / spread;
+  const Vec3 c = s - rho * n;
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    if (norm(surfaces[i] - rho * normals[i] - c) > kSamePoint_mm) return std::nullopt;
+  return c;
+}
+
+/// What a setup knows of the part: points with a key that is the same in every setup.
+using Known = std::map<std::pair<std::string, int>, Vec3>;
+
+/// The transform of the points that both know, if they are the same points of one rigid part.
+std::optional<Rigid> carried(const Known& here, const Known& first) {
+  std::vector<Vec3> from, to;
+  for (const auto& [key, point] : here) {
+    const auto same = first.find(key);
+    if (same != first.end()) from.push_back(point), to.push_back(same->second);
+  }
+  std::optional<Rigid> X = rigid_fit(from, to);
+  for (std::size_t i = 0; X && i < from.size(); ++i)
+    if (norm(*X * from[i] - to[i]) > kSamePoint_mm) X.reset();
+  return X;
+}
+
+}  // namespace
+
+PartFrames::PartFrames(const std::vector<AimedTouch>& touches) {
+  std::map<int, Known> points, centres;
+  std::map<std::pair<int, std::string>, std::vector<const AimedTouch*>> features;
+  for (const AimedTouch& t : touches) {
+    points[t.setup][{t.feature, t.index}] = t.surface;
+    features[{t.setup, t.feature}].push_back(&t);
+  }
+  for (const auto& [which, mine] : features)
+    if (const std::optional<Vec3> c = centre_of(mine)) centres[which.first][{which.second, 0}] = *c;
+  const auto middle = [&](int setup) {
+    std::vector<Vec3> all;
+    for (const auto& [key, point] : points.at(setup)) all.push_back(point);
+    return middle_of(all);
+  };
+  const int first = points.begin()->first;
+  const Rigid X_P1{Mat3{}, -middle(first)};
+  for (const auto& [setup, known] : points) {
+    std::optional<Rigid> X_1W = carried(known, points[first]);
+    if (!X_1W) X_1W = carried(centres[setup], centres[first]);
+    X_PW_[setup] = X_1W ? X_P1 * *X_1W : Rigid{Mat3{}, -middle(setup)};
   }
 }
 

@@ -1,18 +1,28 @@
 // The part's own coordinates in every setup of a recording: those of the first setup, with the centre of its targets as origin. Other
-// setups are brought onto them by the touches (feature, index) that they share with it: the best rigid transform of the targets
-// (Kabsch's problem, solved as Horn's quaternion, J. Opt. Soc. Am. A 4, 1987). A setup that shares fewer than three touches, or
-// touches on one line, keeps the orientation of the machine's axes.
+// setups are brought onto them by what they share with it, with the best rigid transform (rigid_fit): the touches of the same feature and
+// index where these are the same points of the part, else the centres of the features that are touched from enough sides to have one
+// (balls, mostly). A setup that shares too little keeps the orientation of the machine's axes.
 #pragma once
 
 #include <map>
+#include <string>
+#include <vector>
 
-#include "engine/recording/recording.hpp"
+#include "engine/math/vec.hpp"
 
 namespace abbe {
 
+/// Where a touch was aimed, in the machine's coordinates.
+struct AimedTouch {
+  int setup = 1;
+  std::string feature;
+  int index = 1;              ///< of the touch in its feature
+  Vec3 surface, normal;
+};
+
 class PartFrames {
  public:
-  explicit PartFrames(const Recording&);
+  explicit PartFrames(const std::vector<AimedTouch>&);
   /// A point or a direction of the machine's coordinates, as seen from the part of that setup.
   Vec3 on_part(int setup, const Vec3& point) const { return X_PW_.at(setup) * point; }
   Vec3 direction_on_part(int setup, const Vec3& direction) const { return X_PW_.at(setup).R * direction; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <numeric>
 
 #include "engine/machine/geometry.hpp"
@@ -117,6 +118,7 @@ class Sensors {
     Sensor sensor = resolve(name, row, out);
     sensor.ordinal = stylus_ordinal(sensor, met_);
     met_.push_back(sensor);
+    sensor.tip_ordinal = out.tips = static_cast<int>(met_.size());
     if (static_cast<int>(out.styli.size()) < sensor.ordinal) out.styli.push_back(sensor.name);
     return known_.emplace(key, std::move(sensor)).first->second;
   }
@@ -248,6 +250,18 @@ void require_target(const RecordingRow& row, const std::string& file) {
                              "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
 }
 
+/// A feature is curved when its touches have normals that are neither parallel nor opposite.
+void find_curved(std::vector<RecordedTouch>& touches) {
+  constexpr double kParallel = 0.1;
+  std::map<int, Vec3> first;
+  std::set<int> curved;
+  for (const RecordedTouch& t : touches) {
+    const Vec3 n = first.emplace(t.scene.feature, t.scene.normal_on_part).first->second;
+    if (norm(cross(n, t.scene.normal_on_part)) > kParallel) curved.insert(t.scene.feature);
+  }
+  for (RecordedTouch& t : touches) t.scene.curved = curved.count(t.scene.feature) > 0;
+}
+
 }  // namespace
 
 RecordedTouches recorded_touches(const Recording& recording, const Machine& machine, const std::string& file) {
@@ -265,7 +279,14 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
   }
   const Vec3 shift = placement(recording, machine, readings, out, file);
-  const PartFrames part(recording);
+  const auto surface_of = [&](std::size_t i) {
+    const RecordingRow& row = recording.rows[i];
+    return recording.point == RecordedPoint::surface ? *row.target_mm : *row.target_mm - sensor_of[i]->radius_mm * *row.normal;
+  };
+  std::vector<AimedTouch> aimed;
+  for (std::size_t i = 0; i < recording.rows.size(); ++i)
+    aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i), *recording.rows[i].normal});
+  const PartFrames part(aimed);
   for (const int i : order_of(recording)) {
     const RecordingRow& row = recording.rows[i];
     const Sensor& sensor = *sensor_of[i];
@@ -276,7 +297,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     t.per_rad_b_mm = sensor.per_rad_b_mm;
     TouchScene& s = t.scene;
     s.normal = *row.normal;
-    const Vec3 surface = recording.point == RecordedPoint::surface ? *row.target_mm : *row.target_mm - sensor.radius_mm * s.normal;
+    const Vec3 surface = surface_of(static_cast<std::size_t>(i));
     s.point = surface + shift;
     s.reading = readings[i] + shift;
     s.on_part = part.on_part(row.setup, surface);
@@ -291,6 +312,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   }
   for (RecordedTouch& t : out.touches) t.scene.stylus.name = *out.names.insert(sensor_of[t.row]->name).first;
   follow_sequence(recording, out.touches);
+  find_curved(out.touches);
   return out;
 }
 

@@ -30,6 +30,7 @@ struct RecordedTouches {
   std::vector<RecordedTouch> touches; ///< in the order of time where it was logged, else of the rows
   std::vector<std::string> features;  ///< labels by TouchScene::feature
   std::vector<std::string> styli;     ///< by StylusScene::ordinal - 1: the name of the first sensor with that stylus
+  int tips = 0;                       ///< qualified tips: styli in each of their orientations
   std::set<std::string> names;        ///< of the sensors; scenes point to them
   unsigned known = 0;                 ///< Covariates that every row gives
   unsigned varying = 0;               ///< of these, those that are not the same throughout

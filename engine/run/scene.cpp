@@ -61,6 +61,7 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     }
     scene.touch = static_cast<int>(executor.site_[operation]);
     scene.feature = touch.feature.value;
+    scene.curved = !is_flat(executor.plan_[touch.feature].kind->shape);
     scene.visit = static_cast<int>(twin.indexings);
     set_levers(executor.machine_, scene);
     group->second.scene = &scene;

@@ -18,6 +18,7 @@ StylusScene stylus_scene(const Sensor& sensor) {
   s.head_b_rad = sensor.head_b_rad;
   s.indexed = sensor.indexed;
   s.ordinal = sensor.ordinal;
+  s.tip_ordinal = sensor.tip_ordinal;
   return s;
 }
 

@@ -12,6 +12,7 @@ namespace abbe {
 struct Sensor {
   std::string name;
   int ordinal = 1;                 ///< 1, 2, ...: stylus systems in the order of their first use (stylus_ordinal)
+  int tip_ordinal = 1;             ///< 1, 2, ...: qualified tips, which is each stylus system in each of its orientations
   Vec3 tip_in_r_mm;                ///< tip centre in the last link of the head
   Vec3 tip_from_mount_mm;          ///< nominal tip centre seen from the mounting point, along the axes of W
   Mat3 R_WR;                       ///< the last link of the head in W: turns the probe's errors into W

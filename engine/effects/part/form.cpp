@@ -1,11 +1,12 @@
 // Form error of the part or of the artefact (catalogue W3).
 //
-//   r = sum_k a_k h_k(n_part) + [ a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength) ]
+//   curved features:  r = sum_k a_k h_k(n_part)
+//   faces:            r = a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength)
 //
 // h_k are real harmonics of the normal in the part's frame, with a largest value of 1: the five of
 // degree 2 and the two sectoral ones of degree 3. On a sphere they are its form, on a cylinder
-// along the part's z ovality and three lobes. Faces of one normal have a form over their position p
-// along an axis of the part instead: a wave. r > 0 is material too much. The form is there in every
+// along the part's z ovality and three lobes. A face has one normal: its form is over the position p
+// along an axis of the part, a wave. r > 0 is material too much. The form is there in every
 // repeat and moves with the part. Sizes: reference spheres 0.05 to 0.1 um, machined parts
 // micrometres.
 // Source: real solid harmonics on the unit sphere; ISO 12181 (lobes), ISO 12780 (waviness).
@@ -36,9 +37,9 @@ constexpr EffectParameter kParameters[] = {
     lobe("three_lobe_um", "three lobes about the part's z: one of them proud along x"),
     lobe("three_lobe_30_um",
          "three lobes about the part's z: one of them proud at 30 degrees from x"),
-    lobe("wave_um", "wave over the position on the part: sine, zero at the part's origin"),
+    lobe("wave_um", "faces: wave over the position on the part, sine, zero at the part's origin"),
     lobe("wave_cosine_um",
-         "wave over the position on the part: cosine, proud at the part's origin"),
+         "faces: wave over the position on the part, cosine, proud at the part's origin"),
     {.name = "wavelength_mm",
      .unit = "mm",
      .help = "length of the wave",
@@ -50,13 +51,15 @@ constexpr EffectParameter kParameters[] = {
 };
 
 Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
-  const auto [x, y, z] = scene.normal_on_part;
-  double r_um = theta[0] * (x * x - y * y) + theta[1] * 2 * x * y + theta[2] * 2 * x * z +
-                theta[3] * 2 * y * z + theta[4] * (3 * z * z - 1) / 2 +
-                theta[5] * x * (x * x - 3 * y * y) + theta[6] * y * (3 * x * x - y * y);
-  if (theta[7] != 0 || theta[8] != 0) {
+  double r_um;
+  if (scene.curved) {
+    const auto [x, y, z] = scene.normal_on_part;
+    r_um = theta[0] * (x * x - y * y) + theta[1] * 2 * x * y + theta[2] * 2 * x * z +
+           theta[3] * 2 * y * z + theta[4] * (3 * z * z - 1) / 2 +
+           theta[5] * x * (x * x - 3 * y * y) + theta[6] * y * (3 * x * x - y * y);
+  } else {
     const double phase = 2 * kPi * scene.on_part[code(theta[10])] / theta[9];
-    r_um += theta[7] * std::sin(phase) + theta[8] * std::cos(phase);
+    r_um = theta[7] * std::sin(phase) + theta[8] * std::cos(phase);
   }
   return along_normal(scene, r_um * kUm);
 }

@@ -2,7 +2,8 @@
 //
 //   d = amplitude R_WR u   for t >= t0,   else 0
 //
-// The jump is fixed in the probe body, so it turns with the head, and it concerns one stylus only.
+// The jump is fixed in the probe body, so it turns with the head, and it concerns one stylus only, or
+// one of its qualified tips.
 // Size: 0.5 um to millimetres.
 // Confused with: part.shift and machine.step, when there is one orientation and one stylus.
 #include "engine/effects/direction.hpp"
@@ -42,10 +43,18 @@ constexpr EffectParameter kParameters[] = {
      .low = -90,
      .high = 90},
     kSensorParameter,
+    {.name = "tip",
+     .unit = "code",
+     .help = "which qualified tip: 0 the stylus in every orientation of the head; 1, 2, ...: only in "
+             "the one whose sensor comes first, second, ... (an arm of a star, an orientation "
+             "qualified anew)",
+     .high = 1000},
 };
 
 Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
   if (scene.time_s < theta[1] || !concerns(scene.stylus, theta[5])) return {};
+  const int tip = static_cast<int>(theta[6]);
+  if (tip != 0 && tip != scene.stylus.tip_ordinal) return {};
   return theta[0] * kUm * (scene.stylus.R_WR * chosen_direction(theta + 2));
 }
 

@@ -49,7 +49,8 @@ Explanations two(int rows) {
 
 }  // namespace
 
-TEST_CASE("the Bayes factor is that of the two normal densities") {
+TEST_CASE("the Bayes factor is that of the definition") {
+  // L(g, s) = integral over the common factor v of N(y; 0, v V) times its inverse gamma prior (shape 2, scale 2), done numerically here.
   const int n = 60;
   LinearModel m = noise_only(n, 1);
   const Explanations all = two(n);
@@ -57,19 +58,60 @@ TEST_CASE("the Bayes factor is that of the two normal densities") {
   Hyperparameters h;
   h.noise = Vector::Ones(1);
   const EvidenceSearch search(m, h, all);
-  const double g2 = search.level().g2, s2 = search.level().s2;
-  // log N(y; 0, V + s^2 h h') - log N(y; 0, V) by definition, with the constant given a prior variance beyond all doubt.
-  const auto log_density = [&](double size) {
-    Matrix v = s2 * Matrix::Identity(n, n) + g2 * m.random * m.random.transpose() + 1e6 * m.free * m.free.transpose();
+  const auto log_likelihood = [&](double g, double size) {
+    Matrix v = Matrix::Identity(n, n) + g * g * m.random * m.random.transpose() + 1e7 * m.free * m.free.transpose();
     v += size * size * all.blocks[0].signature * all.blocks[0].signature.transpose();
     const Eigen::LLT<Matrix> llt(v);
     const Matrix l = llt.matrixL();
-    return -l.diagonal().array().log().sum() - 0.5 * m.y.dot(llt.solve(m.y));
+    const double half_log_determinant = l.diagonal().array().log().sum(), squares = m.y.dot(llt.solve(m.y));
+    std::vector<double> logs;
+    for (double log_v = -4; log_v < 4; log_v += 0.01) {
+      const double f = std::exp(log_v);
+      logs.push_back(-half_log_determinant - 0.5 * (n - 1) * log_v - 0.5 * squares / f - 2 * log_v - 2 / f);   // dv = v d(log v)
+    }
+    return log_sum_exp(logs);
   };
-  std::vector<double> sizes;
-  for (const double s : kSizes) sizes.push_back(log_density(s) - log_density(0) - std::log(double(std::size(kSizes))));
-  CHECK(search.evidence().log_bayes[0] == doctest::Approx(log_sum_exp(sizes)).epsilon(1e-4));
+  std::vector<double> alone, with;
+  for (int k = 0; k < 7; ++k) {
+    const double g = std::pow(1.25, (k - 3) / 3.0), prior = -0.5 * std::pow(std::log(g) / m.scale_spread, 2);
+    alone.push_back(prior + log_likelihood(g, 0));
+    for (const Size& s : search.sizes(0)) with.push_back(prior + s.log_prior + log_likelihood(g, s.factor));
+  }
+  CHECK(search.evidence().log_bayes[0] == doctest::Approx(log_sum_exp(with) - log_sum_exp(alone)).epsilon(1e-3));
   CHECK(search.evidence().log_bayes[0] > search.evidence().log_bayes[1] + 3);
+}
+
+TEST_CASE("an ensemble of larger errors does not swallow an effect") {
+  // The parabola is nearly within the span of the ensemble. Estimated alone, the ensemble would have to be twenty times as large.
+  const int n = 80;
+  LinearModel m = noise_only(n, 7);
+  for (int i = 0; i < n; ++i) m.random(i, 1) = std::pow(2.0 * i / n - 1, 2) - 0.4;
+  m.random *= 0.5;
+  const Explanations all = two(n);
+  m.y += 10 * all.blocks[1].signature.col(0);
+  const Hyperparameters h = estimate(m);
+  CHECK(h.scale > 3);
+  CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] > 2);
+}
+
+TEST_CASE("errors rougher than the ensemble are no mismatch") {
+  const int n = 120;
+  LinearModel m = noise_only(n, 9);
+  const Explanations all = two(n);
+  m.rough = Matrix::Zero(n, 12);
+  for (int k = 0; k < 12; ++k)
+    for (int i = 0; i < n; ++i) m.rough(i, k) = std::exp(-0.5 * std::pow((i - 10.0 * k) / 6, 2));
+  for (int k = 0; k < 12; ++k) m.y += 5 * normal(static_cast<std::uint32_t>(5000 + k)) * m.rough.col(k);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  h.scale = 4;
+  const EvidenceSearch with_rough(m, h, all);
+  CHECK(with_rough.rough() > 0.99);
+  CHECK(with_rough.evidence().statistic < 2);
+  // Smooth ones are not taken for rough.
+  LinearModel smooth = noise_only(n, 12);
+  smooth.rough = m.rough;
+  CHECK(EvidenceSearch(smooth, h, all).rough() < 0.2);
 }
 
 TEST_CASE("p-values without a mismatch are uniform") {

@@ -95,12 +95,14 @@ TEST_CASE("unknowns that the rows do not determine do no harm") {
   CHECK(leave_one_out(m, h).allFinite());
 }
 
-TEST_CASE("level is fitted anew to any data") {
-  const LinearModel m = model_of(300, 1, 1, 0, 6);
-  Hyperparameters h;
-  h.noise = Vector::Ones(1);
-  const Rotated r(m, h);
-  const Vector z = r.z(), rest = r.remainder(r.y(), z);
-  const Level level = fit_level(r.lambda(), 1.5 * z, 2.25 * rest.squaredNorm(), r.rest_dof());
-  CHECK(level.s2 == doctest::Approx(2.25).epsilon(0.2));
+TEST_CASE("a compact model is the same model") {
+  LinearModel m = model_of(80, 1, 1, 0, 6);
+  const Eigen::Index before = m.random.cols();
+  m.random.conservativeResize(Eigen::NoChange, before + 2);
+  m.random.col(before) = m.random.col(0);
+  m.random.col(before + 1) = 1e-5 * m.y;
+  m.random_group.resize(static_cast<std::size_t>(before) + 2, 0);
+  const LinearModel c = compact(m);
+  CHECK(c.random.cols() <= before);
+  CHECK((c.random * c.random.transpose() - m.random * m.random.transpose()).cwiseAbs().maxCoeff() < 1e-3);
 }

@@ -139,10 +139,11 @@ TEST_CASE("form: the harmonics are orthogonal to radius and centre of a sphere")
   }
 }
 
-TEST_CASE("form: a wave over the position along its axis") {
+TEST_CASE("form: faces have a wave over the position along its axis") {
   const auto at = [](double y, std::string_view name) {
-    return reading_um(kPartForm, touch_on_part({7, y, 3}, {0, 0, 1}),
-                      {{name, 2}, {"wavelength_mm", 40}, {"axis", 1}});
+    TouchScene face = touch_on_part({7, y, 3}, {0, 0, 1});
+    face.curved = false;
+    return reading_um(kPartForm, face, {{name, 2}, {"wavelength_mm", 40}, {"axis", 1}});
   };
   CHECK(at(10, "wave_um") == doctest::Approx(2));
   CHECK(at(0, "wave_cosine_um") == doctest::Approx(2));
