@@ -9,6 +9,8 @@ namespace abbe::diagnose {
 
 /// False alarms that a diagnosis allows itself.
 inline constexpr double kAlarm = 0.01;
+/// Standard deviations, predicted from all other touches, beyond which a touch is a gross outlier: one in 40 000 normal ones.
+inline constexpr double kOutlier = 4.2;
 /// Probability that a set of names must reach.
 inline constexpr double kCredible = 0.95;
 
@@ -22,6 +24,7 @@ struct Case {
   std::vector<int> rows;             ///< touches that take part
   LinearModel model;                 ///< of `rows`
   Hyperparameters hyper;
+  bool rough = false;                ///< the machine's errors are rougher than the specification's ensemble
   Explanations explanations;         ///< on `rows`
 };
 

@@ -13,7 +13,6 @@ using namespace diagnose;
 
 namespace {
 
-constexpr double kOutlier = 4.2;          // standard deviations, predicted from all other touches: one in 40 000 normal touches
 constexpr int kMaskings = 4;
 
 /// A real part is not where its drawing says: residuals far beyond what machines do, and runs to compare, mean that only the runs can be compared.
@@ -217,6 +216,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
     out.next_measurement = next_measurements(c, nullptr);
     return out;
   }
+  c.rough = first.rough() > 0.5;
   const SearchResult result = search(c, first);
   out.p_value = result.p_value;
   out.rivals = rivals(c, first, result.first);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
+#include <numeric>
 
 #include "engine/diagnose/case.hpp"
 
@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// Three looks at the variance may not cost more false alarms than a tenth of what the search allows itself.
+/// The looks at the variance may not cost more false alarms than a tenth of what the search allows itself.
 constexpr double kNoiseAlarm = 3e-4;
 
 /// The probability that a chi-squared variable of one degree of freedom exceeds x.
@@ -19,109 +19,122 @@ double chi2_above_1(double x) { return std::erfc(std::sqrt(std::max(0.0, x) / 2)
 
 struct Residuals {
   Vector standardised;              ///< variance 1 under the fitted noise
-  Vector um;
+  double noise_um = 1;              ///< that noise
+  double tails = 1;                 ///< by how much squares scatter more than those of normal residuals
 };
+
+/// Half the variance of the squared residuals: 1 for normal ones, more for heavy tails, which would pass for unequal scatter.
+double tails_of(const Vector& standardised) {
+  const double square = standardised.squaredNorm() / double(standardised.size());
+  const double fourth = standardised.array().pow(4).sum() / double(standardised.size());
+  return std::max(1.0, (fourth / (square * square) - 1) / 2);
+}
 
 Residuals residuals(const Case& c, const SearchResult& result) {
   std::vector<const Matrix*> named;
   for (const Finding& f : result.findings) named.push_back(&c.explanations.blocks[f.block].signature);
   if (result.other) named.push_back(&c.explanations.blocks[result.other->block].signature);
   // One noise for all rows, so that a difference between groups shows.
-  LinearModel m = with_free(c.model, named);
+  LinearModel m = with_free(c.rough ? rougher(c.model) : c.model, named);
   m.noise_group.assign(m.noise_group.size(), 0);
   m.noise_groups = 1;
   const Hyperparameters h = estimate(m);
-  Residuals r{leave_one_out(m, h), {}};
-  r.um = r.standardised.array() * m.noise_um.array() * h.noise(0);
+  Residuals r{leave_one_out(m, h), m.noise_um.mean() * h.noise(0), 1};
+  r.tails = tails_of(r.standardised);
   return r;
+}
+
+/// Variances 1 + excess * share, times a common factor: what they gain over equal ones.
+struct Excess {
+  double size = 0, p = 1;
+};
+Excess excess_along(const Vector& standardised, const Vector& share, double tails) {
+  const Vector square = standardised.array().square();
+  const auto n = static_cast<double>(square.size());
+  const auto log_likelihood = [&](double excess) {
+    const Vector v = 1 + excess * share.array();
+    return -0.5 * (v.array().log().sum() + n * std::log((square.array() / v.array()).mean()));
+  };
+  Excess out;
+  double best = 0;
+  for (double excess = 0.05; excess < 300; excess *= 1.15) {
+    const double gain = log_likelihood(excess) - log_likelihood(0);
+    if (gain > best) best = gain, out.size = excess;
+  }
+  out.p = chi2_above_1(2 * best / tails) / 2;
+  return out;
 }
 
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u) {
   return {.name = name, .unit = unit, .value = value, .u = u, .low = std::max(0.0, value - 1.96 * u), .high = value + 1.96 * u};
 }
 
-/// Two groups of touches with different scatter: the likelihood ratio of two variances against one.
+/// Touches of one kind that scatter more than the others.
 std::optional<NoiseFinding> unequal(const Case& c, const Residuals& r) {
-  constexpr double kLeastRatio = 1.5;
+  constexpr double kLeastRatio = 1.15;
+  constexpr int kEnough = 20;
   struct Split {
     const char* what;
     const char* word;
-    std::vector<char> in;
+    Vector in;
   };
-  std::vector<Split> splits{{"long styli", "long stylus", {}}, {"tilted head", "tilted head", {}}, {"fast probing", "fast probing", {}}};
-  std::vector<double> length, speed;
-  for (const int i : c.rows) length.push_back(c.touches.touches[i].scene.stylus.length_mm), speed.push_back(c.touches.touches[i].scene.speed_mm_s);
-  const auto middle = [](const std::vector<double>& v) { return (*std::min_element(v.begin(), v.end()) + *std::max_element(v.begin(), v.end())) / 2; };
-  const double length_limit = middle(length), speed_limit = middle(speed);
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    splits[0].in.push_back(length[k] > length_limit + 1);
-    splits[1].in.push_back(std::abs(c.touches.touches[c.rows[k]].scene.stylus.head_a_rad) > 0.02);
-    splits[2].in.push_back(speed[k] > speed_limit + 1e-6);
+  const auto rows = static_cast<Eigen::Index>(c.rows.size());
+  std::vector<Split> splits{{"long styli", "long stylus", Vector(rows)}, {"tilted head", "tilted head", Vector(rows)}, {"fast probing", "fast probing", Vector(rows)}};
+  const auto scene = [&](Eigen::Index k) -> const TouchScene& { return c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)])].scene; };
+  Vector length(rows), speed(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) length(k) = scene(k).stylus.length_mm, speed(k) = scene(k).speed_mm_s;
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    splits[0].in(k) = length(k) > (length.minCoeff() + length.maxCoeff()) / 2 + 1;
+    splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > 0.02;
+    splits[2].in(k) = speed(k) > (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
   }
   std::optional<NoiseFinding> best;
-  for (std::size_t s = 0; s < splits.size(); ++s) {
-    double square[2] = {}, n[2] = {};
-    for (std::size_t k = 0; k < splits[s].in.size(); ++k) {
-      const int g = splits[s].in[k] ? 1 : 0;
-      square[g] += std::pow(r.standardised(static_cast<Eigen::Index>(k)), 2);
-      n[g] += 1;
-    }
-    if (n[0] < 20 || n[1] < 20) continue;
-    const double v[2] = {square[0] / n[0], square[1] / n[1]}, pooled = (square[0] + square[1]) / (n[0] + n[1]);
-    const double ratio = std::sqrt(v[1] / v[0]), u = ratio * std::sqrt(1 / (2 * n[0]) + 1 / (2 * n[1]));
-    const double p = chi2_above_1((n[0] + n[1]) * std::log(pooled) - n[0] * std::log(v[0]) - n[1] * std::log(v[1]));
-    if (p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->p < p)) continue;
-    NoiseFinding f{find_effect("noise.unequal"), p, {figure("ratio", "1", ratio, u)}, {}};
-    f.parameters.push_back({.name = "group", .unit = "", .word = splits[s].word});
-    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", splits[s].what, ratio);
+  for (const Split& s : splits) {
+    const double in = s.in.sum(), out = double(rows) - in;
+    if (in < kEnough || out < kEnough) continue;
+    const Excess e = excess_along(r.standardised, s.in, r.tails);
+    const double ratio = std::sqrt(1 + e.size), u = ratio * std::sqrt(1 / (2 * in) + 1 / (2 * out));
+    if (e.p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->p < e.p)) continue;
+    NoiseFinding f{find_effect("noise.unequal"), e.p, {figure("ratio", "1", ratio, u)}, {}};
+    f.parameters.push_back({.name = "group", .unit = "", .word = s.word});
+    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.what, ratio);
     best = std::move(f);
   }
   return best;
 }
 
-/// Positions that are all multiples of one step.
+/// Positions that are all multiples of one step: the greatest common divisor of what the file says, in its last digit.
 std::optional<NoiseFinding> resolution(const Case& c) {
-  constexpr double kLeastOfNoise = 0.3, kCoherent = 0.98, kStored_um = 1e-4;
-  for (const double step_um : {10.0, 5.0, 2.0, 1.0, 0.5, 0.25, 0.2, 0.1}) {
-    double sum = 0, n = 0;
-    for (const int i : c.rows) {
-      const RecordingRow& row = c.recording->rows[c.touches.touches[i].row];
-      for (int k = 0; k < 3; ++k) {
-        if (std::abs((*row.normal)[k]) < 0.3) continue;
-        sum += std::cos(2 * kPi * std::remainder(1e3 * row.position_mm[k], step_um) / step_um);
-        n += 1;
-      }
-    }
-    if (n < 20 || sum / n < kCoherent) continue;
-    if (step_um / std::sqrt(12.0) < kLeastOfNoise * c.model.noise_um.mean()) return std::nullopt;
-    NoiseFinding f{find_effect("noise.resolution"), std::exp(-n), {figure("resolution_um", "um", step_um, kStored_um)}, {}};
-    f.sentence = fmt::format("All recorded positions are multiples of {:g} um: the readings were rounded.", step_um);
-    return f;
+  constexpr double kLeastOfNoise = 0.3, kLastDigitsPerMm = 1e6, kStored_um = 1e-4;
+  long long step = 0;
+  for (const int i : c.rows) {
+    const Vec3& p = c.recording->rows[static_cast<std::size_t>(c.touches.touches[static_cast<std::size_t>(i)].row)].position_mm;
+    for (int k = 0; k < 3; ++k) step = std::gcd(step, std::llround(kLastDigitsPerMm * p[k]));
   }
-  return std::nullopt;
+  const double step_um = 1e3 * double(step) / kLastDigitsPerMm;
+  if (step_um / std::sqrt(12.0) < kLeastOfNoise * c.model.noise_um.mean()) return std::nullopt;
+  // That every one of so many numbers has this divisor by chance is out of the question.
+  NoiseFinding f{find_effect("noise.resolution"), 1e-12, {figure("resolution_um", "um", step_um, kStored_um)}, {}};
+  f.sentence = fmt::format("All recorded positions are multiples of {:g} um: the readings were rounded.", step_um);
+  return f;
 }
 
 /// Scatter that depends on the direction of the normal, or that is far above the machine's.
 std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
-  constexpr double kLeastExcess = 1.6;
+  constexpr double kLeastExcess = 1.6, kLeastAlong = 1.2;
   std::optional<NoiseFinding> best;
   const double n = static_cast<double>(c.rows.size());
   for (int axis = 0; axis < 3; ++axis) {
-    // Var = 1 + a (n_axis^2 - mean): a by least squares of the squared residuals, whose variance is 2.
-    double mean = 0, sxx = 0, sxy = 0;
-    for (const int i : c.rows) mean += std::pow(c.touches.touches[i].scene.normal[axis], 2) / n;
-    for (std::size_t k = 0; k < c.rows.size(); ++k) {
-      const double x = std::pow(c.touches.touches[c.rows[k]].scene.normal[axis], 2) - mean;
-      sxx += x * x;
-      sxy += x * (std::pow(r.standardised(static_cast<Eigen::Index>(k)), 2) - 1);
-    }
-    if (sxx < 1) continue;
-    const double a = sxy / sxx, statistic = a * a * sxx / 2, p = chi2_above_1(statistic);
-    const double along = std::max(0.0, 1 + a * (1 - mean)), across = std::max(0.05, 1 - a * mean);
-    if (a <= 0 || p > kNoiseAlarm / 3 || std::sqrt(along / across) < kLeastExcess || (best && best->p < p)) continue;
-    const double noise = c.model.noise_um.mean() * c.hyper.noise.mean();
-    const double sd = noise * std::sqrt(std::max(0.0, along - across));
-    NoiseFinding f{find_effect("noise.vibration"), p, {figure("sd_um", "um", sd, sd * std::sqrt(1 / (2 * n * mean)))}, {}};
+    Vector along(r.standardised.size());
+    for (std::size_t k = 0; k < c.rows.size(); ++k)
+      along(static_cast<Eigen::Index>(k)) = std::pow(c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene.normal[axis], 2);
+    if ((along.array() - along.mean()).square().sum() < 1) continue;
+    const Excess e = excess_along(r.standardised, along, r.tails);
+    if (e.p > kNoiseAlarm || std::sqrt(1 + e.size) < kLeastAlong || (best && best->p < e.p)) continue;
+    // The fitted noise is that of all touches together; what is left of it across the axis is the probe's own.
+    const double probe = r.noise_um * std::sqrt((r.standardised.array().square() / (1 + e.size * along.array())).mean());
+    const double sd = probe * std::sqrt(e.size), u = sd * (1 + 1 / e.size) / std::sqrt(2 * along.sum());
+    NoiseFinding f{find_effect("noise.vibration"), e.p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
     f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.", "xyz"[axis], sd);
     best = std::move(f);
@@ -136,14 +149,15 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
   return f;
 }
 
+/// More touches beyond the limit of gross outliers than normal noise puts there: the tail of a Poisson law.
 std::optional<NoiseFinding> outliers(const Case& c) {
-  constexpr double kLeastShare = 0.015;
   double n = 0, sum = 0;
   for (std::size_t i = 0; i < c.masked.size(); ++i)
     if (c.masked[i]) n += 1, sum += 1e3 * std::abs(c.touches.touches[i].residual_mm);
-  const double all = static_cast<double>(c.masked.size()), share = n / all;
-  if (n < 4 || share < kLeastShare) return std::nullopt;
-  NoiseFinding f{find_effect("noise.outliers"), std::exp(-n), {figure("share", "1", share, std::sqrt(share / all)), figure("size_um", "um", sum / n, sum / n / std::sqrt(n))}, {}};
+  const double all = static_cast<double>(c.masked.size()), share = n / all, expected = all * std::erfc(kOutlier / std::sqrt(2.0));
+  const double p = std::exp(n * std::log(expected) - std::lgamma(n + 1));
+  if (n < 2 || p > kNoiseAlarm) return std::nullopt;
+  NoiseFinding f{find_effect("noise.outliers"), p, {figure("share", "1", share, std::sqrt(share / all)), figure("size_um", "um", sum / n, sum / n / std::sqrt(n))}, {}};
   f.sentence = fmt::format("{:.0f} of {} touches are outliers: dirt, burrs or early triggers.", n, c.masked.size());
   return f;
 }

@@ -1,6 +1,7 @@
-// OTHER: smooth random patterns in each factor, for physics that the catalogue does not have. Without it a diagnosis names the nearest
-// effect with great confidence whatever the truth is. Each pattern is a Gaussian process with a squared-exponential covariance, in its
-// subset-of-regressors form on evenly spread centres (Rasmussen & Williams 2006, 8.3.1): columns K_rows,centres K_centres^(-1/2), amplitude 1 um.
+// OTHER: random patterns in each factor, for physics that the catalogue does not have. Without it a diagnosis names the nearest
+// effect with great confidence whatever the truth is. Smooth patterns are Gaussian processes with a squared-exponential covariance, in their
+// subset-of-regressors form on evenly spread centres (Rasmussen & Williams 2006, 8.3.1): columns K_rows,centres K_centres^(-1/2), amplitude
+// 1 um. Periodic ones are sines and cosines of one frequency each.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -103,12 +104,14 @@ class Patterns {
     const Matrix one = Matrix::Ones(normal_.size(), 1);
     add(Factor::time, "slow", along(smooth(time_, 0.3, 8), normal_));
     add(Factor::time, "quick", along(smooth(time_, 0.07, 22), normal_));
+    add(Factor::time, "turning to and fro", turning());
     add(Factor::position, "smooth", along(smooth(place_, 0.6, 14), normal_));
     add(Factor::position, "patch", along(smooth(place_, 0.25, 26), normal_));
     add(Factor::position, "height", smooth(place_, 0.4, 24));
     add(Factor::direction, "smooth", smooth(directions_, 0.6, 40));
     if (several(orientation_)) {
       add(Factor::direction, "on the probe", smooth(on_probe_, 0.6, 40));
+      add(Factor::direction, "lobes", lobes());
       add(Factor::head, "orientation", along(indicator(orientation_), normal_));
       add(Factor::head, "orientation in time", along(by_group(trend(), orientation_), normal_));
     }
@@ -141,6 +144,42 @@ class Patterns {
     out << a, b;
     return out;
   }
+  /// Two to nine lobes about the axis of the probe, greatest on its equator: fixed to the probe.
+  std::vector<Matrix> lobes() const {
+    std::vector<Matrix> out;
+    for (int count = 2; count <= 9; ++count) {
+      Matrix m(on_probe_.size(), 2);
+      for (std::size_t i = 0; i < on_probe_.size(); ++i) {
+        const auto& n = on_probe_[i];
+        const double angle = count * std::atan2(n[1], n[0]), equator = n[0] * n[0] + n[1] * n[1];
+        m.row(static_cast<Eigen::Index>(i)) << equator * std::cos(angle), equator * std::sin(angle);
+      }
+      out.push_back(std::move(m));
+    }
+    return out;
+  }
+
+  /// The part turns about its middle, back and forth at one frequency.
+  std::vector<Matrix> turning() const {
+    constexpr int kMost = 12;
+    std::vector<Matrix> out;
+    Vec3 middle;
+    for (const auto& p : place_) middle += Vec3{p[0], p[1], p[2]} / double(place_.size());
+    for (int half_cycles = 1; half_cycles <= 2 * kMost; ++half_cycles) {
+      Matrix m(place_.size(), 6);
+      for (std::size_t i = 0; i < place_.size(); ++i) {
+        const Vec3 turned = cross(Vec3{place_[i][0], place_[i][1], place_[i][2]} - middle, normal_[i]);   // n . (w x l) = w . (l x n)
+        const double phase = kPi * half_cycles * time_[i][0];
+        for (int k = 0; k < 3; ++k) {
+          m(static_cast<Eigen::Index>(i), k) = turned[k] * std::cos(phase);
+          m(static_cast<Eigen::Index>(i), 3 + k) = turned[k] * std::sin(phase);
+        }
+      }
+      out.push_back(std::move(m));
+    }
+    return out;
+  }
+
   Matrix trend() const {
     Matrix m(time_.size(), 2);
     for (std::size_t i = 0; i < time_.size(); ++i) m(i, 0) = time_[i][0] - 0.5, m(i, 1) = std::pow(time_[i][0] - 0.5, 2);
@@ -152,18 +191,23 @@ class Patterns {
     return m;
   }
 
-  void add(Factor factor, std::string shape, const Matrix& columns) {
+  void add(Factor factor, std::string shape, const Matrix& columns) { add(factor, std::move(shape), std::vector{columns}); }
+
+  /// One explanation with these variants.
+  void add(Factor factor, std::string shape, const std::vector<Matrix>& variants) {
     Explanation e;
     e.name = "OTHER " + std::string(abbe::diagnose::name(factor)) + ", " + shape;
     e.factor = factor;
     e.shape = std::move(shape);
-    Block block;
-    block.explanation = static_cast<int>(out_.list.size());
-    block.signature = compressed(columns);
-    block.columns.assign(block.signature.cols(), {});
-    block.joined = true;
-    e.blocks.push_back(static_cast<int>(out_.blocks.size()));
-    out_.blocks.push_back(std::move(block));
+    for (const Matrix& columns : variants) {
+      Block block;
+      block.explanation = static_cast<int>(out_.list.size());
+      block.signature = compressed(columns);
+      block.columns.assign(static_cast<std::size_t>(block.signature.cols()), {});
+      block.joined = true;
+      e.blocks.push_back(static_cast<int>(out_.blocks.size()));
+      out_.blocks.push_back(std::move(block));
+    }
     out_.list.push_back(std::move(e));
   }
 
