@@ -71,7 +71,7 @@ DiagnosedParameter figure(const char* name, const char* unit, double value, doub
 
 /// Touches of one kind that scatter more than the others.
 std::optional<NoiseFinding> unequal(const Case& c, const Residuals& r) {
-  constexpr double kLeastRatio = 1.15;
+  constexpr double kLeastRatio = 1.1;
   constexpr int kEnough = 20;
   struct Split {
     const char* what;
