@@ -16,26 +16,40 @@ namespace abbe {
 
 namespace {
 
-/// What one block contributes; merged in block order, so that the result does not depend on threads.
+/// What one block contributes; merged in block order, so that the result does not depend on threads. All blocks are kept until then, so
+/// of every value only what differs from machine to machine.
 struct BlockResult {
+  struct Kept {
+    plan::CharacteristicId characteristic;
+    int visit = 0;
+    double value = 0;
+  };
   struct LaneResult {
-    std::vector<Value> values;
+    std::vector<Kept> values;
+    std::vector<ToleranceLimits> own_limits;  ///< in the same order, of characteristics with material conditions
     std::optional<LaneTrap> trap;
   };
   std::vector<LaneResult> lanes;
   std::uint64_t touches = 0;
 };
 
-BlockResult run_block(const Executor& executor, const VirtualMachines& machines, int first, int count) {
+BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
+  BlockResult::LaneResult out;
+  out.values.reserve(lane.values.size());
+  for (const Value& v : lane.values) {
+    out.values.push_back({v.characteristic, v.visit, v.value});
+    if (!plan[v.characteristic].widening.empty()) out.own_limits.push_back(v.limits);
+  }
+  if (!lane.trap.reason.empty()) out.trap = lane.trap;
+  return out;
+}
+
+BlockResult run_block(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, int first, int count) {
   Block block = executor.make_block(machines, first, count);
   executor.run(block);
   BlockResult result;
   result.touches = block.touches;
-  for (int i = 0; i < count; ++i) {
-    Lane& lane = block.lanes[i];
-    const bool trapped = !lane.trap.reason.empty();
-    result.lanes.push_back({std::move(lane.values), trapped ? std::optional(lane.trap) : std::nullopt});
-  }
+  for (int i = 0; i < count; ++i) result.lanes.push_back(kept(block.lanes[i], plan));
   return result;
 }
 
@@ -60,7 +74,7 @@ std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& 
     for (int b = next++; b < blocks; b = next++) {
       try {
         const int first = b * per_block;
-        results[b] = run_block(executor, machines, first, std::min(per_block, machines.size() - first));
+        results[b] = run_block(executor, plan, machines, first, std::min(per_block, machines.size() - first));
       } catch (...) {
         const std::lock_guard lock(failure_mutex);
         if (!failure) failure = std::current_exception();
@@ -149,12 +163,15 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   for (BlockResult& block : run_blocks(executor, plan, machines, options)) {
     result.touches += block.touches;
     for (BlockResult::LaneResult& lane : block.lanes) {
-      for (const Value& v : lane.values) {
+      auto own_limits = lane.own_limits.begin();
+      for (const BlockResult::Kept& v : lane.values) {
+        const bool widened = !plan[v.characteristic].widening.empty();
+        const auto limits = widened ? own_limits++ : own_limits;
         const auto found = slot.find({v.characteristic.value, v.visit});
         if (found == slot.end()) continue;  // evaluated on a path that the error-free machine does not take
         Samples& samples = result.samples[found->second];
         samples.value.push_back(v.value);
-        if (!plan[v.characteristic].widening.empty()) samples.own_limits.push_back(v.limits);
+        if (widened) samples.own_limits.push_back(*limits);
         samples.machine.push_back(machine_number);
       }
       if (lane.trap)
