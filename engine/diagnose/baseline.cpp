@@ -194,12 +194,13 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   m.random_group.resize(random.count(), 1);
   m.free = free.joined();
   m.random = random.joined();
-  const Matrix rough = rough_geometry(t, machine);
   if (!options.known) {
-    m.rough = rough;
+    constexpr double kLine = 2;
+    m.rough = rough_geometry(t, machine, kLine);
   } else {
     // What an earlier recording left open, and what its harmonics could not follow.
     constexpr double kNotFollowed = 0.4;
+    const Matrix rough = rough_geometry(t, machine, 0);
     m.rough.resize(n, geometry.cols() + rough.cols());
     m.rough << geometry, kNotFollowed * rough;
   }

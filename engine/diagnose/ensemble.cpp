@@ -14,7 +14,7 @@ namespace {
 /// Inverse gamma prior of the common factor on all variances: mean 1, as spread as a factor of 1.5 either way on the noise.
 constexpr double kPriorShape = 2, kPriorSquares = 2;
 /// Sizes above what is typical lose belief as a normal in the logarithm of this spread.
-constexpr double kLogImplausible = 1.1;
+constexpr double kLogImplausible = 1.6;
 
 Hyperparameters at_scale_one(Hyperparameters h) {
   h.scale = 1;

@@ -15,23 +15,22 @@ constexpr double kLengths[] = {0.25, 0.6, 1.5};
 /// Standard deviation of a function over its largest value: of a smooth random function of bounded range.
 constexpr double kShareOfLargest = 0.3;
 
-double covariance(double a, double b) {
+double covariance(double a, double b, double line) {
   double sum = 0;
   for (const double length : kLengths) {
     const double h = std::sqrt(5.0) * std::abs(a - b) / length;
     sum += (1 + h + h * h / 3) * std::exp(-h) / double(std::size(kLengths));
   }
-  constexpr double kLine = 2;   // scale and squareness are larger than waviness
-  return sum + kLine * kLine * a * b;
+  return sum + line * line * a * b;
 }
 
 /// Functions of u in [-1, 1] with unit-size coefficients: at u, less their values at home.
 class Functions {
  public:
-  Functions() {
+  explicit Functions(double line) : line_(line) {
     Matrix k(kKnots, kKnots);
     for (int i = 0; i < kKnots; ++i)
-      for (int j = 0; j < kKnots; ++j) k(i, j) = covariance(knot(i), knot(j));
+      for (int j = 0; j < kKnots; ++j) k(i, j) = covariance(knot(i), knot(j), line);
     root_ = Eigen::SelfAdjointEigenSolver<Matrix>(k + 1e-9 * Matrix::Identity(kKnots, kKnots)).operatorInverseSqrt();
     home_ = row(-1);
   }
@@ -41,18 +40,19 @@ class Functions {
   static double knot(int i) { return -1 + 2.0 * i / (kKnots - 1); }
   Vector row(double u) const {
     Vector k(kKnots);
-    for (int i = 0; i < kKnots; ++i) k(i) = covariance(u, knot(i));
+    for (int i = 0; i < kKnots; ++i) k(i) = covariance(u, knot(i), line_);
     return root_ * k;
   }
+  double line_;
   Matrix root_;
   Vector home_;
 };
 
 }  // namespace
 
-Matrix rough_geometry(const RecordedTouches& t, const Machine& machine) {
+Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double line) {
   constexpr double kUmPerMm = 1e3, kMmPerM = 1e-3;
-  const Functions functions;
+  const Functions functions(line);
   Matrix out(static_cast<Eigen::Index>(t.touches.size()), kComponents * kKnots);
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;

@@ -11,7 +11,8 @@
 
 namespace abbe::diagnose {
 
-/// Rows x columns, um per standard deviation.
-Matrix rough_geometry(const RecordedTouches&, const Machine&);
+/// Rows x columns, um per standard deviation. `line`: standard deviation of the straight line, over that of the process: scale and
+/// squareness are larger than waviness, until an earlier recording has told them.
+Matrix rough_geometry(const RecordedTouches&, const Machine&, double line);
 
 }  // namespace abbe::diagnose
