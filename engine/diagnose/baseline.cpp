@@ -53,7 +53,7 @@ KnownGeometry ensemble(const Machine& machine, std::uint64_t seed, int threads) 
   Matrix values(sample.size(), size);
   for (int i = 0; i < sample.size(); ++i)
     for (int k = 0; k < size; ++k) values(i, k) = sample.geometry[i][k];
-  KnownGeometry out{values.colwise().mean(), Matrix::Zero(size, size)};
+  KnownGeometry out{values.colwise().mean(), Matrix::Zero(size, size), true};
   values.rowwise() -= out.mean.transpose();
   for (int c = 0; c < kComponents; ++c) {
     const Matrix part = values.middleCols(c * basis, basis);
@@ -198,8 +198,10 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     constexpr double kLine = 2;
     m.rough = rough_geometry(t, machine, kLine);
   } else {
-    // What an earlier recording left open, and what its harmonics could not follow.
-    constexpr double kNotFollowed = 0.4;
+    m.scale_spread = 0.3;            // an earlier recording has found the scale
+  }
+  if (options.known && options.known->rough) {
+    constexpr double kNotFollowed = 0.4;   // by the harmonics that were fitted to it
     const Matrix rough = rough_geometry(t, machine, 0);
     m.rough.resize(n, geometry.cols() + rough.cols());
     m.rough << geometry, kNotFollowed * rough;
@@ -237,7 +239,7 @@ KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, const std::
   const Eigen::Index size = b.factor.cols();
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.block(free, free, size, size));
   const Matrix root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  return {b.mean + b.factor * mean.segment(free, size), b.factor * root};
+  return {b.mean + b.factor * mean.segment(free, size), b.factor * root, true};
 }
 
 }  // namespace abbe::diagnose

@@ -23,6 +23,7 @@ namespace abbe::diagnose {
 struct KnownGeometry {
   Vector mean;
   Matrix factor;                    ///< covariance = factor factor'
+  bool rough = true;                ///< whether harmonics may have left out some of them
 };
 
 /// Whether the true places of surfaces are known.

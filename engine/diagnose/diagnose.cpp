@@ -227,7 +227,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result);
-  if (options.keep_state) out.known_state = write_known_state(posterior(c.baseline, c.hyper, c.masked), c.hyper);
+  if (options.keep_state) out.known_state = write_known_state(posterior(c.baseline, c.hyper, c.masked), c.hyper, c.rough);
   return out;
 }
 
