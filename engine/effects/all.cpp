@@ -17,9 +17,11 @@ std::span<const Effect* const> effects() {
 }
 
 const Effect* find_effect(std::string_view name) {
-  const auto all = effects();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Effect* e) { return e->name == name; });
-  return found == all.end() ? nullptr : *found;
+  for (const auto list : {effects(), empirical_effects()}) {
+    const auto found = std::find_if(list.begin(), list.end(), [&](const Effect* e) { return e->name == name; });
+    if (found != list.end()) return *found;
+  }
+  return nullptr;
 }
 
 }  // namespace abbe
