@@ -136,6 +136,34 @@ std::vector<double> EffectSet::weights(const Active& a, const std::vector<double
   return weights;
 }
 
+Vec3 EffectSet::estimate(const TouchScene& scene) const {
+  const double none[kMostNumbers] = {};
+  Vec3 d;
+  for (const Active& a : active_) d += a.effect->displace(scene, a.value.data(), none);
+  return d;
+}
+
+std::vector<EffectSet::Doubt> EffectSet::doubts() const {
+  std::vector<Doubt> list;
+  for (int e = 0; e < size(); ++e) {
+    const Active& a = active_[e];
+    for (std::size_t p = 0; p < a.u.size(); ++p)
+      if (a.u[p] != 0) list.push_back({e, static_cast<int>(p)});
+    for (int j = 0; j < a.effect->draws; ++j) list.push_back({e, -1, j, a.effect->draws_per});
+  }
+  return list;
+}
+
+Vec3 EffectSet::one_sd(const Doubt& doubt, const TouchScene& scene) const {
+  const Active& a = active_[doubt.effect];
+  std::vector<double> value = a.value;
+  double draws[kMostNumbers] = {};
+  const Vec3 estimate = a.effect->displace(scene, value.data(), draws);
+  if (doubt.parameter >= 0) value[doubt.parameter] += a.u[doubt.parameter];
+  if (doubt.draw >= 0) draws[doubt.draw] = 1;
+  return a.effect->displace(scene, value.data(), draws) - estimate;
+}
+
 EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<std::uint32_t>& machines) const {
   LaneParameters lanes;
   lanes.lanes = static_cast<int>(machines.size());

@@ -53,6 +53,16 @@ class EffectSet {
   /// Adds effect `k` (every effect when k < 0) to the errors of a group. `site`: the ordinal of the touch.
   void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
 
+  /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation of each of its unknowns.
+  Vec3 estimate(const TouchScene&) const;
+  struct Doubt {
+    int effect = 0;
+    int parameter = -1, draw = -1;           ///< an uncertain parameter, or a number drawn at random
+    DrawsPer per = DrawsPer::machine;        ///< how often it is drawn anew
+  };
+  std::vector<Doubt> doubts() const;
+  Vec3 one_sd(const Doubt&, const TouchScene&) const;
+
  private:
   /// One term of a linear effect: its displacement at these parameters times a weight by machine.
   struct Component {

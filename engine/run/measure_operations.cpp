@@ -48,7 +48,7 @@ void BlockRun::operator()(const plan::SelectSensor& select) {
     lane.head_indexed = true;
     lane.head_a_rad = sensor.head_a_rad;
     lane.head_b_rad = sensor.head_b_rad;
-    const UniformPair p = uniform_pair({executor.options_.seed, lane.machine_index, stream, 0, lane.indexings++, 0});
+    const UniformPair p = uniform_pair({executor.options_.noise_seed(), lane.machine_index, stream, 0, lane.indexings++, 0});
     if (block.is_twin(i) || !executor.options_.contributors.head) continue;
     lane.head_error_a_rad = head.sd_a_rad * normal_quantile(p.a);
     lane.head_error_b_rad = head.sd_b_rad * normal_quantile(p.b);
@@ -179,7 +179,7 @@ void BlockRun::add_errors(int machines) {
     double* const error[3] = {b.error.column[0].data(), b.error.column[1].data(), b.error.column[2].data()};
     block.geometry.add_error(machines, b.lane.data(), reading.data(), tip.data(), error);
   }
-  if (act.probe) add_probe_noise(b, executor.machine_.probe, executor.options_.seed, executor.site_[operation], R_WR);
+  if (act.probe) add_probe_noise(b, executor.machine_.probe, executor.options_.noise_seed(), executor.site_[operation], R_WR);
   b.n = all;
 }
 

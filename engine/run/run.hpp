@@ -34,6 +34,9 @@ struct RunOptions {
   int block_lanes = 128;          ///< results do not depend on it
   Contributors contributors;
   EffectUse effect_use = EffectUse::left_in;
+  /// Which repeat of the measurement: the same machines and the same part, but other noise of probe, head and touch-wise effects.
+  int repeat = 0;
+  std::uint64_t noise_seed() const { return seed + 0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(repeat); }
   Vec3 placement_mm;              ///< where the program's machine coordinate system lies in W (directive `place`)
   const Workpiece* workpiece = nullptr;  ///< the true part; none: exactly nominal, at 20 degrees C
   /// The second recipe of simulation: errors are added to the points of this recording, in the program's machine coordinates, instead

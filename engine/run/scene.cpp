@@ -66,7 +66,7 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     set_levers(executor.machine_, scene);
     group->second.scene = &scene;
     if (own_temperatures) set_temperatures(scene.temperature, group->second);
-    executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.seed,
+    executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.noise_seed(),
                           executor.site_[operation], touch_batch);
   }
 }

@@ -1,0 +1,212 @@
+#include "engine/run/recorded_part.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace abbe {
+
+namespace {
+
+bool same_label(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+}
+
+/// Whether the targets of the recording are those of this very part.
+bool targets_are_true(const Workpiece& w, const Recording& recording, const std::string& file) {
+  for (const auto& [key, value] : recording.metadata) {
+    if (key != "workpiece") continue;
+    if (value == w.name) return true;
+    throw UserError(diagnostic(Code::E0548, fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, value, w.name),
+                               "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
+  }
+  return false;
+}
+
+/// The nominal radius of a round feature from its targets, negative for a bore; nothing when the feature is not round.
+std::optional<double> radius_of(const RecordedTouches& t, const std::vector<int>& rows) {
+  struct Mean {
+    Vec3 point, normal;
+    double n = 0;
+  };
+  std::map<int, Mean> mean;
+  for (const int i : rows) {
+    Mean& m = mean[t.touches[i].scene.setup];
+    m.point += t.touches[i].scene.point, m.normal += t.touches[i].scene.normal, m.n += 1;
+  }
+  const auto centred = [&](int i) {
+    const TouchScene& s = t.touches[i].scene;
+    const Mean& m = mean[s.setup];
+    return std::pair{s.point - m.point / m.n, s.normal - m.normal / m.n};
+  };
+  double product = 0, square = 0;
+  for (const int i : rows) {
+    const auto [p, n] = centred(i);
+    product += dot(p, n), square += dot(n, n);
+  }
+  constexpr double kSpread = 1e-3, kRound_mm = 1e-3;
+  if (square < kSpread * double(rows.size())) return std::nullopt;
+  const double radius = product / square;
+  for (const int i : rows) {
+    const auto [p, n] = centred(i);
+    if (std::abs(dot(p - radius * n, n)) > kRound_mm) return std::nullopt;
+  }
+  return radius;
+}
+
+class PartReader {
+ public:
+  PartReader(const Workpiece& w, const RecordedTouches& t, bool shifts) : w_(w), t_(t), shifts_(shifts) {
+    out_.expected_mm.assign(t.touches.size(), 0.0);
+    out_.calibrated.assign(t.features.size(), 0);
+    for (std::size_t i = 0; i < t.touches.size(); ++i) touches_of_[t.touches[i].scene.feature].push_back(static_cast<int>(i));
+  }
+
+  RecordedPart read() {
+    for (const Surface& s : w_.surfaces) add_surface(s);
+    if (w_.part_expands() || w_.scales_expand()) add_expansion();
+    if (!errors_.empty()) throw UserError(std::move(errors_));
+    return std::move(out_);
+  }
+
+ private:
+  void add_surface(const Surface& s) {
+    const auto found = std::find_if(t_.features.begin(), t_.features.end(), [&](const std::string& label) { return same_label(label, s.label); });
+    if (found == t_.features.end()) return refuse_unknown(s);
+    const int feature = static_cast<int>(found - t_.features.begin());
+    const std::vector<int>& rows = touches_of_[feature];
+    const std::optional<Uncertain> offset = offset_of(s, rows);
+    if (!offset) return;
+    out_.calibrated[feature] = 1;
+    if (shifts_)
+      for (const int i : rows) out_.expected_mm[i] += offset->value;
+    if (!offset->exact()) set(add_doubt(), rows, offset->u());
+    if (s.random_form_mm.value > 0) add_random_form(rows, s.random_form_mm.value);
+    if (!s.form.empty())
+      out_.messages.push_back(diagnostic_at(w_.source, s.label_span, Code::W0549, fmt::format("the form of surface '{}' is not used: a diagnosis takes it as round", s.label),
+                                            "give targets with the form in them, or \"random_form_um\""));
+  }
+
+  void refuse_unknown(const Surface& s) {
+    const std::vector<std::string_view> labels(t_.features.begin(), t_.features.end());
+    const std::string near = nearest_word(s.label, labels);
+    errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0546, fmt::format("the recording has no feature '{}'", s.label),
+                                    near.empty() ? fmt::format("it has: {}", fmt::join(labels.begin(), labels.begin() + std::ptrdiff_t(std::min<std::size_t>(8, labels.size())), ", "))
+                                                 : fmt::format("did you mean '{}'?", near)));
+  }
+
+  /// How far the surface lies beyond its target, along the outward normal.
+  std::optional<Uncertain> offset_of(const Surface& s, const std::vector<int>& rows) {
+    if (!s.diameter_mm && !s.diameter_deviation_mm) return s.offset_mm;
+    const std::optional<double> radius = radius_of(t_, rows);
+    if (!radius) {
+      errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0547, fmt::format("the targets of '{}' do not lie on a circle, cylinder or sphere", s.label),
+                                      "a diameter belongs to a round feature with touches on several sides; give \"offset_um\" instead"));
+      return std::nullopt;
+    }
+    const double per_diameter = *radius > 0 ? 0.5 : -0.5;
+    if (s.diameter_deviation_mm) return per_diameter * *s.diameter_deviation_mm;
+    Uncertain deviation = *s.diameter_mm;
+    deviation.value -= 2 * std::abs(*radius);
+    return per_diameter * deviation;
+  }
+
+  std::vector<double>& add_doubt() { return out_.doubt_mm.emplace_back(t_.touches.size(), 0.0); }
+  static void set(std::vector<double>& column, const std::vector<int>& rows, double value) {
+    for (const int i : rows) column[i] = value;
+  }
+
+  /// The form of a surface point is the same at every repeat.
+  void add_random_form(const std::vector<int>& rows, double sd_mm) {
+    std::map<std::tuple<long, long, long>, std::vector<int>> points;
+    constexpr double kSamePoint_mm = 1e-3;
+    for (const int i : rows) {
+      const Vec3& p = t_.touches[i].scene.on_part;
+      points[{std::lround(p.x / kSamePoint_mm), std::lround(p.y / kSamePoint_mm), std::lround(p.z / kSamePoint_mm)}].push_back(i);
+    }
+    for (const auto& [point, same] : points) set(add_doubt(), same, sd_mm);
+  }
+
+  std::vector<double> stretched(const ThermalDraw& draw) const {
+    std::vector<double> r;
+    for (const RecordedTouch& touch : t_.touches) {
+      const TouchScene& s = touch.scene;
+      const Vec3 e = strain(w_, draw, s.temperature, w_.compensated);
+      r.push_back(e.x * s.point.x * s.normal.x + e.y * s.point.y * s.normal.y + e.z * s.point.z * s.normal.z);
+    }
+    return r;
+  }
+
+  void add_expansion() {
+    ThermalDraw best;
+    best.scale_cte_per_K = w_.scale_cte_per_K.value;
+    best.part_cte_per_K = w_.part_cte_per_K.value + (w_.part_cte_from_scale ? best.scale_cte_per_K : 0);
+    const std::vector<double> expected = stretched(best);
+    for (std::size_t i = 0; i < expected.size(); ++i) out_.expected_mm[i] += expected[i];
+    const auto doubt = [&](const Uncertain& quantity, auto change) {
+      if (quantity.exact()) return;
+      ThermalDraw other = best;
+      change(other, quantity.u());
+      const std::vector<double> moved = stretched(other);
+      std::vector<double>& column = add_doubt();
+      for (std::size_t i = 0; i < moved.size(); ++i) column[i] = moved[i] - expected[i];
+    };
+    doubt(w_.scale_cte_per_K, [&](ThermalDraw& d, double u) { d.scale_cte_per_K += u, d.part_cte_per_K += w_.part_cte_from_scale ? u : 0; });
+    doubt(w_.part_cte_per_K, [](ThermalDraw& d, double u) { d.part_cte_per_K += u; });
+    add_temperatures(doubt);
+    doubt(w_.sensor_K, [](ThermalDraw& d, double u) { d.part_sensor_K = u; });
+    for (int k = 0; k < 3; ++k) doubt(w_.sensor_K, [k](ThermalDraw& d, double u) { d.scale_sensor_K[k] = u; });
+  }
+
+  /// As draw_thermal: scales with one temperature share its error, and what follows the other shares that of the other.
+  template <class Doubt>
+  void add_temperatures(const Doubt& doubt) const {
+    const bool linked = w_.part_minus_scale_K.has_value();
+    if (linked) doubt(*w_.part_minus_scale_K, [&](ThermalDraw& d, double u) { w_.part_follows_scale ? d.part_K = u : (d.scale_K.fill(-u), 0.0); });
+    if (!linked || !w_.part_follows_scale)
+      doubt(w_.part_C, [&](ThermalDraw& d, double u) { d.part_K = u; if (linked) d.scale_K.fill(u); });
+    if (linked && !w_.part_follows_scale) return;
+    for (int k = 0; k < 3; ++k) {
+      const bool met = std::find(w_.scale_name, w_.scale_name + k, w_.scale_name[k]) != w_.scale_name + k;
+      if (!met) doubt(w_.scale_C[k], [&](ThermalDraw& d, double u) {
+        for (int j = 0; j < 3; ++j) d.scale_K[j] = w_.scale_name[j] == w_.scale_name[k] ? u : 0;
+        if (linked) d.part_K = d.scale_K[0];
+      });
+    }
+  }
+
+  const Workpiece& w_;
+  const RecordedTouches& t_;
+  bool shifts_;
+  std::map<int, std::vector<int>> touches_of_;   ///< by feature
+  RecordedPart out_;
+  std::vector<Diagnostic> errors_;
+};
+
+}  // namespace
+
+void fill_from_workpiece(Recording& recording, const Workpiece& w) {
+  for (RecordingRow& row : recording.rows) {
+    const Temperatures t = w.temperatures(row.time_s.value_or(0));
+    const auto fill = [](std::optional<double>& to, bool known, double value) {
+      if (!to && known) to = value;
+    };
+    fill(row.temp_part_C, w.knows.part, t.part);
+    fill(row.temp_x_C, w.knows.scale[0], t.scale[0]);
+    fill(row.temp_y_C, w.knows.scale[1], t.scale[1]);
+    fill(row.temp_z_C, w.knows.scale[2], t.scale[2]);
+    fill(row.temp_air_C, w.knows.air, t.air);
+    fill(row.load_kg, w.knows.load, w.load_kg);
+  }
+}
+
+RecordedPart recorded_part(const Workpiece& w, const Recording& recording, const RecordedTouches& t, const std::string& file) {
+  return PartReader(w, t, !targets_are_true(w, recording, file)).read();
+}
+
+}  // namespace abbe
