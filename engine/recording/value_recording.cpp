@@ -1,0 +1,110 @@
+#include "engine/recording/value_recording.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+
+#include "engine/recording/csv.hpp"
+
+namespace abbe {
+
+namespace {
+
+struct Column {
+  std::string_view name;
+  std::function<bool(const CsvField&, ValueRow&)> set;   ///< false: not a value of this column
+  bool required = false;
+};
+
+bool set_number(const CsvField& f, const std::function<void(double)>& set) {
+  const std::optional<double> v = csv_number(f);
+  if (v) set(*v);
+  return v.has_value();
+}
+
+bool set_count(const CsvField& f, int& to) {
+  const std::optional<double> v = csv_number(f);
+  constexpr double kMost = 1e6;
+  if (!v || *v != std::floor(*v) || *v < 1 || *v > kMost) return false;
+  to = static_cast<int>(*v);
+  return true;
+}
+
+const std::vector<Column>& all_columns() {
+  static const std::vector<Column> all = {
+      {"characteristic", [](const CsvField& f, ValueRow& r) { r.characteristic = f.text, r.span = f.span; return true; }, true},
+      {"value", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.value = v; }); }, true},
+      {"reference", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.reference = v; }); }},
+      {"U", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.expanded_uncertainty = v; }) && r.expanded_uncertainty >= 0; }},
+      {"run", [](const CsvField& f, ValueRow& r) { return set_count(f, r.run); }},
+      {"occurrence", [](const CsvField& f, ValueRow& r) { return set_count(f, r.occurrence); }},
+      {"artefact", [](const CsvField& f, ValueRow& r) { r.artefact = f.text; return true; }},
+      {"program", [](const CsvField& f, ValueRow& r) { r.program = f.text; return true; }},
+  };
+  return all;
+}
+
+std::vector<const Column*> columns_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
+  std::vector<std::string_view> names;
+  for (const Column& c : all_columns()) names.push_back(c.name);
+  std::vector<const Column*> used;
+  for (const CsvField& field : table.header) {
+    const auto found = std::find(names.begin(), names.end(), field.text);
+    used.push_back(found == names.end() ? nullptr : &all_columns()[static_cast<std::size_t>(found - names.begin())]);
+    if (used.back()) continue;
+    const std::string near = nearest_word(field.text, names);
+    sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording of values has no column '{}'", field.text),
+                           near.empty() ? fmt::format("its columns are {}", fmt::join(names, ", ")) : fmt::format("did you mean '{}'?", near)));
+  }
+  for (const Column& c : all_columns())
+    if (c.required && std::find(used.begin(), used.end(), &c) == used.end())
+      sink.add(diagnostic_at(file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", c.name),
+                             "a recording of values has at least characteristic,value"));
+  return used;
+}
+
+}  // namespace
+
+ValueRecording read_value_recording(const SourceFile& file) {
+  const CsvTable table = read_csv(file);
+  Sink sink;
+  const std::vector<const Column*> columns = columns_of(table, file, sink);
+  if (sink.has_errors()) throw UserError(sink.list());
+  ValueRecording out{file, table.metadata, {}};
+  for (const CsvRow& row : table.rows) {
+    ValueRow r;
+    r.line = row.line;
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const CsvField& field = row.fields[k];
+      if (field.text.empty() && !columns[k]->required) continue;
+      if (field.text.empty() || !columns[k]->set(field, r))
+        sink.add(diagnostic_at(file, field.span, Code::E0530, fmt::format("'{}' is no value for the column '{}'", field.text, columns[k]->name),
+                               "values are in mm or degrees, with a decimal point and no unit; U is not negative; run and occurrence count from 1"));
+    }
+    out.rows.push_back(std::move(r));
+  }
+  if (sink.has_errors()) throw UserError(sink.list());
+  return out;
+}
+
+std::vector<std::string> labels_of(const std::string& characteristic) {
+  std::vector<std::string> labels;
+  std::string word;
+  const auto end = [&](char after) {
+    const bool kind = after == '(' && (word == "FA" || word == "F" || word == "TA" || word == "T");
+    if (!word.empty() && !kind) labels.push_back(word);
+    word.clear();
+  };
+  for (const char c : characteristic) {
+    if (c == ',' || c == '(' || c == ')' || std::isspace(static_cast<unsigned char>(c))) end(c);
+    else word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  end(' ');
+  return labels;
+}
+
+}  // namespace abbe

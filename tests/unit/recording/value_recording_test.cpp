@@ -1,0 +1,44 @@
+#include "engine/recording/value_recording.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/base/diagnostic.hpp"
+#include "engine/recording/recording.hpp"
+
+namespace abbe {
+namespace {
+
+using Labels = std::vector<std::string>;
+
+TEST_CASE("a characteristic is named by its tolerance, or with its features") {
+  CHECK(labels_of("len") == Labels{"LEN"});
+  CHECK(labels_of("END1 END2 LEN") == Labels{"END1", "END2", "LEN"});
+  CHECK(labels_of("FA(END1),FA(END2),TA(LEN)") == Labels{"END1", "END2", "LEN"});
+  CHECK(labels_of("F(fa),T(ta)") == Labels{"FA", "TA"});
+  CHECK(labels_of(" , ").empty());
+}
+
+TEST_CASE("columns that are left out have their usual values") {
+  const SourceFile file("v.csv", "# machine: M\ncharacteristic,value\nLEN,100.001\n");
+  CHECK(is_value_recording(file));
+  const ValueRecording r = read_value_recording(file);
+  REQUIRE(r.rows.size() == 1);
+  CHECK(r.rows[0].value == 100.001);
+  CHECK_FALSE(r.rows[0].reference);
+  CHECK(r.rows[0].expanded_uncertainty == 0);
+  CHECK(r.rows[0].run == 1);
+  CHECK(r.rows[0].line == 3);
+  CHECK(r.metadata.at(0).second == "M");
+}
+
+TEST_CASE("a negative U and a run that is no count are refused, each with its place") {
+  try {
+    read_value_recording(SourceFile("v.csv", "characteristic,value,U,run\nLEN,1,-0.1,1\nLEN,1,0.1,1.5\n,1,0,1\n"));
+    FAIL("accepted");
+  } catch (const UserError& e) {
+    CHECK(e.diagnostics().size() == 3);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
