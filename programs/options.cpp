@@ -171,7 +171,9 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
   command->add_option("REC", o->recordings, "recordings, CSV; several are taken as one")->required();
   command->add_option("--program", o->program, "the program that was run, when the recording has no targets")->type_name("P.dmi");
   command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default: what the recording says)")->type_name("M");
+  command->add_option("--workpiece", o->workpiece, "workpiece file: calibrated sizes, temperatures, expansion coefficient")->type_name("W.json");
   command->add_option("--known", o->known, "machine file that an earlier diagnosis wrote: start from what is known of the machine")->type_name("K.json");
+  command->add_option("--report", o->report, "write the diagnosis as a page with figures, one HTML file")->type_name("R.html");
   command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")->type_name("I.json");
   command->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values");
   command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");

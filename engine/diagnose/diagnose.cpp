@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/calibrated_part.hpp"
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/empirical.hpp"
 #include "engine/diagnose/known_state.hpp"
+#include "engine/diagnose/machine_effects.hpp"
 
 namespace abbe {
 
@@ -124,6 +127,25 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   }
 }
 
+/// What no effect explains, and the pattern that a machine file may carry for it.
+void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out) {
+  out.unexplained = describe_unexplained(c, result);
+  for (EffectSetting& setting : empirical_model(c, result)) {
+    out.unexplained->model = setting.name;
+    out.model_effects.push_back(std::move(setting));
+  }
+}
+
+/// The geometry of this machine beside what was found: findings are free, so that no error function takes them over.
+std::string known_state_beside(const Case& c, const SearchResult& result) {
+  std::vector<const Matrix*> found;
+  for (const Finding& f : result.findings) found.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+  if (result.other) found.push_back(&c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature);
+  Baseline beside = c.baseline;
+  beside.model = with_free(without_rows(c.baseline.model, c.masked), found);
+  return write_known_state(posterior(beside, c.hyper, std::vector<char>(c.rows.size(), 0)), c.hyper, c.rough);
+}
+
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
     out.effects.push_back({{std::string(n.effect->name)}, 1 - n.p, n.parameters, n.sentence});
@@ -180,8 +202,15 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
     throw UserError(diagnostic(Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
                                fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
+  const EffectSet effects(machine.effects, EffectUse::left_in, machine.name);
+  remove_estimates(effects, c.touches);
+  std::optional<RecordedPart> part;
+  if (options.workpiece) part = recorded_part(*options.workpiece, recording, c.touches, file);
+  if (part) remove_expected(*part, c.touches), out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
   const std::optional<KnownGeometry> known = read_known_state(machine);
   c.baseline = baseline_of(c.touches, machine, {surfaces_of(recording, c.touches, out.messages, file), known ? &*known : nullptr, options.seed, options.threads});
+  add_doubts(effects, c.touches, c.baseline);
+  if (part) calibrate(*part, c.touches, c.baseline);
   return c;
 }
 
@@ -222,12 +251,12 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   out.rivals = rivals(c, first, result.first);
   tell_findings(c, result, out);
   tell_noise(judge_noise(c, result), out);
-  if (result.other) out.unexplained = describe_unexplained(c, result);
+  if (result.other) tell_unexplained(c, result, out);
   out.verdict = verdict_of(c, result, out);
   if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result);
-  if (options.keep_state) out.known_state = write_known_state(posterior(c.baseline, c.hyper, c.masked), c.hyper, c.rough);
+  if (options.keep_state) out.known_state = known_state_beside(c, result);
   return out;
 }
 

@@ -17,6 +17,8 @@
 
 namespace abbe {
 
+struct Workpiece;
+
 enum class Verdict { no_mismatch, named, one_of, unexplained, cannot_judge };
 std::string_view name(Verdict);                ///< as in the JSON: "no_mismatch"
 
@@ -48,6 +50,7 @@ struct Unexplained {
   double amplitude_um = 0, amplitude_u_um = 0;
   double low_um = 0, high_um = 0;              ///< 95 % interval of the amplitude
   std::string sentence;
+  std::string model = {};                      ///< the effect in `model_effects` that stands for it; empty: none was made
 };
 
 struct Improvement {
@@ -111,6 +114,17 @@ struct ResidualRow {
   double before_um = 0, after_um = 0;          ///< after: held out
 };
 
+/// One value of a recording of values, by itself; lengths mm, angles degrees.
+struct JudgedValue {
+  std::string characteristic, program, unit;
+  int run = 1, occurrence = 1;
+  double value = 0, reference = 0, deviation = 0;
+  double u = 0;                                ///< standard deviation over the virtual machines, with that of the reference
+  double z = 0;                                ///< deviation from the mean of the virtual machines, in units of u
+  double p = 1;                                ///< share of virtual machines that are at least as far out
+  double low = 0, high = 0;                    ///< 95 % of the deviations of virtual machines lie between these
+};
+
 struct Diagnosis {
   Verdict verdict = Verdict::no_mismatch;
   double p_value = 1;
@@ -126,6 +140,7 @@ struct Diagnosis {
   BaselineSummary baseline;
   Rivals rivals;
   std::vector<ResidualRow> residuals;
+  std::vector<JudgedValue> values;             ///< of a recording of values, in its order; then there are no touches
   std::vector<Diagnostic> messages;
   /// What --model-out adds to the machine file: effects, and the JSON text of known_state.
   std::vector<EffectSetting> model_effects;
@@ -138,6 +153,7 @@ struct DiagnoseOptions {
   int replicates = 300;                        ///< of the bootstrap
   bool design_only = false;
   bool keep_state = false;                     ///< fill known_state
+  const Workpiece* workpiece = nullptr;        ///< what is known of the part; none: as the recording says
 };
 
 /// Judges a recording (several files joined) on a machine; `file` names it in messages. Throws UserError: data that cannot be used.

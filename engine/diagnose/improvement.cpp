@@ -117,6 +117,15 @@ double standard_error(const std::vector<double>& gain) {
   return n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
 }
 
+void tell_residuals(const Case& c, const Vector& before, const Vector& after, Diagnosis& out) {
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const RecordedTouch& t = c.touches.touches[c.rows[k]];
+    const RecordingRow& row = c.recording->rows[t.row];
+    const auto at = static_cast<Eigen::Index>(k);
+    out.residuals.push_back({row.feature, row.touch, row.setup, row.run, t.scene.time_s, t.scene.point.x, t.scene.point.y, t.scene.point.z, before(at), after(at)});
+  }
+}
+
 }  // namespace
 
 void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out) {
@@ -124,7 +133,10 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   std::vector<int> blocks;
   for (const Finding& f : result.findings) named.push_back(f.explanation), blocks.push_back(f.block);
   if (result.other) named.push_back(result.other->explanation), blocks.push_back(result.other->block);
-  if (named.empty()) return;
+  if (named.empty()) {
+    const Vector as_recorded = placed(c.model, c.hyper, c.model.y);
+    return tell_residuals(c, as_recorded, as_recorded, out);
+  }
   const Scheme scheme = scheme_of(c);
   std::vector<double> gain;
   Vector predicted = Vector::Zero(c.model.y.size());
@@ -152,12 +164,7 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   i.chi2_per_dof_before = loo.squaredNorm() / double(loo.size());
   i.chi2_per_dof_after = leave_one_out(improved, c.hyper).squaredNorm() / double(loo.size());
   out.improvement = i;
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    const RecordedTouch& t = c.touches.touches[c.rows[k]];
-    const RecordingRow& row = c.recording->rows[t.row];
-    const auto at = static_cast<Eigen::Index>(k);
-    out.residuals.push_back({row.feature, row.touch, row.setup, row.run, t.scene.time_s, t.scene.point.x, t.scene.point.y, t.scene.point.z, before(at), after(at)});
-  }
+  tell_residuals(c, before, after, out);
   // The runner-up: the best explanation outside the named sets.
   int second = -1;
   for (std::size_t k = 0; k < c.explanations.list.size(); ++k) {

@@ -73,8 +73,9 @@ int record_command(const RecordOptions&);
 
 struct DiagnoseCommandOptions {
   std::vector<std::string> recordings;
-  std::optional<std::string> program, machine;
+  std::optional<std::string> program, machine, workpiece;
   std::optional<std::string> known;         ///< machine file of an earlier diagnosis
+  std::optional<std::string> report;        ///< where the page goes, HTML
   std::optional<std::string> model_out;     ///< where the machine file with what was found goes
   std::optional<std::uint64_t> seed;
   int threads = 0;                          ///< 0: all of the computer

@@ -7,9 +7,10 @@
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 #include "engine/run/placement.hpp"
+#include "engine/run/recorded_part.hpp"
 #include "engine/run/recorded_sensor.hpp"
 #include "engine/run/recorded_touch.hpp"
-#include "programs/commands/commands.hpp"
+#include "programs/commands/recorded_values.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
@@ -46,27 +47,55 @@ Recording joined(const std::vector<std::string>& files) {
   return all;
 }
 
+/// The machine to compare with: what the command line names, else what the recording names, else the default.
+std::string machine_of(const DiagnoseCommandOptions& options, const std::string& recorded) {
+  if (options.known) return *options.known;
+  if (options.machine) return *options.machine;
+  return recorded.empty() ? kDefaultMachine : recorded;
+}
+
+std::string machine_in(const Recording& recording) {
+  for (const auto& [key, value] : recording.metadata)
+    if (key == "machine") return value;
+  return "";
+}
+
+struct Answer {
+  Diagnosis diagnosis;
+  std::string machine;                ///< that it was compared with
+};
+
+Answer of_values(const DiagnoseCommandOptions& options, const DiagnoseOptions& how) {
+  const RecordedValues values(options);
+  const std::string name = machine_of(options, values.machine());
+  return {values.diagnosis(read_machine(name), how), name};
+}
+
+Answer of_touches(const DiagnoseCommandOptions& options, const DiagnoseOptions& how) {
+  Recording recording = joined(options.recordings);
+  const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
+  const std::string name = machine_of(options, machine_in(recording));
+  Machine machine = read_machine(name);
+  if (options.program) complete_from_program(recording, nominal_recording(*options.program, machine), file);
+  if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
+  add_recorded_sensors(recording, machine, file);
+  return {diagnose_recording(recording, machine, how, file), name};
+}
+
 }  // namespace
 
 int diagnose_command(const DiagnoseCommandOptions& options) {
-  Recording recording = joined(options.recordings);
-  const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  std::string name = options.machine.value_or("");
-  for (const auto& [key, value] : recording.metadata)
-    if (name.empty() && key == "machine") name = value;
-  if (name.empty()) name = kDefaultMachine;
-  Machine machine = read_machine(options.known.value_or(name));
-  if (options.program) complete_from_program(recording, nominal_recording(*options.program, machine), file);
-  add_recorded_sensors(recording, machine, file);
-
+  const std::optional<Workpiece> workpiece = options.workpiece ? std::optional(read_workpiece(*options.workpiece)) : std::nullopt;
   DiagnoseOptions how;
+  how.workpiece = workpiece ? &*workpiece : nullptr;
   how.seed = options.seed.value_or(1);
   how.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
-  const Diagnosis d = diagnose_recording(recording, machine, how, file);
+  const auto [d, machine] = are_values(options.recordings) ? of_values(options, how) : of_touches(options, how);
   print_messages(d.messages);
-  if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(options.known.value_or(name)), d));
+  if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(machine), d));
+  if (options.report) write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));
   print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d));
   return options.fail_on_mismatch && d.verdict != Verdict::no_mismatch ? kNo : kDone;
 }

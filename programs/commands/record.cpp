@@ -75,6 +75,7 @@ int record_command(const RecordOptions& options) {
   const std::pair<std::string, std::string> origin[] = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                                                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
   metadata.insert(metadata.begin(), std::begin(origin), std::end(origin));
+  if (workpiece) metadata.emplace_back("workpiece", workpiece->name);
   write_whole(options.output, to_csv(record.recording));
   if (options.dmo) write_whole(*options.dmo, dmis_result(plan, record.outputs));
   return kDone;

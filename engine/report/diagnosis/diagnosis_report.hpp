@@ -1,7 +1,8 @@
-// A diagnosis in words and as JSON (schema "abbe.diagnosis/1", docs/formats.md).
+// A diagnosis in words, as JSON (schema "abbe.diagnosis/1", docs/formats.md) and as a page: one HTML file with its figures in it.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
 
@@ -10,6 +11,10 @@ namespace abbe {
 std::string diagnosis_json(const Diagnosis&);
 /// Three sentences, one table, what to do next: for people who measure, not for statisticians.
 std::string diagnosis_text(const Diagnosis&);
+/// Whether they agree, what it is, whether that is better.
+std::vector<std::string> diagnosis_sentences(const Diagnosis&);
+/// `recording` and `machine`: what was compared, for the heading.
+std::string diagnosis_html(const Diagnosis&, const std::string& recording, const std::string& machine);
 /// The text of the machine file with what the diagnosis found in it: `effects` appended, `known_state` replaced.
 std::string improved_machine(const std::string& machine_json, const Diagnosis&);
 

@@ -43,7 +43,8 @@ Json unexplained(const std::optional<Unexplained>& u) {
   return {{"factor", u->factor},
           {"shape", u->shape},
           {"amplitude_um", {{"value", number(u->amplitude_um)}, {"u", number(u->amplitude_u_um)}, {"interval95", {number(u->low_um), number(u->high_um)}}}},
-          {"sentence", u->sentence}};
+          {"sentence", u->sentence},
+          {"model", u->model.empty() ? Json() : Json(u->model)}};
 }
 
 Json improvement(const std::optional<Improvement>& i) {
@@ -100,6 +101,12 @@ Json residuals(const std::vector<ResidualRow>& rows) {
           {"after_um", column([](const ResidualRow& r) { return number(r.after_um); })}};
 }
 
+Json value(const JudgedValue& v) {
+  return {{"characteristic", v.characteristic}, {"program", v.program}, {"run", v.run}, {"occurrence", v.occurrence}, {"unit", v.unit},
+          {"value", number(v.value)}, {"reference", number(v.reference)}, {"deviation", number(v.deviation)}, {"u", number(v.u)},
+          {"z", number(v.z)}, {"p", number(v.p)}, {"lcl", number(v.low)}, {"ucl", number(v.high)}};
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d) {
@@ -108,11 +115,12 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"verdict", name(d.verdict)},
       {"p_value", number(d.p_value)},
       {"touches", d.touches},
+      {"values", array(d.values, value)},
       {"effects", array(d.effects, effect)},
       {"location", array(d.location, location)},
       {"unexplained", unexplained(d.unexplained)},
       {"improvement", improvement(d.improvement)},
-      {"residuals", residuals(d.residuals)},
+      {"residuals", d.improvement ? residuals(d.residuals) : Json()},
       {"runner_up", d.runner_up ? Json{{"members", d.runner_up->members}, {"log_score_gain", number(d.runner_up->log_score_gain)}} : Json()},
       {"cannot_judge", array(d.cannot_judge, [](const CannotJudge& c) { return Json{{"effect", c.effect}, {"missing", c.missing}}; })},
       {"smallest_detectable", array(d.smallest_detectable, detectable)},

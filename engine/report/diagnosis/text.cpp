@@ -12,12 +12,17 @@ namespace {
 
 std::string chance(double p) { return p < 1e-4 ? "less than 1 in 10 000" : p < 0.01 ? fmt::format("1 in {:.0f}", 1 / p) : fmt::format("{:.0f} %", 100 * p); }
 
+std::string what(const Diagnosis& d) {
+  if (d.values.empty()) return fmt::format("{} touches are", d.touches);
+  return d.values.size() == 1 ? "value is" : fmt::format("{} values are", d.values.size());
+}
+
 /// Do they agree?
 std::string first_sentence(const Diagnosis& d) {
   const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
   if (d.verdict == Verdict::no_mismatch)
-    return fmt::format("The {} touches are what {} reports: a difference as large as this one comes by chance in {} of such recordings.", d.touches, machine, chance(d.p_value));
-  return fmt::format("The {} touches are not what {} reports: by chance it would look so in {} of such recordings.", d.touches, machine, chance(d.p_value));
+    return fmt::format("The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d), machine, chance(d.p_value));
+  return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d), machine, chance(d.p_value));
 }
 
 /// What is it?
@@ -41,8 +46,8 @@ std::string third_sentence(const Diagnosis& d) {
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
   const bool better = i.log_score_gain > 2 * i.se && i.log_score_gain > 3;
-  return fmt::format("On touches that the model had not seen ({}) it predicts {}: gain {:.1f} ± {:.1f} nats, rms {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
-                     i.scheme, better ? "better" : "not clearly better", i.log_score_gain, i.se, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um);
+  return fmt::format("On {} that the model had not seen ({}) it predicts {}: gain {:.1f} ± {:.1f} nats, rms {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
+                     d.values.empty() ? "touches" : "values", i.scheme, better ? "better" : "not clearly better", i.log_score_gain, i.se, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um);
 }
 
 std::string mismatch_table(const Diagnosis& d) {
@@ -87,7 +92,17 @@ std::string next_steps(const Diagnosis& d) {
   return out;
 }
 
+std::string value_table(const Diagnosis& d) {
+  if (d.values.empty()) return "";
+  std::string out = fmt::format("{:<28} {:<22} {:>3} {:>13} {:>12} {:>24} {:>6} {:>6}\n", "characteristic", "program", "run", "value", "deviation", "95 % of such machines", "z", "p");
+  for (const JudgedValue& v : d.values)
+    out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6.3f}  {}\n", v.characteristic, v.program, v.run, v.value, v.deviation, v.low, v.high,
+                       v.z, v.p, v.unit);
+  return out + "\n";
+}
+
 std::string baseline_line(const Diagnosis& d) {
+  if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
   std::string out = fmt::format("baseline: {}; errors of the machine {:.2f} times the specification's, noise {:.2f} um", b.known ? "known machine" : "specification", b.geometry_scale, b.noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
@@ -97,11 +112,17 @@ std::string baseline_line(const Diagnosis& d) {
 
 }  // namespace
 
+std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
+  std::vector<std::string> out;
+  for (const std::string& sentence : {first_sentence(d), second_sentence(d), third_sentence(d)})
+    if (!sentence.empty()) out.push_back(sentence);
+  return out;
+}
+
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out;
-  for (const std::string& sentence : {first_sentence(d), second_sentence(d), third_sentence(d)})
-    if (!sentence.empty()) out += sentence + "\n";
-  out += "\n" + (d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
+  for (const std::string& sentence : diagnosis_sentences(d)) out += sentence + "\n";
+  out += "\n" + value_table(d) + (d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
   out += next_steps(d);
   out += cannot_judge(d);
   return out + baseline_line(d);

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/report/diagnosis/diagnosis_report.hpp"
+#include "engine/report/plot.hpp"
+
+namespace abbe {
+
+namespace {
+
+constexpr std::string_view kStyle =
+    "body{font:15px/1.45 sans-serif;max-width:820px;margin:2em auto;padding:0 1em;color:#222;background:#fff}"
+    "h1{font-size:1.5em}h2{font-size:1.15em;margin-top:1.8em;border-bottom:1px solid #ccc}"
+    "table{border-collapse:collapse;margin:.6em 0;font-size:.92em}td,th{padding:.25em .7em;text-align:left;border-bottom:1px solid #ddd;vertical-align:top}"
+    "td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}pre{overflow:auto;background:#f5f5f5;padding:.8em;font-size:.85em}"
+    ".pair{display:flex;flex-wrap:wrap}.note{color:#555;font-size:.9em}"
+    "@media(prefers-color-scheme:dark){body{color:#ddd;background:#181818}pre{background:#222}.note{color:#aaa}}";
+
+std::string_view title(Verdict v) {
+  switch (v) {
+    case Verdict::no_mismatch: return "No mismatch found";
+    case Verdict::named: return "A mismatch, and what makes it";
+    case Verdict::one_of: return "A mismatch, and what may make it";
+    case Verdict::unexplained: return "A mismatch that no effect of the catalogue explains";
+    case Verdict::cannot_judge: return "A mismatch that cannot be judged from what was logged";
+  }
+  return "";
+}
+
+std::string row(std::initializer_list<std::string> cells, const char* tag = "td") {
+  std::string out = "<tr>";
+  for (const std::string& c : cells) {
+    const bool number = !c.empty() && (std::isdigit(static_cast<unsigned char>(c[0])) || (c[0] == '-' && c.size() > 1));
+    out += fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"n\"" : "", escaped(c), tag);
+  }
+  return out + "</tr>\n";
+}
+
+std::string size_of(const DiagnosedParameter& p) {
+  return p.word.empty() ? fmt::format("{} {:.3g} ({:.3g} to {:.3g}){}", p.name, p.value, p.low, p.high, p.plausible ? "" : ", implausible") : fmt::format("{} {}", p.name, p.word);
+}
+
+std::string explanations(const Diagnosis& d) {
+  if (d.effects.empty() && !d.unexplained) return "";
+  std::string out = "<h2>Explanation</h2>\n<table>" + row({"effect", "probability", "size (95 % interval)"}, "th");
+  for (const DiagnosedEffect& e : d.effects) {
+    std::vector<std::string> sizes;
+    for (const DiagnosedParameter& p : e.parameters) sizes.push_back(size_of(p));
+    out += row({fmt::format("{}", fmt::join(e.members, " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
+  }
+  if (d.unexplained)
+    out += row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
+                fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um)});
+  out += "</table>\n";
+  for (const Location& l : d.location) {
+    std::vector<std::string> where;
+    for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
+    out += fmt::format("<p>Located in {}: {:.0f} % of the mismatch; strongest at {}.</p>\n", escaped(l.factor), 100 * l.share, escaped(fmt::format("{}", fmt::join(where, ", "))));
+  }
+  return out;
+}
+
+/// What a residual is drawn over.
+struct Factor {
+  const char* title;
+  double (*of)(const ResidualRow&);
+};
+constexpr Factor kFactors[] = {{"time, min", [](const ResidualRow& r) { return r.time_s / 60; }},
+                               {"x, mm", [](const ResidualRow& r) { return r.x_mm; }},
+                               {"y, mm", [](const ResidualRow& r) { return r.y_mm; }},
+                               {"z, mm", [](const ResidualRow& r) { return r.z_mm; }}};
+
+std::string residuals(const Diagnosis& d) {
+  if (d.residuals.empty()) return "";
+  double largest = 0;
+  for (const ResidualRow& r : d.residuals) largest = std::max({largest, std::abs(r.before_um), std::abs(r.after_um)});
+  std::string out = "<h2>Residuals</h2>\n<p class=\"note\">How far each surface point seems too far out, free of the placement of the part. After: the model "
+                    "with the explanation in it predicts touches that it has not seen.</p>\n";
+  for (const Factor& f : kFactors) {
+    Scatter before{"before", f.title, "residual, um", {}, {}, {-largest, largest}}, after = before;
+    after.title = "after, held out", after.second_colour = true;
+    for (const ResidualRow& r : d.residuals) {
+      before.x.push_back(f.of(r)), before.y.push_back(r.before_um);
+      after.x.push_back(f.of(r)), after.y.push_back(r.after_um);
+    }
+    const auto [low, high] = std::minmax_element(before.x.begin(), before.x.end());
+    if (*low == *high) continue;
+    out += "<div class=\"pair\">" + svg(before) + (d.improvement ? svg(after) : "") + "</div>\n";
+  }
+  return out;
+}
+
+std::string values(const Diagnosis& d) {
+  if (d.values.empty()) return "";
+  std::string out = "<h2>Values</h2>\n<p class=\"note\">Dot: deviation from the reference. Bar: where 95 % of machines of this specification lie.</p>\n";
+  for (const char* unit : {"mm", "deg"}) {
+    const double factor = std::string_view(unit) == "mm" ? 1e3 : 3600;
+    Intervals plot{factor == 1e3 ? "deviation, um" : "deviation, arcsec", {}};
+    for (const JudgedValue& v : d.values)
+      if (v.unit == unit) plot.lines.push_back({fmt::format("{} {}{}", v.characteristic, v.program, v.run > 1 ? fmt::format(" run {}", v.run) : ""), factor * v.low, factor * v.high, factor * v.deviation});
+    if (!plot.lines.empty()) out += svg(plot) + "\n";
+  }
+  out += "<table>" + row({"characteristic", "program", "run", "value", "deviation", "u", "z", "p"}, "th");
+  for (const JudgedValue& v : d.values)
+    out += row({v.characteristic, v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit), fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u),
+                fmt::format("{:.2f}", v.z), fmt::format("{:.3f}", v.p)});
+  return out + "</table>\n";
+}
+
+std::string next(const Diagnosis& d) {
+  if (d.next_measurement.empty()) return "";
+  std::string out = "<h2>What to measure next</h2>\n<table>" + row({"change", "tells apart", "probability of the truth after it", "minutes"}, "th");
+  for (const NextMeasurement& n : d.next_measurement)
+    out += row({n.change, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
+  out += "</table>\n";
+  if (!d.next_measurement.front().program.empty())
+    out += "<details><summary>DMIS program of the first</summary><pre>" + escaped(d.next_measurement.front().program) + "</pre></details>\n";
+  return out;
+}
+
+std::string detectable(const Diagnosis& d) {
+  if (d.smallest_detectable.empty()) return "";
+  std::string out = "<h2>What could have been seen</h2>\n<table>" + row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
+  for (const Detectable& s : d.smallest_detectable)
+    out += row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::format("{}", fmt::join(s.confounded_with, ", "))});
+  return out + "</table>\n";
+}
+
+std::string open_questions(const Diagnosis& d) {
+  if (d.cannot_judge.empty()) return "";
+  std::string out = "<h2>What cannot be judged</h2>\n<table>" + row({"effect", "missing or constant"}, "th");
+  for (const CannotJudge& c : d.cannot_judge) out += row({c.effect, c.missing.empty() ? "does nothing here" : fmt::format("{}", fmt::join(c.missing, ", "))});
+  return out + "</table>\n";
+}
+
+std::string messages(const Diagnosis& d) {
+  if (d.messages.empty()) return "";
+  std::string out = "<h2>Messages</h2>\n<ul>";
+  for (const Diagnostic& m : d.messages) out += fmt::format("<li>{}: {}. {}</li>\n", info(m.code).name, escaped(m.message), escaped(m.help));
+  return out + "</ul>\n";
+}
+
+}  // namespace
+
+std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
+  std::string out = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
+                                "<title>Diagnosis of {0}</title><style>{1}</style></head><body>\n<h1>{2}</h1>\n<p class=\"note\">Recording {0}; machine {3}; p = {4:.3g}</p>\n",
+                                escaped(recording), kStyle, title(d.verdict), escaped(machine), d.p_value);
+  for (const std::string& sentence : diagnosis_sentences(d)) out += "<p>" + escaped(sentence) + "</p>\n";
+  out += explanations(d) + values(d) + residuals(d) + next(d) + detectable(d) + open_questions(d) + messages(d);
+  return out + "</body></html>\n";
+}
+
+}  // namespace abbe

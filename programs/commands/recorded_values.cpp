@@ -1,0 +1,96 @@
+#include "programs/commands/recorded_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <numbers>
+
+#include "engine/recording/recording.hpp"
+#include "engine/run/placement.hpp"
+#include "lang/result_reader.hpp"
+#include "programs/terminal.hpp"
+
+namespace abbe {
+
+namespace {
+
+CompiledProgram usable_program(const std::string& path) {
+  CompiledProgram program = compile_program(path);
+  print_messages(program.messages);
+  if (program.has_errors)
+    throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()), "correct the program; `abbe check` lists what is wrong"));
+  return program;
+}
+
+bool is_angle(const lang::ResultValue& v) {
+  Arguments axis;
+  if (!v.qualifier.empty()) axis.add_text("axis", v.qualifier);
+  return unit_of(*v.kind, axis) == Unit::rad;
+}
+
+/// The evaluated tolerances of a result file as rows; their features and coordinate systems are passed over.
+ValueRecording from_result(const SourceFile& file) {
+  Sink sink;
+  const lang::DmisResult result = lang::read_dmis_result(file, sink);
+  print_messages(sink.sorted());
+  ValueRecording out{file, {}, {}};
+  std::map<std::string, int> met;
+  for (const lang::ResultValue& v : result.values) {
+    ValueRow row;
+    row.characteristic = v.label;
+    row.value = is_angle(v) ? v.value * 180 / std::numbers::pi : v.value;
+    row.ordinal = ++met[v.label];
+    row.span = {file.line_begin(v.line), file.line_begin(v.line) + 1};
+    row.line = v.line;
+    out.rows.push_back(std::move(row));
+  }
+  if (out.rows.empty())
+    throw UserError(diagnostic(Code::E0557, fmt::format("{}: no evaluated tolerance (TA) stands in this result file", file.name()), "let the program put them out: OUTPUT/FA(...),TA(...)"));
+  return out;
+}
+
+bool is_result(const std::string& file) { return file.ends_with(".dmo") || file.ends_with(".DMO"); }
+
+}  // namespace
+
+bool are_values(const std::vector<std::string>& files) {
+  const auto count = std::count_if(files.begin(), files.end(), [](const std::string& f) { return is_result(f) || is_value_recording(read_source(f)); });
+  if (count > 0 && files.size() > 1)
+    throw UserError(diagnostic(Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), files.front()),
+                               "put the values of one machine into one file; the columns 'program' and 'run' keep them apart"));
+  return count > 0;
+}
+
+RecordedValues::RecordedValues(const DiagnoseCommandOptions& options) : recording_(is_result(options.recordings.front()) ? from_result(read_source(options.recordings.front()))
+                                                     : read_value_recording(read_source(options.recordings.front()))) {
+  const std::filesystem::path folder = std::filesystem::path(options.recordings.front()).parent_path();
+  for (const ValueRow& row : recording_.rows) {
+    if (std::find(names_.begin(), names_.end(), row.program) != names_.end()) continue;
+    if (row.program.empty() && !options.program)
+      throw UserError(diagnostic_at(recording_.source, row.span, Code::E0555, "which program evaluated this value is not said",
+                                    "give --program P.dmi, or a column 'program' with its path as seen from this file"));
+    names_.push_back(row.program);
+    programs_.push_back(usable_program(row.program.empty() ? *options.program : (folder / row.program).string()));
+  }
+}
+
+std::string RecordedValues::machine() const {
+  for (const auto& [key, value] : recording_.metadata)
+    if (key == "machine") return value;
+  return programs_.front().compilation.directives.machine ? machine_name(programs_.front(), std::nullopt) : "";
+}
+
+Diagnosis RecordedValues::diagnosis(const Machine& machine, const DiagnoseOptions& how) const {
+  std::vector<ValueProgram> programs;
+  for (std::size_t k = 0; k < programs_.size(); ++k) {
+    const CompiledProgram& p = programs_[k];
+    const plan::Plan& plan = p.compilation.plan;
+    const auto& place = p.compilation.directives.place_mm;
+    programs.push_back({names_[k], &plan, &p.source, place ? *place : find_placement(plan, machine, p.source).shift_mm});
+  }
+  return diagnose_values(recording_, programs, machine, how);
+}
+
+}  // namespace abbe

@@ -1,0 +1,26 @@
+// Recordings of values on the command line: which programs they come from, read and compiled.
+#pragma once
+
+#include "engine/diagnose/value_diagnosis.hpp"
+#include "programs/commands/commands.hpp"
+
+namespace abbe {
+
+/// Whether these recordings are tables of values, not of touches. Throws UserError when several files are and so cannot be one machine's.
+bool are_values(const std::vector<std::string>& files);
+
+/// A recording of values with everything that its diagnosis needs.
+class RecordedValues {
+ public:
+  explicit RecordedValues(const DiagnoseCommandOptions&);
+  /// The machine that the recording or its first program names; empty: none does.
+  std::string machine() const;
+  Diagnosis diagnosis(const Machine&, const DiagnoseOptions&) const;
+
+ private:
+  ValueRecording recording_;
+  std::vector<std::string> names_;             ///< as the rows say
+  std::vector<CompiledProgram> programs_;      ///< in the order of names_
+};
+
+}  // namespace abbe

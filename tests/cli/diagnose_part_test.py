@@ -1,0 +1,92 @@
+"""abbe diagnose --workpiece: what is known of the part."""
+import json
+
+import harness
+
+BALL = harness.ROOT / "examples/programs/sphere_25_points.dmi"
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+
+def workpiece(surfaces=None, **more):
+    return json.dumps({"schema": "abbe.workpiece/1", "name": "ball 12", "surfaces": surfaces or {}, **more})
+
+
+class CalibratedPart(harness.Case):
+    def record(self, *options, name="rec.csv", header=""):
+        self.abbe("record", BALL, "--machine", MACHINE, "-o", name, *options)
+        path = self.folder / name
+        path.write_text(header + path.read_text())
+        return path
+
+    def diagnosis(self, *args):
+        return json.loads(self.abbe("diagnose", *args, "--machine", MACHINE, "--format", "json").stdout)
+
+    def test_a_calibrated_sphere_tells_a_tip_radius_from_its_size(self):
+        recording = self.record("--with", "probe.tip_radius:amplitude_um=3", header="# surfaces: unknown_size\n")
+        without = self.diagnosis(recording)
+        self.assertEqual(without["verdict"], "no_mismatch")
+        self.assertNotIn("probe.tip_radius", [d["effect"] for d in without["smallest_detectable"]])
+        ball = self.write("ball.json", workpiece({"BALL": {"diameter_mm": {"value": 25.0, "u": 0.0001}}}))
+        said = self.diagnosis(recording, "--workpiece", ball)
+        self.assertNotEqual(said["verdict"], "no_mismatch")
+        self.assertIn("probe.tip_radius", said["effects"][0]["members"])
+
+    def test_an_uncertain_size_explains_as_much_as_its_uncertainty(self):
+        recording = self.record("--with", "probe.tip_radius:amplitude_um=3", header="# surfaces: unknown_size\n")
+        ball = self.write("ball.json", workpiece({"ball": {"diameter_mm": {"value": 25.0, "u": 0.01}}}))
+        self.assertEqual(self.diagnosis(recording, "--workpiece", ball)["verdict"], "no_mismatch")
+
+    def test_a_ball_that_is_not_nominal_is_no_mismatch_once_it_is_calibrated(self):
+        ball = self.write("ball.json", workpiece({"BALL": {"diameter_deviation_um": {"value": 8, "u": 0.1}}}))
+        recorded = self.record("--workpiece", ball)                       # targets are those of the true ball, and the recording says so
+        self.assertIn("# workpiece: ball 12", recorded.read_text())
+        self.assertEqual(self.diagnosis(recorded, "--workpiece", ball)["verdict"], "no_mismatch")
+        nominal = self.write("nominal.csv", "".join(line for line in self.on_nominal_targets(recorded)))
+        self.assertNotEqual(self.diagnosis(nominal)["verdict"], "no_mismatch")
+        self.assertEqual(self.diagnosis(nominal, "--workpiece", ball)["verdict"], "no_mismatch")
+        other = self.write("other.json", workpiece().replace("ball 12", "ball 13"))
+        self.refused("E0548", "diagnose", recorded, "--workpiece", other, "--machine", MACHINE)
+
+    def on_nominal_targets(self, recording):
+        """The same touches against the targets of the drawing."""
+        drawn = [line.split(",") for line in self.record(name="drawn.csv").read_text().splitlines() if not line.startswith("#")]
+        lines = [line for line in recording.read_text().splitlines() if not line.startswith("# workpiece")]
+        at = [drawn[0].index(c) for c in ("tx", "ty", "tz")]
+        rows = iter(drawn[1:])
+        header = True
+        for line in lines:
+            fields = line.split(",")
+            if not line.startswith("#") and not header:
+                row = next(rows)
+                for k in at:
+                    fields[k] = row[k]
+            header = header and line.startswith("#")
+            yield ",".join(fields) + "\n"
+
+    def test_a_warm_part_is_expected(self):
+        warm = self.write("warm.json", workpiece(material={"name": "aluminium", "cte_ppm_per_K": 23}, temperature={"part_C": 26}))
+        recording = self.record("--workpiece", warm)
+        said = self.diagnosis(recording, "--workpiece", warm)
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertLess(self.diagnosis(recording)["rivals"]["chi2"]["p"], said["rivals"]["chi2"]["p"])
+
+    def test_mistakes_in_the_workpiece_file(self):
+        recording = self.record()
+        wrong = self.write("wrong.json", workpiece({"BAL": {"offset_um": 1}}))
+        self.assertIn("did you mean 'BALL'", self.refused("E0546", "diagnose", recording, "--workpiece", wrong, "--machine", MACHINE))
+        flat = recording.read_text().splitlines()
+        head = [k for k, line in enumerate(flat) if not line.startswith("#")][0]
+        one_sided = self.write("one_sided.csv", "\n".join(flat[:head + 1] + [flat[head + 1]] * 14) + "\n")
+        ball = self.write("ball.json", workpiece({"BALL": {"diameter_mm": 25}}))
+        self.refused("E0547", "diagnose", one_sided, "--workpiece", ball, "--machine", MACHINE)
+
+    def test_a_form_is_left_out_aloud(self):
+        ring = (harness.ROOT / "examples/programs/ring_gauge.dmi")
+        self.abbe("record", ring, "--machine", "coord3-mc16", "-o", "ring.csv")
+        feature = [line for line in (self.folder / "ring.csv").read_text().splitlines() if not line.startswith("#")][1].split(",")[0]
+        part = self.write("ring.json", workpiece({feature: {"form": [{"undulations": 3, "amplitude_um": 1, "phase_deg": 0}]}}))
+        self.assertIn("W0549", self.abbe("diagnose", "ring.csv", "--workpiece", part, "--machine", "coord3-mc16").stderr)
+
+
+if __name__ == "__main__":
+    harness.main()

@@ -1,0 +1,70 @@
+"""abbe diagnose of physics that the catalogue does not have: the pattern is saved as an empirical effect, and that machine explains more."""
+import csv
+import io
+import json
+import math
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+
+class Unexplained(harness.Case):
+    def dented(self):
+        """A recording of a sphere with a dent of 12 um, which no effect makes."""
+        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "clean.csv", "--seed", 4)
+        lines = (self.folder / "clean.csv").read_text().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        for row in rows:
+            n = [float(row["n" + a]) for a in "xyz"]
+            dent = 0.012 * math.exp(-((n[0] - 0.5) ** 2 + (n[1] - 0.6) ** 2 + (n[2] - 0.62) ** 2) / 0.25)
+            for k, a in enumerate("xyz"):
+                row[a] = repr(float(row[a]) + dent * n[k])
+        out = io.StringIO()
+        writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        return self.write("dented.csv", "\n".join(comments) + "\n" + out.getvalue())
+
+    def diagnosis(self, *args):
+        return json.loads(self.abbe("diagnose", *args, "--format", "json").stdout)
+
+    def test_the_pattern_is_saved_and_explains(self):
+        recording = self.dented()
+        before = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
+        self.assertEqual(before["verdict"], "unexplained")
+        model = before["unexplained"]["model"]
+        self.assertIn(model, ("empirical.curve", "empirical.direction"))
+        effects = [e["name"] for e in json.loads((self.folder / "improved.json").read_text())["effects"]]
+        self.assertIn(model, effects)
+        after = self.diagnosis(recording, "--machine", "improved.json")
+        left = after["unexplained"]["amplitude_um"]["value"] if after["unexplained"] else 0
+        self.assertLess(left, 0.7 * before["unexplained"]["amplitude_um"]["value"])
+        size = lambda machine: next(c for c in self.run_json(PROGRAM, "--machine", machine, "--machines", 100)["characteristics"] if c["tolerance"] == "FORM")
+        self.assertGreater(size("improved.json")["mean"], size(MACHINE)["mean"] + 0.001)
+
+    def test_empirical_effects_move_what_they_say(self):
+        def touches(*options):
+            self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "rec.csv", *options)
+            lines = [line for line in (self.folder / "rec.csv").read_text().splitlines() if not line.startswith("#")]
+            return list(csv.DictReader(lines))
+        clean = touches()
+
+        def moved(*options):
+            """n . d in um of every touch."""
+            return [1000 * sum(float(a["n" + k]) * (float(a[k]) - float(b[k])) for k in "xyz") for a, b in zip(touches(*options), clean)]
+        for got, row in zip(moved("--with", "empirical.offset:of=sensor,sensor=1,z_um=5,r_um=2"), clean):
+            self.assertAlmostEqual(got, 5 * float(row["nz"]) + 2, delta=0.01)
+        for got, row in zip(moved("--with", "empirical.offset:of=orientation,head_A_deg=0,head_B_deg=0,x_um=3"), clean):
+            self.assertAlmostEqual(got, 3 * float(row["nx"]) if float(row["head_A_deg"]) == 0 else 0, delta=0.01)
+        for got, row in zip(moved("--with", "empirical.direction:frame=machine,xxyz_um=4"), clean):
+            self.assertAlmostEqual(got, 4 * float(row["nx"]) ** 2 * float(row["ny"]) * float(row["nz"]), delta=0.01)
+        for got, row in zip(moved("--with", "empirical.curve:along=time,from=0,to=150,y0_um=6,y1_um=6"), clean):
+            share = max(0.0, min(1.0, 2 - float(row["time_s"]) / 10))
+            self.assertAlmostEqual(got, 6 * share * float(row["ny"]), delta=0.01)
+
+
+if __name__ == "__main__":
+    harness.main()

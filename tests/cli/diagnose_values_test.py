@@ -1,0 +1,91 @@
+"""abbe diagnose of values of characteristics: CSV tables and DMIS result files."""
+import json
+
+import harness
+
+BLOCKS = harness.ROOT / "examples/gauge_blocks"
+PLACES = ("x1", "x2", "y1", "y2", "z1", "d1", "d2")
+
+
+class Values(harness.Case):
+    def recorded(self, *options, name="values.csv", runs=1, reference=500.0):
+        """What one machine reports of the long block in seven placements, from the result files that `record` writes."""
+        rows = ["# machine: coord3-mc16", "characteristic,program,run,value,reference"]
+        for run in range(1, runs + 1):
+            for place in PLACES:
+                program = BLOCKS / f"{place}_L.dmi"
+                self.abbe("record", program, "-o", "touches.csv", "--dmo", f"{place}.dmo", "--seed", 3, *options)
+                line = next(line for line in (self.folder / f"{place}.dmo").read_text().splitlines() if line.startswith("TA(LEN)"))
+                rows.append(f"LEN,{program},{run},{[f for f in line.split(',') if f.strip().replace('.', '').isdigit()][0].strip()},{reference}")
+        return self.write(name, "\n".join(rows) + "\n")
+
+    def diagnosis(self, *args, code=0):
+        return json.loads(self.abbe("diagnose", *args, "--format", "json", code=code).stdout)
+
+    def test_values_of_one_machine_agree_with_the_ensemble(self):
+        said = self.diagnosis(self.recorded())
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertEqual(len(said["values"]), 7)
+        self.assertTrue(all(0 < v["p"] <= 1 for v in said["values"]))
+        self.assertTrue(said["smallest_detectable"])
+        missing = {c["effect"]: c["missing"] for c in said["cannot_judge"]}
+        self.assertEqual(missing["thermal.drift"], ["time_s"])
+        self.assertEqual(missing["thermal.part_expansion"], ["temp_part_C"])
+
+    def test_an_effect_on_lengths_is_found_and_modelled(self):
+        values = self.recorded("--with", "probe.tip_radius:amplitude_um=15")
+        said = self.diagnosis(values, "--model-out", "improved.json", "--report", "report.html", "--fail-on-mismatch", code=1)
+        self.assertIn("probe.tip_radius", said["effects"][0]["members"])
+        self.assertGreater(said["improvement"]["log_score_gain"], 3)
+        self.assertEqual(said["improvement"]["scheme"], "leave-one-program-out")
+        self.assertEqual(self.diagnosis(values, "--machine", "improved.json")["verdict"], "no_mismatch")
+        self.assertIn("<svg", (self.folder / "report.html").read_text())
+        self.assertIn("7 values are not what", self.abbe("diagnose", values).stdout)
+
+    def test_one_stray_value_is_no_effect(self):
+        text = self.recorded().read_text().splitlines()
+        fields = text[-1].split(",")
+        fields[3] = str(float(fields[3]) + 0.06)
+        said = self.diagnosis(self.write("stray.csv", "\n".join(text[:-1] + [",".join(fields)]) + "\n"))
+        self.assertEqual(said["verdict"], "unexplained")
+        self.assertIn("d2", said["location"][0]["where"]["program"])
+
+    def test_an_uncertain_reference_explains_a_deviation(self):
+        values = self.recorded("--with", "probe.tip_radius:amplitude_um=15").read_text()
+        uncertain = values.replace("reference\n", "reference,U,artefact\n").replace(",500.0\n", ",500.0,0.06,block\n")
+        self.assertEqual(self.diagnosis(self.write("uncertain.csv", uncertain))["verdict"], "no_mismatch")
+
+    def test_a_result_file_is_a_recording(self):
+        program = BLOCKS / "x1_L.dmi"
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "good.dmo", "--seed", 3)
+        said = self.diagnosis("good.dmo", "--program", program)
+        self.assertEqual((said["verdict"], len(said["values"])), ("no_mismatch", 1))
+        self.assertAlmostEqual(said["values"][0]["reference"], 500.0)
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "bad.dmo", "--seed", 3, "--with", "probe.tip_radius:amplitude_um=40")
+        self.assertNotEqual(self.diagnosis("bad.dmo", "--program", program)["verdict"], "no_mismatch")
+        self.refused("E0555", "diagnose", "good.dmo")
+        self.refused("E0557", "diagnose", self.write("empty.dmo", "DMISOT/'nothing',4.0\nENDFIL\n"), "--program", program)
+
+    def test_the_answer_does_not_depend_on_threads(self):
+        values = self.recorded()
+        self.assertEqual(*(self.abbe("diagnose", values, "--format", "json", "--threads", t).stdout for t in (1, 2)))
+
+    def test_mistakes(self):
+        program = self.write("length.dmi", harness.LENGTH)
+        head = "characteristic,value\n"
+        for code, text in {"E0526": "characteristic,value,refrence\nLEN,1,1\n", "E0527": "characteristic\nLEN\n", "E0530": head + "LEN,long\n",
+                           "E0556": head + "LENGTH,100\n", "E0551": head + "LEN,100\nA B LEN,100\n"}.items():
+            self.refused(code, "diagnose", self.write("bad.csv", text), "--program", program)
+        good = self.write("good.csv", head + "LEN,100.0\n")
+        self.refused("E0554", "diagnose", good, good, "--program", program)
+        many = self.write("many.csv", "characteristic,value,run\n" + "".join(f"LEN,100.0,{k}\n" for k in range(1, 502)))
+        self.refused("E0552", "diagnose", many, "--program", program)
+        # Only the error-free machine finds the point exactly where it is.
+        never = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/DOUBLE,V\nV=OBTAIN/FA(A),4\nIF/(ABS(V).LT.0.0000001)\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDIF")
+        self.refused("E0553", "diagnose", good, "--program", self.write("never.dmi", never))
+        twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "OUTPUT/FA(A),FA(B),TA(LEN)\nOUTPUT/FA(B),FA(A),TA(LEN)")
+        self.refused("E0550", "diagnose", good, "--program", self.write("twice.dmi", twice))
+
+
+if __name__ == "__main__":
+    harness.main()
