@@ -4,7 +4,7 @@
 // the simulation; repeats (`run`) share the machine and the part and have other noise. The uncertainty U of each reference (k = 2) adds.
 // One half of the machines gives mean and covariance; the other half is judged by them as the recording is, so the p-value is that of the
 // ensemble itself, whatever its shape (a permutation argument: under the null the recording is one more machine of the second half). The
-// statistic is that of the touches (evidence.hpp): the average Bayes factor of all explanations.
+// statistic is the average Bayes factor of all explanations (value_search.hpp).
 //
 // The signature of an effect on the values is what the programs report on an error-free machine with the effect at its typical size, one
 // run for each linear parameter and choice. So an effect acts on alignments as it does in reality. It is exact where a value is linear in

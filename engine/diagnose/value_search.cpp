@@ -7,6 +7,13 @@
 
 namespace abbe::diagnose {
 
+namespace {
+
+/// Factors on the typical size of an effect: its size is known within these orders only.
+constexpr double kSizes[] = {0.3, 1, 3, 10};
+
+}  // namespace
+
 ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations explanations)
     : explanations_(std::move(explanations)), mean_(std::move(mean)), root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
   for (const Block& b : explanations_.blocks) white_.push_back(root_.triangularView<Eigen::Lower>().solve(b.signature));

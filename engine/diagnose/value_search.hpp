@@ -1,5 +1,7 @@
-// The evidence of explanations of recorded values, in closed form (the formula of evidence.hpp, with nothing free and nothing estimated:
-// the covariance is that of the ensemble).
+// The evidence of explanations of recorded values, in closed form, with nothing free and nothing estimated: V is the covariance of the
+// ensemble. For a block with signature H and a size s
+//     log B = -1/2 log|1 + s^2 G| + 1/2 s^2 u' (1 + s^2 G)^-1 u,      G = H' V^-1 H,  u = H' V^-1 y,
+// averaged over sizes and the blocks of an explanation; the statistic is the logarithm of the average over explanations (MacKay 2003, ch. 28).
 #pragma once
 
 #include "engine/diagnose/evidence.hpp"
