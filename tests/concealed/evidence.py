@@ -16,6 +16,7 @@ import subprocess
 import sys
 
 try:
+    import ceiling
     import follow
     import plots
     import score
@@ -86,7 +87,7 @@ def blocks_of(result, followed, names, specifications, first):
         group = "before and after" if name.startswith("before_after") else f"figure {name}"
         figures.setdefault(group, []).extend([shown] if name in names else [])
     figures = {group: "\n\n".join(shown) or "No case of this round shows it." for group, shown in figures.items()}
-    return {"round": first, **score.tables(result), "decoys": follow.text(followed), **figures}
+    return {"round": first, **score.tables(result), "ideal": ceiling.text(ceiling.rows()), "decoys": follow.text(followed), **figures}
 
 
 def main(argv=None):

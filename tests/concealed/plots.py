@@ -9,6 +9,7 @@ import argparse
 import json
 import pathlib
 
+import ceiling
 import plots_detection as detection
 import plots_naming as naming
 import showcases
@@ -18,7 +19,7 @@ from charts import values_of
 def figures(result, follow=None):
     m, rows = result["measures"], [r for r in result["rows"] if r["answered"]]
     return {
-        "power": detection.power(m),
+        "power": detection.power(m, rows, ceiling.rows()),
         "power_by_family": detection.power_by_family(m),
         "predicted": detection.predicted(m),
         "null_p_values": detection.null_p(m, rows),

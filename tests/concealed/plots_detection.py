@@ -2,6 +2,7 @@
 
 import math
 
+import ceiling
 from charts import COLOURS, SNR, axis, detection, figure, line, panel, share, spec, with_limits
 
 LEVEL = 2.5758  # two-sided 1 % point of the normal distribution
@@ -14,13 +15,21 @@ def fitted(curve):
     return [0.01 + 0.99 / (1 + math.exp(-min(700, curve["a"] + curve["b"] * s))) for s in GRID]
 
 
-def power(m):
-    rows = [{"snr": float(k), **v} for k, v in m["power"]["steps"].items() if v["n"]]
+def power(m, rows=(), best=()):
+    """best: rows of ideal.json, mixed like the single cases of the round."""
+    singles = [r for r in rows if r["kind"] == "single"]
+    shares = [{"snr": float(k), **v} for k, v in m["power"]["steps"].items() if v["n"]]
     layers = with_limits(axis("snr", SNR), share("share", "detected"))
     layers.append(line(GRID, [detection(s, LEVEL) for s in GRID], TITLES))
     if m["power"]["curve"]:
         layers.append(line(GRID, fitted(m["power"]["curve"]), TITLES, strokeDash=[1, 0], color=COLOURS[0]))
-    return spec("Power: single effects detected", rows, layers, "line: fitted; dashed: an oracle that knows the shape; bars: 95 % limits")
+    rich = [r for r in singles if r["design"] == "D"]
+    for cases, colour in ((singles, COLOURS[1]), (rich, COLOURS[2])):
+        if points := ceiling.weighted(best, cases):
+            layers.append(line(*zip(*points), TITLES, strokeDash=[2, 3], color=colour))
+    subtitle = "line: fitted; dashed: an oracle that knows the shape; bars: 95 % limits"
+    search = "dotted: the best possible search of the catalogue, for all cases (orange) and the rich design (green)"
+    return spec("Power: single effects detected", shares, layers, [subtitle, search])
 
 
 def power_by_family(m):

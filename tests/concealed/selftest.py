@@ -17,8 +17,10 @@ except ModuleNotFoundError:
     sys.exit(77)
 
 import cases
+import charts
 import follow
 import generate
+import ideal
 import judge
 import machine as cmm
 import measures
@@ -146,6 +148,37 @@ class SignalToNoise(unittest.TestCase):
         ratio = np.linalg.solve(s.null.covariance(), with_effect)
         divergence = 0.5 * (np.trace(ratio) - s.scene.size - np.linalg.slogdet(ratio)[1])
         self.assertAlmostEqual(np.sqrt(2 * divergence), 6.0, places=2)
+
+
+class BestSearch(unittest.TestCase):
+    ONE_SHAPE = ("probe.tip_radius", "probe.trigger_delay", "probe.stylus_bending")
+
+    def powers(self, names):
+        """Mean share of each answer and of its bounds over the steps."""
+        p = ideal.power(stage("A", name="search"), seal.generator("selftest", *names), names)
+        self.assertEqual(p["families"], len(names))
+        return p["shapes"], [{"s": float(s), **v} for s, v in p["steps"].items()]
+
+    def test_with_one_shape_it_is_the_oracle(self):
+        shapes, steps = self.powers(self.ONE_SHAPE[:1])
+        self.assertEqual(shapes, 1)
+        for v in steps:
+            self.assertEqual(v["family"], v["search"])
+        self.assertAlmostEqual(np.mean([v["search"] - v["shape"] for v in steps]), 0, delta=0.1)
+
+    def test_it_lies_between_a_test_of_each_family_and_the_oracle(self):
+        shapes, steps = self.powers(self.ONE_SHAPE)
+        self.assertEqual(shapes, 3)
+        each = [charts.detection(v["s"], 2.9352) for v in steps]  # two-sided point of 1 % / 3
+        found = np.mean([v["search"] for v in steps])
+        self.assertGreater(found, np.mean(each) - 0.06)
+        self.assertLess(found, np.mean([v["shape"] for v in steps]) + 0.06)
+
+    def test_what_it_does_not_know_costs_power(self):
+        _, steps = self.powers(("probe.tip_form", "machine.step", "part.shift", "thermal.drift"))
+        for v in steps:
+            self.assertLessEqual(v["search"], v["family"] + 0.05)
+        self.assertLess(np.mean([v["family"] - v["shape"] for v in steps]), -0.02)
 
 
 class Physics(unittest.TestCase):
