@@ -69,7 +69,7 @@ struct NoiseFinding {
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
-std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*);
+std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*, const std::vector<Detectable>&);
 Rivals rivals(const Case&, const EvidenceSearch&, const Evidence&);
 
 }  // namespace abbe::diagnose

@@ -242,7 +242,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   const EvidenceSearch first(c.model, c.hyper, c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
   if (options.design_only) {
-    out.next_measurement = next_measurements(c, nullptr);
+    out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
     return out;
   }
   c.rough = first.rough() > 0.5;
@@ -255,7 +255,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   out.verdict = verdict_of(c, result, out);
   if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);
-  out.next_measurement = next_measurements(c, &result);
+  out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   if (options.keep_state) out.known_state = known_state_beside(c, result);
   return out;
 }

@@ -19,9 +19,23 @@ struct Rival {
   double weight;
 };
 
-/// Those that could not be told apart; without data, the effects that the design confounds most.
-std::vector<Rival> rivals_of(const Case& c, const SearchResult* result) {
+/// The effect that a plan confounds with most others, and these.
+std::vector<Rival> confounded(const Case& c, const std::vector<Detectable>& detectable) {
+  const auto most = std::max_element(detectable.begin(), detectable.end(),
+                                     [](const Detectable& a, const Detectable& b) { return a.confounded_with.size() < b.confounded_with.size(); });
   std::vector<Rival> list;
+  if (most == detectable.end()) return list;
+  std::vector<std::string> names = most->confounded_with;
+  names.push_back(most->effect);
+  for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
+    if (std::find(names.begin(), names.end(), c.explanations.list[k].name) != names.end()) list.push_back({static_cast<int>(k), 1});
+  return list;
+}
+
+/// Those that could not be told apart; without data, those that the plan could not tell apart.
+std::vector<Rival> rivals_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  std::vector<Rival> list;
+  if (!result) list = confounded(c, detectable);
   if (result && !result->findings.empty()) {
     const Finding& f = result->findings.front();
     for (const int k : f.set)
@@ -54,6 +68,35 @@ Longer longer(const Case& c, const Change& change) {
   return out;
 }
 
+/// One variant of an explanation and the size of its coefficients.
+struct Supposed {
+  std::size_t variant = 0;
+  Vector size;
+};
+
+/// The strongest variant by the data so far, with the size that it took there; of a plan, the one that shows best, of a size to be found.
+Supposed supposed(const Case& c, int explanation) {
+  const EvidenceSearch own(c.model, c.hyper, only(c.explanations, {explanation}));
+  const std::size_t variants = c.explanations.list[explanation].blocks.size();
+  if (c.options.design_only) {
+    Supposed best;
+    double most = 0;
+    for (std::size_t k = 0; k < variants; ++k) {
+      const Matrix g = own.between(static_cast<int>(k), static_cast<int>(k));
+      Eigen::Index column = 0;
+      const double information = g.diagonal().maxCoeff(&column);
+      if (information <= most) continue;
+      most = information;
+      best = {k, Vector::Unit(g.rows(), column) * (kPlanned / std::sqrt(information))};
+    }
+    return best;
+  }
+  const std::vector<double>& logs = own.evidence().block_log_bayes;
+  const auto variant = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
+  const auto info = own.information(static_cast<int>(variant));
+  return {variant, Eigen::LLT<Matrix>(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / 9).solve(info.u)};
+}
+
 /// The probability that the truth would have, on average over the rivals as truth.
 double expected_probability(const Case& c, const std::vector<Rival>& rivals, const Longer& recording) {
   const KnownGeometry known{c.baseline.mean, c.baseline.factor};
@@ -66,21 +109,9 @@ double expected_probability(const Case& c, const std::vector<Rival>& rivals, con
   Hyperparameters hyper = c.hyper;
   hyper.noise = Vector::Constant(baseline.model.noise_groups, c.hyper.noise.mean());
   const EvidenceSearch search(baseline.model, hyper, all);
-  const EvidenceSearch before(c.model, c.hyper, only(c.explanations, [&] {
-    std::vector<int> list;
-    for (const Rival& r : rivals) list.push_back(r.explanation);
-    return list;
-  }()));
-  const std::vector<double> block_evidence = before.evidence().block_log_bayes;
   double expected = 0;
   for (std::size_t j = 0; j < rivals.size(); ++j) {
-    // The strongest variant by the data so far, with the size that it took there.
-    const Explanations mine = only(c.explanations, {rivals[j].explanation});
-    const EvidenceSearch own(c.model, c.hyper, mine);
-    const std::vector<double> logs = own.evidence().block_log_bayes;
-    const auto variant = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
-    const auto info = own.information(static_cast<int>(variant));
-    const Vector size = Eigen::LLT<Matrix>(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / 9).solve(info.u);
+    const auto [variant, size] = supposed(c, rivals[j].explanation);
     if (j >= all.list.size() || variant >= all.list[j].blocks.size()) return 0;
     const int truth = all.list[j].blocks[variant];
     const Matrix g = search.between(truth, truth);
@@ -103,8 +134,8 @@ double expected_probability(const Case& c, const std::vector<Rival>& rivals, con
 
 }  // namespace
 
-std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result) {
-  const std::vector<Rival> rivals = rivals_of(c, result);
+std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  const std::vector<Rival> rivals = rivals_of(c, result, detectable);
   if (rivals.size() < 2) return {};
   struct Scored {
     NextMeasurement measurement;

@@ -75,6 +75,12 @@ class Diagnose(harness.Case):
         lobing = next(d for d in said["smallest_detectable"] if d["effect"] == "probe.pretravel_lobing")
         self.assertTrue(0.05 < lobing["detect_um"] < 3, lobing)
         self.assertEqual(said["effects"], [])
+        # What it could not tell apart comes with measurements that would, the best one as a program.
+        self.assertGreaterEqual(len(said["next_measurement"]), 1)
+        best = said["next_measurement"][0]
+        self.assertGreaterEqual(len(best["separates"]), 2)
+        self.assertTrue(0 < best["expected_probability"] <= 1, best)
+        self.assertIn("ENDFIL", best["program"])
 
     def test_a_missing_covariate_is_named(self):
         def without_speed(row):
