@@ -73,7 +73,7 @@ std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
     case Shape::parallel_planes: return in + "MIDPL, CART, " + place + ", " + number(2 * e.size);
     case Shape::symmetry_plane: return side + place + ", " + number(2 * e.size);
   }
-  ABBE_CHECK(false);
+  throw InternalError("a Shape without DMIS arguments");
 }
 
 bool inside(double value, const ToleranceLimits& limits) {
