@@ -35,6 +35,9 @@ Explanations only(const Explanations&, const std::vector<int>& kept);
 /// Rows of every signature.
 Explanations rows_of(const Explanations&, const std::vector<Eigen::Index>& rows);
 
+/// The likeliest variant of an explanation.
+int best_block(const Explanation&, const Evidence&);
+
 /// One mismatch that the search has found.
 struct Finding {
   int explanation = -1;              ///< the likeliest

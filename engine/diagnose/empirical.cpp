@@ -55,7 +55,9 @@ std::vector<Piece> offsets(const Case& c, bool by_sensor) {
 
 std::vector<Piece> pieces_of(const Case& c, const Explanation& e) {
   switch (e.factor) {
-    case Factor::time: return {curve(c, CurveCoordinate::time)};
+    case Factor::time:
+      if (e.shape == "turning to and fro") return {};   // a rotation is no curve of displacements
+      return {curve(c, CurveCoordinate::time)};
     case Factor::position: {
       std::vector<Piece> list{curve(c, CurveCoordinate::x), curve(c, CurveCoordinate::y), curve(c, CurveCoordinate::z)};
       if (e.shape == "height") list.push_back(piece(kEmpiricalDirection));   // along the normal: on a ball, place and direction are one
@@ -67,7 +69,7 @@ std::vector<Piece> pieces_of(const Case& c, const Explanation& e) {
     case Factor::sensor: return offsets(c, true);
     case Factor::direction: {
       Piece p = piece(kEmpiricalDirection);
-      p.theta[0] = e.shape == "on the probe" ? 1 : 0;
+      p.theta[0] = e.shape == "on the probe" || e.shape == "lobes" ? 1 : 0;
       return {p};
     }
     case Factor::setup:

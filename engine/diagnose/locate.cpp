@@ -101,10 +101,6 @@ std::map<Factor, Located> by_factor(const Explanations& all, const Evidence& evi
   return out;
 }
 
-int best_block(const Explanation& e, const Evidence& evidence) {
-  return *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
-}
-
 }  // namespace
 
 std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const SearchResult& result) {

@@ -22,11 +22,6 @@ std::vector<double> probabilities(const Explanations& explanations, const Eviden
   return log_p;
 }
 
-/// The likeliest variant of an explanation.
-int best_block(const Explanation& e, const Evidence& evidence) {
-  return *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
-}
-
 /// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind.
 Finding finding_of(const Case& c, const Evidence& evidence, bool catalogue) {
   const Explanations& all = c.explanations;
@@ -131,6 +126,10 @@ SearchResult search(const Case& c, const EvidenceSearch& first) {
     result.findings = std::move(distinct);
   }
   return result;
+}
+
+int best_block(const Explanation& e, const Evidence& evidence) {
+  return *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
 }
 
 LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {
