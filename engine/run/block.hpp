@@ -40,6 +40,19 @@ struct Target {
   Vec3 point, normal;
 };
 
+/// What a lane knows of a feature. W.
+struct FeatureState {
+  plan::FeatureId feature;            ///< whose state this is
+  plan::FeatureId definition;         ///< the FEAT statement in force
+  bool has_actual = false;
+  bool own_nominal = false;           ///< the nominal varies with the machines
+  Element actual;                     ///< valid where has_actual
+  Element nominal;                    ///< twins, and machines where it varies with them
+  Rigid defined_in;                   ///< X_WD at the definition
+  std::vector<Vec3> touched;          ///< points of the last measurement, of features whose touches are evaluated
+  std::vector<Target> meant;          ///< the same for targets; twins only
+};
+
 struct Lane {
   int pc = 0;
   bool running = true;
@@ -56,21 +69,14 @@ struct Lane {
   std::uint64_t fuel_used = 0;
   std::vector<Vec3> points;           ///< of the measurement it is in: surface points, or tip centres without compensation; W
   std::vector<Target> targets;        ///< of the same measurement; twins only
-  std::vector<std::vector<Vec3>> touched;    ///< by FeatureId: points of the last measurement, of features whose touches are evaluated; W
-  std::vector<std::vector<Target>> meant;    ///< the same for targets; twins only
-  std::vector<Element> actual;        ///< by FeatureId, in W; valid where has_actual
-  std::vector<char> has_actual;
-  std::vector<Element> nominal;       ///< by FeatureId, in W; twins, and machines where it varies with them
-  std::vector<plan::FeatureId> definition;  ///< by FeatureId: the FEAT statement in force
-  std::vector<char> own_nominal;      ///< by FeatureId: the nominal varies with the machines
+  std::vector<FeatureState> features; ///< by slot (engine/plan/lifetimes.hpp): those that are alive
   std::optional<Motion> motion;       ///< twins only: their machines move with them
   TouchMotion last_touch;             ///< twins only
   std::optional<Vec3> home;           ///< twins only: FROM, W
   std::optional<Vec3> fixed_point;    ///< twins only: the first point touched, from which the part expands; W
   std::vector<std::optional<Rigid>> frames;  ///< X_WD by FrameId; nothing before it is set
-  std::vector<Rigid> defined_in;      ///< X_WD at the definition, by FeatureId; empty when nothing in the plan needs it
   std::vector<double> columns;        ///< by ColumnId; NaN before the first assignment
-  std::vector<std::uint32_t> visits;  ///< by operation: how often this lane has executed that touch or evaluation
+  std::vector<std::uint32_t> visits;  ///< by plan::VisitCounters: how often this lane has executed that touch or evaluation
   std::vector<Value> values;
   LaneTrap trap;
 };

@@ -58,6 +58,10 @@ class BlockRun {
   Outcome<double> evaluate(const Lane&, const plan::Expression&) const;
   /// The arguments with what stands in columns filled in.
   Arguments filled(const Lane&, const Arguments&, const std::vector<plan::VaryingNumber>&) const;
+  /// What the lane knows of a feature that the operation names. Writing another feature's state does not move it.
+  FeatureState& state(Lane&, plan::FeatureId);
+  /// How often the lane has executed this operation before; counts it.
+  int visit(Lane&);
   /// The measured or constructed element, or nullptr after trapping the lane.
   const Element* actual(int lane, plan::FeatureId);
   void set_frame(Lane&, plan::FrameId, const Rigid& X_WD);
@@ -81,14 +85,14 @@ class BlockRun {
   void add_errors(int machines);
   void add_effects(const plan::Touch&, int machines);
   void set_temperatures(const Temperatures& estimate, EffectSet::Group&) const;
-  void put_on_part(const plan::Touch&, const Lane& twin, int slot);
+  void put_on_part(const plan::Touch&, Lane& twin, int slot);
   void add_part(int machines);
   void observe_touch(const plan::Touch&, int slot);
   RecordingRow recording_row(const plan::Touch&, int slot) const;
   /// Where a touch of a pattern lies as this lane sees it: in the system in which it defined the feature; W.
-  Outcome<Target> pattern_target(const Lane&, const plan::Touch&) const;
+  Outcome<Target> pattern_target(Lane&, const plan::Touch&);
   void keep_touches(plan::FeatureId);
-  std::vector<TouchedPoint> touches_of(const Lane&, plan::FeatureId);
+  std::vector<TouchedPoint> touches_of(Lane&, plan::FeatureId);
   /// The limits as the actual sizes on this lane widen them; nothing after trapping it.
   std::optional<ToleranceLimits> widened(int lane, const plan::CharacteristicDef&, ToleranceLimits);
   void fit_twins(plan::FeatureId, FitCriterion);

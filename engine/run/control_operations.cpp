@@ -62,13 +62,12 @@ void BlockRun::operator()(const plan::Obtain& obtain) {
 }
 
 void BlockRun::operator()(const plan::ObtainDisplacement& obtain) {
-  const int id = obtain.feature.value;
   for_active([&](int i) -> std::string {
     const Element* element = actual(i, obtain.feature);
     if (!element) return "";
     Lane& lane = block.lanes[i];
-    const Lane& twin = twin_of(lane);
-    const Element nominal = lane.own_nominal[id] ? lane.nominal[id] : lane.defined_in[id] * (inverse(twin.defined_in[id]) * twin.nominal[id]);
+    const FeatureState &own = state(lane, obtain.feature), &true_one = state(twin_of(lane), obtain.feature);
+    const Element nominal = own.own_nominal ? own.nominal : own.defined_in * (inverse(true_one.defined_in) * true_one.nominal);
     const Vec3 by = transpose(lane.X_WD.R) * displacement(executor.plan_[obtain.feature].kind->shape, *element, nominal);
     for (int k = 0; k < 3; ++k) lane.columns[obtain.first.value + k] = by[k];
     return "";

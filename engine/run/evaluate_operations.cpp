@@ -13,21 +13,22 @@ void BlockRun::operator()(const plan::Construct& construct) {
   std::vector<Element> from(shapes.size());
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
-    const Lane& twin = twin_of(lane);
+    Lane& twin = twin_of(lane);
     const Rigid X_DW = inverse(lane.X_WD);
     for (std::size_t k = 0; k < shapes.size(); ++k) {
       const Element* element = actual(i, construct.from[k]);
       if (!element) return "";
       from[k] = X_DW * *element;
     }
-    const Element nominal = inverse(twin.X_WD) * twin.nominal[construct.result.value];
+    const Element nominal = inverse(twin.X_WD) * state(twin, construct.result).nominal;
     const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, filled(lane, construct.arguments, construct.varying));
     if (!made) return made.failure;
     Element element = made.value;
     if (shape == Shape::line) element.second = nominal.second;  // the normal of its surface
-    lane.actual[construct.result.value] = lane.X_WD * element;
-    if (executor.keeps_touches_[construct.result.value]) lane.touched[construct.result.value].clear();
-    lane.has_actual[construct.result.value] = 1;
+    FeatureState& result = state(lane, construct.result);
+    result.actual = lane.X_WD * element;
+    result.touched.clear();
+    result.has_actual = true;
     return "";
   });
 }
@@ -110,28 +111,28 @@ void BlockRun::operator()(const plan::RecallFrame& recall) {
   });
 }
 
-std::vector<TouchedPoint> BlockRun::touches_of(const Lane& lane, plan::FeatureId feature) {
-  const Lane& twin = twin_of(lane);
-  const std::vector<Vec3>& points = lane.touched[feature.value];
+std::vector<TouchedPoint> BlockRun::touches_of(Lane& lane, plan::FeatureId feature) {
+  Lane& twin = twin_of(lane);
+  const std::vector<Vec3>& points = state(lane, feature).touched;
+  const std::vector<Target>& meant = state(twin, feature).meant;
   const Rigid X_DW = inverse(lane.X_WD), X_DW_true = inverse(twin.X_WD);
   std::vector<TouchedPoint> touches;
   touches.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Target& target = twin.meant[feature.value][k];
-    touches.push_back({X_DW * points[k], X_DW_true * target.point, X_DW_true.R * target.normal});
+    touches.push_back({X_DW * points[k], X_DW_true * meant[k].point, X_DW_true.R * meant[k].normal});
   }
   return touches;
 }
 
 std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::CharacteristicDef& def, ToleranceLimits limits) {
   const plan::Plan& plan = executor.plan_;
-  const Lane& lane = block.lanes[i];
-  const Lane& twin = twin_of(lane);
+  Lane& lane = block.lanes[i];
+  Lane& twin = twin_of(lane);
   for (const plan::MaterialCondition& m : def.widening) {
     const plan::ToleranceDef& size = plan[m.size];
     const Element* element = actual(i, m.feature);
     if (!element) return std::nullopt;
-    const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * twin.nominal[m.feature.value];
+    const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * state(twin, m.feature).nominal;
     const Shape shape = acts_as(plan[m.feature].kind->shape);
     const Arguments arguments = filled(lane, size.arguments, size.varying);
     const Outcome<double> value =
@@ -159,20 +160,20 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
 
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
-    const Lane& twin = twin_of(lane);
+    Lane& twin = twin_of(lane);
     const Rigid X_DW = inverse(lane.X_WD), X_DW_true = inverse(twin.X_WD);
     for (std::size_t k = 0; k < features.size(); ++k) {
       const Element* element = actual(i, features[k]);
       if (!element) return "";
       actuals[k] = X_DW * *element;
-      const int id = features[k].value;
-      nominals[k] = lane.own_nominal[id] ? X_DW * lane.nominal[id] : X_DW_true * twin.nominal[id];
+      const FeatureState& of = state(lane, features[k]);
+      nominals[k] = of.own_nominal ? X_DW * of.nominal : X_DW_true * state(twin, features[k]).nominal;
     }
     for (std::size_t k = 0; k < datums.size(); ++k) {
       const Element* element = actual(i, datums[k]);
       if (!element) return "";
       datum_actuals[k] = X_DW * *element;
-      true_datums[k] = X_DW_true * twin.actual[datums[k].value];
+      true_datums[k] = X_DW_true * state(twin, datums[k]).actual;
     }
     std::vector<TouchedPoint> touches;
     if (tolerance.kind->needs_touches) touches = touches_of(lane, features.front());
@@ -182,7 +183,7 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
     if (!made) return made.failure;
     const auto limits = widened(i, def, tolerance.kind->limits(arguments, nominals));
     if (!limits) return "";
-    lane.values.push_back({evaluate.characteristic, static_cast<int>(lane.visits[operation]++), made.value,
+    lane.values.push_back({evaluate.characteristic, visit(lane), made.value,
                            tolerance.kind->nominal(arguments, nominals), *limits});
     return "";
   });

@@ -11,7 +11,7 @@ namespace abbe {
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
     : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name),
       part_(options.workpiece ? Part(*options.workpiece, plan) : Part()), aligns_(alignment_features(plan)),
-      keeps_touches_(plan.features.size(), 0) {
+      keeps_touches_(plan.features.size(), 0), slots_(feature_slots(plan)), visits_(visit_counters(plan)) {
   for (const plan::CharacteristicDef& c : plan.characteristics)
     if (plan[c.tolerance].kind->needs_touches) keeps_touches_[c.features.front().value] = 1;
   for (const plan::SensorDef& def : plan.sensors) {
@@ -21,11 +21,7 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   }
   if (options.recorded) find_recorded_points();
   std::uint32_t touches = 0;
-  for (const plan::Operation& op : plan.operations) {
-    const auto* touch = std::get_if<plan::Touch>(&op.action);
-    site_.push_back(touch ? touches++ : 0);
-    needs_definitions_ |= (touch && touch->pattern_count > 0) || std::holds_alternative<plan::ObtainDisplacement>(op.action);
-  }
+  for (const plan::Operation& op : plan.operations) site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
 }
 
 void Executor::find_recorded_points() {
@@ -52,20 +48,20 @@ std::optional<Vec3> Executor::recorded_surface(plan::FeatureId feature, std::siz
   return surface + (dot(normal, found->second - surface) - radius_mm) * normal;
 }
 
+std::size_t Executor::lane_bytes() const {
+  return sizeof(Lane) + slots_.count * sizeof(FeatureState) + visits_.count * sizeof(std::uint32_t) + plan_.frames.size() * sizeof(std::optional<Rigid>) +
+         plan_.columns * sizeof(double) + plan_.characteristics.size() * sizeof(Value);
+}
+
 Block Executor::make_block(const VirtualMachines& machines, int first, int count) const {
   Lane start;
   start.X_WD = {Mat3{}, options_.placement_mm};
   start.twin = count;
   start.temperature_compensation = part_.given() && part_.workpiece().compensated;
-  start.actual.resize(plan_.features.size());
-  start.touched.resize(plan_.features.size());
-  start.has_actual.assign(plan_.features.size(), 0);
-  start.definition.resize(plan_.features.size());
-  start.own_nominal.assign(plan_.features.size(), 0);
+  start.features.resize(slots_.count);
   start.frames.resize(plan_.frames.size());
-  if (needs_definitions_) start.defined_in.resize(plan_.features.size());
   start.columns.assign(plan_.columns, std::numeric_limits<double>::quiet_NaN());
-  start.visits.assign(plan_.operations.size(), 0);
+  start.visits.assign(visits_.count, 0);
 
   const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);
   Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index), {}, 0};
@@ -73,8 +69,6 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
     block.lanes[i].machine_index = index[i];
     if (part_.given()) block.parts.push_back(part_.draw({options_.seed, index[i]}));
   }
-  block.lanes[count].nominal.resize(plan_.features.size());
-  block.lanes[count].meant.resize(plan_.features.size());
   block.lanes[count].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
   return block;
 }
@@ -167,8 +161,25 @@ void BlockRun::for_active(const std::function<std::string(int)>& f) {
   }
 }
 
+FeatureState& BlockRun::state(Lane& lane, plan::FeatureId feature) {
+  const int slot = executor.slots_.slot[feature.value];
+  ABBE_CHECK(slot >= 0);
+  FeatureState& state = lane.features[slot];
+  if (state.feature != feature) {  // what is left there of a feature that no operation names any more
+    state = {};
+    state.feature = feature;
+  }
+  return state;
+}
+
+int BlockRun::visit(Lane& lane) {
+  const int counter = executor.visits_.counter[operation];
+  return counter < 0 ? 0 : static_cast<int>(lane.visits[counter]++);
+}
+
 const Element* BlockRun::actual(int lane, plan::FeatureId feature) {
-  if (block.lanes[lane].has_actual[feature.value]) return &block.lanes[lane].actual[feature.value];
+  const FeatureState& of = state(block.lanes[lane], feature);
+  if (of.has_actual) return &of.actual;
   trap(lane, "feature '" + executor.plan_[feature].label + "' has not been measured or constructed at this point");
   return nullptr;
 }

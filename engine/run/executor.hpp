@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "engine/plan/lifetimes.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/block.hpp"
 #include "engine/run/run.hpp"
@@ -20,6 +21,8 @@ class Executor {
  public:
   Executor(const plan::Plan&, const Machine&, const RunOptions&, const SourceFile&);
 
+  /// Memory of one lane that has run the plan; loops add what they evaluate more than once.
+  std::size_t lane_bytes() const;
   /// A block of the given machines (and the reference), ready to run. `first`..: positions in `machines`.
   Block make_block(const VirtualMachines& machines, int first, int count) const;
   /// Runs every lane to the end of the program or to its trap.
@@ -69,7 +72,8 @@ class Executor {
   std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< tip centres by feature and touch, W; of options_.recorded
   std::vector<char> aligns_;         ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
-  bool needs_definitions_ = false;   ///< where features were defined: touches of patterns, displacements from nominals
+  plan::FeatureSlots slots_;
+  plan::VisitCounters visits_;
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

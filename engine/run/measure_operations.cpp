@@ -14,22 +14,21 @@
 namespace abbe {
 
 void BlockRun::operator()(const plan::DefineFeature& define) {
-  const int id = define.feature.value;
   const plan::FeatureDef& def = executor.plan_[define.as.valid() ? define.as : define.feature];
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
-    lane.has_actual[id] = 0;
-    lane.definition[id] = define.as.valid() ? define.as : define.feature;
-    if (!lane.defined_in.empty()) lane.defined_in[id] = lane.X_WD;
-    lane.own_nominal[id] = def.varying.empty() ? 0 : 1;
+    FeatureState& feature = state(lane, define.feature);
+    feature.has_actual = false;
+    feature.definition = define.as.valid() ? define.as : define.feature;
+    feature.defined_in = lane.X_WD;
+    feature.own_nominal = !def.varying.empty();
     if (def.varying.empty()) {
-      if (block.is_twin(i)) lane.nominal[id] = lane.X_WD * def.nominal;
+      if (block.is_twin(i)) feature.nominal = lane.X_WD * def.nominal;
       return "";
     }
     const Outcome<Element> nominal = def.kind->nominal(filled(lane, def.arguments, def.varying));
     if (!nominal) return nominal.failure;
-    lane.nominal.resize(executor.plan_.features.size());
-    lane.nominal[id] = lane.X_WD * nominal.value;
+    feature.nominal = lane.X_WD * nominal.value;
     return "";
   });
 }
@@ -98,7 +97,7 @@ void BlockRun::operator()(const plan::GoHome&) {
 void BlockRun::operator()(const plan::BeginMeasure& begin) {
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
-    if (!lane.definition[begin.feature.value].valid())
+    if (!state(lane, begin.feature).definition.valid())
       return "feature '" + executor.plan_[begin.feature].label + "' was not defined on the path that was taken";
     lane.points.clear();
     lane.targets.clear();
@@ -106,19 +105,19 @@ void BlockRun::operator()(const plan::BeginMeasure& begin) {
   });
 }
 
-Outcome<Target> BlockRun::pattern_target(const Lane& lane, const plan::Touch& touch) const {
+Outcome<Target> BlockRun::pattern_target(Lane& lane, const plan::Touch& touch) {
   const plan::FeatureDef& def = executor.plan_[touch.feature];
-  const int id = touch.feature.value;
-  const Element nominal = lane.own_nominal[id] ? inverse(lane.defined_in[id]) * lane.nominal[id] : executor.plan_[lane.definition[id]].nominal;
+  const FeatureState& feature = state(lane, touch.feature);
+  const Rigid& X_WD = feature.defined_in;
+  const Element nominal = feature.own_nominal ? inverse(X_WD) * feature.nominal : executor.plan_[feature.definition].nominal;
   const auto made = pattern_touch(def.kind->shape, nominal, def.inner, touch.pattern_index, touch.pattern_count);
   if (!made) return Outcome<Target>::failed(made.failure);
-  const Rigid& X_WD = lane.defined_in[touch.feature.value];
   return {{X_WD * made.value.point + lane.X_WD.R * value(lane, touch.point), X_WD.R * made.value.normal}};
 }
 
 bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   Lane& lane = block.lanes[index];
-  const Lane& twin = twin_of(lane);
+  Lane& twin = twin_of(lane);
   if (!lane.sensor.valid()) return trap(index, "no sensor is selected (SNSLCT)"), false;
   const Sensor& sensor = executor.sensors_[lane.sensor.value];
   Vec3 surface, true_normal, point, normal;
@@ -136,7 +135,7 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
       if (norm(normal_D) == 0) return trap(index, "the vector of the touch has no length"), false;
     } else {
       const plan::FeatureDef& def = executor.plan_[touch.feature];
-      const Outcome<Vec3> n = nominal_normal(def.kind->shape, twin.nominal[touch.feature.value], def.inner, surface);
+      const Outcome<Vec3> n = nominal_normal(def.kind->shape, state(twin, touch.feature).nominal, def.inner, surface);
       if (!n) return trap(index, n.failure), false;
       true_normal = n.value;
       normal_D = transpose(twin.X_WD.R) * n.value;
@@ -162,7 +161,7 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   touch_batch.radius[slot] = sensor.radius_mm;
   touch_batch.lane[slot] = index;
   touch_batch.machine[slot] = lane.machine_index;
-  touch_batch.visit[slot] = lane.visits[operation]++;
+  touch_batch.visit[slot] = visit(lane);
   R_WR[slot] = sensor.R_WR;
   if (executor.part_.given()) put_on_part(touch, twin, slot);
   return true;
@@ -251,8 +250,9 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
     if (!block.is_twin(i)) return "";
-    const Element& nominal = lane.nominal[feature.value];
-    Element& result = lane.actual[feature.value];
+    FeatureState& of = state(lane, feature);
+    const Element& nominal = of.nominal;
+    Element& result = of.actual;
     if (!kind.fitted_anywhere || kind.shape == Shape::point) {
       const char* failure = nullptr;
       points_buffer.clear();
@@ -270,7 +270,7 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
       refit(kind.shape, criterion, lane.points, result);
       if (observed) observed->fits.push_back({operation, lane.points, result});
     }
-    lane.has_actual[feature.value] = 1;
+    of.has_actual = true;
     return "";
   });
 }
@@ -286,10 +286,10 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
   std::vector<const char*> failure(lanes.size(), nullptr);
   for (int k = 0; k < n; ++k) {
     const Lane& lane = block.lanes[lanes[k]];
-    const Lane& twin = block.lanes[lane.twin];
+    Lane& twin = block.lanes[lane.twin];
     for (std::size_t p = 0; p < points; ++p)
       for (int axis = 0; axis < 3; ++axis) points_buffer[(3 * p + axis) * lanes.size() + k] = lane.points[p][axis];
-    start[k] = (lane.X_WD * inverse(twin.X_WD)) * twin.actual[feature.value];
+    start[k] = (lane.X_WD * inverse(twin.X_WD)) * state(twin, feature).actual;
   }
   executor.plan_[feature].kind->fit_lanes({points_buffer.data(), static_cast<int>(points), n, n}, start.data(), result.data(), failure.data());
   for (int k = 0; k < n; ++k) {
@@ -300,8 +300,9 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
     const FeatureKind& kind = *executor.plan_[feature].kind;
     if (kind.fitted_anywhere) result[k].second = start[k].second;
     refit(kind.shape, criterion, block.lanes[lanes[k]].points, result[k]);
-    block.lanes[lanes[k]].actual[feature.value] = result[k];
-    block.lanes[lanes[k]].has_actual[feature.value] = 1;
+    FeatureState& of = state(block.lanes[lanes[k]], feature);
+    of.actual = result[k];
+    of.has_actual = true;
   }
 }
 
@@ -309,8 +310,9 @@ void BlockRun::keep_touches(plan::FeatureId feature) {
   if (!executor.keeps_touches_[feature.value]) return;
   for (const int i : active) {
     Lane& lane = block.lanes[i];
-    lane.touched[feature.value] = lane.points;
-    if (block.is_twin(i)) lane.meant[feature.value] = lane.targets;
+    FeatureState& of = state(lane, feature);
+    of.touched = lane.points;
+    if (block.is_twin(i)) of.meant = lane.targets;
   }
 }
 

@@ -54,17 +54,14 @@ BlockResult run_block(const Executor& executor, const plan::Plan& plan, const Vi
 }
 
 /// Lanes of one block: as many as asked for, but fewer for a long program, so that the memory of a block does not grow with it.
-int lanes_of_block(const plan::Plan& plan, const RunOptions& options) {
+int lanes_of_block(const Executor& executor, const RunOptions& options) {
   constexpr std::size_t kBlockMemory = 64 << 20, kFewest = 8;
-  const std::size_t feature = sizeof(Element) + sizeof(std::vector<Vec3>) + sizeof(Rigid) + sizeof(plan::FeatureId) + 2;
-  const std::size_t lane = plan.features.size() * feature + plan.operations.size() * sizeof(std::uint32_t) +
-                           plan.characteristics.size() * sizeof(Value) + static_cast<std::size_t>(plan.columns) * sizeof(double) + sizeof(Lane);
-  return std::max(1, std::min(options.block_lanes, static_cast<int>(std::max(kFewest, kBlockMemory / lane))));
+  return std::max(1, std::min(options.block_lanes, static_cast<int>(std::max(kFewest, kBlockMemory / executor.lane_bytes()))));
 }
 
 /// Runs all blocks on `threads` threads; the first exception of a block ends the run.
 std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, const RunOptions& options) {
-  const int per_block = lanes_of_block(plan, options);
+  const int per_block = lanes_of_block(executor, options);
   const int blocks = (machines.size() + per_block - 1) / per_block;
   std::vector<BlockResult> results(blocks);
   std::atomic<int> next = 0;

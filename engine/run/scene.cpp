@@ -77,10 +77,10 @@ void BlockRun::set_temperatures(const Temperatures& estimate, EffectSet::Group& 
     group.temperatures.push_back(drawn_temperatures(estimate, block.parts[touch_batch.lane[slot]].thermal));
 }
 
-void BlockRun::put_on_part(const plan::Touch& touch, const Lane& twin, int slot) {
+void BlockRun::put_on_part(const plan::Touch& touch, Lane& twin, int slot) {
   const Mat3& R_WD = twin.X_WD.R;
   const Vec3 normal = touch_batch.surface_normal.get(slot);
-  places[slot] = {touch.feature, touch_batch.surface.get(slot), normal, twin.nominal[touch.feature.value], R_WD.cx, R_WD.cy};
+  places[slot] = {touch.feature, touch_batch.surface.get(slot), normal, state(twin, touch.feature).nominal, R_WD.cx, R_WD.cy};
   touch_batch.surface.set(slot, places[slot].point + executor.part_.known_offset_mm(places[slot]) * normal);
 }
 
