@@ -197,6 +197,7 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   if (!options.known) {
     constexpr double kLine = 2;
     m.rough = rough_geometry(t, machine, kLine);
+    m.uneven = uneven_functions(t, machine);
   } else {
     m.scale_spread = 0.3;            // an earlier recording has found the scale
   }
@@ -205,6 +206,7 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     const Matrix rough = rough_geometry(t, machine, 0);
     m.rough.resize(n, geometry.cols() + rough.cols());
     m.rough << geometry, kNotFollowed * rough;
+    for (const Matrix& function : uneven_functions(t, machine)) m.uneven.push_back(kNotFollowed * function);
   }
   m.y.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) m.y(i) = kUmPerMm * t.touches[i].residual_mm;

@@ -31,6 +31,9 @@ std::vector<double> scales_between(double estimated) {
   return out;
 }
 
+/// What one error function may have more than its share: as much again, or twice.
+std::vector<Size> larger(double scale) { return {{scale, std::log(0.5)}, {2 * scale, std::log(0.5)}}; }
+
 }  // namespace
 
 std::vector<Size> sizes_of(double information) {
@@ -55,15 +58,17 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
   }
 }
 
-void Ensemble::prepare(const std::vector<Block>& blocks) {
+void Ensemble::prepare(const std::vector<Block>& blocks, const std::vector<Matrix>& uneven) {
   Eigen::Index columns = 0;
   for (const Block& b : blocks) columns += b.signature.cols();
+  for (const Matrix& function : uneven) columns += function.cols();
   coordinates_.resize(rotated_.rank(), columns);
   remainder_.resize(rotated_.rows(), columns);
-  for (const Block& b : blocks) prepare(b.signature);
+  for (const Block& b : blocks) prepare(b.signature, false);
+  for (const Matrix& function : uneven) prepare(function, true);
 }
 
-void Ensemble::prepare(const Matrix& signature) {
+void Ensemble::prepare(const Matrix& signature, bool of_machine) {
   Prepared b;
   b.first = blocks_.empty() ? 0 : blocks_.back().first + blocks_.back().count;
   b.count = signature.cols();
@@ -74,8 +79,8 @@ void Ensemble::prepare(const Matrix& signature) {
   b.sizes = sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(a.transpose() * precision_.col(j).asDiagonal() * a + outside);
-    Axes axes{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0), {}};
-    for (const Size& s : b.sizes) axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
+    Axes axes{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0), of_machine ? larger(scales_[static_cast<std::size_t>(j)]) : b.sizes, {}};
+    for (const Size& s : axes.sizes) axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
     b.axes.push_back(std::move(axes));
   }
   blocks_.push_back(std::move(b));
@@ -95,8 +100,8 @@ Ensemble::Verdicts Ensemble::judge(const Vector& y) const {
       const Axes& axes = b.axes[j];
       const Vector t = (axes.e.transpose() * u.col(column).segment(b.first, b.count)).array().square();
       std::vector<double> sizes, left;
-      for (std::size_t s = 0; s < b.sizes.size(); ++s) {
-        const double s2 = b.sizes[s].factor * b.sizes[s].factor;
+      for (std::size_t s = 0; s < axes.sizes.size(); ++s) {
+        const double s2 = axes.sizes[s].factor * axes.sizes[s].factor;
         left.push_back(out.squares(column) - (s2 * t.array() / (1 + s2 * axes.d.array())).sum());
         sizes.push_back(axes.log_weight[s] - shape_ * std::log(left.back()));
       }

@@ -37,8 +37,8 @@ class Ensemble {
  public:
   /// `log_prior`: of this family among others.
   Ensemble(const LinearModel&, const Hyperparameters&, double log_prior);
-  /// Makes it ready to judge these blocks, in their order.
-  void prepare(const std::vector<Block>&);
+  /// Makes it ready to judge these blocks in their order, and after them error functions that are larger than the others.
+  void prepare(const std::vector<Block>&, const std::vector<Matrix>& uneven);
 
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {
@@ -70,6 +70,7 @@ class Ensemble {
   struct Axes {
     Matrix e;
     Vector d;
+    std::vector<Size> sizes;             ///< of an explanation the same at every scale, of an error function in proportion to it
     std::vector<double> log_weight;      ///< by size: its prior and the determinant
   };
   struct Prepared {
@@ -77,7 +78,7 @@ class Ensemble {
     std::vector<Size> sizes;
     std::vector<Axes> axes;              ///< by scale
   };
-  void prepare(const Matrix& signature);
+  void prepare(const Matrix& signature, bool of_machine);
   Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
   Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
 

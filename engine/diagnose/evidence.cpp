@@ -11,6 +11,8 @@ namespace {
 
 /// Belief before the data that the machine's errors are rougher than the harmonics of the specification.
 constexpr double kPriorRough = 0.2;
+/// Belief before the data that one of the error functions is more uneven than the others.
+constexpr double kPriorUneven = 0.2;
 /// Nats below the better ensemble from which on the other makes no difference.
 constexpr double kOutOfQuestion = 8;
 
@@ -31,7 +33,8 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
     rough_ = 1 / (1 + std::exp(harmonic - other));
     if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   }
-  for (Ensemble& e : ensembles_) e.prepare(explanations.blocks);
+  blocks_ = explanations.blocks.size();
+  for (Ensemble& e : ensembles_) e.prepare(explanations.blocks, model.uneven);
   // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (!plan) evidence_ = judge(y_, &alone_, &with_);
 }
@@ -39,15 +42,19 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
 Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
   std::vector<Ensemble::Verdicts> verdicts;
   for (const Ensemble& e : ensembles_) verdicts.push_back(e.judge(y));
-  std::vector<double> nulls;
+  std::vector<double> nulls, explained;
   for (const auto& v : verdicts) nulls.push_back(log_sum_exp(v.alone));
-  const double null = log_sum_exp(nulls);
-  Evidence out;
   for (std::size_t k = 0; k < verdicts[0].with.size(); ++k) {
     std::vector<double> logs;
     for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[k]));
-    out.block_log_bayes.push_back(log_sum_exp(logs) - null);
+    explained.push_back(log_sum_exp(logs));
   }
+  const std::size_t functions = explained.size() - blocks_;
+  std::vector<double> no_mismatch{log_sum_exp(nulls) + std::log(functions > 0 ? 1 - kPriorUneven : 1)};
+  for (std::size_t k = blocks_; k < explained.size(); ++k) no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions)));
+  const double null = log_sum_exp(no_mismatch);
+  Evidence out;
+  for (std::size_t k = 0; k < blocks_; ++k) out.block_log_bayes.push_back(explained[k] - null);
   std::vector<double> all;
   for (const Explanation& x : explanations_) {
     std::vector<double> variants;

@@ -1,8 +1,8 @@
 // The evidence of every explanation, and the p-value of the whole search.
 //
 // The baseline is the ensemble of the specification or, less probably, one of the same size and rougher functions; at any scale
-// (ensemble.hpp). The Bayes factor of an explanation is its likelihood averaged over ensembles, scales, sizes and its blocks, over that of the
-// baseline averaged over ensembles and scales. The statistic of the search is the logarithm of the average Bayes factor of all
+// (ensemble.hpp); and one of the error functions may be more uneven than the others, which is no physics left out either. The Bayes factor
+// of an explanation is its likelihood averaged over ensembles, scales, sizes and its blocks, over that of the baseline, averaged likewise. The statistic of the search is the logarithm of the average Bayes factor of all
 // explanations; its distribution without any mismatch is simulated at the fitted baseline and evaluated with the same averages (parametric
 // bootstrap), so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
 #pragma once
@@ -54,6 +54,7 @@ class EvidenceSearch {
 
   std::vector<Explanation> explanations_;
   std::vector<Ensemble> ensembles_;
+  std::size_t blocks_ = 0;           ///< of explanations; uneven error functions follow them
   Vector y_;
   Evidence evidence_;
   Baseline alone_, with_;

@@ -206,6 +206,7 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
   out.free = m.free(kept, Eigen::all);
   out.random = m.random(kept, Eigen::all);
   if (m.rough.cols() > 0) out.rough = m.rough(kept, Eigen::all);
+  for (const Matrix& function : m.uneven) out.uneven.push_back(function(kept, Eigen::all));
   out.random_group = m.random_group;
   out.scale_spread = m.scale_spread;
   out.noise_um = m.noise_um(kept);

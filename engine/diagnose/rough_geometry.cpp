@@ -2,7 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <span>
 
+#include "engine/diagnose/explanation.hpp"
 #include "engine/machine/geometry.hpp"
 
 namespace abbe::diagnose {
@@ -12,14 +14,15 @@ namespace {
 constexpr int kKnots = 17;
 /// Lengths of the covariance, in halves of the travel.
 constexpr double kLengths[] = {0.25, 0.6, 1.5};
+constexpr double kShortLengths[] = {0.25};
 /// Standard deviation of a function over its largest value: of a smooth random function of bounded range.
 constexpr double kShareOfLargest = 0.3;
 
-double covariance(double a, double b, double line) {
+double covariance(double a, double b, std::span<const double> lengths, double line) {
   double sum = 0;
-  for (const double length : kLengths) {
+  for (const double length : lengths) {
     const double h = std::sqrt(5.0) * std::abs(a - b) / length;
-    sum += (1 + h + h * h / 3) * std::exp(-h) / double(std::size(kLengths));
+    sum += (1 + h + h * h / 3) * std::exp(-h) / double(lengths.size());
   }
   return sum + line * line * a * b;
 }
@@ -27,10 +30,10 @@ double covariance(double a, double b, double line) {
 /// Functions of u in [-1, 1] with unit-size coefficients: at u, less their values at home.
 class Functions {
  public:
-  explicit Functions(double line) : line_(line) {
+  Functions(std::span<const double> lengths, double line) : lengths_(lengths), line_(line) {
     Matrix k(kKnots, kKnots);
     for (int i = 0; i < kKnots; ++i)
-      for (int j = 0; j < kKnots; ++j) k(i, j) = covariance(knot(i), knot(j), line);
+      for (int j = 0; j < kKnots; ++j) k(i, j) = covariance(knot(i), knot(j), lengths, line);
     root_ = Eigen::SelfAdjointEigenSolver<Matrix>(k + 1e-9 * Matrix::Identity(kKnots, kKnots)).operatorInverseSqrt();
     home_ = row(-1);
   }
@@ -40,20 +43,19 @@ class Functions {
   static double knot(int i) { return -1 + 2.0 * i / (kKnots - 1); }
   Vector row(double u) const {
     Vector k(kKnots);
-    for (int i = 0; i < kKnots; ++i) k(i) = covariance(u, knot(i), line_);
+    for (int i = 0; i < kKnots; ++i) k(i) = covariance(u, knot(i), lengths_, line_);
     return root_ * k;
   }
+  std::span<const double> lengths_;
   double line_;
   Matrix root_;
   Vector home_;
 };
 
-}  // namespace
-
-Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double line) {
+/// All error functions, kKnots columns each.
+Matrix columns_of(const RecordedTouches& t, const Machine& machine, const Functions& functions) {
   constexpr double kUmPerMm = 1e3, kMmPerM = 1e-3;
-  const Functions functions(line);
-  Matrix out(static_cast<Eigen::Index>(t.touches.size()), kComponents * kKnots);
+  Matrix out = Matrix::Zero(static_cast<Eigen::Index>(t.touches.size()), kComponents * kKnots);
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;
     for (int axis = 0; axis < 3; ++axis) {
@@ -68,6 +70,17 @@ Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double l
       }
     }
   }
+  return out;
+}
+
+}  // namespace
+
+Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double line) { return columns_of(t, machine, Functions(kLengths, line)); }
+
+std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {
+  const Matrix all = columns_of(t, machine, Functions(kShortLengths, 0));
+  std::vector<Matrix> out;
+  for (int c = 0; c < kComponents; ++c) out.push_back(compressed(all.middleCols(c * kKnots, kKnots)));
   return out;
 }
 

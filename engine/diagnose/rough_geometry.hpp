@@ -15,4 +15,7 @@ namespace abbe::diagnose {
 /// squareness are larger than waviness, until an earlier recording has told them.
 Matrix rough_geometry(const RecordedTouches&, const Machine&, double line);
 
+/// The same for each error function by itself, of short length only and without a line: a guide with one bad error function.
+std::vector<Matrix> uneven_functions(const RecordedTouches&, const Machine&);
+
 }  // namespace abbe::diagnose

@@ -114,6 +114,26 @@ TEST_CASE("errors rougher than the ensemble are no mismatch") {
   CHECK(EvidenceSearch(smooth, h, all).rough() < 0.2);
 }
 
+TEST_CASE("one error function more uneven than the others is no mismatch") {
+  const int n = 120;
+  LinearModel m = noise_only(n, 21);
+  const Explanations all = two(n);
+  Matrix function(n, 8);
+  for (int k = 0; k < 8; ++k)
+    for (int i = 0; i < n; ++i) function(i, k) = std::exp(-0.5 * std::pow((i - 15.0 * k) / 9, 2));
+  // As large as it may be, and of a shape that the parabola imitates.
+  const Vector wave = function * Vector{{-2, -1, 0.5, 1.5, 1.5, 0.5, -1, -2}};
+  m.y -= wave;
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] > 10);
+  m.uneven = {function};
+  CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] < 2);
+  // Where it cannot do what is seen, the mismatch stays.
+  m.y += wave + 0.8 * all.blocks[0].signature.col(0);
+  CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[0] > 10);
+}
+
 TEST_CASE("p-values without a mismatch are uniform") {
   // 60 recordings: the smallest p-values follow a binomial law; P(4 or more of 60 below 0.01) = 0.3 %, P(10 or more below 0.05) = 0.1 %.
   const int n = 50;
