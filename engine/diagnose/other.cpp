@@ -1,9 +1,11 @@
 // OTHER: random patterns in each factor, for physics that the catalogue does not have. Without it a diagnosis names the nearest
-// effect with great confidence whatever the truth is. Smooth patterns are Gaussian processes with a squared-exponential covariance, in their
-// subset-of-regressors form on evenly spread centres (Rasmussen & Williams 2006, 8.3.1): columns K_rows,centres K_centres^(-1/2), amplitude
-// 1 um. Periodic ones are sines and cosines of one frequency each.
+// effect with great confidence whatever the truth is. Patterns are Gaussian processes in their subset-of-regressors form on evenly spread
+// centres (Rasmussen & Williams 2006, 4.2.1 and 8.3.1): columns K_rows,centres K_centres^(-1/2), amplitude 1 um. Smooth ones have a
+// squared-exponential covariance, rugged ones an exponential one: jumps, saws and chirps are no smooth functions. Periodic ones are sines and
+// cosines of one frequency each.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -38,17 +40,32 @@ Points centres(const Points& points, double length, int most) {
   return chosen;
 }
 
-/// The smooth functions of the points: columns of variance about 1.
-Matrix smooth(const Points& points, double length, int most) {
-  const Points at = centres(points, length, most);
+/// Functions of the points with a covariance of their squared distance: columns of variance about 1.
+template <class Covariance>
+Matrix functions(const Points& points, const Points& at, Covariance covariance) {
   const auto kernel = [&](const Points& a, const Points& b) {
     Matrix k(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i)
-      for (std::size_t j = 0; j < b.size(); ++j) k(i, j) = std::exp(-squared_distance(a[i], b[j]) / (2 * length * length));
+      for (std::size_t j = 0; j < b.size(); ++j) k(i, j) = covariance(squared_distance(a[i], b[j]));
     return k;
   };
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(kernel(at, at) + 1e-6 * Matrix::Identity(at.size(), at.size()));
   return kernel(points, at) * solver.operatorInverseSqrt();
+}
+
+Matrix smooth(const Points& points, double length, int most) {
+  return functions(points, centres(points, length, most), [&](double d2) { return std::exp(-d2 / (2 * length * length)); });
+}
+
+Matrix rugged(const Points& points, double length, int most) {
+  return functions(points, centres(points, 4.0 / most, most), [&](double d2) { return std::exp(-std::sqrt(d2) / length); });
+}
+
+/// The values lie in [0, 1] then.
+void onto_unit(Points& line) {
+  double low = line.front()[0], high = low;
+  for (const auto& p : line) low = std::min(low, p[0]), high = std::max(high, p[0]);
+  for (auto& p : line) p[0] = (p[0] - low) / std::max(1e-9, high - low);
 }
 
 /// Columns times each component of a direction by row: a vector field seen along the normals.
@@ -70,6 +87,13 @@ Matrix indicator(const std::vector<int>& group) {
   return out;
 }
 
+/// Every column of one times every column of the other.
+Matrix products(const Matrix& a, const Matrix& b) {
+  Matrix out(a.rows(), a.cols() * b.cols());
+  for (Eigen::Index k = 0; k < b.cols(); ++k) out.middleCols(k * a.cols(), a.cols()) = b.col(k).asDiagonal() * a;
+  return out;
+}
+
 /// Columns of `field` kept apart by group.
 Matrix by_group(const Matrix& field, const std::vector<int>& group) {
   const Matrix in = indicator(group);
@@ -88,6 +112,7 @@ class Patterns {
       normal_.push_back(s.normal);
       time_.push_back({s.time_s});
       place_.push_back({s.point.x, s.point.y, s.point.z});
+      for (int k = 0; k < 3; ++k) reading_[k].push_back({s.reading[k]});
       directions_.push_back({s.normal.x, s.normal.y, s.normal.z});
       const Vec3 n = transpose(s.stylus.R_WR) * s.normal;
       on_probe_.push_back({n.x, n.y, n.z});
@@ -98,26 +123,43 @@ class Patterns {
     }
     for (auto& p : time_) p[0] = (p[0] - t.touches.front().scene.time_s) / std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
     normalise(place_);
+    for (Points& r : reading_) onto_unit(r);
+    // Time since the head, or the part, was moved to where it is.
+    std::map<std::array<int, 3>, double> begun;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const TouchScene& s = t.touches[rows[k]].scene;
+      settled_.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, s.visit}, s.time_s).first->second});
+    }
+    onto_unit(settled_);
   }
 
   void add_all() {
     const Matrix one = Matrix::Ones(normal_.size(), 1);
     add(Factor::time, "slow", along(smooth(time_, 0.3, 8), normal_));
     add(Factor::time, "quick", along(smooth(time_, 0.07, 22), normal_));
+    add(Factor::time, "rugged", in_one_direction(rugged(time_, 0.2, 40)));
     add(Factor::time, "turning to and fro", turning());
     add(Factor::position, "smooth", along(smooth(place_, 0.6, 14), normal_));
     add(Factor::position, "patch", along(smooth(place_, 0.25, 26), normal_));
     add(Factor::position, "height", smooth(place_, 0.4, 24));
+    add(Factor::position, "along a guide", guides());
+    add(Factor::position, "in time", along(products(smooth(place_, 0.6, 8), trend()), normal_));
     add(Factor::direction, "smooth", smooth(directions_, 0.6, 40));
+    add(Factor::direction, "in time", products(smooth(directions_, 0.9, 8), trend()));
     if (several(orientation_)) {
       add(Factor::direction, "on the probe", smooth(on_probe_, 0.6, 40));
       add(Factor::direction, "lobes", lobes());
       add(Factor::head, "orientation", along(indicator(orientation_), normal_));
       add(Factor::head, "orientation in time", along(by_group(trend(), orientation_), normal_));
+      add(Factor::head, "settling", along(by_group(settling(), orientation_), normal_));
     }
-    if (several(sensor_)) add(Factor::sensor, "offset", hcat(along(indicator(sensor_), normal_), indicator(sensor_)));
+    if (several(sensor_)) {
+      add(Factor::sensor, "offset", hcat(along(indicator(sensor_), normal_), indicator(sensor_)));
+      add(Factor::sensor, "over position", along(by_group(linear_place(), sensor_), normal_));
+    }
     if (several(feature_)) {
       add(Factor::feature, "size", indicator(feature_));
+      add(Factor::feature, "size in time", by_group(trend(), feature_));
       add(Factor::feature, "form", by_group(smooth(directions_, 0.9, 8), feature_));
     }
     if (several(setup_)) add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
@@ -180,6 +222,33 @@ class Patterns {
     return out;
   }
 
+  /// One function, in every direction or in one of thirteen: the axes, and halfway between two or three of them.
+  std::vector<Matrix> in_one_direction(const Matrix& f) const {
+    std::vector<Matrix> out{along(f, normal_)};
+    for (int code = 14; code < 27; ++code) {   // the half of the 27 directions with components -1, 0, 1 that is after the middle
+      const Vec3 d{double(code / 9 - 1), double(code / 3 % 3 - 1), double(code % 3 - 1)};
+      Vector share(f.rows());
+      for (Eigen::Index i = 0; i < f.rows(); ++i) share(i) = dot(normal_[static_cast<std::size_t>(i)], d) / norm(d);
+      out.push_back(share.asDiagonal() * f);
+    }
+    return out;
+  }
+
+  /// A rugged function of the reading of one axis.
+  std::vector<Matrix> guides() const {
+    std::vector<Matrix> out;
+    for (const Points& reading : reading_)
+      for (Matrix& m : in_one_direction(rugged(reading, 0.15, 24))) out.push_back(std::move(m));
+    return out;
+  }
+
+  /// Functions of the time since the head was indexed: a straight line, and one that slows down.
+  Matrix settling() const {
+    Matrix m(settled_.size(), 2);
+    for (std::size_t i = 0; i < settled_.size(); ++i) m.row(static_cast<Eigen::Index>(i)) << settled_[i][0], std::sqrt(settled_[i][0]);
+    return m;
+  }
+
   Matrix trend() const {
     Matrix m(time_.size(), 2);
     for (std::size_t i = 0; i < time_.size(); ++i) m(i, 0) = time_[i][0] - 0.5, m(i, 1) = std::pow(time_[i][0] - 0.5, 2);
@@ -213,7 +282,7 @@ class Patterns {
 
   Explanations& out_;
   std::vector<Vec3> normal_;
-  Points time_, place_, directions_, on_probe_;
+  Points time_, place_, directions_, on_probe_, reading_[3], settled_;
   std::vector<int> orientation_, sensor_, feature_, setup_, run_, speed_;
   std::vector<double> above20_;
 };

@@ -1,0 +1,82 @@
+// Patterns that no effect of the catalogue makes are found in their factor.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <functional>
+#include <numeric>
+
+#include "engine/diagnose/evidence.hpp"
+#include "engine/lanes/random.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// Touches scattered over a volume, their normals in all directions; every fifteen the head is indexed to another of three orientations.
+RecordedTouches scattered(int count) {
+  RecordedTouches t;
+  for (int i = 0; i < count; ++i) {
+    const auto u = [&](std::uint32_t which) { return uniform_pair({3, static_cast<std::uint32_t>(i), stream_of("other_test"), which, 0, 0}).a; };
+    RecordedTouch touch;
+    touch.row = i;
+    TouchScene& s = touch.scene;
+    s.point = s.reading = {500 * u(0), 400 * u(1), 300 * u(2)};
+    const double z = 2 * u(3) - 1, around = 2 * kPi * u(4), r = std::sqrt(1 - z * z);
+    s.normal = {r * std::cos(around), r * std::sin(around), z};
+    s.visit = i / 15;
+    s.time_s = 10 * i + 60 * s.visit;
+    s.stylus.head_b_rad = s.visit % 3;
+    s.feature = i % 5;
+    t.touches.push_back(touch);
+  }
+  return t;
+}
+
+/// The likeliest pattern for a displacement, um, in noise of 1 um.
+std::string likeliest(const RecordedTouches& t, const std::function<Vec3(const TouchScene&)>& displacement_um) {
+  const auto n = static_cast<Eigen::Index>(t.touches.size());
+  LinearModel m;
+  m.free = m.random = Matrix::Zero(n, 3);
+  m.y.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const TouchScene& s = t.touches[static_cast<std::size_t>(i)].scene;
+    for (int k = 0; k < 3; ++k) m.free(i, k) = s.normal[k], m.random(i, k) = s.normal[k] * s.point.x / 500;
+    m.y(i) = dot(s.normal, displacement_um(s)) + normal_quantile(uniform_pair({4, static_cast<std::uint32_t>(i), stream_of("other_test"), 9, 0, 0}).a);
+  }
+  m.random_group.assign(3, 0);
+  m.noise_um = Vector::Ones(n);
+  m.noise_group.assign(t.touches.size(), 0);
+  m.follows.assign(t.touches.size(), 0);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  Explanations all;
+  std::vector<int> rows(t.touches.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  add_other(t, rows, all);
+  for (Explanation& e : all.list) e.prior = 1.0 / double(all.list.size());
+  const Evidence evidence = EvidenceSearch(m, h, all).evidence();
+  const auto best = std::max_element(evidence.log_bayes.begin(), evidence.log_bayes.end());
+  CHECK(*best > 10);
+  return all.list[static_cast<std::size_t>(best - evidence.log_bayes.begin())].name;
+}
+
+}  // namespace
+
+TEST_CASE("a pattern is found in its factor, smooth or not") {
+  const RecordedTouches t = scattered(300);
+  const Vec3 oblique = Vec3{1, 1, -1} / std::sqrt(3.0);
+  CHECK(likeliest(t, [](const TouchScene& s) { return 3.0 * Vec3{std::sin(s.time_s / 700), std::cos(s.time_s / 900), std::sin(s.time_s / 800)}; }) == "OTHER time, slow");
+  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.visit / 2 % 2 ? 1.5 : -1.5) * oblique; }) == "OTHER time, rugged");
+  CHECK(likeliest(t, [&](const TouchScene& s) { return 5 * (std::fmod(s.reading.y / 130, 1) - 0.5) * oblique; }) == "OTHER position, along a guide");
+  CHECK(likeliest(t, [](const TouchScene& s) { return 4 * std::exp(-std::pow(norm(s.point - Vec3{250, 200, 150}) / 120, 2)) * s.normal; }) ==
+        "OTHER position, height");
+  CHECK(likeliest(t, [](const TouchScene& s) { return std::pow(double(s.feature) - 2, 2) * (s.time_s - 2000) / 2000 * s.normal; }) == "OTHER feature, size in time");
+}
+
+TEST_CASE("a joint that settles after each indexing is seen over the time since") {
+  const RecordedTouches t = scattered(300);
+  const auto since = [&](const TouchScene& s) { return (s.time_s - t.touches[static_cast<std::size_t>(15 * s.visit)].scene.time_s) / 140; };
+  CHECK(likeliest(t, [&](const TouchScene& s) { return 3 * std::log1p(9 * since(s)) / 2.3 * Vec3{s.stylus.head_b_rad - 1, 0.5, 0}; }) == "OTHER head, settling");
+}
