@@ -114,8 +114,8 @@ class Compiler {
           return fmt::format("{}", v.number / (v.type == ValueType::length ? lowering_.units.mm_per_unit : v.type == ValueType::angle ? lowering_.units.rad_per_unit : 1));
       return a.text;
     };
-    lowering_.settings[raw.word] = text(raw.arguments.front());
-    if (raw.arguments.size() > 1) lowering_.settings[raw.word + "," + upper(raw.arguments.front().text)] = text(raw.arguments.back());
+    lowering_.settings.set(raw.word, text(raw.arguments.front()));
+    if (raw.arguments.size() > 1) lowering_.settings.set(raw.word + "," + upper(raw.arguments.front().text), text(raw.arguments.back()));
   }
 
   bool label_fits(const Statement& statement, const RawStatement& raw) {

@@ -150,15 +150,14 @@ void Flow::arrive(int at, const VariableNames& names, const State& before) {
 /// What labels meant when a loop was entered they must still mean on its next turn, because the loop is lowered once.
 void Flow::check_same_meaning(const State& passed) {
   const auto differs = [&](const auto& then, const auto& now, std::string_view kind, const auto& meaning) {
-    for (const auto& [name, was] : then) {
-      const auto is = now.find(name);
-      if (is == now.end() || meaning(is->second) == meaning(was)) continue;
+    now.differences(then, [&](const std::string& name, const auto* is, const auto& was) {
+      if (!is || meaning(*is) == meaning(was)) return;
       lowering_.failed = false;
       lowering_.error(Code::E0238, lowering_.statement->span,
                       fmt::format("{}({}) was something else on the turn before, and machines take different numbers of turns here", kind, name),
                       "define it before the loop, or give it another label inside");
       failed_control();
-    }
+    });
   };
   const auto id = [](const auto& v) { return v.value; };
   differs(passed.symbols.features, lowering_.symbols.features, "F", id);

@@ -8,12 +8,25 @@ namespace abbe::lang {
 namespace {
 
 /// Labels of either path; one that means different things on them is ambiguous from here on.
-template <class Map, class Meaning>
-void merge_labels(Map& into, const Map& other, std::string_view kind, Symbols& symbols, Meaning meaning) {
-  for (const auto& [name, theirs] : other) {
-    const auto [mine, is_new] = into.emplace(name, theirs);
-    if (!is_new && meaning(mine->second) != meaning(theirs)) symbols.ambiguous.insert(spoilt_key(kind, name));
-  }
+template <class Symbol, class Meaning>
+void merge_labels(Symbols::Labels<Symbol>& into, const Symbols::Labels<Symbol>& other, std::string_view kind, Symbols& symbols, Meaning meaning) {
+  const Symbols::Labels<Symbol> ours = into;
+  ours.differences(other, [&](const std::string& name, const Symbol* mine, const Symbol& theirs) {
+    if (!mine)
+      into.set(name, theirs);
+    else if (meaning(*mine) != meaning(theirs))
+      symbols.ambiguous.insert(spoilt_key(kind, name));
+  });
+}
+
+void merge_actuals(SharedMap<int, ActualState>& into, const SharedMap<int, ActualState>& other) {
+  const SharedMap<int, ActualState> ours = into;
+  ours.differences(other, [&](int feature, const ActualState* mine, const ActualState& theirs) {
+    ActualState both = mine ? *mine : ActualState{};
+    both.present |= theirs.present;
+    if (both.spoilt.empty()) both.spoilt = theirs.spoilt;
+    into.set(feature, both);
+  });
 }
 
 void merge_symbols(Symbols& into, const Symbols& other) {
@@ -23,7 +36,10 @@ void merge_symbols(Symbols& into, const Symbols& other) {
   merge_labels(into.frames, other.frames, "D", into, id);
   merge_labels(into.sensors, other.sensors, "S", into, id);
   merge_labels(into.tolerances, other.tolerances, "T", into, [](const ToleranceSymbol& t) { return t.span.begin; });
-  into.spoilt.insert(other.spoilt.begin(), other.spoilt.end());
+  const Symbols::Labels<std::string> spoilt = into.spoilt;
+  spoilt.differences(other.spoilt, [&](const std::string& name, const std::string* mine, const std::string& reason) {
+    if (!mine) into.spoilt.set(name, reason);
+  });
   into.ambiguous.insert(other.ambiguous.begin(), other.ambiguous.end());
 }
 
@@ -36,11 +52,7 @@ void merge(State& into, const State& other) {
     return;
   }
   merge_symbols(into.symbols, other.symbols);
-  if (into.actuals.size() < other.actuals.size()) into.actuals.resize(other.actuals.size());
-  for (std::size_t k = 0; k < other.actuals.size(); ++k) {
-    into.actuals[k].present |= other.actuals[k].present;
-    if (into.actuals[k].spoilt.empty()) into.actuals[k].spoilt = other.actuals[k].spoilt;
-  }
+  merge_actuals(into.actuals, other.actuals);
   if (into.measuring && other.measuring) {
     if (into.measuring->spoilt.empty()) into.measuring->spoilt = other.measuring->spoilt;
     into.measuring->touches = std::max(into.measuring->touches, other.measuring->touches);
@@ -49,9 +61,9 @@ void merge(State& into, const State& other) {
   into.home_known |= other.home_known;
   for (const auto doubt : {&State::frame_doubt, &State::unit_doubt, &State::sensor_doubt, &State::flow_doubt})
     if ((into.*doubt).empty()) into.*doubt = other.*doubt;
-  std::erase_if(into.settings, [&](const auto& setting) {
-    const auto theirs = other.settings.find(setting.first);
-    return theirs == other.settings.end() || theirs->second != setting.second;
+  const SharedMap<std::string, std::string> settings = into.settings;
+  other.settings.differences(settings, [&](const std::string& word, const std::string* theirs, const std::string& ours) {
+    if (!theirs || *theirs != ours) into.settings.erase(word);
   });
   merge(into.variables, other.variables);
 }

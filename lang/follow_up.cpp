@@ -30,8 +30,8 @@ std::optional<std::string> label_argument(const Lowering& lowering, const RawSta
 void spoil_actual(Lowering& lowering, const std::optional<std::string>& label,
                   const std::string& reason) {
   if (!label) return;
-  const auto it = lowering.symbols.features.find(upper(*label));
-  if (it != lowering.symbols.features.end()) lowering.actual(it->second) = {false, reason};
+  if (const plan::FeatureId* feature = lowering.symbols.features.find(upper(*label)))
+    lowering.actuals.set(feature->value, {false, reason});
 }
 
 bool one_of(std::string_view word, std::initializer_list<std::string_view> list) {
@@ -57,12 +57,12 @@ void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_
 
 void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view word) {
   const std::string reason = lowering.blame();
-  if (raw.label) lowering.symbols.spoilt[spoilt_key(raw.label->kind, raw.label->name)] = reason;
+  if (raw.label) lowering.symbols.spoilt.set(spoilt_key(raw.label->kind, raw.label->name), reason);
   spoil_measurement(lowering, raw, word, reason);
   if (word == "CONST") spoil_actual(lowering, label_argument(lowering, raw, "F", "F"), reason);
   if (word == "DATDEF")
     if (const auto datum = label_argument(lowering, raw, "DAT", "DAT"))
-      lowering.symbols.spoilt[spoilt_key("DAT", *datum)] = reason;
+      lowering.symbols.spoilt.set(spoilt_key("DAT", *datum), reason);
   const bool recalls_frame = word == "RECALL" && label_argument(lowering, raw, "D", "DA");
   if (one_of(word, {"DATSET", "TRANS", "ROTATE"}) || recalls_frame) lowering.frame_doubt = reason;
   if (word == "UNITS") lowering.unit_doubt = reason;

@@ -155,23 +155,22 @@ std::optional<Arguments> Lowering::arguments(const Match& match) {
   return failed ? std::nullopt : std::optional(std::move(values));
 }
 
-template <class Map>
-typename Map::mapped_type* Lowering::find(Map& map, std::string_view kind, const LabelRef& label,
-                                          std::string_view next_step) {
-  const auto it = map.find(upper(label.name));
-  const auto spoilt = symbols.spoilt.find(spoilt_key(label.kind, label.name));
-  if (spoilt != symbols.spoilt.end()) {
-    fail(chain(fmt::format("{} {} is not usable", kind, written(label)), spoilt->second));
+template <class Meaning>
+const Meaning* Lowering::find(const Symbols::Labels<Meaning>& labels, std::string_view kind, const LabelRef& label,
+                              std::string_view next_step) {
+  if (const std::string* spoilt = symbols.spoilt.find(spoilt_key(label.kind, label.name))) {
+    fail(chain(fmt::format("{} {} is not usable", kind, written(label)), *spoilt));
     return nullptr;
   }
-  if (it != map.end() && symbols.ambiguous.count(spoilt_key(label.kind, label.name))) {
+  const Meaning* meaning = labels.find(upper(label.name));
+  if (meaning && symbols.ambiguous.count(spoilt_key(label.kind, label.name))) {
     error(Code::E0238, label.span, fmt::format("which {} {} means depends on a measured value", kind, written(label)),
           "define it once, or use it on each path before they meet");
     return nullptr;
   }
-  if (it != map.end()) return &it->second;
+  if (meaning) return meaning;
   std::vector<std::string_view> names;
-  for (const auto& entry : map) names.push_back(entry.first);
+  labels.each([&](const std::string& name, const Meaning&) { names.push_back(name); });
   const std::string near = nearest_word(label.name, names);
   error(Code::E0201, label.span, fmt::format("{} {} is not defined above", kind, written(label)),
         near.empty() ? std::string(next_step)
@@ -189,11 +188,12 @@ std::optional<plan::FeatureId> Lowering::defined_feature(const LabelRef& label) 
 std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
   const std::optional<plan::FeatureId> id = defined_feature(label);
   if (!id) return id;
-  if (!actual(*id).spoilt.empty()) {
-    fail(chain(fmt::format("FA({}) is not measured", label.name), actual(*id).spoilt));
+  const ActualState state = actual(*id);
+  if (!state.spoilt.empty()) {
+    fail(chain(fmt::format("FA({}) is not measured", label.name), state.spoilt));
     return std::nullopt;
   }
-  if (actual(*id).present || looping > 0) return id;  // a turn of a loop may have measured it
+  if (state.present || looping > 0) return id;  // a turn of a loop may have measured it
   const bool inside = measuring && measuring->feature == *id;
   error(Code::E0202, label.span,
         fmt::format("{} was not measured or constructed above", written(label)),
@@ -224,17 +224,17 @@ std::optional<plan::SensorId> Lowering::sensor(const LabelRef& label) {
 
 void Lowering::sensor_of_machine_file(const LabelRef& label) {
   const std::string key = upper(label.name);
-  if (symbols.sensors.count(key) || symbols.spoilt.count(spoilt_key(label.kind, label.name)))
+  if (symbols.sensors.has(key) || symbols.spoilt.has(spoilt_key(label.kind, label.name)))
     return;
   plan::SensorDef def;
   def.label = label.name;
   def.from_machine_file = true;
   def.span = label.span;
-  symbols.sensors[key] = plan::SensorId{static_cast<int>(out.plan.sensors.size())};
+  symbols.sensors.set(key, {static_cast<int>(out.plan.sensors.size())});
   out.plan.sensors.push_back(std::move(def));
 }
 
-ToleranceSymbol* Lowering::tolerance(const LabelRef& label) {
+const ToleranceSymbol* Lowering::tolerance(const LabelRef& label) {
   return find(symbols.tolerances, "tolerance", label,
               "define it with T(name)=TOL/... before this line");
 }
@@ -246,11 +246,11 @@ void Lowering::emit(plan::Action action) {
 
 plan::FrameId Lowering::new_frame(const RawStatement& raw) {
   const std::string key = upper(raw.label->name);
-  const auto known = symbols.frames.find(key);
-  if (parted > 0 && known != symbols.frames.end()) return known->second;
+  const plan::FrameId* known = symbols.frames.find(key);
+  if (parted > 0 && known) return *known;
   const plan::FrameId id{static_cast<int>(out.plan.frames.size())};
   out.plan.frames.push_back({raw.label->name, raw.span});
-  symbols.frames[key] = id;
+  symbols.frames.set(key, id);
   return id;
 }
 
@@ -276,24 +276,23 @@ void Lowering::define(const RawStatement& raw, plan::FeatureDef def, const Match
   const auto suits = [&](plan::FeatureId other) { return out.plan[other].kind == def.kind && out.plan[other].inner == def.inner; };
   plan::FeatureId id = own;
   if (parted > 0) {
-    const auto here = symbols.features.find(key);
+    const plan::FeatureId* here = symbols.features.find(key);
     const auto [elsewhere, first] = features_of_paths_.emplace(std::pair(key, parting), own);
-    if (here != symbols.features.end() && suits(here->second))
-      id = here->second;
+    if (here && suits(*here))
+      id = *here;
     else if (!first && suits(elsewhere->second))
       id = elsewhere->second;
   }
   out.plan.features.push_back(std::move(def));
-  symbols.features[key] = id;
-  actual(id) = {};
+  symbols.features.set(key, id);
+  actuals.set(id.value, {});
   forms[id.value] = written_form(raw, match);
   emit(plan::DefineFeature{id, id == own ? plan::FeatureId{} : own});
 }
 
-ActualState& Lowering::actual(plan::FeatureId id) {
-  const auto index = static_cast<std::size_t>(id.value);
-  if (actuals.size() <= index) actuals.resize(index + 1);
-  return actuals[index];
+ActualState Lowering::actual(plan::FeatureId id) const {
+  const ActualState* state = actuals.find(id.value);
+  return state ? *state : ActualState{};
 }
 
 plan::ColumnId Lowering::evaluated(const plan::Expression& value) {

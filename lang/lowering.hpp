@@ -17,6 +17,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -25,6 +26,7 @@
 
 #include "lang/compile.hpp"
 #include "lang/parser.hpp"
+#include "lang/shared_map.hpp"
 #include "lang/signature.hpp"
 #include "lang/units.hpp"
 #include "lang/variables.hpp"
@@ -50,8 +52,8 @@ struct ToleranceSymbol {
   Match match;
   Span span;
   std::string label;
-  std::vector<std::pair<std::vector<int>, plan::ToleranceId>>
-      instances;  ///< by the features that its labels meant
+  /// By the features that its labels meant. All paths share them: the same meaning is the same tolerance.
+  std::shared_ptr<std::map<std::vector<int>, plan::ToleranceId>> instances;
   std::vector<FormItem> form;
 };
 
@@ -83,11 +85,13 @@ struct Mount {
 /// used;
 /// `ambiguous` holds labels that mean different things on paths that have met, in the same form.
 struct Symbols {
-  std::map<std::string, plan::FeatureId> features, datums;
-  std::map<std::string, plan::FrameId> frames;
-  std::map<std::string, plan::SensorId> sensors;
-  std::map<std::string, ToleranceSymbol> tolerances;
-  std::map<std::string, std::string> spoilt;
+  template <class Meaning>
+  using Labels = SharedMap<std::string, Meaning>;
+  Labels<plan::FeatureId> features, datums;
+  Labels<plan::FrameId> frames;
+  Labels<plan::SensorId> sensors;
+  Labels<ToleranceSymbol> tolerances;
+  Labels<std::string> spoilt;
   std::set<std::string> ambiguous;
 };
 
@@ -96,8 +100,8 @@ struct Symbols {
 struct State {
   Units units;
   Symbols symbols;
-  std::vector<ActualState> actuals;  ///< by FeatureId
-  std::map<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
+  SharedMap<int, ActualState> actuals;  ///< by FeatureId
+  SharedMap<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
   std::map<Shape, FitCriterion> criteria;    ///< GEOALG; a shape without an entry: least squares
   std::optional<OpenMeasure> measuring;
   bool sensor_selected = false;
@@ -107,7 +111,7 @@ struct State {
   std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
   std::string flow_doubt;  ///< an error in a statement of control: which statements run is unknown from there on
   Variables variables;
-  std::map<std::string, std::string> settings;  ///< what VALUE reads: last argument of a setting as written, by its word
+  SharedMap<std::string, std::string> settings;  ///< what VALUE reads: last argument of a setting as written, by its word
   bool reachable = true;  ///< false after a jump
 };
 
@@ -150,7 +154,7 @@ class Lowering : public State {
   std::optional<plan::FeatureId> datum(const LabelRef&);
   std::optional<plan::FrameId> frame(const LabelRef&);
   std::optional<plan::SensorId> sensor(const LabelRef&);
-  ToleranceSymbol* tolerance(const LabelRef&);
+  const ToleranceSymbol* tolerance(const LabelRef&);
   /// SA(name) that no SNSDEF defined names a sensor of the machine file: defines it so.
   void sensor_of_machine_file(const LabelRef&);
 
@@ -162,7 +166,7 @@ class Lowering : public State {
   /// one feature, so that the paths may meet again.
   /// `match` holds its arguments.
   void define(const RawStatement&, plan::FeatureDef, const Match& match);
-  ActualState& actual(plan::FeatureId);
+  ActualState actual(plan::FeatureId) const;
   /// A column for the value of an expression, computed here.
   plan::ColumnId evaluated(const plan::Expression&);
   /// The columns that belong to `slot`, always the same ones.
@@ -210,9 +214,9 @@ class Lowering : public State {
   std::string blame() const;
 
  private:
-  template <class Map>
-  typename Map::mapped_type* find(Map& map, std::string_view kind, const LabelRef& label,
-                                  std::string_view next_step);
+  template <class Meaning>
+  const Meaning* find(const Symbols::Labels<Meaning>&, std::string_view kind, const LabelRef& label,
+                      std::string_view next_step);
 
   std::map<std::string_view, Signature> signatures_;  ///< parsed once; signature texts are static
   std::map<std::string, plan::ColumnId> columns_;     ///< by slot

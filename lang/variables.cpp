@@ -89,9 +89,8 @@ Variable& declare(Lowering& lowering, std::string_view name, Type type, int leng
 
 Value read(Lowering& lowering, Variable& v, const std::optional<Value>& index) {
   check_use(v, index);
-  const auto spoilt = lowering.symbols.spoilt.find(spoilt_key("", v.name));
-  if (spoilt != lowering.symbols.spoilt.end())
-    throw Mistake{Code::E0230, 0, 0, fmt::format("{} has no usable value", v.name), fmt::format("because of {}", spoilt->second), ""};
+  if (const std::string* spoilt = lowering.symbols.spoilt.find(spoilt_key("", v.name)))
+    throw Mistake{Code::E0230, 0, 0, fmt::format("{} has no usable value", v.name), fmt::format("because of {}", *spoilt), ""};
   Value out{v.type, {}};
   const int width = v.width();
   if (index && !index->known()) {

@@ -12,7 +12,7 @@ namespace {
 
 void bind_datum(Lowering& lowering, const RawStatement&, const Match& match) {
   const std::optional<plan::FeatureId> id = lowering.actual_feature(match.find("feature")->label);
-  if (id) lowering.symbols.datums[upper(match.text("datum"))] = *id;
+  if (id) lowering.symbols.datums.set(upper(match.text("datum")), *id);
 }
 
 /// The words that follow a datum: at most one direction, any origins.
@@ -115,10 +115,11 @@ void recall(Lowering& lowering, const RawStatement&, const Match& match) {
     return;
   }
   const std::string key = upper(label.name);
-  if (key == "MCS" && !lowering.symbols.frames.count(key)) {
-    lowering.symbols.frames[key] = plan::FrameId{static_cast<int>(lowering.out.plan.frames.size())};
+  if (key == "MCS" && !lowering.symbols.frames.has(key)) {
+    const plan::FrameId machine{static_cast<int>(lowering.out.plan.frames.size())};
+    lowering.symbols.frames.set(key, machine);
     lowering.out.plan.frames.push_back({label.name, label.span});
-    lowering.emit(plan::SetMachineFrame{lowering.symbols.frames[key]});
+    lowering.emit(plan::SetMachineFrame{machine});
   } else if (const auto frame = lowering.frame(label)) {
     lowering.emit(plan::RecallFrame{*frame});
   }

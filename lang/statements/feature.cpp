@@ -51,9 +51,9 @@ void construct(Lowering& lowering, const RawStatement& raw, const Match& match) 
     plan::Construct operation{*result, method, {}, *arguments, Lowering::varying(*rest)};
     for (const int id : arguments->features("from")) operation.from.push_back(plan::FeatureId{id});
     lowering.emit(std::move(operation));
-    lowering.actual(*result) = {true, ""};
+    lowering.actuals.set(result->value, {true, ""});
   } else if (result) {
-    lowering.actual(*result) = {false, lowering.blame()};
+    lowering.actuals.set(result->value, {false, lowering.blame()});
   }
 }
 

@@ -24,8 +24,8 @@ bool widens(const MatchedValue& v) { return v.text == "MMC" || v.text == "LMC"; 
 
 std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Modified& m,
                                                     const MatchedValue& use) {
-  const auto known = lowering.size_of.find(m.feature.value);
-  if (known == lowering.size_of.end()) {
+  const plan::ToleranceId* known = lowering.size_of.find(m.feature.value);
+  if (!known) {
     const std::string& label = lowering.out.plan[m.feature].label;
     lowering.warn(Code::W0253, use.span,
                   fmt::format("{} has no size of FA({}) to widen the zone with", m.word->text, label),
@@ -35,7 +35,7 @@ std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Mo
     return std::nullopt;
   }
   return plan::MaterialCondition{
-      m.feature, known->second,
+      m.feature, *known,
       m.word->text == "MMC" ? Condition::maximum_material : Condition::least_material};
 }
 
@@ -64,7 +64,7 @@ const char* no_simple_shift(const plan::Plan& plan, const std::vector<Modified>&
 void remember_size(Lowering& lowering, plan::FeatureId feature, plan::ToleranceId id) {
   const plan::ToleranceDef& def = lowering.out.plan[id];
   const bool length = def.arguments.text("across") == "LONG";  // a slot fits by its width
-  if (def.kind->size_factor > 0 && !length) lowering.size_of[feature.value] = id;
+  if (def.kind->size_factor > 0 && !length) lowering.size_of.set(feature.value, id);
 }
 
 std::vector<plan::MaterialCondition> material_conditions(Lowering& lowering,

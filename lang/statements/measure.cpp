@@ -30,7 +30,7 @@ void close_block(Lowering& lowering) {
     lowering.emit(plan::EndMeasure{block.feature, criterion == lowering.criteria.end()
                                                       ? FitCriterion::least_squares
                                                       : criterion->second});
-    lowering.actual(block.feature) = {true, ""};
+    lowering.actuals.set(block.feature.value, {true, ""});
     return;
   }
   // Moves stay: the next block relies on where the tip is.
@@ -38,7 +38,7 @@ void close_block(Lowering& lowering) {
   for (auto o = begin; o != operations.end(); ++o)
     if (std::holds_alternative<plan::BeginMeasure>(o->action) || std::holds_alternative<plan::Touch>(o->action))
       o->action = plan::Jump{kDropped};
-  if (block.feature.valid()) lowering.actual(block.feature) = {false, block.spoilt};
+  if (block.feature.valid()) lowering.actuals.set(block.feature.value, {false, block.spoilt});
 }
 
 void open_block(Lowering& lowering, const RawStatement& raw, const Match& match) {

@@ -103,8 +103,7 @@ void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& mat
     def.mount_offset_mm = lowering.mount->offset_mm;
     def.mount_turn_rad = lowering.mount->turn_rad;
   }
-  lowering.symbols.sensors[upper(def.label)] =
-      plan::SensorId{static_cast<int>(lowering.out.plan.sensors.size())};
+  lowering.symbols.sensors.set(upper(def.label), {static_cast<int>(lowering.out.plan.sensors.size())});
   lowering.sensor_forms[static_cast<int>(lowering.out.plan.sensors.size())] = written_form(raw, match);
   lowering.out.plan.sensors.push_back(std::move(def));
 }

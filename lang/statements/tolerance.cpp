@@ -30,13 +30,12 @@ bool same_arguments(const Match& a, const Match& b) {
 /// label, and only when the meaning changes.
 void note_redefinition(Lowering& lowering, const RawStatement& raw, const ToleranceKind& kind,
                        const Match& match) {
-  const auto known = lowering.symbols.tolerances.find(upper(raw.label->name));
-  if (known == lowering.symbols.tolerances.end()) return;
-  if (known->second.kind == &kind && same_arguments(known->second.match, match)) return;
+  const ToleranceSymbol* known = lowering.symbols.tolerances.find(upper(raw.label->name));
+  if (!known || (known->kind == &kind && same_arguments(known->match, match))) return;
   if (!lowering.reported_words.insert("T:" + upper(raw.label->name)).second) return;
   lowering.warn(Code::N0611, raw.label->span,
                 fmt::format("T({}) was another tolerance in line {}", raw.label->name,
-                            lowering.source.place(known->second.span.begin).line),
+                            lowering.source.place(known->span.begin).line),
                 "each OUTPUT uses the definition above it");
 }
 
@@ -48,8 +47,9 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
       lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used, Varying::taken);
   if (!rest) return;
   note_redefinition(lowering, raw, *kind, *rest);
-  lowering.symbols.tolerances[upper(raw.label->name)] = {
-      kind, *rest, raw.span, raw.label->name, {}, written_form(raw, *rest)};
+  auto instances = std::make_shared<std::map<std::vector<int>, plan::ToleranceId>>();
+  lowering.symbols.tolerances.set(upper(raw.label->name),
+                                  {kind, *rest, raw.span, raw.label->name, std::move(instances), written_form(raw, *rest)});
 }
 
 /// The features and datums that the labels of the tolerance mean now; -1 for one that cannot be
@@ -70,23 +70,22 @@ std::vector<int> operands_now(Lowering& lowering, const ToleranceSymbol& symbol,
 
 /// The definition with its labels resolved to what they mean now; the same one for the same
 /// meaning.
-std::optional<plan::ToleranceId> instance(Lowering& lowering, ToleranceSymbol& symbol,
+std::optional<plan::ToleranceId> instance(Lowering& lowering, const ToleranceSymbol& symbol,
                                           const MatchedValue& use) {
   const std::vector<int> ids = operands_now(lowering, symbol, use);
   if (lowering.failed) return std::nullopt;
-  for (const auto& [known, id] : symbol.instances)
-    if (known == ids) return id;
   const plan::ToleranceId id{static_cast<int>(lowering.out.plan.tolerances.size())};
+  const auto [known, is_new] = symbol.instances->emplace(ids, id);
+  if (!is_new) return known->second;
   lowering.out.plan.tolerances.push_back(
       {symbol.label, symbol.kind, *lowering.arguments(symbol.match), symbol.span, Lowering::varying(symbol.match)});
-  symbol.instances.push_back({ids, id});
   return id;
 }
 
 /// One feature of OUTPUT has this shape; the tolerance says whether it suits.
 void evaluate(Lowering& lowering, const RawStatement& raw,
               const std::vector<plan::FeatureId>& features, const MatchedValue& use) {
-  ToleranceSymbol* symbol = lowering.tolerance(use.label);
+  const ToleranceSymbol* symbol = lowering.tolerance(use.label);
   if (!symbol) return;
   const ToleranceKind& kind = *symbol->kind;
   if (static_cast<int>(features.size()) != kind.features)
@@ -131,11 +130,11 @@ std::string names_of_features(const Match& match) {
 void remember_sizes(Lowering& lowering, plan::FeatureId feature,
                     const std::vector<const MatchedValue*>& tolerances) {
   for (const MatchedValue* use : tolerances) {
-    const auto symbol = lowering.symbols.tolerances.find(upper(use->label.name));
-    if (symbol == lowering.symbols.tolerances.end()) continue;
+    const ToleranceSymbol* symbol = lowering.symbols.tolerances.find(upper(use->label.name));
+    if (!symbol) continue;
     const Shape shape = lowering.out.plan[feature].kind->shape;
-    if (symbol->second.kind->size_factor == 0 || symbol->second.kind->applies({}, {&shape, 1})) continue;
-    if (const auto id = instance(lowering, symbol->second, *use)) remember_size(lowering, feature, *id);
+    if (symbol->kind->size_factor == 0 || symbol->kind->applies({}, {&shape, 1})) continue;
+    if (const auto id = instance(lowering, *symbol, *use)) remember_size(lowering, feature, *id);
   }
 }
 

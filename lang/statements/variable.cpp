@@ -128,10 +128,10 @@ void prompt(Lowering& lowering, const RawStatement& raw, const Match& match) {
 
 void setting(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const std::string word = match.text("word");
-  const auto found = lowering.settings.find(match.has("which") ? word + "," + match.text("which") : word);
-  if (found == lowering.settings.end())
+  const std::string* found = lowering.settings.find(match.has("which") ? word + "," + match.text("which") : word);
+  if (!found)
     return lowering.error(Code::E0244, match.find("word")->span, fmt::format("{} has not been set above on every path", word), "VALUE reads what the last statement of that word set");
-  if (const auto value = answer_value(lowering, found->second, nullptr)) assign_to_label(lowering, raw, *value);
+  if (const auto value = answer_value(lowering, *found, nullptr)) assign_to_label(lowering, raw, *value);
 }
 
 }  // namespace
