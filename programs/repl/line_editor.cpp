@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #ifdef ABBE_HAS_LIBEDIT
 #include <histedit.h>
@@ -66,6 +67,10 @@ struct LineEditor::Terminal {
     el_set(edit, EL_HIST, history, past);
     el_set(edit, EL_ADDFN, "abbe-complete", "complete the word", &Terminal::complete_word);
     el_set(edit, EL_BIND, "^I", "abbe-complete", nullptr);
+    // While a line is typed ^C drops that line and not the session; while figures are computed it ends the program as ever.
+    el_set(edit, EL_SETTY, "-d", "-isig", nullptr);
+    el_set(edit, EL_ADDFN, "abbe-drop", "drop the line", &Terminal::drop_line);
+    el_set(edit, EL_BIND, "^C", "abbe-drop", nullptr);
     el_set(edit, EL_SIGNAL, 1);
   }
   ~Terminal() {
@@ -91,6 +96,12 @@ struct LineEditor::Terminal {
     return show_choice(line, words) ? CC_REDISPLAY : CC_ERROR;
   }
 
+  static unsigned char drop_line(EditLine* edit, int) {
+    std::fputs("^C\n", stdout);
+    of(edit).dropped = true;
+    return CC_NEWLINE;
+  }
+
   /// The words among which the person has to choose, below the line. False when there are none.
   static bool show_choice(const std::string& line, const std::vector<std::string>& words) {
     constexpr int kShown = 60;
@@ -107,6 +118,7 @@ struct LineEditor::Terminal {
 
   Completer complete;
   std::string prompt;
+  bool dropped = false;
   EditLine* edit = nullptr;
   History* past = nullptr;
 };
@@ -145,6 +157,7 @@ std::optional<std::string> LineEditor::read(const std::string& prompt) {
     terminal_->prompt = prompt;
     int length = 0;
     const char* text = el_gets(terminal_->edit, &length);
+    if (std::exchange(terminal_->dropped, false)) return "";
     if (!text || length <= 0) return std::nullopt;
     std::string line(text, static_cast<std::size_t>(length));
     while (line.ends_with('\n') || line.ends_with('\r')) line.pop_back();

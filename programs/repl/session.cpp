@@ -143,8 +143,11 @@ std::vector<std::string> Session::completions(const std::string& line) const {
   }
   const SourceFile source("session", text() + pending_ + line);
   for (lsp::Proposal& p : lsp::proposals(source, lang::label_uses(source),
-                                         static_cast<std::uint32_t>(source.text().size())))
-    words.push_back(std::move(p.text));
+                                         static_cast<std::uint32_t>(source.text().size()))) {
+    // A name behind `FA(` ends with the parenthesis.
+    const bool inside = p.kind == lsp::Proposal::Kind::reference && p.text.find('(') == std::string::npos;
+    words.push_back(inside ? p.text + ")" : std::move(p.text));
+  }
   return words;
 }
 
