@@ -50,6 +50,13 @@ double log_belief(const Case& c, const Finding& f) {
   return std::log(c.explanations.list[f.explanation].prior) + f.evidence.log_bayes[f.explanation];
 }
 
+/// The recording with what was found taken out.
+EvidenceSearch rest_of(const Case& c, const std::vector<Finding>& findings) {
+  std::vector<const Matrix*> removed;
+  for (const Finding& f : findings) removed.push_back(&c.explanations.blocks[f.block].signature);
+  return {with_free(c.model, removed), c.hyper, c.explanations};
+}
+
 struct Round {
   Evidence evidence;
   std::vector<Evidence> null;
@@ -65,13 +72,19 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   return r;
 }
 
+/// Whether an effect and another one beside it say more than a pattern alone, though the effect by itself does not. `before` ends with it.
+bool better_with_partner(const Case& c, const std::vector<Finding>& before, const Finding& pattern, int number) {
+  const Round r = round(c, rest_of(c, before), number);
+  if (r.p > kLaterAlarm) return false;
+  const Finding partner = finding_of(c, r.evidence, true);
+  return partner.probability >= finding_of(c, r.evidence, false).probability && log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
+}
+
 /// Names a finding again, given what was found after it: a later finding may have taken over part of it.
 Finding renamed(const Case& c, const std::vector<Finding>& all, std::size_t which) {
-  std::vector<const Matrix*> others;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (k != which) others.push_back(&c.explanations.blocks[all[k].block].signature);
-  const EvidenceSearch search(with_free(c.model, others), c.hyper, c.explanations);
-  Finding f = finding_of(c, search.evidence(), true);
+  std::vector<Finding> others = all;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
+  Finding f = finding_of(c, rest_of(c, others).evidence(), true);
   f.p = all[which].p;
   return f;
 }
@@ -82,11 +95,7 @@ SearchResult search(const Case& c, const EvidenceSearch& first) {
   SearchResult result;
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
-    if (number > 0) {
-      std::vector<const Matrix*> removed;
-      for (const Finding& f : result.findings) removed.push_back(&c.explanations.blocks[f.block].signature);
-      rest.emplace(with_free(c.model, removed), c.hyper, c.explanations);
-    }
+    if (number > 0) rest.emplace(rest_of(c, result.findings));
     Round r = round(c, rest ? *rest : first, number);
     if (number == 0) {
       result.p_value = r.p;
@@ -96,10 +105,9 @@ SearchResult search(const Case& c, const EvidenceSearch& first) {
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     Finding named = finding_of(c, r.evidence, true), other = finding_of(c, r.evidence, false);
     named.p = other.p = r.p;
-    if (named.probability >= other.probability) {
-      result.findings.push_back(std::move(named));
-      continue;
-    }
+    result.findings.push_back(named);
+    if (named.probability >= other.probability || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
+    result.findings.pop_back();
     result.other = std::move(other);
     break;
   }
