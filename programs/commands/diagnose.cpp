@@ -43,6 +43,7 @@ Recording joined(const std::vector<std::string>& files) {
       throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0], files[k]),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
+    all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());   // new styli; of what is said twice the first counts
   }
   return all;
 }
