@@ -184,9 +184,11 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
       return std::tuple(touch.scene.feature, std::lround(1e3 * touch.scene.point.x), std::lround(1e3 * touch.scene.point.y), std::lround(1e3 * touch.scene.point.z));
     }, free);
   out.geometry_um = perturbed_machines(t, machine);
-  const KnownGeometry known = options.known ? *options.known : ensemble(machine, options.seed, options.threads);
+  const KnownGeometry known = options.known ? *options.known : options.sampled ? *options.sampled : ensemble(machine, options.seed, options.threads);
   out.mean = known.mean;
   out.factor = known.factor;
+  out.rough = known.rough;
+  out.surfaces = options.surfaces;
   const Matrix geometry = out.geometry_um * known.factor;
   random.add(geometry);
   m.random_group.assign(random.count(), 0);

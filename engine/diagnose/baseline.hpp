@@ -34,6 +34,7 @@ struct BaselineOptions {
   const KnownGeometry* known = nullptr;
   std::uint64_t seed = 1;
   int threads = 1;
+  const KnownGeometry* sampled = nullptr;  ///< what the specification gives, when it was sampled before
 };
 
 struct Baseline {
@@ -41,6 +42,8 @@ struct Baseline {
   Matrix geometry_um;               ///< rows x coefficients: um per unit coefficient
   Matrix factor;                    ///< covariance of the coefficients = factor factor', before its scale is estimated
   Vector mean;                      ///< of the coefficients
+  bool rough = true;                ///< KnownGeometry::rough of these
+  Surfaces surfaces = Surfaces::calibrated;
   std::vector<std::string> noise_names;  ///< of the groups of rows with a common noise
 };
 

@@ -1,166 +1,218 @@
 #include "engine/diagnose/next_measurement.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string_view>
 
 namespace abbe::diagnose {
 
 namespace {
 
-constexpr std::size_t kMostTouches = 60, kShown = 3, kMostRivals = 5;
-constexpr double kSecondsPerTouch = 5, kPlanned = 6;   // kPlanned: signal-to-noise that a plan without data reckons with
-
-/// An explanation in the running: its weight and the size that it would have.
-struct Rival {
-  int explanation;
-  double weight;
-};
+constexpr std::size_t kShown = 3, kMostRivals = 8;
+/// A round of measuring and judging takes this long beside the measurement itself, min.
+constexpr double kRound_min = 60;
+/// Expected probability of the truth from which on a measurement counts as deciding.
+constexpr double kDecides = 0.95;
+/// Signal-to-noise that a plan without data reckons with.
+constexpr double kPlanned = 6;
 
 /// The effect that a plan confounds with most others, and these.
-std::vector<Rival> confounded(const Case& c, const std::vector<Detectable>& detectable) {
+std::vector<int> confounded(const Case& c, const std::vector<Detectable>& detectable) {
   const auto most = std::max_element(detectable.begin(), detectable.end(),
                                      [](const Detectable& a, const Detectable& b) { return a.confounded_with.size() < b.confounded_with.size(); });
-  std::vector<Rival> list;
+  std::vector<int> list;
   if (most == detectable.end()) return list;
   std::vector<std::string> names = most->confounded_with;
   names.push_back(most->effect);
   for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
-    if (std::find(names.begin(), names.end(), c.explanations.list[k].name) != names.end()) list.push_back({static_cast<int>(k), 1});
+    if (std::find(names.begin(), names.end(), c.explanations.list[k].name) != names.end()) list.push_back(static_cast<int>(k));
   return list;
 }
 
-/// Those that could not be told apart; without data, those that the plan could not tell apart.
-std::vector<Rival> rivals_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
-  std::vector<Rival> list;
+/// Those of the first finding that could not be told apart; without data, those that the plan could not tell apart.
+std::vector<int> rivals_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  std::vector<int> list;
   if (!result) list = confounded(c, detectable);
-  if (result && !result->findings.empty()) {
-    const Finding& f = result->findings.front();
-    for (const int k : f.set)
-      if (list.size() < kMostRivals) list.push_back({k, c.explanations.list[k].prior * std::exp(f.evidence.log_bayes[k] - f.evidence.log_bayes[f.explanation])});
+  for (std::size_t i = 0; result && list.empty() && i < result->findings.size(); ++i) {
+    const Finding& f = result->findings[i];
+    if (f.set.size() < 2) continue;
+    list.assign(f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals)));
   }
-  double total = 0;
-  for (const Rival& r : list) total += r.weight;
-  for (Rival& r : list) r.weight /= total;
   return list;
 }
 
-/// The recording with a share of its touches repeated under a change.
-struct Longer {
-  RecordedTouches touches;
-  std::vector<RecordedTouch> added;
-};
-Longer longer(const Case& c, const Change& change) {
-  Longer out{c.touches, {}};
-  const std::size_t n = c.rows.size(), step = std::max<std::size_t>(1, n / kMostTouches);
-  const double end_s = c.touches.touches.back().scene.time_s + 60;
-  for (std::size_t k = 0; k < n; k += step) {
-    RecordedTouch t = c.touches.touches[c.rows[k]];
-    t.scene.time_s = end_s + kSecondsPerTouch * double(out.added.size());
-    change.apply(t);
-    out.added.push_back(t);
+/// Rows in the metric of a model: inner products are those of its precision, what is free projected out.
+class Metric {
+ public:
+  Metric(const LinearModel& model, const Hyperparameters& h) : rotated_(model, h) {}
+
+  Matrix operator()(const Matrix& columns) const { return of_projected(rotated_.project(columns)); }
+  Vector y() const { return of_projected(rotated_.y()); }
+
+ private:
+  Matrix of_projected(const Matrix& m) const {
+    const Matrix a = rotated_.coordinates(m), rest = rotated_.remainder(m, a);
+    Matrix out(a.rows() + rest.rows(), m.cols());
+    out << ((1 + rotated_.lambda().array()).rsqrt().matrix().asDiagonal() * a), rest;
+    return out;
   }
-  out.touches.touches.insert(out.touches.touches.end(), out.added.begin(), out.added.end());
-  out.touches.known |= change.makes_known;
-  out.touches.varying |= change.makes_known;
+
+  Rotated rotated_;
+};
+
+/// What columns cannot imitate of a vector.
+double left_of(const Vector& s, const Matrix& columns) {
+  constexpr double kRidge = 1e-9;
+  const Matrix g = columns.transpose() * columns;
+  const Vector cross = columns.transpose() * s;
+  const double shared = cross.dot(Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross));
+  return std::max(0.0, s.squaredNorm() - shared);
+}
+
+/// The variants of one rival, and what it would be as the truth.
+struct Contender {
+  std::vector<Matrix> first, both;         ///< by variant: columns on the first recording, and on both
+  Vector shift_first, shift_both;          ///< as the truth
+};
+
+/// As the truth: the variant that explains the first recording best, of the size that it takes there; of a plan, the one that shows best.
+void suppose(const Vector& y, Contender& c) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < c.first.size(); ++k) {
+    const Matrix& w = c.first[k];
+    const Matrix g = w.transpose() * w;
+    if (y.squaredNorm() == 0) {
+      Eigen::Index column = 0;
+      const double information = g.diagonal().maxCoeff(&column);
+      if (information <= std::max(most, 0.0)) continue;
+      most = information;
+      c.shift_first = kPlanned / std::sqrt(information) * w.col(column), c.shift_both = kPlanned / std::sqrt(information) * c.both[k].col(column);
+      continue;
+    }
+    for (const Size& size : sizes_of(g.trace())) {
+      const double s2 = size.factor * size.factor;
+      const Matrix posterior = g + Matrix::Identity(g.rows(), g.cols()) / s2;
+      const Eigen::LLT<Matrix> llt(posterior);
+      const Vector u = w.transpose() * y, theta = llt.solve(u);
+      const double log_bayes = size.log_prior + 0.5 * u.dot(theta) - 0.5 * double(g.rows()) * std::log(s2) - Matrix(llt.matrixL()).diagonal().array().log().sum();
+      if (log_bayes <= most) continue;
+      most = log_bayes;
+      c.shift_first = w * theta, c.shift_both = c.both[k] * theta;
+    }
+  }
+}
+
+std::vector<Contender> contenders_of(const Case& c, const std::vector<int>& rivals, const Longer& longer, const Metric& first) {
+  std::vector<char> masked(longer.touches.touches.size(), 0);
+  std::copy(c.masked.begin(), c.masked.end(), masked.begin());
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < masked.size(); ++i)
+    if (!masked[i]) rows.push_back(static_cast<int>(i));
+  const Baseline baseline = baseline_of(c, longer);
+  Hyperparameters hyper = c.hyper;
+  hyper.noise = Vector::Constant(baseline.model.noise_groups, c.hyper.noise.mean());
+  const LinearModel model = without_rows(baseline.model, masked);
+  const Metric both(c.rough && model.rough.cols() > 0 ? rougher(model) : model, hyper);
+  std::vector<Contender> out;
+  for (const int rival : rivals) {
+    const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
+    Contender contender;
+    for (const Block& b : own.blocks) {
+      contender.first.push_back(first(b.signature.topRows(static_cast<Eigen::Index>(c.rows.size()))));
+      contender.both.push_back(both(b.signature));
+    }
+    suppose(first.y(), contender);
+    if (contender.shift_both.size() > 0) out.push_back(std::move(contender));
+  }
   return out;
 }
 
-/// One variant of an explanation and the size of its coefficients.
-struct Supposed {
-  std::size_t variant = 0;
-  Vector size;
-};
-
-/// The strongest variant by the data so far, with the size that it took there; of a plan, the one that shows best, of a size to be found.
-Supposed supposed(const Case& c, int explanation) {
-  const EvidenceSearch own(c.model, c.hyper, only(c.explanations, {explanation}));
-  const std::size_t variants = c.explanations.list[explanation].blocks.size();
-  if (c.options.design_only) {
-    Supposed best;
-    double most = 0;
-    for (std::size_t k = 0; k < variants; ++k) {
-      const Matrix g = own.between(static_cast<int>(k), static_cast<int>(k));
-      Eigen::Index column = 0;
-      const double information = g.diagonal().maxCoeff(&column);
-      if (information <= most) continue;
-      most = information;
-      best = {k, Vector::Unit(g.rows(), column) * (kPlanned / std::sqrt(information))};
-    }
-    return best;
-  }
-  const std::vector<double>& logs = own.evidence().block_log_bayes;
-  const auto variant = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
-  const auto info = own.information(static_cast<int>(variant));
-  return {variant, Eigen::LLT<Matrix>(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / 9).solve(info.u)};
-}
-
 /// The probability that the truth would have, on average over the rivals as truth.
-double expected_probability(const Case& c, const std::vector<Rival>& rivals, const Longer& recording) {
-  const KnownGeometry known{c.baseline.mean, c.baseline.factor};
-  const Baseline baseline = baseline_of(recording.touches, *c.machine, {Surfaces::calibrated, &known, c.options.seed, c.options.threads});
-  std::vector<std::string> names;
-  std::vector<int> rows;
-  for (const Rival& r : rivals) names.push_back(c.explanations.list[r.explanation].name);
-  for (std::size_t i = 0; i < recording.touches.touches.size(); ++i) rows.push_back(static_cast<int>(i));
-  const Explanations all = named_explanations(recording.touches, rows, names);
-  Hyperparameters hyper = c.hyper;
-  hyper.noise = Vector::Constant(baseline.model.noise_groups, c.hyper.noise.mean());
-  const EvidenceSearch search(baseline.model, hyper, all);
+double expected_probability(const std::vector<Contender>& list) {
+  // Gauss-Hermite nodes and weights of a standard normal (Abramowitz & Stegun 25.10).
+  constexpr double kNodes[] = {-2.8569700, -1.3556262, 0, 1.3556262, 2.8569700}, kWeights[] = {0.0112574, 0.2220759, 0.5333333, 0.2220759, 0.0112574};
   double expected = 0;
-  for (std::size_t j = 0; j < rivals.size(); ++j) {
-    const auto [variant, size] = supposed(c, rivals[j].explanation);
-    if (j >= all.list.size() || variant >= all.list[j].blocks.size()) return 0;
-    const int truth = all.list[j].blocks[variant];
-    const Matrix g = search.between(truth, truth);
-    if (g.rows() != size.size()) return 0;
-    double against = 0;
-    for (std::size_t k = 0; k < rivals.size() && k < all.list.size(); ++k) {
-      if (k == j) continue;
-      double least = size.dot(g * size);
-      for (const int b : all.list[k].blocks) {
-        const Vector cross = search.between(b, truth) * size;
-        const Matrix h = search.between(b, b);
-        least = std::min(least, size.dot(g * size) - cross.dot(Eigen::LDLT<Matrix>(h + 1e-9 * (h.trace() + 1) * Matrix::Identity(h.rows(), h.cols())).solve(cross)));
-      }
-      against += rivals[k].weight * std::exp(-0.5 * std::max(0.0, least));
+  for (const Contender& truth : list) {
+    std::vector<double> gains;   // what the second recording adds against each rival
+    for (const Contender& rival : list) {
+      if (&rival == &truth) continue;
+      double before = std::numeric_limits<double>::infinity(), after = before;
+      for (const Matrix& w : rival.first) before = std::min(before, left_of(truth.shift_first, w));
+      for (const Matrix& w : rival.both) after = std::min(after, left_of(truth.shift_both, w));
+      gains.push_back(std::max(0.0, after - before));
     }
-    expected += rivals[j].weight * rivals[j].weight / (rivals[j].weight + against);
+    for (int i = 0; i < 5; ++i) {
+      double against = 0;
+      for (const double gain : gains) against += std::exp(-gain / 2 - std::sqrt(gain) * kNodes[i]);
+      expected += kWeights[i] / (1 + against) / double(list.size());
+    }
   }
   return expected;
 }
 
+/// Both changes at once.
+Change joined(const Change& a, const Change& b) {
+  constexpr std::string_view kRepeat = "repeat ";
+  const auto both = [](const std::string& x, const std::string& y, std::string_view between) { return x.empty() || y.empty() ? x + y : x + std::string(between) + y; };
+  return {.text = a.text + " and " + b.text.substr(kRepeat.size()), .instruction = both(a.instruction, b.instruction, "; "),
+          .statement = both(a.statement, b.statement, "\n"), .minutes = a.minutes + b.minutes,
+          .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); }, .reversed = a.reversed || b.reversed};
+}
+
+struct Scored {
+  NextMeasurement measurement;
+  double worth = 0;                        ///< gain in probability per minute
+  Change change;
+  Longer longer;
+};
+
+/// Judges changes for a case.
+class Judge {
+ public:
+  Judge(const Case& c, const std::vector<int>& rivals) : case_(c), rivals_(rivals), first_(c.rough && c.model.rough.cols() > 0 ? rougher(c.model) : c.model, c.hyper) {}
+
+  void add(const Change& change) {
+    std::optional<Longer> longer = repeated(case_, change);
+    if (!longer) return;
+    NextMeasurement m;
+    m.change = change.text;
+    for (const int k : rivals_) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
+    m.expected_probability = expected_probability(contenders_of(case_, rivals_, *longer, first_));
+    m.minutes = change.minutes + minutes_of(*longer);
+    const double worth = (m.expected_probability - 1 / double(rivals_.size())) / (kRound_min + m.minutes);
+    list_.push_back({std::move(m), worth, change, std::move(*longer)});
+    std::stable_sort(list_.begin(), list_.end(), [](const Scored& a, const Scored& b) { return a.worth > b.worth; });
+  }
+  const std::vector<Scored>& list() const { return list_; }
+
+ private:
+  const Case& case_;
+  const std::vector<int>& rivals_;
+  Metric first_;
+  std::vector<Scored> list_;               ///< the best first
+};
+
 }  // namespace
 
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
-  const std::vector<Rival> rivals = rivals_of(c, result, detectable);
+  const std::vector<int> rivals = rivals_of(c, result, detectable);
   if (rivals.size() < 2) return {};
-  struct Scored {
-    NextMeasurement measurement;
-    double worth;
-    Change change;
-    std::vector<RecordedTouch> touches;
-  };
-  double now = 0;
-  for (const Rival& r : rivals) now = std::max(now, r.weight);
-  std::vector<Scored> list;
-  for (const Change& change : changes_for(c)) {
-    const Longer recording = longer(c, change);
-    NextMeasurement m;
-    m.change = change.text;
-    for (const Rival& r : rivals) m.separates.push_back(c.explanations.list[r.explanation].name);
-    m.expected_probability = expected_probability(c, rivals, recording);
-    m.minutes = change.minutes + kSecondsPerTouch * double(recording.added.size()) / 60;
-    list.push_back({std::move(m), 0, change, recording.added});
-    list.back().worth = (list.back().measurement.expected_probability - now) / (5 + list.back().measurement.minutes);
+  Judge judge(c, rivals);
+  const std::vector<Change> menu = changes_for(c);
+  for (const Change& change : menu) judge.add(change);
+  // Where one change does not decide, the best one together with each of the others.
+  if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) {
+    const Change best = judge.list().front().change;
+    for (const Change& change : menu)
+      if (change.changes_touches && best.changes_touches && change.text != best.text) judge.add(joined(best, change));
   }
-  std::stable_sort(list.begin(), list.end(), [](const Scored& a, const Scored& b) { return a.worth > b.worth; });
   std::vector<NextMeasurement> out;
-  for (std::size_t k = 0; k < std::min(kShown, list.size()); ++k) {
-    if (k == 0) list[k].measurement.program = dmis_program(c, list[k].change, list[k].touches);
-    out.push_back(std::move(list[k].measurement));
+  for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {
+    const Scored& s = judge.list()[k];
+    out.push_back(s.measurement);
+    if (k == 0) out.back().program = dmis_program(s.longer, s.change);
   }
   return out;
 }

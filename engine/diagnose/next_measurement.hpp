@@ -1,7 +1,14 @@
-// Which measurement would decide: every change of the menu is applied to a part of the touches, appended to the recording, and the
-// expected evidence against each rival is computed from the longer recording's model, as if the likeliest explanations were true in turn.
-// The changes are ranked by the probability that they would give to the truth, per minute of machine time
-// (posterior-weighted, symmetric discrimination: Atkinson & Fedorov 1975).
+// Which measurement would decide between explanations that a recording cannot tell apart.
+//
+// A change of the menu makes a second recording out of the first one: its rows, repeated another way (other speed, other stylus, part turned, ...). Both
+// together go through the same steps as any recording: scenes, baseline with the same unknowns, signatures. So what is proposed can be
+// recorded, and it is judged with what will be unknown then (sizes nobody calibrated, placements, qualifications of new styli).
+//
+// Each rival in turn counts as the truth, of the size that the first recording gives it. With W the columns of another rival, whitened by the
+// baseline, the truth's shift s leaves delta = min |s - W b|^2 that the other cannot imitate, over its variants. What the second recording adds,
+// D = delta(both) - delta(first), makes the log odds of the truth normal with mean D / 2 and variance D. The expected probability of the truth
+// follows, averaged over the rivals as truth: what a recording cannot tell apart counts as equally likely (Atkinson & Fedorov, Biometrika 62, 1975).
+// Where no single change decides, the best one is tried together with each of the others. Ranked by gain per minute, a round of an hour included.
 #pragma once
 
 #include <functional>
@@ -16,15 +23,32 @@ struct Change {
   std::string text;                 ///< "repeat with probing speed 3 mm/s"
   std::string instruction;          ///< for the operator, or empty when the program does it all
   std::string statement;            ///< DMIS that sets it: "FEDRAT/MESVEL,MMPS,3"
-  unsigned makes_known = 0;         ///< covariates that vary once it is made
-  double minutes = 0;               ///< beyond the touches themselves
-  std::function<void(RecordedTouch&)> apply;
+  double minutes = 0;               ///< beyond the measuring itself
+  /// What becomes of a row; a stylus that is new joins the sensors of the machine.
+  std::function<void(RecordingRow&, Machine&)> apply = [](RecordingRow&, Machine&) {};
+  bool reversed = false;            ///< the sequence runs from its end to its beginning
+  bool changes_touches = true;      ///< not only their order and time
 };
 
-/// The changes that make sense for a recording on a machine.
+/// The changes that a recording like this one can hold.
 std::vector<Change> changes_for(const Case&);
 
-/// The touches of a change as a DMIS program.
-std::string dmis_program(const Case&, const Change&, const std::vector<RecordedTouch>&);
+/// A recording and its repetition under a change, as a diagnosis of both would see them.
+struct Longer {
+  Recording recording;
+  Machine machine;                  ///< with the styli that the change needs
+  RecordedTouches touches;          ///< those of the recording first
+  std::size_t first = 0;            ///< how many of them are of the recording
+};
+
+/// Nothing when the machine is too small for it.
+std::optional<Longer> repeated(const Case&, const Change&);
+/// The baseline of both together.
+Baseline baseline_of(const Case&, const Longer&);
+
+/// How long the machine takes for the new touches, min.
+double minutes_of(const Longer&);
+/// The new touches as a DMIS program.
+std::string dmis_program(const Longer&, const Change&);
 
 }  // namespace abbe::diagnose

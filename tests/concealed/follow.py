@@ -37,46 +37,74 @@ MENU = {
     "repeat with probing speed ([\\d.]+) mm/s": "speed",
     "repeat with acceleration ([\\d.]+) mm/s2": "acceleration",
     "repeat with a stylus of ([\\d.]+) mm": "length",
+    "repeat with a stylus ball of ([\\d.]+) mm": "ball",
     "repeat with the head turned by B \\+ ([\\d.]+) degrees": "head",
-    "repeat with the part turned by ([\\d.]+) degrees about the vertical": "part",
+    "repeat with the part turned by ([\\d.]+) degrees about the vertical": "turned",
+    "repeat with the part tilted by ([\\d.]+) degrees about X": "tilted_x",
+    "repeat with the part tilted by ([\\d.]+) degrees about Y": "tilted_y",
+    "repeat with the part raised by ([\\d.]+) mm": "raised",
+    "repeat with the part lowered by ([\\d.]+) mm": "lowered",
     "repeat with part and scales at a temperature ([\\d.]+) K higher": "temperature",
     "repeat with ([\\d.]+) kg more on the table": "load",
     "repeat the whole sequence (once) more": "again",
+    "repeat the whole sequence in reverse (order)": "reversed",
 }
-AT_RANDOM = {"acceleration": 130.0, "head": 60.0, "part": 90.0, "temperature": 2.0, "load": 200.0, "again": 0.0}
+AT_RANDOM = {"acceleration": 130.0, "head": 60.0, "turned": 90.0, "tilted_x": 20.0, "tilted_y": 20.0, "raised": 200.0}
+AT_RANDOM |= {"temperature": 2.0, "load": 200.0, "again": 0.0, "reversed": 0.0}
+STYLUS = {"length", "head", "ball"}
+TURNS = {"turned": 2, "tilted_x": 0, "tilted_y": 1}  # about which axis
+LIFTS = {"raised": 1, "lowered": -1}
 
 
-def understood(change):
-    """(what, how much) of a wish; None when the generator cannot express it."""
-    for pattern, what in MENU.items():
-        if found := re.fullmatch(pattern, change or ""):
-            return what, 0.0 if what == "again" else float(found.group(1))
-    return None
+def understood(wish):
+    """{what: how much} of a wish, which may ask for two changes at once; None when the generator cannot express it."""
+    changes = {}
+    for change in (wish or "").split(" and with "):
+        change = change if change.startswith("repeat") else "repeat with " + change
+        for pattern, what in MENU.items():
+            if found := re.fullmatch(pattern, change):
+                changes[what] = 0.0 if what in ("again", "reversed") else float(found.group(1))
+                break
+        else:
+            return None
+    return changes
 
 
 def at_random(scene, besides, rng):
-    """The changes of the menu in random order, without `besides`."""
+    """The changes of the menu in random order, without `besides`, each {what: how much}."""
     speed, length = np.median(scene.speed), np.median(scene.length)
+    ball = 2 * np.median(scene.tip_radius)
     menu = {**AT_RANDOM, "speed": speed / 3 if speed > 5 else 3 * speed, "length": length / 3 if length > 60 else 2 * length}
-    return [(str(what), float(menu[what])) for what in rng.permutation(sorted(menu)) if what != besides]
+    menu["ball"] = ball / 2 if ball > 3 else 2 * ball
+    return [{str(what): float(menu[what])} for what in rng.permutation(sorted(menu)) if {what} != set(besides)]
 
 
 def restyled(stylus, what, value):
     if what == "length":
-        return dataclasses.replace(stylus, name=f"L{value:g}A{stylus.head[0]}B{stylus.head[1]}", length=value)
+        return dataclasses.replace(stylus, name=f"{stylus.name}L{value:g}", length=value)
+    if what == "ball":
+        return dataclasses.replace(stylus, name=f"{stylus.name}D{value:g}", diameter=value)
     a, b = stylus.head[0], (stylus.head[1] + value + 180) % 360 - 180
-    return dataclasses.replace(stylus, name=f"L{stylus.length:g}A{a}B{b:g}", head=(a, b))
+    return dataclasses.replace(stylus, name=f"{stylus.name}B{b:g}", head=(a, b))
 
 
-def second_scene(first, what, value, rng):
-    """The scene of the second recording; None when the change does not fit into the machine."""
-    styli = [restyled(s, what, value) for s in first.styli] if what in ("length", "head") else first.styli
-    turn = designs.axis_rotation(2, value) if what == "part" else np.eye(3)
-    scene = Scene(first.machine, first.design, styli, [(turn @ r, turn @ at) for r, at in first.placements])
+def second_scene(first, changes, rng):
+    """The scene of the second recording; None when the changes do not fit into the machine."""
+    styli, turn, lift = first.styli, np.eye(3), np.zeros(3)
+    for what, value in changes.items():
+        if what in STYLUS:
+            styli = [restyled(s, what, value) for s in styli]
+        if what in TURNS:
+            turn = designs.axis_rotation(TURNS[what], value) @ turn
+        if what in LIFTS:
+            lift = np.array([0, 0, LIFTS[what] * value / first.shrink])
+    scene = Scene(first.machine, first.design, styli, [(turn @ r, turn @ at + lift) for r, at in first.placements])
     scene.first_styli = first.first_styli
-    for block in first.blocks:
-        how = {what: value} if what in ("speed", "acceleration") else {}
-        scene.blocks.append(dataclasses.replace(block, normals=block.normals @ turn.T, **how))
+    order = -1 if "reversed" in changes else 1
+    motion = {what: value for what, value in changes.items() if what in ("speed", "acceleration")}
+    for block in first.blocks[::order]:
+        points = None if block.points is None else block.points[::order]
+        scene.blocks.append(dataclasses.replace(block, normals=block.normals[::order] @ turn.T, points=points, **motion))
     touches(scene, first.shrink, rng)
     if not designs.fits(scene):
         return None
@@ -85,18 +113,18 @@ def second_scene(first, what, value, rng):
     scene.time = scene.time + first.time[-1] + PAUSE
     scene.visit = scene.visit + first.visit.max()
     scene.run = scene.run + first.run.max()
-    scene.setup = scene.setup + (100 if what == "part" else 0)
-    warmer = value if what == "temperature" else 0.0
+    scene.setup = scene.setup + (100 if changes.keys() & (TURNS.keys() | LIFTS.keys()) else 0)
+    warmer = changes.get("temperature", 0.0)
     scene.temperature = {k: np.full(scene.size, v[0] + warmer) for k, v in first.temperature.items()}
     scene.logged = {k: np.full(scene.size, v[0] + warmer) for k, v in first.logged.items()}
-    scene.load = first.load + (value if what == "load" else 0.0)
-    scene.qualification = np.full(scene.size, 2 if what in ("length", "head") else 1)
+    scene.load = first.load + changes.get("load", 0.0)
+    scene.qualification = np.full(scene.size, 2 if changes.keys() & STYLUS else 1)
     return scene
 
 
-def second_recording(stage, truth, what, value, rng):
+def second_recording(stage, truth, changes, rng):
     """(machine.json, CSV) of the same machine with the same effect, measured again; None as above."""
-    scene = second_scene(stage.scene, what, value, rng)
+    scene = second_scene(stage.scene, changes, rng)
     if scene is None:
         return None
     base = world.Baseline(scene, stage.geometry, rng, *stage.noise, before=stage.base)
@@ -141,9 +169,9 @@ def row(root, abbe, secret, number, truth):
     spec = cases.Spec(truth["kind"], "", truth["snr"], truth["detail"])
     rng = seal.generator(secret, "follow", number)
     stage = cases.MAKERS[truth["kind"]](seal.generator(secret, "case", number), spec)[0]
-    others = at_random(stage.scene, wished[0] if wished else None, rng)
+    others = at_random(stage.scene, wished or {}, rng)
     for name, changes in (("wish", [wished] if wished else []), ("random", others)):
-        possible = ((c, second_recording(stage, truth, *c, rng)) for c in changes)
+        possible = ((c, second_recording(stage, truth, c, rng)) for c in changes)
         change, extra = next(((c, files_) for c, files_ in possible if files_), (None, None))
         out[name] = {**judged(asked(abbe, root / "cases" / number, extra), truth), "change": change} if extra else out["before"]
     return out

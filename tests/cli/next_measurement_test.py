@@ -1,0 +1,48 @@
+"""What abbe diagnose wants measured next: the proposed program is run on the same machine, and both recordings together decide more."""
+import csv
+import json
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+PAUSE_S = 900
+
+
+class NextMeasurement(harness.Case):
+    def record(self, program, name, effect, **changes):
+        """A recording; `changes` are functions from the old value of a column to the new one."""
+        self.abbe("record", program, "--machine", MACHINE, "-o", name, "--with", effect)
+        lines = (self.folder / name).read_text().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        rows = [row | {column: str(change(row[column])) for column, change in changes.items()} for row in rows]
+        body = [",".join(rows[0]), *(",".join(row.values()) for row in rows)]
+        return self.write(name, "\n".join([*comments, *body, ""]))
+
+    def diagnosis(self, *recordings):
+        return json.loads(self.abbe("diagnose", *recordings, "--machine", MACHINE, "--format", "json").stdout)
+
+    def decided(self, effect, plan, moved=False):
+        """The members that are left when the wish for `plan` came true; it must be part of the best change."""
+        first = self.record(PROGRAM, "first.csv", effect)
+        said = self.diagnosis(first)
+        best = said["next_measurement"][0]
+        self.assertIn(plan, best["change"])
+        self.assertGreater(best["expected_probability"], 1 / len(best["separates"]))
+        self.assertGreater(best["minutes"], 1)
+        self.write("next.dmi", best["program"])
+        second = self.record("next.dmi", "second.csv", effect, run=lambda r: 2, visit=lambda v: int(v) + 10, time_s=lambda t: float(t) + PAUSE_S,
+                             setup=lambda s: 2 if moved else 1)
+        return said["effects"][0]["members"], self.diagnosis(first, second)["effects"][0]["members"]
+
+    def test_a_second_speed_tells_radius_from_delay(self):
+        before, after = self.decided("probe.tip_radius:amplitude_um=2", "probing speed")
+        self.assertIn("probe.trigger_delay", before)
+        self.assertIn("probe.tip_radius", after)
+        self.assertNotIn("probe.trigger_delay", after)
+        self.assertLess(len(after), len(before))
+
+
+if __name__ == "__main__":
+    harness.main()
