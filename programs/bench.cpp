@@ -1,5 +1,6 @@
 // abbe_bench: what docs/benchmarks.md records, measured inside one process on one thread. Costs are per candidate, touch or machine, at
-// several sizes, so that their growth shows. `abbe_bench program` prints the large program that one of the benchmarks runs.
+// several sizes, so that their growth shows. `abbe_bench program` prints the large program that one of the benchmarks
+// runs, `abbe_bench conditions` measures only how compiling grows with conditions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "engine/effects/effect.hpp"
+#include "engine/run/executor.hpp"
 #include "engine/run/run.hpp"
 #include "lang/compile.hpp"
 
@@ -55,7 +57,7 @@ std::string large_program(int features) {
       "DMISMN/'large',5.2\nUNITS/MM,ANGDEC\nPRCOMP/ON\nDECL/REAL,X,Y\nDECL/INTGR,I\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(P)\n"
       "D(B)=TRANS/XORIG,500,YORIG,300,ZORIG,-500\nM(REPORT)=MACRO/'NAME','TOLERANCE',SIZE\nT('TOLERANCE')=TOL/DIAM,-SIZE,SIZE\nOUTPUT/FA('NAME'),TA('TOLERANCE')\nENDMAC\n";
   for (int f = 0; f < features; ++f) {
-    const double x = 20.0 * (f % 30), y = 20.0 * (f / 30);
+    const double x = 20.0 * (f % 30), y = 20.0 * (f / 30 % 24);
     const bool round = f % 2 == 0;
     text += fmt::format("$$ feature {0}\nF(F{0})=FEAT/{1}\nGOTO/{2},{3},20\nMEAS/{4},F(F{0}),8\n", f,
                         round ? fmt::format("CIRCLE,INNER,CART,{},{},-5,0,0,1,10", x, y) : fmt::format("PLANE,CART,{},{},0,0,0,1", x, y), x, y,
@@ -85,8 +87,8 @@ double peak_memory() {
 }
 
 void large_programs(const Machine& machine) {
-  fmt::print("\n lines  features  operations  machines   compile, s   run, s   peak memory, MB\n");
-  for (const auto& [features, count] : {std::pair{175, 1000}, {350, 1000}, {700, 250}, {700, 1000}, {700, 4000}}) {
+  fmt::print("\n lines  features  operations  machines   compile, s   run, s   one machine holds, KB   peak memory, MB\n");
+  for (const auto& [features, count] : {std::pair{175, 1000}, {350, 1000}, {700, 250}, {700, 1000}, {700, 4000}, {3500, 1000}}) {
     const SourceFile source("large", large_program(features));
     plan::Plan plan;
     const double compile = seconds([&] {
@@ -96,8 +98,32 @@ void large_programs(const Machine& machine) {
     }, 3);
     const VirtualMachines machines = screened_machines(machine, 1, count, 1);
     const double run = seconds([&] { run_plan(plan, machine, machines, {}, source); }, 1);
-    fmt::print("{:6}  {:8}  {:10}  {:8}   {:10.3f}   {:6.2f}   {:15.0f}\n", source.line_count(), plan.features.size(), plan.operations.size(), count, compile,
-               run, peak_memory());
+    const double held = static_cast<double>(Executor(plan, machine, {}, source).lane_bytes()) / 1024;
+    fmt::print("{:6}  {:8}  {:10}  {:8}   {:10.3f}   {:6.2f}   {:21.1f}   {:15.0f}\n", source.line_count(), plan.features.size(),
+               plan.operations.size(), count, compile, run, held, peak_memory());
+  }
+}
+
+/// A program with as many conditions on measured values as features: after each the compiler cannot know which path was taken.
+std::string conditions_program(int conditions) {
+  std::string text = "DMISMN/'conditions',5.2\nUNITS/MM,ANGDEC\nDECL/REAL,X\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(P)\n";
+  for (int f = 0; f < conditions; ++f)
+    text += fmt::format(
+        "F(F{0})=FEAT/POINT,CART,0,0,0,0,0,1\nT(T{0})=TOL/CORTOL,ZAXIS,-0.1,0.1\nMEAS/POINT,F(F{0}),1\nPTMEAS/CART,0,0,0,0,0,1\nENDMES\n"
+        "OUTPUT/FA(F{0}),TA(T{0})\nX=OBTAIN/FA(F{0}),5\nIF/(X .GT. 0)\nGOTO/0,0,30\nENDIF\n", f);
+  return text + "ENDFIL\n";
+}
+
+void conditions() {
+  fmt::print("\nconditions   compile, s   per condition, us\n");
+  for (const int count : {175, 350, 700, 1400, 2800}) {
+    const SourceFile source("conditions", conditions_program(count));
+    const double t = seconds([&] {
+      Sink sink;
+      lang::compile(source, sink);
+      ABBE_CHECK(!sink.has_errors());
+    });
+    fmt::print("{:10}   {:10.3f}   {:17.1f}\n", count, t, 1e6 * t / count);
   }
 }
 
@@ -156,9 +182,14 @@ int main(int argc, char** argv) {
     fmt::print("{}", large_program(700));
     return 0;
   }
+  if (argc > 1 && std::string_view(argv[1]) == "conditions") {
+    conditions();
+    return 0;
+  }
   fmt::print("{}; one thread; medians of five\n", processor());
   const Machine machine = read_machine("coord3-mc16");
   large_programs(machine);
+  conditions();
   screening(machine);
   touches(machine);
   effects_cost(machine);
