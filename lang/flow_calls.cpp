@@ -12,13 +12,13 @@ namespace abbe::lang {
 
 namespace {
 
-using Kind = RawArgument::Kind;
+using ArgumentKind = RawArgument::Kind;
 
-bool is_word(const RawArgument& a, std::string_view word) { return a.kind == Kind::word && a.word == word; }
+bool is_word(const RawArgument& a, std::string_view word) { return a.kind == ArgumentKind::word && a.word == word; }
 
-const RawArgument* label_argument(const RawStatement& raw, std::string_view kind) {
+const RawArgument* labelled_argument(const RawStatement& raw, std::string_view kind) {
   for (const RawArgument& a : raw.arguments)
-    if (a.kind == Kind::label && a.label.kind == kind) return &a;
+    if (a.kind == ArgumentKind::label && a.label.kind == kind) return &a;
   return nullptr;
 }
 
@@ -42,7 +42,7 @@ void Flow::call(int at) {
     lowering_.error(Code::E0107, raw.span, "CALL ends where a macro is expected", "write CALL/M(name),argument,argument");
     return failed_control();
   }
-  const RawArgument* macro = label_argument(raw, "M");
+  const RawArgument* macro = labelled_argument(raw, "M");
   const bool external = is_word(raw.arguments[0], "EXTERN");
   if (macro) {
     const auto place = static_cast<std::size_t>(macro - raw.arguments.data());
@@ -156,10 +156,10 @@ Flow::Module* Flow::load(const RawArgument& name) {
   std::error_code ignored;
   fs::path file = folder / path;
   if (!fs::is_regular_file(file, ignored)) file = folder / (path + ".dmi");
-  if (name.kind != Kind::text || !fs::is_regular_file(file, ignored)) {
+  if (name.kind != ArgumentKind::text || !fs::is_regular_file(file, ignored)) {
     lowering_.error(Code::E0241, name.span,
-                    name.kind == Kind::text ? fmt::format("there is no file '{}' beside the program", name.text) : fmt::format("'{}' is no file name", name.text),
-                    name.kind == Kind::text ? "put the module into the folder of the program" : "write the name of the file in quotes");
+                    name.kind == ArgumentKind::text ? fmt::format("there is no file '{}' beside the program", name.text) : fmt::format("'{}' is no file name", name.text),
+                    name.kind == ArgumentKind::text ? "put the module into the folder of the program" : "write the name of the file in quotes");
     return nullptr;
   }
   Module& module = modules_[file.string()];
@@ -192,13 +192,13 @@ void Flow::add_assigned(const RawStatement& raw, VariableNames& names, std::set<
     for (const RawArgument& a : raw.arguments) add(a.text);
   if (raw.word == "INCLUD") names.all = true;
   if (raw.word != "CALL") return;
-  const RawArgument* label = label_argument(raw, "M");
+  const RawArgument* label = labelled_argument(raw, "M");
   if (!label) {
     names.all = true;
     return;
   }
   for (const RawArgument& a : raw.arguments)
-    if (a.kind == Kind::word || a.kind == Kind::expression) add(a.text);
+    if (a.kind == ArgumentKind::word || a.kind == ArgumentKind::expression) add(a.text);
   const auto macro = macros_.find(upper(label->label.name));
   if (macro == macros_.end() || !macros.insert(macro->first).second) return;
   for (const LogicalLine& line : macro->second.lines) {

@@ -16,16 +16,11 @@ namespace {
 constexpr std::size_t kIndent = 2, kContinuationIndent = 4;
 /// A program that forgets its ENDMES hundreds of times must not grow with the square of its length.
 constexpr int kDeepest = 12;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 std::string quoted(std::string_view text) {
   std::string out = "'";
   for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c);
   return out + "'";
-}
-
-std::string written(const LabelRef& label) {
-  return label.kind.empty() ? label.name : fmt::format("{}({})", label.kind, label.name);
 }
 
 std::string written(const RawArgument& argument) {

@@ -30,7 +30,6 @@ Span JoinedText::span(std::size_t begin, std::size_t end) const {
 
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// The offset of a single `$` that ends `line` (blanks may follow it), or npos. `$$` is no
 /// continuation.

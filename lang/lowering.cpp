@@ -15,8 +15,6 @@ std::string_view base_kind(std::string_view kind) {
   return kind;
 }
 
-std::string written(const LabelRef& label) { return fmt::format("{}({})", label.kind, label.name); }
-
 }  // namespace
 
 std::string spoilt_key(std::string_view kind, std::string_view name) {

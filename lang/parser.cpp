@@ -357,6 +357,10 @@ class LineParser {
 
 }  // namespace
 
+std::string written(const LabelRef& label) {
+  return label.kind.empty() ? label.name : fmt::format("{}({})", label.kind, label.name);
+}
+
 std::optional<RawStatement> parse_statement(const LogicalLine& line, const SourceFile& source,
                                             Sink& sink) {
   return LineParser(line, source, sink).parse();

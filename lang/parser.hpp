@@ -26,6 +26,9 @@ struct LabelRef {
   Span span;
 };
 
+/// As the program wrote it: `FA(BORE)`, or the name alone.
+std::string written(const LabelRef&);
+
 struct RawArgument {
   enum class Kind {
     empty,

@@ -13,7 +13,7 @@ namespace abbe::lang {
 
 namespace {
 
-using Kind = SignatureItem::Kind;
+using ItemKind = SignatureItem::Kind;
 
 struct TypeInfo {
   ValueType type;
@@ -73,13 +73,13 @@ class NotationReader {
   }
 
   SignatureItem item(char c) {
-    if (c == '[') return bracketed(Kind::optional, ']');
-    if (c == '{') return bracketed(Kind::repeat, '}');
-    if (c == '(') return bracketed(Kind::alternatives, ')');
+    if (c == '[') return bracketed(ItemKind::optional, ']');
+    if (c == '{') return bracketed(ItemKind::repeat, '}');
+    if (c == '(') return bracketed(ItemKind::alternatives, ')');
     SignatureItem out;
     if (text_.substr(at_, 3) == "...") {
       at_ += 3;
-      out.kind = Kind::rest;
+      out.kind = ItemKind::rest;
       return out;
     }
     std::string token = name();
@@ -90,11 +90,11 @@ class NotationReader {
     }
     for (const TypeInfo& info : kTypes) {
       if (out.name.empty() || token != info.name) continue;
-      out.kind = Kind::value;
+      out.kind = ItemKind::value;
       out.type = info.type;
       return out;
     }
-    out.kind = Kind::words;
+    out.kind = ItemKind::words;
     for (out.words.push_back(token); at_ < text_.size() && text_[at_] == '|';) {
       ++at_;
       out.words.push_back(name());
@@ -103,12 +103,12 @@ class NotationReader {
     return out;
   }
 
-  SignatureItem bracketed(Kind kind, char close) {
+  SignatureItem bracketed(ItemKind kind, char close) {
     ++at_;
     SignatureItem out;
     out.kind = kind;
     out.branches.push_back(items());
-    while (kind == Kind::alternatives && peek() == ';') {
+    while (kind == ItemKind::alternatives && peek() == ';') {
       ++at_;
       out.branches.push_back(items());
     }
@@ -167,19 +167,19 @@ class Matcher {
 
   bool one(const SignatureItem& item) {
     switch (item.kind) {
-      case Kind::optional:
+      case ItemKind::optional:
         attempt(item.branches[0]);
         return true;
-      case Kind::repeat:
+      case ItemKind::repeat:
         return repeat(item.branches[0]);
-      case Kind::alternatives:
+      case ItemKind::alternatives:
         return std::any_of(item.branches.begin(), item.branches.end(),
                            [&](const Signature& s) { return attempt(s); });
-      case Kind::rest:
+      case ItemKind::rest:
         return rest_taken_ = true;
-      case Kind::words:
+      case ItemKind::words:
         return word(item);
-      case Kind::value:
+      case ItemKind::value:
         return value(item);
     }
     return false;

@@ -6,16 +6,11 @@
 #include <cctype>
 
 #include "engine/base/ids.hpp"
+#include "engine/run/sensor.hpp"
 
 namespace abbe {
 
 namespace {
-
-bool same_label(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::toupper(x) == std::toupper(y);
-  });
-}
 
 std::string bounds(const lang::Expectation& e) {
   if (e.low && e.high) return fmt::format("between {} and {}", *e.low, *e.high);
@@ -41,7 +36,7 @@ bool names(const lang::Expectation& e, const CharacteristicReport& c) {
          (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), is_it));
 }
 
-Verdict unknown(const lang::Expectation& e, const RunReport& report) {
+ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) {
   std::vector<std::string_view> tolerances;
   for (const CharacteristicReport& c : report.characteristics) tolerances.push_back(c.tolerance);
   std::string what = fmt::format("TA({})", e.subject);
@@ -56,7 +51,7 @@ Verdict unknown(const lang::Expectation& e, const RunReport& report) {
   return {false, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help)};
 }
 
-Verdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
+ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
   if (!value) return {false, name + ": there is none, because the tolerance has no limits"};
   const bool inside = (!e.low || *value >= *e.low) && (!e.high || *value <= *e.high);
   return {inside,
@@ -65,13 +60,13 @@ Verdict compare(const lang::Expectation& e, const std::string& name, std::option
 
 }  // namespace
 
-Verdict judge(const lang::Expectation& e, const RunReport& report) {
+ExpectationVerdict judge(const lang::Expectation& e, const RunReport& report) {
   ABBE_CHECK(e.low || e.high);
   if (e.subject == "accepted") return compare(e, "accepted", report.machines.share_accepted());
-  std::optional<Verdict> verdict;
+  std::optional<ExpectationVerdict> verdict;
   for (const CharacteristicReport& c : report.characteristics) {
     if (!names(e, c)) continue;
-    const Verdict next =
+    const ExpectationVerdict next =
         compare(e, fmt::format("TA({}) {}", c.tolerance, e.quantity), figure(c, e.quantity));
     if (!next.passed) return next;
     if (!verdict) verdict = next;

@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-struct Verdict {
+struct ExpectationVerdict {
   bool passed = false;
   std::string outcome;  ///< "u95 = 0.0037, between 0.0031 and 0.0051", or why there is no figure
 };
@@ -17,6 +17,6 @@ struct Verdict {
 /// first that is not. Quantities, mm or degrees: u; u95, the expanded uncertainty: half the width
 /// of the symmetric 95 % interval; lcl, ucl; mean; value, on the error-free machine; conformance, a
 /// probability. "accepted" is the share of machines that passed the screening.
-Verdict judge(const lang::Expectation&, const RunReport&);
+ExpectationVerdict judge(const lang::Expectation&, const RunReport&);
 
 }  // namespace abbe

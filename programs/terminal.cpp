@@ -1,5 +1,6 @@
 #include "programs/terminal.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,6 +17,10 @@ constexpr const char* kEraseLine = "\r\033[K";
 
 void print_messages(const std::vector<Diagnostic>& messages) {
   for (const Diagnostic& d : messages) std::fputs(render(d).c_str(), stderr);
+}
+
+std::string counted(std::size_t number, std::string_view noun) {
+  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
 void print_result(std::string_view text) {

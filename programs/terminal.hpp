@@ -17,6 +17,9 @@ void print_messages(const std::vector<Diagnostic>& messages);
 /// closed pipe).
 void print_result(std::string_view text);
 
+/// "1 error", "3 errors".
+std::string counted(std::size_t number, std::string_view noun);
+
 /// One line on stderr that is written over and over; nothing at all when stderr is not a terminal.
 /// Gone when destroyed.
 class ProgressLine {

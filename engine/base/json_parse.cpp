@@ -18,7 +18,7 @@ constexpr std::size_t kDeepest = 64;
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit TreeBuilder(const SourceFile& source) : source_(source), text_(source.text()) {
-    if (text_.substr(0, 3) == "\xEF\xBB\xBF") at_ = 3;
+    if (text_.starts_with(kByteOrderMark)) at_ = kByteOrderMark.size();
   }
 
   bool null() override { return scalar(JsonNode::Kind::null, 4); }

@@ -8,6 +8,9 @@
 
 namespace abbe {
 
+/// UTF-8 files of some editors begin with these bytes; they are no part of the text.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// A half-open range of bytes [begin, end) of a SourceFile.
 struct Span {
   std::uint32_t begin = 0, end = 0;

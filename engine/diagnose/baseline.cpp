@@ -16,7 +16,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3;
 
 /// Sensitivities of the touches to every coefficient: a block of perturbed machines, the k-th with coefficient k of 1.
 Matrix perturbed_machines(const RecordedTouches& t, const Machine& machine) {

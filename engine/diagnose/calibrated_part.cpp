@@ -6,7 +6,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3;
 constexpr int kPlacement = 6;      // unknowns of one setup; they stand before those of the surfaces
 
 /// Whether a column of the unknowns is the place of a surface (or of one point of it) that is calibrated: ones in its rows.

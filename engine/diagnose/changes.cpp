@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/median.hpp"
 #include "engine/diagnose/next_measurement.hpp"
 #include "engine/run/motion.hpp"
 
 namespace abbe::diagnose {
 
 namespace {
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
 
 template <class Value>
 double median_of(const Case& c, Value value) {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/median.hpp"
 
 namespace abbe::diagnose {
 
@@ -16,11 +17,6 @@ namespace {
 
 constexpr double kGross_mm = 0.5;      // median distance from the targets beyond which something other than errors is at work
 constexpr double kMends = 0.05;        // share of it that a remedy may leave
-
-double median(std::vector<double> v) {
-  std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
-  return v[v.size() / 2];
-}
 
 template <class Remedy>
 double left_by(const Recording& r, Remedy remedy) {

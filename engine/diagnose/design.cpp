@@ -10,11 +10,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// Signal-to-noise at which a search over the whole catalogue detects, and names, with a power of 80 % at 1 % false alarms.
-constexpr double kDetects = 4.5, kNames = 5.5;
-/// Share of the information beyond which nothing is left to tell two effects apart.
-constexpr double kInseparable = 0.03;
-constexpr double kConfounded = 0.7;
 /// An effect that would have to move a touch by more than this to be seen does, for these touches, nothing.
 constexpr double kNothing_um = 1e4;
 

@@ -12,7 +12,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3;
 
 /// Several settings are fitted together: a pattern over position is the sum of one along each axis.
 struct Piece {

@@ -11,6 +11,13 @@
 
 namespace abbe::diagnose {
 
+/// Signal-to-noise at which a search over the whole catalogue detects, and names, with a power of 80 % at 1 % false alarms.
+inline constexpr double kDetects = 4.5, kNames = 5.5;
+/// Share of the information beyond which nothing is left to tell two effects apart.
+inline constexpr double kInseparable = 0.03;
+/// Share of the information that a rival takes from which on the two are called confounded.
+inline constexpr double kConfounded = 0.7;
+
 /// In what a mismatch lies (interfaces: "location").
 enum class Factor { time, position, direction, head, sensor, setup, feature, run, temperature, speed };
 std::string_view name(Factor);

@@ -7,7 +7,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3;
 
 void append(LinearModel& m, const Vector& column) {
   if (column.squaredNorm() == 0) return;

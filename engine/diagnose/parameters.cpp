@@ -14,30 +14,30 @@ namespace {
 constexpr double kWide = 30;     // prior standard deviations
 
 /// One variant's estimate of one figure.
-struct Component {
+struct MixtureTerm {
   double weight = 0, value = 0, u = 0;
 };
 
 double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// The quantile of a mixture of normals, by bisection.
-double quantile(const std::vector<Component>& mixture, double p) {
+double quantile(const std::vector<MixtureTerm>& mixture, double p) {
   double low = 1e300, high = -1e300;
-  for (const Component& c : mixture) low = std::min(low, c.value - 10 * c.u - 1e-12), high = std::max(high, c.value + 10 * c.u + 1e-12);
+  for (const MixtureTerm& c : mixture) low = std::min(low, c.value - 10 * c.u - 1e-12), high = std::max(high, c.value + 10 * c.u + 1e-12);
   for (int step = 0; step < 80; ++step) {
     const double x = (low + high) / 2;
     double below = 0;
-    for (const Component& c : mixture) below += c.weight * (c.u > 0 ? normal_below((x - c.value) / c.u) : (x >= c.value ? 1 : 0));
+    for (const MixtureTerm& c : mixture) below += c.weight * (c.u > 0 ? normal_below((x - c.value) / c.u) : (x >= c.value ? 1 : 0));
     (below < p ? low : high) = x;
   }
   return (low + high) / 2;
 }
 
-DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<Component>& mixture) {
+DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<MixtureTerm>& mixture) {
   DiagnosedParameter out{.name = std::string(parameter.name), .unit = std::string(parameter.unit)};
   double square = 0;
-  for (const Component& c : mixture) out.value += c.weight * c.value;
-  for (const Component& c : mixture) square += c.weight * (c.u * c.u + std::pow(c.value - out.value, 2));
+  for (const MixtureTerm& c : mixture) out.value += c.weight * c.value;
+  for (const MixtureTerm& c : mixture) square += c.weight * (c.u * c.u + std::pow(c.value - out.value, 2));
   out.u = std::sqrt(square);
   out.low = quantile(mixture, 0.025);
   out.high = quantile(mixture, 0.975);
@@ -46,11 +46,11 @@ DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<C
 }
 
 /// Estimate of a linear parameter in one variant: its coefficient, or the length of the vector along several directions and phases.
-Component linear_estimate(const Block& block, const Vector& mean, const Matrix& covariance, int parameter) {
+MixtureTerm linear_estimate(const Block& block, const Vector& mean, const Matrix& covariance, int parameter) {
   std::vector<Eigen::Index> mine;
   for (std::size_t k = 0; k < block.columns.size(); ++k)
     if (block.columns[k].parameter == parameter) mine.push_back(static_cast<Eigen::Index>(k));
-  Component out;
+  MixtureTerm out;
   if (mine.empty()) return out;
   const double unit = block.columns[mine.front()].unit;
   if (mine.size() == 1) return {0, unit * mean(mine[0]), unit * std::sqrt(covariance(mine[0], mine[0]))};
@@ -65,7 +65,7 @@ Component linear_estimate(const Block& block, const Vector& mean, const Matrix& 
 }
 
 /// The standard deviation of draws: the rms of the coefficients that they took.
-Component spread_estimate(const Block& block, const Vector& mean, double unit) {
+MixtureTerm spread_estimate(const Block& block, const Vector& mean, double unit) {
   const double n = std::max<double>(1, double(block.signature.cols()));
   const double rms = std::sqrt(mean.squaredNorm() / n);
   return {0, unit * rms, unit * rms / std::sqrt(2 * n)};
@@ -130,42 +130,42 @@ class Estimator {
     Matrix covariance;
   };
 
-  std::vector<Component> linear(int p) const {
-    std::vector<Component> mixture;
+  std::vector<MixtureTerm> linear(int p) const {
+    std::vector<MixtureTerm> mixture;
     double total = 0;
     for (const Variant& v : variants_) {
-      Component c = linear_estimate(v.block, v.mean, v.covariance, p);
+      MixtureTerm c = linear_estimate(v.block, v.mean, v.covariance, p);
       if (c.u == 0) continue;
       c.weight = v.weight;
       total += v.weight;
       mixture.push_back(c);
     }
-    for (Component& c : mixture) c.weight /= total;
+    for (MixtureTerm& c : mixture) c.weight /= total;
     return mixture;
   }
 
-  std::vector<Component> spread(const EffectParameter& parameter) const {
-    std::vector<Component> mixture;
+  std::vector<MixtureTerm> spread(const EffectParameter& parameter) const {
+    std::vector<MixtureTerm> mixture;
     for (const Variant& v : variants_) {
-      Component c = spread_estimate(v.block, v.mean, parameter.typical);
+      MixtureTerm c = spread_estimate(v.block, v.mean, parameter.typical);
       c.weight = v.weight;
       mixture.push_back(c);
     }
     return normalised(mixture);
   }
 
-  std::vector<Component> searched(std::size_t p) const {
+  std::vector<MixtureTerm> searched(std::size_t p) const {
     std::vector<double> grid;
     for (const std::vector<double>& theta : tried_) grid.push_back(theta[p]);
-    std::vector<Component> mixture;
+    std::vector<MixtureTerm> mixture;
     for (const Variant& v : variants_) mixture.push_back({v.weight, v.block.theta[p], grid_u(grid, v.block.theta[p])});
     return normalised(mixture);
   }
 
-  static std::vector<Component> normalised(std::vector<Component> mixture) {
+  static std::vector<MixtureTerm> normalised(std::vector<MixtureTerm> mixture) {
     double total = 0;
-    for (const Component& c : mixture) total += c.weight;
-    for (Component& c : mixture) c.weight /= total;
+    for (const MixtureTerm& c : mixture) total += c.weight;
+    for (MixtureTerm& c : mixture) c.weight /= total;
     return mixture;
   }
 

@@ -54,7 +54,7 @@ class Functions {
 
 /// All error functions, kKnots columns each.
 Matrix columns_of(const RecordedTouches& t, const Machine& machine, const Functions& functions) {
-  constexpr double kUmPerMm = 1e3, kMmPerM = 1e-3;
+  constexpr double kMmPerM = 1e-3;
   Matrix out = Matrix::Zero(static_cast<Eigen::Index>(t.touches.size()), kComponents * kKnots);
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;

@@ -236,9 +236,6 @@ void show_improvement(const ValueCase& c, const ValueFinding& f, Diagnosis& out)
   out.improvement = i;
 }
 
-/// Signal-to-noise that is detected, and named, with a power of 80 % at 1 % false alarms (design.cpp).
-constexpr double kDetects = 4.5, kNames = 5.5, kInseparable = 0.03, kConfounded = 0.7;
-
 /// What is left of the information on one column once a rival takes what it can, as a share.
 double left(const ValueSearch& s, int block, Eigen::Index column, int rival) {
   const Vector cross = s.between(rival, block).col(column);
@@ -285,7 +282,7 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
   return out;
 }
 
-std::vector<CannotJudge> unjudged(const Explanations& all) {
+std::vector<CannotJudge> unjudged_of_values(const Explanations& all) {
   std::vector<CannotJudge> out;
   for (const Effect* effect : effects()) {
     for (const Explanations::Unjudged& u : all.unjudged) {
@@ -304,7 +301,7 @@ std::vector<CannotJudge> unjudged(const Explanations& all) {
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
   const ValueCase c = on_the_bench(recording, programs, machine, options);
   Diagnosis out;
-  out.cannot_judge = unjudged(c.search->explanations());
+  out.cannot_judge = unjudged_of_values(c.search->explanations());
   out.smallest_detectable = smallest_detectable(c);
   if (options.design_only) return out;
   out.values = judge_each(c);

@@ -18,8 +18,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3, kUradPerRad = 1e6;
-
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;

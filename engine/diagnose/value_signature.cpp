@@ -12,7 +12,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3, kUradPerRad = 1e6, kNothing_um = 1e-6;
+constexpr double kSame_um = 1e-6;
 
 /// What a file of values does not tell: when, at which readings and loads, and what is drawn anew each time.
 constexpr unsigned kNotInValues = Covariate::time | Covariate::raw_reading | Covariate::acceleration | Covariate::visit | Covariate::qualification;
@@ -140,10 +140,10 @@ std::vector<Vector> grow(const Plantation& plantation, const std::vector<Plantin
   return out;
 }
 
-bool repeats(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
+bool repeats_values(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
   for (const int b : of.blocks) {
     const Matrix& m = blocks[static_cast<std::size_t>(b)].signature;
-    if (m.cols() == block.signature.cols() && (m - block.signature).cwiseAbs().maxCoeff() < kNothing_um) return true;
+    if (m.cols() == block.signature.cols() && (m - block.signature).cwiseAbs().maxCoeff() < kSame_um) return true;
   }
   return false;
 }
@@ -155,12 +155,12 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
   for (Draft& d : drafts) {
     for (const int p : d.parameter) {
       const Vector& values = grown[at++];
-      if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kNothing_um) continue;
+      if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kSame_um) continue;
       d.block.columns.push_back({p, 0, effect.parameters[static_cast<std::size_t>(p)].typical});
       d.block.signature.conservativeResize(values.size(), d.block.signature.cols() + 1);
       d.block.signature.rightCols(1) = values;
     }
-    if (d.block.columns.empty() || repeats(d.block, e, out.blocks)) continue;
+    if (d.block.columns.empty() || repeats_values(d.block, e, out.blocks)) continue;
     d.block.explanation = static_cast<int>(out.list.size());
     e.blocks.push_back(static_cast<int>(out.blocks.size()));
     out.blocks.push_back(std::move(d.block));

@@ -15,7 +15,7 @@ Vec3 start_of(const Arguments& arguments, const Vec3& normal) {
   return rotation(normal, arguments.number("start")) * unit(x);
 }
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_arc(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   const double radius = arguments.number("radius"), sweep = arguments.number("sweep");
@@ -26,7 +26,7 @@ Outcome<Element> nominal(const Arguments& arguments) {
 }
 
 /// A circle; the start and the sweep are those of the nominal.
-void fit(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
+void fit_arc(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
   fit_lanes_of<CircleProfile>(columns, start, result, failure);
   for (int l = 0; l < columns.lanes; ++l) result[l].second = start[l].second, result[l].angle = start[l].angle;
 }
@@ -42,8 +42,8 @@ extern const FeatureKind arc_kind{
     .example = "F(A1)=FEAT/ARC,INNER,CART,50,50,0,0,0,1,20,0,90",
     .source = "ISO 22093:2011, FEAT/ARC; fitted as a circle",
     .minimum_points = 3,
-    .nominal = nominal,
-    .fit_lanes = fit,
+    .nominal = nominal_arc,
+    .fit_lanes = fit_arc,
 };
 
 }  // namespace abbe

@@ -5,7 +5,7 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_circle(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   const Outcome<double> size = radius(arguments, "diam");
@@ -23,7 +23,7 @@ extern const FeatureKind circle_kind{
     .example = "F(C1)=FEAT/CIRCLE,INNER,CART,50,50,0,0,0,1,20",
     .source = "ISO 22093:2011, FEAT/CIRCLE; radial distances in the plane of the nominal normal",
     .minimum_points = 3,
-    .nominal = nominal,
+    .nominal = nominal_circle,
     .fit_lanes = fit_lanes_of<CircleProfile>,
 };
 

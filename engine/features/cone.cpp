@@ -6,7 +6,7 @@ namespace abbe {
 namespace {
 
 // The point is the apex, where the radius is zero; the fit moves it to the touches.
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_cone(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   const double half_angle = arguments.number("angle") / 2;
@@ -25,7 +25,7 @@ extern const FeatureKind cone_kind{
     .example = "F(CO1)=FEAT/CONE,INNER,CART,0,0,-40,0,0,1,60",
     .source = "ISO 22093:2011, FEAT/CONE; Forbes, NPL DITC 140/89",
     .minimum_points = 6,
-    .nominal = nominal,
+    .nominal = nominal_cone,
     .fit_lanes = fit_lanes_of<ConeProfile>,
 };
 

@@ -6,7 +6,7 @@ namespace abbe {
 namespace {
 
 // With a length the point is one end of the axis and the vector leads to the other.
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_cylinder(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   const Outcome<double> size = radius(arguments, "diam");
@@ -26,7 +26,7 @@ extern const FeatureKind cylinder_kind{
     .example = "F(CY1)=FEAT/CYLNDR,INNER,CART,50,50,0,0,0,1,20,30",
     .source = "ISO 22093:2011, FEAT/CYLNDR; Forbes, NPL DITC 140/89",
     .minimum_points = 5,
-    .nominal = nominal,
+    .nominal = nominal_cylinder,
     .fit_lanes = fit_lanes_of<CylinderProfile>,
 };
 

@@ -23,7 +23,7 @@ Outcome<Element> bounded(const Arguments& arguments) {
            .begin = -length / 2, .end = length / 2}};
 }
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_line(const Arguments& arguments) {
   if (arguments.has("x1")) return bounded(arguments);
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
@@ -41,7 +41,7 @@ extern const FeatureKind line_kind{
     .example = "F(L1)=FEAT/LINE,BND,CART,0,0,0,100,0,0,0,0,1",
     .source = "ISO 22093:2011, FEAT/LINE; total least squares (Pearson 1901)",
     .minimum_points = 2,
-    .nominal = nominal,
+    .nominal = nominal_line,
     .fit_lanes = fit_line_lanes,
 };
 

@@ -5,7 +5,7 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_plane(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   return {{.point = location(arguments), .direction = along.value}};
@@ -21,7 +21,7 @@ extern const FeatureKind plane_kind{
     .example = "F(PL1)=FEAT/PLANE,CART,0,0,0,0,0,1",
     .source = "ISO 22093:2011, FEAT/PLANE; total least squares (Pearson 1901)",
     .minimum_points = 3,
-    .nominal = nominal,
+    .nominal = nominal_plane,
     .fit_lanes = fit_plane_lanes,
 };
 

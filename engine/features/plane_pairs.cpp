@@ -17,7 +17,7 @@ Outcome<Element> median(const Vec3& point, const Vec3& normal, double width) {
   return {{.point = point, .direction = normal, .size = width / 2}};
 }
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_planes(const Arguments& arguments) {
   if (arguments.has("width")) {
     const Outcome<Vec3> along = direction(arguments);
     return along ? median(location(arguments), along.value, arguments.number("width")) : Outcome<Element>::failed(along.failure);
@@ -80,7 +80,7 @@ const char* fit_lane(const PointColumns& columns, int lane, const Element& start
   return nullptr;
 }
 
-void fit(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
+void fit_planes(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
   for (int l = 0; l < columns.lanes; ++l) failure[l] = fit_lane(columns, l, start[l], result[l]);
 }
 
@@ -95,8 +95,8 @@ extern const FeatureKind parallel_planes_kind{
     .example = "F(PP1)=FEAT/PARPLN,INNER,MIDPL,CART,40,30,-5,0,1,0,10",
     .source = "ISO 22093:2011, FEAT/PARPLN; least squares with a common normal",
     .minimum_points = 4,
-    .nominal = nominal,
-    .fit_lanes = fit,
+    .nominal = nominal_planes,
+    .fit_lanes = fit_planes,
     .fitted_anywhere = false,
 };
 
@@ -108,8 +108,8 @@ extern const FeatureKind symmetry_plane_kind{
     .example = "F(SP1)=FEAT/SYMPLN,OUTER,CART,0,0,0,1,0,0,80",
     .source = "ISO 22093:2011, FEAT/SYMPLN; as PARPLN",
     .minimum_points = 4,
-    .nominal = nominal,
-    .fit_lanes = fit,
+    .nominal = nominal_planes,
+    .fit_lanes = fit_planes,
     .fitted_anywhere = false,
 };
 

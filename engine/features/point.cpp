@@ -8,7 +8,7 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_point(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   return {{.point = location(arguments), .direction = along.value}};
@@ -40,7 +40,7 @@ extern const FeatureKind point_kind{
     .example = "F(P1)=FEAT/POINT,CART,10,20,0,0,0,1",
     .source = "ISO 22093:2011, FEAT/POINT; the mean of the touches",
     .minimum_points = 1,
-    .nominal = nominal,
+    .nominal = nominal_point,
     .fit_lanes = fit_point_lanes,
 };
 

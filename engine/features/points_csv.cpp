@@ -51,9 +51,8 @@ std::optional<double> number(std::string_view text) {
 
 void check_header(const SourceFile& file) {
   Field line = line_of(file, 1);
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (line.text.starts_with(byte_order_mark))
-    line = trimmed({line.text.substr(byte_order_mark.size()), line.begin + static_cast<std::uint32_t>(byte_order_mark.size())});
+  if (line.text.starts_with(kByteOrderMark))
+    line = trimmed({line.text.substr(kByteOrderMark.size()), line.begin + static_cast<std::uint32_t>(kByteOrderMark.size())});
   std::string names;
   for (const Field& field : split(line)) names.append(field.text).push_back(',');
   if (names == "x,y,z," || names == "X,Y,Z,") return;

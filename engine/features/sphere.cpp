@@ -5,7 +5,7 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_sphere(const Arguments& arguments) {
   const Outcome<double> size = radius(arguments, "diam");
   if (!size) return Outcome<Element>::failed(size.failure);
   return {{.point = location(arguments), .size = size.value}};
@@ -21,7 +21,7 @@ extern const FeatureKind sphere_kind{
     .example = "F(S1)=FEAT/SPHERE,OUTER,CART,100,100,50,25",
     .source = "ISO 22093:2011, FEAT/SPHERE; Forbes, NPL DITC 140/89",
     .minimum_points = 4,
-    .nominal = nominal,
+    .nominal = nominal_sphere,
     .fit_lanes = fit_lanes_of<SphereProfile>,
 };
 

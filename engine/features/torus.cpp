@@ -5,7 +5,7 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal(const Arguments& arguments) {
+Outcome<Element> nominal_torus(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   const Outcome<double> major = radius(arguments, "majdia"), minor = radius(arguments, "mindia");
@@ -27,7 +27,7 @@ extern const FeatureKind torus_kind{
     .example = "F(T1)=FEAT/TORUS,OUTER,CART,0,0,0,0,0,1,80,20",
     .source = "ISO 22093:2011, FEAT/TORUS; distance from the centre line of the tube",
     .minimum_points = 7,
-    .nominal = nominal,
+    .nominal = nominal_torus,
     .fit_lanes = fit_lanes_of<TorusProfile>,
 };
 

@@ -10,9 +10,6 @@ namespace abbe {
 
 namespace {
 
-constexpr std::size_t kMostMessages = 10;
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 std::string_view trimmed(std::string_view text) {
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
@@ -70,7 +67,7 @@ void check_header(const SourceFile& file, const std::vector<CsvField>& header, S
 CsvTable read_csv(const SourceFile& file) {
   CsvTable table;
   Sink sink;
-  for (int number = 1; number <= file.line_count() && sink.list().size() < kMostMessages; ++number) {
+  for (int number = 1; number <= file.line_count() && sink.list().size() < kMostCsvMessages; ++number) {
     std::string_view line = file.line(number);
     std::uint32_t begin = file.line_begin(number);
     if (number == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size()), begin += 3;

@@ -11,6 +11,9 @@
 
 namespace abbe {
 
+/// Reading stops after so many mistakes in one file: more would not help.
+inline constexpr std::size_t kMostCsvMessages = 10;
+
 struct CsvField {
   std::string text;    ///< unquoted, blanks around it removed
   Span span;

@@ -10,7 +10,7 @@ namespace abbe {
 namespace {
 
 /// One column: its name, and the text of a row's value or nothing.
-struct Column {
+struct WrittenColumn {
   std::string name;
   std::function<std::optional<std::string>(const RecordingRow&)> text;
 };
@@ -32,14 +32,14 @@ std::string decimals(double value, int digits) {
   return text;
 }
 
-Column number(std::string name, int digits, std::function<std::optional<double>(const RecordingRow&)> value) {
+WrittenColumn number(std::string name, int digits, std::function<std::optional<double>(const RecordingRow&)> value) {
   return {std::move(name), [=](const RecordingRow& row) -> std::optional<std::string> {
             const std::optional<double> v = value(row);
             return v ? std::optional(decimals(*v, digits)) : std::nullopt;
           }};
 }
 
-void add_vector(std::vector<Column>& columns, const std::array<const char*, 3>& names, int digits,
+void add_vector(std::vector<WrittenColumn>& columns, const std::array<const char*, 3>& names, int digits,
                 std::function<std::optional<Vec3>(const RecordingRow&)> value) {
   for (int axis = 0; axis < 3; ++axis)
     columns.push_back(number(names[axis], digits, [=](const RecordingRow& row) -> std::optional<double> {
@@ -48,8 +48,8 @@ void add_vector(std::vector<Column>& columns, const std::array<const char*, 3>& 
     }));
 }
 
-std::vector<Column> all_columns() {
-  std::vector<Column> c;
+std::vector<WrittenColumn> writable_columns() {
+  std::vector<WrittenColumn> c;
   const auto integer = [&](const char* name, auto member) {
     c.push_back({name, [=](const RecordingRow& row) -> std::optional<std::string> {
                    const std::optional<int> v = row.*member;
@@ -85,8 +85,8 @@ std::vector<Column> all_columns() {
 }  // namespace
 
 std::string to_csv(const Recording& recording) {
-  std::vector<Column> columns = all_columns();
-  std::erase_if(columns, [&](const Column& column) {
+  std::vector<WrittenColumn> columns = writable_columns();
+  std::erase_if(columns, [&](const WrittenColumn& column) {
     for (const RecordingRow& row : recording.rows)
       if (column.text(row)) return false;
     return true;

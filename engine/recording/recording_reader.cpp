@@ -13,7 +13,6 @@ namespace abbe {
 
 namespace {
 
-constexpr std::size_t kMostMessages = 10;
 
 /// The coordinates of the vectors of a row, which come column by column.
 struct PartialVector {
@@ -120,7 +119,7 @@ Recording with_metadata(const CsvTable& table, const SourceFile& file) {
 }
 
 /// The setter of each column. An unknown column is an error: a misspelt covariate would silently be lost.
-std::vector<Setter> columns_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
+std::vector<Setter> setters_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
   const std::map<std::string, Setter> known = setters();
   std::vector<std::string_view> names;
   for (const auto& [name, setter] : known) names.push_back(name);
@@ -174,7 +173,7 @@ Recording read_recording(const SourceFile& file) {
   const CsvTable table = read_csv(file);
   Recording recording = with_metadata(table, file);
   Sink sink;
-  const std::vector<Setter> columns = columns_of(table, file, sink);
+  const std::vector<Setter> columns = setters_of(table, file, sink);
   if (sink.has_errors()) throw UserError(sink.list());
   for (const CsvRow& row : table.rows) {
     Draft draft;
@@ -187,7 +186,7 @@ Recording read_recording(const SourceFile& file) {
     complete_vectors(file, row, draft, sink);
     draft.row.line = row.line;
     recording.rows.push_back(std::move(draft.row));
-    if (sink.list().size() >= kMostMessages) break;
+    if (sink.list().size() >= kMostCsvMessages) break;
   }
   if (sink.has_errors()) throw UserError(sink.list());
   return recording;

@@ -14,7 +14,7 @@ namespace abbe {
 
 namespace {
 
-struct Column {
+struct ReadColumn {
   std::string_view name;
   std::function<bool(const CsvField&, ValueRow&)> set;   ///< false: not a value of this column
   bool required = false;
@@ -34,8 +34,8 @@ bool set_count(const CsvField& f, int& to) {
   return true;
 }
 
-const std::vector<Column>& all_columns() {
-  static const std::vector<Column> all = {
+const std::vector<ReadColumn>& readable_columns() {
+  static const std::vector<ReadColumn> all = {
       {"characteristic", [](const CsvField& f, ValueRow& r) { r.characteristic = f.text, r.span = f.span; return true; }, true},
       {"value", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.value = v; }); }, true},
       {"reference", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.reference = v; }); }},
@@ -48,19 +48,19 @@ const std::vector<Column>& all_columns() {
   return all;
 }
 
-std::vector<const Column*> columns_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
+std::vector<const ReadColumn*> columns_used(const CsvTable& table, const SourceFile& file, Sink& sink) {
   std::vector<std::string_view> names;
-  for (const Column& c : all_columns()) names.push_back(c.name);
-  std::vector<const Column*> used;
+  for (const ReadColumn& c : readable_columns()) names.push_back(c.name);
+  std::vector<const ReadColumn*> used;
   for (const CsvField& field : table.header) {
     const auto found = std::find(names.begin(), names.end(), field.text);
-    used.push_back(found == names.end() ? nullptr : &all_columns()[static_cast<std::size_t>(found - names.begin())]);
+    used.push_back(found == names.end() ? nullptr : &readable_columns()[static_cast<std::size_t>(found - names.begin())]);
     if (used.back()) continue;
     const std::string near = nearest_word(field.text, names);
     sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording of values has no column '{}'", field.text),
                            near.empty() ? fmt::format("its columns are {}", fmt::join(names, ", ")) : fmt::format("did you mean '{}'?", near)));
   }
-  for (const Column& c : all_columns())
+  for (const ReadColumn& c : readable_columns())
     if (c.required && std::find(used.begin(), used.end(), &c) == used.end())
       sink.add(diagnostic_at(file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", c.name),
                              "a recording of values has at least characteristic,value"));
@@ -72,7 +72,7 @@ std::vector<const Column*> columns_of(const CsvTable& table, const SourceFile& f
 ValueRecording read_value_recording(const SourceFile& file) {
   const CsvTable table = read_csv(file);
   Sink sink;
-  const std::vector<const Column*> columns = columns_of(table, file, sink);
+  const std::vector<const ReadColumn*> columns = columns_used(table, file, sink);
   if (sink.has_errors()) throw UserError(sink.list());
   ValueRecording out{file, table.metadata, {}};
   for (const CsvRow& row : table.rows) {

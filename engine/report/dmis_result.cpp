@@ -11,12 +11,12 @@ namespace abbe {
 namespace {
 
 /// Five decimals as real result files print them, without a negative zero.
-std::string number(double value) {
+std::string decimal(double value) {
   std::string text = fmt::format("{:.5f}", value);
   return text == "-0.00000" ? text.substr(1) : text;
 }
 
-std::string numbers(const Vec3& v) { return number(v.x) + ", " + number(v.y) + ", " + number(v.z); }
+std::string numbers(const Vec3& v) { return decimal(v.x) + ", " + decimal(v.y) + ", " + decimal(v.z); }
 
 double degrees(double rad) { return rad * 180 / kPi; }
 
@@ -27,27 +27,27 @@ std::string line_arguments(const Element& e, const std::string& place) {
 }
 
 std::string cylinder_arguments(const Element& e) {
-  const std::string length = e.end > e.begin ? ", " + number(e.end - e.begin) : "";
+  const std::string length = e.end > e.begin ? ", " + decimal(e.end - e.begin) : "";
   const Vec3 end = e.end > e.begin ? e.point + e.begin * e.direction : e.point;  // with a length the point is one end of the axis
-  return numbers(end) + ", " + numbers(e.direction) + ", " + number(2 * e.size) + length;
+  return numbers(end) + ", " + numbers(e.direction) + ", " + decimal(2 * e.size) + length;
 }
 
 /// The apex, as FEAT has it; a constructed cone without angle keeps its point.
 Vec3 apex(const Element& e) { return e.angle > 0 ? e.point - e.size / std::tan(e.angle) * e.direction : e.point; }
 
 std::string rectangle_arguments(const Element& e) {
-  return numbers(e.point) + ", " + numbers(e.second) + ", " + number(2 * e.size) + ", " + numbers(cross(e.direction, e.second)) + ", " +
-         number(2 * e.minor_size) + ", " + numbers(e.direction) + ", " + number(e.end - e.begin);
+  return numbers(e.point) + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " + numbers(cross(e.direction, e.second)) + ", " +
+         decimal(2 * e.minor_size) + ", " + numbers(e.direction) + ", " + decimal(e.end - e.begin);
 }
 
 std::string ellipse_arguments(const Element& e) {
   const Vec3 focus = std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
-  return numbers(e.point - focus) + ", " + numbers(e.point + focus) + ", MAJOR, " + number(2 * e.size) + ", " + numbers(e.direction);
+  return numbers(e.point - focus) + ", " + numbers(e.point + focus) + ", MAJOR, " + decimal(2 * e.size) + ", " + numbers(e.direction);
 }
 
 /// The start of the arc is written as its direction, with the start angle 0.
 std::string arc_arguments(const Element& e, const std::string& place) {
-  return place + ", " + number(e.size) + ", " + number(0) + ", " + number(degrees(e.angle)) + ", " + numbers(e.second);
+  return place + ", " + decimal(e.size) + ", " + decimal(0) + ", " + decimal(degrees(e.angle)) + ", " + numbers(e.second);
 }
 
 std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
@@ -57,21 +57,21 @@ std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
     case Shape::point:
     case Shape::plane: return "CART, " + place;
     case Shape::line: return line_arguments(e, place);
-    case Shape::circle: return side + place + ", " + number(2 * e.size);
+    case Shape::circle: return side + place + ", " + decimal(2 * e.size);
     case Shape::arc: return side + arc_arguments(e, place);
     case Shape::cylinder: return side + cylinder_arguments(e);
-    case Shape::sphere: return side + numbers(e.point) + ", " + number(2 * e.size);
-    case Shape::cone: return side + numbers(apex(e)) + ", " + numbers(e.direction) + ", " + number(degrees(2 * e.angle));
-    case Shape::torus: return side + place + ", " + number(2 * e.size) + ", " + number(2 * e.minor_size);
+    case Shape::sphere: return side + numbers(e.point) + ", " + decimal(2 * e.size);
+    case Shape::cone: return side + numbers(apex(e)) + ", " + numbers(e.direction) + ", " + decimal(degrees(2 * e.angle));
+    case Shape::torus: return side + place + ", " + decimal(2 * e.size) + ", " + decimal(2 * e.minor_size);
     case Shape::edge_point: return "CART, " + place + ", " + numbers(e.second);
     case Shape::surface: return "";
     case Shape::slot:
-      return in + (e.angle != 0 ? "FLAT" : "ROUND") + ", CART, " + place + ", " + numbers(e.second) + ", " + number(2 * e.size) + ", " +
-             number(2 * e.minor_size);
+      return in + (e.angle != 0 ? "FLAT" : "ROUND") + ", CART, " + place + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " +
+             decimal(2 * e.minor_size);
     case Shape::rectangle: return side + rectangle_arguments(e);
     case Shape::ellipse: return side + ellipse_arguments(e);
-    case Shape::parallel_planes: return in + "MIDPL, CART, " + place + ", " + number(2 * e.size);
-    case Shape::symmetry_plane: return side + place + ", " + number(2 * e.size);
+    case Shape::parallel_planes: return in + "MIDPL, CART, " + place + ", " + decimal(2 * e.size);
+    case Shape::symmetry_plane: return side + place + ", " + decimal(2 * e.size);
   }
   throw InternalError("a Shape without DMIS arguments");
 }
@@ -85,9 +85,9 @@ std::string tolerance_arguments(const plan::ToleranceDef& def, const OutputRecor
   const std::string status = inside(result.value, result.limits) ? "INTOL" : "OUTOL";
   const std::string word(def.kind->word);
   const std::string axis = def.arguments.text("axis");
-  if (word.starts_with("DIST")) return fmt::format("{}, {}, NOMINL, {}, {}", word, status, number(value), axis);
+  if (word.starts_with("DIST")) return fmt::format("{}, {}, NOMINL, {}, {}", word, status, decimal(value), axis);
   const std::string qualifier = !axis.empty() ? axis : def.arguments.text("space");
-  return fmt::format("{}{}{}, {}, {}", word, qualifier.empty() ? "" : ", ", qualifier, number(value), status);
+  return fmt::format("{}{}{}, {}, {}", word, qualifier.empty() ? "" : ", ", qualifier, decimal(value), status);
 }
 
 std::string matrix_arguments(const Rigid& X_MD) {

@@ -9,13 +9,11 @@
 #include <map>
 #include <tuple>
 
+#include "engine/run/sensor.hpp"
+
 namespace abbe {
 
 namespace {
-
-bool same_label(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
-}
 
 /// Whether the targets of the recording are those of this very part.
 bool targets_are_true(const Workpiece& w, const Recording& recording, const std::string& file) {

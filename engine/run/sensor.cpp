@@ -9,12 +9,12 @@
 
 namespace abbe {
 
-namespace {
-
 bool same_label(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
+
+namespace {
 
 const NamedSensor& machine_sensor(const plan::SensorDef& def, const Machine& machine, const SourceFile& source) {
   std::vector<std::string_view> names;

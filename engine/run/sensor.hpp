@@ -1,6 +1,7 @@
 // A stylus system as the touch kernel needs it: where its tip is, and how the head's indexing errors move it.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
@@ -8,6 +9,9 @@
 #include "engine/plan/plan.hpp"
 
 namespace abbe {
+
+/// Labels are the same in upper and lower case.
+bool same_label(std::string_view, std::string_view);
 
 struct Sensor {
   std::string name;

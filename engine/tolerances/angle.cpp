@@ -38,7 +38,7 @@ double expected(const Arguments& arguments) {
 
 double nominal_angle(const Arguments& arguments, Elements) { return expected(arguments); }
 
-ToleranceLimits limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
+ToleranceLimits angle_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
 
 Outcome<double> angle_between(const Arguments& arguments, const EvaluationInput& in) {
   const Vec3 &u = in.actual[0].direction, &v = in.actual[1].direction;
@@ -75,7 +75,7 @@ extern const ToleranceKind angle_of_two_tolerance{
     .features = 2,
     .applies = with_directions,
     .nominal = nominal_angle,
-    .limits = limits,
+    .limits = angle_limits,
     .evaluate = angle_between,
 };
 

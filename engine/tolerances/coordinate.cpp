@@ -12,7 +12,7 @@ constexpr double kOnAxis_mm = 1e-6;
 
 const char* any_feature(const Arguments&, Shapes) { return nullptr; }
 
-ToleranceLimits limits(const Arguments& arguments, Elements) {
+ToleranceLimits coordinate_limits(const Arguments& arguments, Elements) {
   return {arguments.number("lower"), arguments.number("upper")};
 }
 
@@ -48,7 +48,7 @@ extern const ToleranceKind coordinate_tolerance{
     .features = 1,
     .applies = any_feature,
     .nominal = no_deviation,
-    .limits = limits,
+    .limits = coordinate_limits,
     .evaluate = coordinate_deviation,
     .unit_for = unit,
 };

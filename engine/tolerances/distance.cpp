@@ -107,7 +107,7 @@ double nominal_distance(const Arguments& arguments, const Element& from, const E
 
 const char* any_features(const Arguments&, Shapes) { return nullptr; }
 
-ToleranceLimits limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
+ToleranceLimits distance_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
 
 double nominal_between(const Arguments& arguments, Elements nominal) {
   return nominal_distance(arguments, nominal[0], nominal[1]);
@@ -139,7 +139,7 @@ extern const ToleranceKind distance_between_tolerance{
     .features = 2,
     .applies = any_features,
     .nominal = nominal_between,
-    .limits = limits,
+    .limits = distance_limits,
     .evaluate = between,
 };
 
@@ -156,7 +156,7 @@ extern const ToleranceKind distance_from_tolerance{
     .features = 1,
     .applies = any_features,
     .nominal = nominal_from,
-    .limits = limits,
+    .limits = distance_limits,
     .evaluate = from_reference,
 };
 

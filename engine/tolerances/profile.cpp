@@ -23,7 +23,7 @@ const char* few_datums(const Arguments& arguments, Shapes) {
   return arguments.features("datum").size() > 3 ? "a profile has at most three datums" : nullptr;
 }
 
-ToleranceLimits width(const Arguments& arguments, Elements) {
+ToleranceLimits profile_limits(const Arguments& arguments, Elements) {
   const double zone = arguments.number("upper") - arguments.number("lower");
   return zone > 0 ? ToleranceLimits{{}, zone} : ToleranceLimits{};
 }
@@ -59,7 +59,7 @@ extern const ToleranceKind surface_profile_tolerance{
     .features = 1,
     .applies = few_datums,
     .nominal = no_deviation,
-    .limits = width,
+    .limits = profile_limits,
     .evaluate = profile,
     .needs_touches = true,
 };
@@ -74,7 +74,7 @@ extern const ToleranceKind line_profile_tolerance{
     .features = 1,
     .applies = few_datums,
     .nominal = no_deviation,
-    .limits = width,
+    .limits = profile_limits,
     .evaluate = profile,
     .needs_touches = true,
 };

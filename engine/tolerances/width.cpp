@@ -22,12 +22,12 @@ double width(const Arguments& arguments, const Element& e) {
 
 double nominal_width(const Arguments& arguments, Elements nominal) { return width(arguments, nominal[0]); }
 
-ToleranceLimits limits(const Arguments& arguments, Elements nominal) {
+ToleranceLimits width_limits(const Arguments& arguments, Elements nominal) {
   const double w = width(arguments, nominal[0]);
   return {w + arguments.number("lower"), w + arguments.number("upper")};
 }
 
-Outcome<double> evaluate(const Arguments& arguments, const EvaluationInput& in) {
+Outcome<double> actual_width(const Arguments& arguments, const EvaluationInput& in) {
   return {width(arguments, in.actual[0])};
 }
 
@@ -43,8 +43,8 @@ extern const ToleranceKind width_tolerance{
     .features = 1,
     .applies = two_sided,
     .nominal = nominal_width,
-    .limits = limits,
-    .evaluate = evaluate,
+    .limits = width_limits,
+    .evaluate = actual_width,
     .size_factor = 1,
 };
 

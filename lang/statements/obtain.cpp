@@ -14,12 +14,12 @@ namespace abbe::lang {
 
 namespace {
 
-using plan::Op1, plan::Op2, plan::Quantity;
+using plan::Op1, plan::Op2;
 using Form = std::vector<FormItem>;
 
 /// What of a measured element an argument is: a quantity, times a factor.
 struct Reading {
-  Quantity quantity{};
+  plan::Quantity quantity{};
   double times = 1;
 };
 
@@ -44,17 +44,17 @@ std::optional<Reading> vector_reading(const plan::FeatureDef& def, const Form& f
   const Shape shape = def.kind->shape;
   const Element& nominal = def.nominal;
   const bool place = letter == 'x', faces = shape == Shape::parallel_planes;
-  if (suffix.empty()) return place ? Reading{shape == Shape::cone ? Quantity::apex_x : Quantity::x} : Reading{Quantity::i};
-  if (suffix == "s" || suffix == "n") return Reading{Quantity::second_i};
+  if (suffix.empty()) return place ? Reading{shape == Shape::cone ? plan::Quantity::apex_x : plan::Quantity::x} : Reading{plan::Quantity::i};
+  if (suffix == "s" || suffix == "n") return Reading{plan::Quantity::second_i};
   const bool first = suffix == "1";
-  if (place && shape == Shape::line) return Reading{first ? Quantity::begin_x : Quantity::end_x};
-  if (place && shape == Shape::ellipse) return Reading{first ? Quantity::focus1_x : Quantity::focus2_x};
-  if (place && faces) return Reading{dot(given(form, "xyz", suffix) - nominal.point, nominal.direction) > 0 ? Quantity::face1_x : Quantity::face2_x};
-  if (faces) return Reading{Quantity::i, sign_of(dot(given(form, "ijk", suffix), nominal.direction))};
-  if (shape == Shape::slot || (shape == Shape::rectangle && first)) return Reading{Quantity::second_i};
+  if (place && shape == Shape::line) return Reading{first ? plan::Quantity::begin_x : plan::Quantity::end_x};
+  if (place && shape == Shape::ellipse) return Reading{first ? plan::Quantity::focus1_x : plan::Quantity::focus2_x};
+  if (place && faces) return Reading{dot(given(form, "xyz", suffix) - nominal.point, nominal.direction) > 0 ? plan::Quantity::face1_x : plan::Quantity::face2_x};
+  if (faces) return Reading{plan::Quantity::i, sign_of(dot(given(form, "ijk", suffix), nominal.direction))};
+  if (shape == Shape::slot || (shape == Shape::rectangle && first)) return Reading{plan::Quantity::second_i};
   if (shape == Shape::rectangle && suffix == "2")
-    return Reading{Quantity::third_i, sign_of(dot(given(form, "ijk", "2"), cross(nominal.direction, nominal.second)))};
-  return shape == Shape::rectangle ? std::optional(Reading{Quantity::i}) : std::nullopt;
+    return Reading{plan::Quantity::third_i, sign_of(dot(given(form, "ijk", "2"), cross(nominal.direction, nominal.second)))};
+  return shape == Shape::rectangle ? std::optional(Reading{plan::Quantity::i}) : std::nullopt;
 }
 
 /// Sizes and angles.
@@ -62,16 +62,16 @@ std::optional<Reading> size_reading(const plan::FeatureDef& def, const Form& for
   const Shape shape = def.kind->shape;
   if (name == "diam") {
     const FormItem* axis = item_of(form, "axis");
-    return Reading{axis && axis->text == "MINOR" ? Quantity::minor_radius : Quantity::radius, 2};
+    return Reading{axis && axis->text == "MINOR" ? plan::Quantity::minor_radius : plan::Quantity::radius, 2};
   }
-  if (name == "radius") return Reading{Quantity::radius};
-  if (name == "majdia" || name == "len1") return Reading{Quantity::radius, 2};
-  if (name == "mindia" || name == "len2") return Reading{Quantity::minor_radius, 2};
-  if (name == "width") return Reading{shape == Shape::slot ? Quantity::minor_radius : Quantity::radius, 2};
-  if (name == "length") return shape == Shape::slot ? Reading{Quantity::radius, 2} : Reading{Quantity::length};
-  if (name == "len3") return Reading{Quantity::length};
-  if (name == "angle") return Reading{Quantity::angle, 2};
-  return name == "sweep" ? std::optional(Reading{Quantity::angle}) : std::nullopt;
+  if (name == "radius") return Reading{plan::Quantity::radius};
+  if (name == "majdia" || name == "len1") return Reading{plan::Quantity::radius, 2};
+  if (name == "mindia" || name == "len2") return Reading{plan::Quantity::minor_radius, 2};
+  if (name == "width") return Reading{shape == Shape::slot ? plan::Quantity::minor_radius : plan::Quantity::radius, 2};
+  if (name == "length") return shape == Shape::slot ? Reading{plan::Quantity::radius, 2} : Reading{plan::Quantity::length};
+  if (name == "len3") return Reading{plan::Quantity::length};
+  if (name == "angle") return Reading{plan::Quantity::angle, 2};
+  return name == "sweep" ? std::optional(Reading{plan::Quantity::angle}) : std::nullopt;
 }
 
 /// "y2" to the second component of the vector x2; "nj" and "js" are components of the vector that turns the feature.
@@ -83,13 +83,13 @@ std::optional<Reading> reading_of(const plan::FeatureDef& def, const Form& form,
     const std::size_t component = letters.find(letter);
     if (component == std::string_view::npos || suffix.size() > 1) continue;
     std::optional<Reading> reading = vector_reading(def, form, letters[0], suffix);
-    if (reading) reading->quantity = static_cast<Quantity>(static_cast<int>(reading->quantity) + static_cast<int>(component));
+    if (reading) reading->quantity = static_cast<plan::Quantity>(static_cast<int>(reading->quantity) + static_cast<int>(component));
     return reading;
   }
-  return name == "h" ? Reading{Quantity::z} : size_reading(def, form, name);
+  return name == "h" ? Reading{plan::Quantity::z} : size_reading(def, form, name);
 }
 
-plan::Expression obtained(Lowering& lowering, plan::FeatureId feature, Quantity quantity) {
+plan::Expression obtained(Lowering& lowering, plan::FeatureId feature, plan::Quantity quantity) {
   const plan::ColumnId column{lowering.out.plan.columns++};
   lowering.emit(plan::Obtain{column, feature, quantity});
   return {plan::PushColumn{column}};
@@ -138,7 +138,7 @@ std::optional<Value> from_feature(Lowering& lowering, const MatchedValue& label,
   if (!actual || !item->is_number || item->name == "start") return written(lowering, *item);
   const double unit = to_program(item->type, lowering.units);
   if (item->name == "r" || item->name == "a") {
-    const plan::Expression x = obtained(lowering, *feature, Quantity::x), y = obtained(lowering, *feature, Quantity::y);
+    const plan::Expression x = obtained(lowering, *feature, plan::Quantity::x), y = obtained(lowering, *feature, plan::Quantity::y);
     const plan::Expression squares = combine(Op2::add, combine(Op2::multiply, x, x), combine(Op2::multiply, y, y));
     return Value{Type::real, {scaled(item->name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
   }

@@ -8,6 +8,7 @@
 #include "engine/base/diagnostic.hpp"
 #include "lang/compile.hpp"
 #include "programs/commands/commands.hpp"
+#include "programs/terminal.hpp"
 
 namespace abbe {
 namespace {
@@ -38,12 +39,8 @@ nlohmann::ordered_json to_json(const Diagnostic& d) {
 }
 
 /// Names and labels keep the bytes of the file, which need not be UTF-8; JSON must be.
-std::string dump(const nlohmann::ordered_json& json) {
+std::string indented(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-std::string counted(std::size_t number, std::string_view noun) {
-  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -72,7 +69,7 @@ int check_command(const CheckOptions& options) {
   if (as_json) {
     nlohmann::ordered_json out = {{"schema", "abbe.check/1"}, {"messages", messages}};
     if (options.plan) out["plans"] = plans;
-    fmt::print("{}\n", dump(out));
+    fmt::print("{}\n", indented(out));
   } else {
     fmt::print("{}, {} in {}\n", counted(errors, "error"), counted(warnings, "warning"),
                counted(options.programs.size(), "program"));

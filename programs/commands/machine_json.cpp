@@ -11,10 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kAxisNames[] = {"x", "y", "z"};
-constexpr double kDegreesPerRad = 180 / kPi;
-
-Json triple(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json triple_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Json chain(const std::vector<Axis>& axes) {
   Json out = Json::array();
@@ -70,7 +67,7 @@ Json axes_json(const Machine& machine) {
     out[kAxisNames[k]] = {{"travel_mm", axis.travel_mm},
                           {"direction", axis.direction},
                           {"side", axis.table_side ? "table" : "ram"},
-                          {"offset_mm", triple(axis.offset_mm)}};
+                          {"offset_mm", triple_json(axis.offset_mm)}};
   }
   return out;
 }
@@ -79,7 +76,7 @@ Json sensors_json(const Machine& machine) {
   Json out = Json::object();
   for (const auto& [label, s] : machine.sensors)
     out[label] = {{"head_deg", {s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad}},
-                  {"tip_in_r_mm", triple(s.tip_in_r_mm)},
+                  {"tip_in_r_mm", triple_json(s.tip_in_r_mm)},
                   {"diameter_mm", 2 * s.radius_mm},
                   {"shaft_diameter_mm", s.shaft_diameter_mm},
                   {"material", s.material},
@@ -118,9 +115,9 @@ Json line_json(const LineReport& report) {
   for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
   return {{"name", line.name},
           {"test", line.test},
-          {"start_reading_mm", triple(line.start_mm)},
-          {"direction", triple(line.direction)},
-          {"tip_mm", triple(line.tip_mm)},
+          {"start_reading_mm", triple_json(line.start_mm)},
+          {"direction", triple_json(line.direction)},
+          {"tip_mm", triple_json(line.tip_mm)},
           {"length_mm", line.length_mm},
           {"mpe_um", mpe_um},
           {"error_over_mpe",
@@ -147,7 +144,7 @@ std::string machine_report_json(const MachineReport& report) {
        {"name", m.name},
        {"axes", axes_json(m)},
        {"chain", {{"ram_side", chain(m.ram_chain)}, {"table_side", chain(m.table_chain)}}},
-       {"mount_offset_mm", triple(m.mount_offset_mm)},
+       {"mount_offset_mm", triple_json(m.mount_offset_mm)},
        {"harmonics", m.harmonics},
        {"squareness_um_per_m",
         {{"cwy", m.squareness_cwy_rad * 1e6},
@@ -161,7 +158,7 @@ std::string machine_report_json(const MachineReport& report) {
           {{"A", m.head.sd_a_rad * kDegreesPerRad * 3600},
            {"B", m.head.sd_b_rad * kDegreesPerRad * 3600}}},
          {"mounting", {{"turn_deg", m.head.mounting_rad * kDegreesPerRad}}}}},
-       {"probe", {{"sd_um", triple(1e3 * m.probe.sd_mm)}}},
+       {"probe", {{"sd_um", triple_json(1e3 * m.probe.sd_mm)}}},
        {"motion",
         {{"speed_mm_s", m.motion.speed_mm_s},
          {"probing_speed_mm_s", m.motion.probing_speed_mm_s},

@@ -5,11 +5,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/machine/screening.hpp"
 
 namespace abbe {
+
+inline constexpr std::string_view kAxisNames[] = {"x", "y", "z"};
+inline constexpr double kDegreesPerRad = 180 / kPi;
 
 /// A machine and the first virtual machine of a seed that satisfies its specification.
 struct MachineReport {

@@ -10,11 +10,9 @@ namespace abbe {
 
 namespace {
 
-constexpr std::string_view kAxisNames[] = {"x", "y", "z"};
-constexpr double kDegreesPerRad = 180 / kPi;
 constexpr double kArcsecPerRad = 180 * 3600 / kPi;
 
-std::string triple(const Vec3& v) { return fmt::format("{:9.6g} {:9.6g} {:9.6g}", v.x, v.y, v.z); }
+std::string triple_text(const Vec3& v) { return fmt::format("{:9.6g} {:9.6g} {:9.6g}", v.x, v.y, v.z); }
 
 std::string chain_text(const Machine& machine) {
   std::string ram = "base", table = "base";
@@ -33,9 +31,9 @@ std::string axes_text(const Machine& machine) {
     const MachineAxis& axis = machine.axes[k];
     out += fmt::format("  {:<5} {:<6} {:>9g}  0 .. {:<8g} {}\n", kAxisNames[k],
                        axis.table_side ? "table" : "ram", axis.travel_mm,
-                       axis.direction * axis.travel_mm, triple(axis.offset_mm));
+                       axis.direction * axis.travel_mm, triple_text(axis.offset_mm));
   }
-  return out + fmt::format("  {:<40} {}\n", "mount", triple(machine.mount_offset_mm)) +
+  return out + fmt::format("  {:<40} {}\n", "mount", triple_text(machine.mount_offset_mm)) +
          chain_text(machine);
 }
 
@@ -97,7 +95,7 @@ std::string equipment_text(const Machine& machine) {
   for (const auto& [label, s] : machine.sensors)
     out += fmt::format(
         "  {:<12} A {:>5.6g}, B {:>5.6g} deg  tip {} mm  diameter {:g} mm, shaft {:g} mm {}\n",
-        label, s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad, triple(s.tip_in_r_mm),
+        label, s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad, triple_text(s.tip_in_r_mm),
         2 * s.radius_mm, s.shaft_diameter_mm, s.material);
   out += "Effects\n";
   for (const EffectSetting& effect : machine.effects) {

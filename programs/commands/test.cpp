@@ -100,7 +100,7 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
       progress.show(fmt::format("{}: {}", path, step));
     });
     for (const lang::Expectation& e : expectations) {
-      const Verdict verdict = judge(e, study.report);
+      const ExpectationVerdict verdict = judge(e, study.report);
       suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
     }
   } catch (const UserError& error) {

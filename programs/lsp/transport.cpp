@@ -44,9 +44,9 @@ std::optional<std::string> read_message(std::FILE* in) {
   return message;
 }
 
-void write_message(std::FILE* out, std::string_view json) {
-  std::fprintf(out, "Content-Length: %zu\r\n\r\n", json.size());
-  std::fwrite(json.data(), 1, json.size(), out);
+void write_message(std::FILE* out, std::string_view text) {
+  std::fprintf(out, "Content-Length: %zu\r\n\r\n", text.size());
+  std::fwrite(text.data(), 1, text.size(), out);
   std::fflush(out);
 }
 

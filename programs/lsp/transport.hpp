@@ -15,6 +15,6 @@ inline constexpr std::size_t kLongestMessage = 64 << 20;
 /// The next message; nothing at the end of the input and after a header that cannot be read, since
 /// nobody knows then where the next message begins.
 std::optional<std::string> read_message(std::FILE*);
-void write_message(std::FILE*, std::string_view json);
+void write_message(std::FILE*, std::string_view text);
 
 }  // namespace abbe::lsp

@@ -9,6 +9,7 @@
 #include "lang/parser.hpp"
 #include "programs/repl/session.hpp"
 #include "programs/repl/standard_tasks.hpp"
+#include "programs/terminal.hpp"
 
 namespace abbe {
 
@@ -35,10 +36,6 @@ std::string bare_label(const std::string& operand) {
   const std::size_t open = operand.find('(');
   if (open == std::string::npos || !operand.ends_with(')')) return operand;
   return operand.substr(open + 1, operand.size() - open - 2);
-}
-
-std::string counted(std::size_t number, std::string_view noun) {
-  return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
 [[noreturn]] void missing(const Session::Command& command, const char* what) {

@@ -15,7 +15,7 @@ namespace abbe {
 namespace {
 
 constexpr double kSphereRadius = 15, kLongestLength = 300, kShareOfTravel = 0.4;
-constexpr std::array kAxisNames = {'X', 'Y', 'Z'};
+constexpr std::array kAxisLetters = {'X', 'Y', 'Z'};
 
 Vec3 middle_reading(const Machine& machine) {
   Vec3 middle;
@@ -34,14 +34,14 @@ std::string length_task(int axis, double length) {
     Vec3 p{}, n{};
     p[axis] = side * length / 2;
     n[axis] = side;
-    const std::string label = fmt::format("{}{}", kAxisNames[axis], side < 0 ? "1" : "2");
+    const std::string label = fmt::format("{}{}", kAxisLetters[axis], side < 0 ? "1" : "2");
     text += fmt::format("F({0})=FEAT/POINT,CART,{1},{2},{3},{4},{5},{6}\nMEAS/POINT,F({0}),1\n",
                         label, p.x, p.y, p.z, n.x, n.y, n.z) +
             touch(p, n) + "ENDMES\n";
   }
   return text +
          fmt::format("T({0})=TOL/DISTB,NOMINL,{1},-1,1,PT2PT\nOUTPUT/FA({0}1),FA({0}2),TA({0})\n",
-                     kAxisNames[axis], length);
+                     kAxisLetters[axis], length);
 }
 
 /// ISO 10360-5:2010, 6.2.4: one touch at the pole, 4, 8, 4 and 8 on the circles 22.5, 45, 67.5 and

@@ -34,7 +34,7 @@ constexpr std::string_view kKnotNames[] = {
     "x12_um", "y12_um", "z12_um", "x13_um", "y13_um", "z13_um", "x14_um", "y14_um", "z14_um", "x15_um", "y15_um", "z15_um"};
 static_assert(std::size(kKnotNames) == 3 * kCurveKnots);
 
-constexpr auto kParameters = [] {
+constexpr auto kEmpiricalCurveParameters = [] {
   std::array<EffectParameter, kFirstKnot + 3 * kCurveKnots> list{};
   list[0] = {.name = "along", .unit = "code", .help = "the coordinate that it follows", .high = 5, .choices = kAlong};
   list[1] = {.name = "from", .unit = "s, mm, degrees C or mm/s", .help = "the coordinate of the first knot", .low = -1e9, .high = 1e9};
@@ -44,7 +44,7 @@ constexpr auto kParameters = [] {
   return list;
 }();
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 empirical_curve(const TouchScene& scene, const double* theta, const double*) {
   const double span = theta[2] - theta[1];
   if (span == 0) return {};
   const double at = curve_coordinate(scene, static_cast<CurveCoordinate>(code(theta[0])));
@@ -67,8 +67,8 @@ constinit const Effect kEmpiricalCurve{
     .separate = "find the physics: what `abbe diagnose` proposes to measure next",
     .stage = Stage::structure,
     .needs = 0,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kEmpiricalCurveParameters,
+    .displace = empirical_curve,
 };
 
 }  // namespace abbe

@@ -18,7 +18,7 @@ constexpr std::string_view kNames[] = {"xxx_um",  "xxy_um",  "xxz_um",  "xyy_um"
                                        "xyzz_um", "xzzz_um", "yyyy_um", "yyyz_um", "yyzz_um", "yzzz_um", "zzzz_um"};
 static_assert(std::size(kTerms) == kDirectionTerms && std::size(kNames) == kDirectionTerms);
 
-constexpr auto kParameters = [] {
+constexpr auto kEmpiricalDirectionParameters = [] {
   std::array<EffectParameter, kFirstTerm + kDirectionTerms> list{};
   list[0] = {.name = "frame", .unit = "code", .help = "whose axes x, y, z are", .high = 1, .choices = kFrames};
   for (int k = 0; k < kDirectionTerms; ++k)
@@ -26,7 +26,7 @@ constexpr auto kParameters = [] {
   return list;
 }();
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 empirical_direction(const TouchScene& scene, const double* theta, const double*) {
   const Vec3 n = code(theta[0]) == 0 ? scene.normal : transpose(scene.stylus.R_WR) * scene.normal;
   double r_um = 0;
   for (int k = 0; k < kDirectionTerms; ++k) {
@@ -47,8 +47,8 @@ constinit const Effect kEmpiricalDirection{
     .separate = "find the physics: what `abbe diagnose` proposes to measure next",
     .stage = Stage::probe,
     .needs = 0u | Covariate::normal,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kEmpiricalDirectionParameters,
+    .displace = empirical_direction,
 };
 
 }  // namespace abbe

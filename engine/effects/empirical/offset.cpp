@@ -15,7 +15,7 @@ constexpr EffectParameter offset(std::string_view name, std::string_view help) {
   return {.name = name, .unit = "um", .help = help, .typical = 1, .low = -1e4, .high = 1e4, .linear = true};
 }
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kEmpiricalOffsetParameters[] = {
     {.name = "of", .unit = "code", .help = "what has the offset", .high = 1, .choices = kOf},
     kSensorParameter,
     {.name = "head_A_deg", .unit = "deg", .help = "of an orientation", .low = -360, .high = 360},
@@ -26,7 +26,7 @@ constexpr EffectParameter kParameters[] = {
     offset("r_um", "along the outward normal"),
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 empirical_offset(const TouchScene& scene, const double* theta, const double*) {
   constexpr double kSame = 1e-6;
   const StylusScene& s = scene.stylus;
   const bool turned = std::abs(s.head_a_rad - theta[2] * kDegree) < kSame && std::abs(s.head_b_rad - theta[3] * kDegree) < kSame;
@@ -45,8 +45,8 @@ constinit const Effect kEmpiricalOffset{
     .separate = "find the physics: what `abbe diagnose` proposes to measure next",
     .stage = Stage::head,
     .needs = 0u | Covariate::head | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kEmpiricalOffsetParameters,
+    .displace = empirical_offset,
 };
 
 }  // namespace abbe

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kBasis = 4, kDrawsPerAxis = 6 * kBasis;
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kHeadAxisErrorsParameters[] = {
     {.name = "translation_um",
      .unit = "um",
      .help = "standard deviation of the harmonics of the axes' translations",
@@ -55,7 +55,7 @@ Motion motion(double angle_rad, const double* z) {
   return {{f[0], f[1], f[2]}, {f[3], f[4], f[5]}};
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 head_axis_errors(const TouchScene& scene, const double* theta, const double* z) {
   const StylusScene& stylus = scene.stylus;
   const Motion a = motion(stylus.head_a_rad, z), b = motion(stylus.head_b_rad, z + kDrawsPerAxis);
   const Mat3 R_B = frame_after_b(stylus);
@@ -82,11 +82,11 @@ constinit const Effect kHeadAxisErrors{
         "stylus length splits translations from rotations",
     .stage = Stage::head,
     .needs = 0u | Covariate::head,
-    .parameters = kParameters,
+    .parameters = kHeadAxisErrorsParameters,
     .draws_per = DrawsPer::machine,
     .draws = 2 * kDrawsPerAxis,
     .linear_in_draws = true,
-    .displace = displace,
+    .displace = head_axis_errors,
 };
 
 }  // namespace abbe

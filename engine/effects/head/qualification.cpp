@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kHeadQualificationParameters[] = {
     {.name = "growth_um_per_K",
      .unit = "um/K",
      .help = "lengthening from the head's centre to the tip per kelvin",
@@ -45,7 +45,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 20},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 head_qualification(const TouchScene& scene, const double* theta, const double*) {
   const Mat3 R_B = frame_after_b(scene.stylus);
   const Vec3 rotation = -theta[1] * R_B.cy + theta[2] * R_B.cz;
   const Vec3 per_kelvin =
@@ -67,8 +67,8 @@ constinit const Effect kHeadQualification{
         "qualify again and compare; the fixed sphere in all orientations at two temperatures",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::air_temperature | Covariate::qualification,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kHeadQualificationParameters,
+    .displace = head_qualification,
 };
 
 }  // namespace abbe

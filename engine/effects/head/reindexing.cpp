@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kHeadReindexingParameters[] = {
     {.name = "sd_urad",
      .unit = "urad",
      .help = "standard deviation per angle and indexing visit",
@@ -22,7 +22,7 @@ constexpr EffectParameter kParameters[] = {
      .linear = true},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 head_reindexing(const TouchScene& scene, const double* theta, const double* z) {
   const Mat3 R_B = frame_after_b(scene.stylus);
   const Vec3 rotation = -z[0] * R_B.cy + z[1] * R_B.cz;
   return theta[0] * kUrad * cross(rotation, head_arm(scene.stylus));
@@ -43,11 +43,11 @@ constinit const Effect kHeadReindexing{
         "stylus length",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::visit,
-    .parameters = kParameters,
+    .parameters = kHeadReindexingParameters,
     .draws_per = DrawsPer::visit,
     .draws = 2,
     .linear_in_draws = true,
-    .displace = displace,
+    .displace = head_reindexing,
 };
 
 }  // namespace abbe

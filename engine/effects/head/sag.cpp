@@ -16,7 +16,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kHeadSagParameters[] = {
     {.name = "bending_um",
      .unit = "um",
      .help = "sag of the tip by bending of the bar, lying level (A = 90), at at_length_mm",
@@ -40,7 +40,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 200},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 head_sag(const TouchScene& scene, const double* theta, const double*) {
   constexpr Vec3 kUp{0, 0, 1};
   const double growth = scene.stylus.length_mm / theta[2];
   const double sag_mm = (theta[0] * growth + theta[1]) * growth * growth * kUm;
@@ -63,8 +63,8 @@ constinit const Effect kHeadSag{
         "extension",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kHeadSagParameters,
+    .displace = head_sag,
 };
 
 }  // namespace abbe

@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kBacklashParameters[] = {
     {.name = "backlash_um",
      .unit = "um",
      .help = "difference of the readings between the two senses of motion",
@@ -32,7 +32,7 @@ constexpr EffectParameter kParameters[] = {
      .high = 100},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 backlash(const TouchScene& scene, const double* theta, const double*) {
   const int axis = code(theta[1]);
   const double forgotten =
       theta[2] > 0 ? 1 - 2 * std::exp(-scene.since_reversal_mm[axis] / theta[2]) : 1;
@@ -54,8 +54,8 @@ constinit const Effect kBacklash{
         "before the approach",
     .stage = Stage::scale,
     .needs = 0u | Covariate::direction,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kBacklashParameters,
+    .displace = backlash,
 };
 
 }  // namespace abbe

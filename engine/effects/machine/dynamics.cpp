@@ -16,7 +16,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kDynamicsParameters[] = {
     {.name = "rotation_urad_per_m_s2",
      .unit = "urad/(m/s^2)",
      .help = "turn of the carriage per acceleration along its axis",
@@ -55,7 +55,7 @@ double free_response(double time_s, double frequency_Hz, double zeta) {
   return std::exp(-zeta * w * time_s) * (std::cos(angle) + zeta / root * std::sin(angle));
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 dynamics(const TouchScene& scene, const double* theta, const double*) {
   const int axis = code(theta[1]);
   const double along_m_s2 = 1e-3 * scene.acceleration_mm_s2 * approach(scene)[axis];
   const double angle =
@@ -78,8 +78,8 @@ constinit const Effect kDynamics{
     .separate = "a second acceleration, or a longer approach at constant speed",
     .stage = Stage::dynamics,
     .needs = Covariate::position | Covariate::direction | Covariate::acceleration,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kDynamicsParameters,
+    .displace = dynamics,
 };
 
 }  // namespace abbe

@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kMapScallopsParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "reading error left in the middle between two nodes",
@@ -43,7 +43,7 @@ constexpr EffectParameter kParameters[] = {
      .choices = kAxisChoices},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 map_scallops(const TouchScene& scene, const double* theta, const double*) {
   const double nodes = (scene.reading[code(theta[3])] - theta[2]) / theta[1];
   const double q = nodes - std::floor(nodes);
   return theta[0] * kUm * 4 * q * (1 - q) * axis_vector(code(theta[4]));
@@ -63,8 +63,8 @@ constinit const Effect kMapScallops{
         "positions at the nodes against positions half-way; a grid shifted by half the spacing",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kMapScallopsParameters,
+    .displace = map_scallops,
 };
 
 }  // namespace abbe

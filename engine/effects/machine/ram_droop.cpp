@@ -16,7 +16,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kRamDroopParameters[] = {
     {.name = "droop_um",
      .unit = "um",
      .help = "reading error by the sag at full extension of the ram",
@@ -45,7 +45,7 @@ constexpr EffectParameter kParameters[] = {
      .choices = kAxisChoices},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 ram_droop(const TouchScene& scene, const double* theta, const double*) {
   const int ram = code(theta[3]);
   const double extension = std::fabs(scene.reading[ram]) / scene.travel_length_mm[ram];
   const Vec3 across = perpendicular_part(scene.normal, axis_vector(ram));
@@ -68,8 +68,8 @@ constinit const Effect kRamDroop{
         "probing force",
     .stage = Stage::structure,
     .needs = Covariate::position | Covariate::normal,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kRamDroopParameters,
+    .displace = ram_droop,
 };
 
 }  // namespace abbe

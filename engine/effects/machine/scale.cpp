@@ -12,10 +12,10 @@
 namespace abbe {
 namespace {
 
-constexpr std::string_view kChoices[] = {"x", "y", "z", "all"};
+constexpr std::string_view kMachineScaleChoices[] = {"x", "y", "z", "all"};
 constexpr int kAll = 3;
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kMachineScaleParameters[] = {
     {.name = "scale_um_per_m",
      .unit = "um/m",
      .help = "relative error of the scale; reads long when positive",
@@ -27,10 +27,10 @@ constexpr EffectParameter kParameters[] = {
      .unit = "code",
      .help = "which scale: 0 x, 1 y, 2 z, 3 all three alike",
      .high = kAll,
-     .choices = kChoices},
+     .choices = kMachineScaleChoices},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 machine_scale(const TouchScene& scene, const double* theta, const double*) {
   const int axis = code(theta[1]);
   const double k = theta[0] * 1e-6;
   return axis == kAll ? k * scene.reading : k * scene.reading[axis] * axis_vector(axis);
@@ -52,8 +52,8 @@ constinit const Effect kMachineScale{
         "from the part's expansion",
     .stage = Stage::scale,
     .needs = 0u | Covariate::position,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kMachineScaleParameters,
+    .displace = machine_scale,
 };
 
 }  // namespace abbe

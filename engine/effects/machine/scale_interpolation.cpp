@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kScaleInterpolationParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "first harmonic of the signal period",
@@ -51,7 +51,7 @@ constexpr EffectParameter kParameters[] = {
      .high = 360},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 scale_interpolation(const TouchScene& scene, const double* theta, const double*) {
   const int axis = code(theta[3]);
   const double periods = scene.reading[axis] / (theta[2] * kUm);
   const double angle = 2 * kPi * (periods - std::floor(periods));
@@ -75,8 +75,8 @@ constinit const Effect kScaleInterpolation{
     .separate = "step along the axis by an eighth of the period; full-resolution scale readings",
     .stage = Stage::scale,
     .needs = 0u | Covariate::raw_reading,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kScaleInterpolationParameters,
+    .displace = scale_interpolation,
 };
 
 }  // namespace abbe

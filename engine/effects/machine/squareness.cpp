@@ -13,9 +13,9 @@
 namespace abbe {
 namespace {
 
-constexpr std::string_view kChoices[] = {"cwy", "bwz", "awz"};
+constexpr std::string_view kMachineSquarenessChoices[] = {"cwy", "bwz", "awz"};
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kMachineSquarenessParameters[] = {
     {.name = "squareness_urad",
      .unit = "urad",
      .help = "change of the angle between the axes; positive: larger than 90 degrees",
@@ -27,10 +27,10 @@ constexpr EffectParameter kParameters[] = {
      .unit = "code",
      .help = "0 cwy: x-y, 1 bwz: x-z, 2 awz: y-z",
      .high = 2,
-     .choices = kChoices},
+     .choices = kMachineSquarenessChoices},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 machine_squareness(const TouchScene& scene, const double* theta, const double*) {
   const double angle = theta[0] * kUrad;
   switch (code(theta[1])) {
     case 0:
@@ -56,8 +56,8 @@ constinit const Effect kMachineSquareness{
         "looks like the tip's form",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kMachineSquarenessParameters,
+    .displace = machine_squareness,
 };
 
 }  // namespace abbe

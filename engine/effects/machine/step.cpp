@@ -12,9 +12,9 @@
 namespace abbe {
 namespace {
 
-constexpr std::string_view kChoices[] = {"time", "x", "y", "z"};
+constexpr std::string_view kMachineStepChoices[] = {"time", "x", "y", "z"};
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kMachineStepParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "length of the jump vector, as the machine reads it",
@@ -35,7 +35,7 @@ constexpr EffectParameter kParameters[] = {
      .unit = "code",
      .help = "what is passed: 0 time, 1 x, 2 y, 3 z",
      .high = 3,
-     .choices = kChoices},
+     .choices = kMachineStepChoices},
     {.name = "position_mm",
      .unit = "mm",
      .help = "reading from which the jump is there (along = x, y, z)",
@@ -44,7 +44,7 @@ constexpr EffectParameter kParameters[] = {
      .high = 5000},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 machine_step(const TouchScene& scene, const double* theta, const double*) {
   const int along = code(theta[5]);
   const bool passed = along == 0 ? scene.time_s >= theta[1] : scene.reading[along - 1] >= theta[6];
   return passed ? theta[0] * kUm * chosen_direction(theta + 2) : Vec3{};
@@ -65,8 +65,8 @@ constinit const Effect kMachineStep{
         "tells it from a slipped joint",
     .stage = Stage::structure,
     .needs = 0u | Covariate::time,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kMachineStepParameters,
+    .displace = machine_step,
 };
 
 }  // namespace abbe

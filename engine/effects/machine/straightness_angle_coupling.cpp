@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kHarmonics = 7;
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kStraightnessAngleCouplingParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "rms of the rail's profile",
@@ -62,7 +62,7 @@ Carriage carriage(double k, double x, double half_base, const double* z) {
   return {sum.offset / kRmsOfOneOverN, sum.slope / kRmsOfOneOverN};
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 straightness_angle_coupling(const TouchScene& scene, const double* theta, const double* z) {
   const int axis = code(theta[2]);
   const double k = 2 * kPi / scene.travel_length_mm[axis], x = scene.reading[axis];
   Vec3 d, rotation;
@@ -92,11 +92,11 @@ constinit const Effect kStraightnessAngleCoupling{
         "the same line measured with two Abbe offsets (stylus lengths or heights) on one axis",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
-    .parameters = kParameters,
+    .parameters = kStraightnessAngleCouplingParameters,
     .draws_per = DrawsPer::machine,
     .draws = 2 * 2 * kHarmonics,
     .linear_in_draws = true,
-    .displace = displace,
+    .displace = straightness_angle_coupling,
 };
 
 }  // namespace abbe

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kLogSpread = 0.7;  // 12 um exp(+-1.96 * 0.7) is 3 to 47 um
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kOutliersParameters[] = {
     {.name = "share",
      .unit = "1",
      .help = "share of the touches that are outliers",
@@ -34,7 +34,7 @@ constexpr EffectParameter kParameters[] = {
      .linear = true},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 outliers(const TouchScene& scene, const double* theta, const double* z) {
   if (normal_probability(z[0]) >= theta[0]) return {};
   return along_normal(scene, theta[1] * kUm * std::exp(kLogSpread * z[1]));
 }
@@ -52,10 +52,10 @@ constinit const Effect kOutliers{
     .separate = "clean the part and repeat the suspect touches",
     .stage = Stage::noise,
     .needs = 0u | Covariate::normal,
-    .parameters = kParameters,
+    .parameters = kOutliersParameters,
     .draws_per = DrawsPer::touch,
     .draws = 2,
-    .displace = displace,
+    .displace = outliers,
 };
 
 }  // namespace abbe

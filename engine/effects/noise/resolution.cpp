@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kResolutionParameters[] = {
     {.name = "resolution_um",
      .unit = "um",
      .help = "step of the readings",
@@ -24,7 +24,7 @@ constexpr EffectParameter kParameters[] = {
      .linear = true},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 resolution(const TouchScene& scene, const double* theta, const double* z) {
   return along_normal(scene, theta[0] * kUm * (normal_probability(z[0]) - 0.5));
 }
 
@@ -41,10 +41,10 @@ constinit const Effect kResolution{
     .separate = "look at the digits: the readings fall on a grid; write more digits",
     .stage = Stage::noise,
     .needs = 0u | Covariate::normal,
-    .parameters = kParameters,
+    .parameters = kResolutionParameters,
     .draws_per = DrawsPer::touch,
     .draws = 1,
-    .displace = displace,
+    .displace = resolution,
 };
 
 }  // namespace abbe

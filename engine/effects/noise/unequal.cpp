@@ -18,7 +18,7 @@ enum Group { long_styli, tilted_head, fast_probing };
 constexpr std::string_view kGroups[] = {"long styli", "tilted head", "fast probing"};
 constexpr double kUpright_rad = 1 * kDegree;
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kUnequalNoiseParameters[] = {
     {.name = "ratio",
      .unit = "1",
      .help = "standard deviation in the group over that of the other touches",
@@ -67,7 +67,7 @@ bool in_group(const TouchScene& scene, const double* theta) {
   }
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 unequal_noise(const TouchScene& scene, const double* theta, const double* z) {
   if (!in_group(scene, theta)) return {};
   const double missing_variance = std::fmax(0, theta[0] * theta[0] - 1);
   return along_normal(scene, theta[1] * kUm * std::sqrt(missing_variance) * z[0]);
@@ -86,11 +86,11 @@ constinit const Effect kUnequalNoise{
     .separate = "repeat one touch many times in each group",
     .stage = Stage::noise,
     .needs = Covariate::normal | Covariate::sensor,
-    .parameters = kParameters,
+    .parameters = kUnequalNoiseParameters,
     .draws_per = DrawsPer::touch,
     .draws = 1,
     .linear_in_draws = true,
-    .displace = displace,
+    .displace = unequal_noise,
 };
 
 }  // namespace abbe

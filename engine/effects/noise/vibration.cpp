@@ -17,7 +17,7 @@ namespace {
 constexpr int kEveryWay = 3;
 constexpr std::string_view kDirections[] = {"x", "y", "z", "every way"};
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kVibrationParameters[] = {
     {.name = "sd_um",
      .unit = "um",
      .help = "standard deviation of the displacement in its direction",
@@ -34,7 +34,7 @@ constexpr EffectParameter kParameters[] = {
      .choices = kDirections},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 vibration(const TouchScene& scene, const double* theta, const double* z) {
   const int direction = code(theta[1]);
   return theta[0] * kUm * z[0] * (direction == kEveryWay ? scene.normal : axis_vector(direction));
 }
@@ -54,11 +54,11 @@ constinit const Effect kVibration{
         "switched off",
     .stage = Stage::noise,
     .needs = 0u | Covariate::normal,
-    .parameters = kParameters,
+    .parameters = kVibrationParameters,
     .draws_per = DrawsPer::touch,
     .draws = 1,
     .linear_in_draws = true,
-    .displace = displace,
+    .displace = vibration,
 };
 
 }  // namespace abbe

@@ -17,7 +17,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kClampingParameters[] = {
     {.name = "bow_um",
      .unit = "um",
      .help = "bow along the part's x: deflection along its z, half a size from its origin",
@@ -55,7 +55,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 250},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 clamping(const TouchScene& scene, const double* theta, const double*) {
   const double bow = theta[0] * kUm, cross_bow = theta[1] * kUm, twist = theta[2] * kUm,
                lobes = theta[3] * kUm, h = theta[4];
   const double u = scene.on_part.x / h, v = scene.on_part.y / h;
@@ -83,8 +83,8 @@ constinit const Effect kClamping{
         "measure",
     .stage = Stage::part,
     .needs = Covariate::normal | Covariate::part_frame,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kClampingParameters,
+    .displace = clamping,
 };
 
 }  // namespace abbe

@@ -28,7 +28,7 @@ constexpr EffectParameter lobe(std::string_view name, std::string_view help) {
           .linear = true};
 }
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kPartFormParameters[] = {
     lobe("oval_um", "two lobes about the part's z: proud along x, low along y"),
     lobe("oval_45_um", "two lobes about the part's z: proud at 45 degrees between x and y"),
     lobe("oval_xz_um", "two lobes about the part's y: proud at 45 degrees between x and z"),
@@ -50,7 +50,7 @@ constexpr EffectParameter kParameters[] = {
     axis_parameter("axis of the part along which the wave runs: 0 x, 1 y, 2 z"),
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 part_form(const TouchScene& scene, const double* theta, const double*) {
   double r_um;
   if (scene.curved) {
     const auto [x, y, z] = scene.normal_on_part;
@@ -79,8 +79,8 @@ constinit const Effect kPartForm{
         "turn the part against the probe (multi-step reversal); measure it with another probe",
     .stage = Stage::part,
     .needs = Covariate::normal | Covariate::part_frame,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kPartFormParameters,
+    .displace = part_form,
 };
 
 }  // namespace abbe

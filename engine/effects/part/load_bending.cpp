@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRatedLoad_kg = 500;
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kLoadBendingParameters[] = {
     {.name = "sag_um_per_500kg",
      .unit = "um",
      .help = "sag of the middle of the x travel below its ends, under 500 kg",
@@ -44,7 +44,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 1},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 load_bending(const TouchScene& scene, const double* theta, const double*) {
   const double load = (scene.load_kg + theta[1]) / kRatedLoad_kg, travel = scene.travel_length_mm.x;
   const double curvature = 8 * theta[0] * kUm * load / (travel * travel);
   return bent_guide(scene, 0, -curvature) + bent_guide(scene, 1, -theta[2] * curvature);
@@ -64,8 +64,8 @@ constinit const Effect kLoadBending{
     .separate = "the same artefact with and without dead weight on the table",
     .stage = Stage::structure,
     .needs = Covariate::position | Covariate::load,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kLoadBendingParameters,
+    .displace = load_bending,
 };
 
 }  // namespace abbe

@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kPartShiftParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "length of the jump vector of the part",
@@ -34,7 +34,7 @@ constexpr EffectParameter kParameters[] = {
     kElevationParameter,
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 part_shift(const TouchScene& scene, const double* theta, const double*) {
   if (scene.time_s < theta[1]) return {};
   return theta[0] * kUm * chosen_direction(theta + 2);
 }
@@ -55,8 +55,8 @@ constinit const Effect kPartShift{
         "table tells the part from the machine",
     .stage = Stage::part,
     .needs = 0u | Covariate::time,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kPartShiftParameters,
+    .displace = part_shift,
 };
 
 }  // namespace abbe

@@ -17,7 +17,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kContactFlatteningParameters[] = {
     {.name = "factor",
      .unit = "1",
      .help = "1: as Hertz's theory says; 0: none",
@@ -80,7 +80,7 @@ double approach_mm(double force_N, double curvature_per_mm, double young_GPa, do
   return std::cbrt(9.0 / 16 * f * f * curvature_per_mm);
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 contact_flattening(const TouchScene& scene, const double* theta, const double*) {
   const double tip = scene.stylus.radius_mm;
   if (tip <= 0) return {};  // a point has no Hertzian contact
   double flattening = approach_mm(theta[1], 1 / tip, theta[2], theta[3]);
@@ -104,8 +104,8 @@ constinit const Effect kContactFlattening{
         "radii",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kContactFlatteningParameters,
+    .displace = contact_flattening,
 };
 
 }  // namespace abbe

@@ -17,7 +17,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kCosineErrorParameters[] = {
     {.name = "share",
      .unit = "1",
      .help = "1: the tip is compensated along the approach; 0: along the true normal",
@@ -28,7 +28,7 @@ constexpr EffectParameter kParameters[] = {
      .linear = true},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 cosine_error(const TouchScene& scene, const double* theta, const double*) {
   const double cosine = -dot(approach(scene), scene.normal);
   return along_normal(scene, theta[0] * scene.stylus.radius_mm * std::max(0.0, 1 - cosine));
 }
@@ -47,8 +47,8 @@ constinit const Effect kCosineError{
     .separate = "probe the same point under several angles; several tip radii",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::direction | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kCosineErrorParameters,
+    .displace = cosine_error,
 };
 
 }  // namespace abbe

@@ -27,7 +27,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kPretravelLobingParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "half the range of the pretravel round the equator, for a stylus of at_length_mm",
@@ -129,7 +129,7 @@ double mean_over_qualification(double tilt) {
   return mean;
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 pretravel_lobing(const TouchScene& scene, const double* theta, const double*) {
   const double length = scene.stylus.length_mm;
   if (length <= 0) return {};  // a touch without a stylus: the recording does not tell which
   const double phase = theta[1] * kDegree, growth = length / theta[2];
@@ -158,8 +158,8 @@ constinit const Effect kPretravelLobing{
         "stylus lengths; turn the reference sphere; a ring and a sphere",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::head | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kPretravelLobingParameters,
+    .displace = pretravel_lobing,
 };
 
 }  // namespace abbe

@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kProbeStepParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "length of the jump vector of the tip, as the machine reads it",
@@ -51,7 +51,7 @@ constexpr EffectParameter kParameters[] = {
      .high = 1000},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 probe_step(const TouchScene& scene, const double* theta, const double*) {
   if (scene.time_s < theta[1] || !concerns(scene.stylus, theta[5])) return {};
   const int tip = static_cast<int>(theta[6]);
   if (tip != 0 && tip != scene.stylus.tip_ordinal) return {};
@@ -71,8 +71,8 @@ constinit const Effect kProbeStep{
     .separate = "the reference sphere before and after, with this stylus and with another",
     .stage = Stage::probe,
     .needs = Covariate::time | Covariate::head | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kProbeStepParameters,
+    .displace = probe_step,
 };
 
 }  // namespace abbe

@@ -18,7 +18,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kStylusBendingParameters[] = {
     {.name = "force_N",
      .unit = "N",
      .help = "trigger force, the same at the qualification and in use",
@@ -44,7 +44,7 @@ double compliance(const StylusScene& stylus) {
   return stiffness > 0 ? length * length * length / stiffness : 0;
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 stylus_bending(const TouchScene& scene, const double* theta, const double*) {
   constexpr double kMeanOverHemisphere = 2.0 / 3;
   const double along = dot(scene.normal, scene.stylus.to_head);
   const double across2 = 1 - along * along;
@@ -69,8 +69,8 @@ constinit const Effect kStylusBending{
         "shafts",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kStylusBendingParameters,
+    .displace = stylus_bending,
 };
 
 }  // namespace abbe

@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kStylusLengthParameters[] = {
     {.name = "length_error_um",
      .unit = "um",
      .help = "true minus assumed length along the stylus; positive: longer than assumed",
@@ -26,7 +26,7 @@ constexpr EffectParameter kParameters[] = {
     kSensorParameter,
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 stylus_length(const TouchScene& scene, const double* theta, const double*) {
   return concerns(scene.stylus, theta[1]) ? theta[0] * kUm * scene.stylus.to_head : Vec3{};
 }
 
@@ -43,8 +43,8 @@ constinit const Effect kStylusLength{
     .separate = "three or more orientations of the head, one at 45 degrees, on a fixed sphere",
     .stage = Stage::probe,
     .needs = 0u | Covariate::head,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kStylusLengthParameters,
+    .displace = stylus_length,
 };
 
 }  // namespace abbe

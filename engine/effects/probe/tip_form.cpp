@@ -20,11 +20,11 @@ namespace abbe {
 namespace {
 
 constexpr int kLowest = 2, kHighest = 6;
-constexpr int kTerms = (kHighest + 1) * (kHighest + 1) - kLowest * kLowest;
+constexpr int kTipTerms = (kHighest + 1) * (kHighest + 1) - kLowest * kLowest;
 /// Place of (l, m) in the list of draws.
 constexpr int term(int l, int m) { return l * l + l + m - kLowest * kLowest; }
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kTipFormParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "rms over the ball of its deviation from a sphere",
@@ -74,7 +74,7 @@ double form(const Vec3& u, const double* z) {
   return sum;
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double* z) {
+Vec3 tip_form(const TouchScene& scene, const double* theta, const double* z) {
   if (!concerns(scene.stylus, theta[1])) return {};
   const Vec3 touching = -(transpose(scene.stylus.R_WR) * scene.normal);
   return along_normal(scene, theta[0] * kUm * form(touching, z));
@@ -96,11 +96,11 @@ constinit const Effect kTipForm{
         "lobing stays with the probe; two stylus lengths",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::head,
-    .parameters = kParameters,
+    .parameters = kTipFormParameters,
     .draws_per = DrawsPer::machine,
-    .draws = kTerms,
+    .draws = kTipTerms,
     .linear_in_draws = true,
-    .displace = displace,
+    .displace = tip_form,
 };
 
 }  // namespace abbe

@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kTipRadiusParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "true minus assumed effective radius; positive: the tip is larger than assumed",
@@ -25,7 +25,7 @@ constexpr EffectParameter kParameters[] = {
     kSensorParameter,
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 tip_radius(const TouchScene& scene, const double* theta, const double*) {
   return concerns(scene.stylus, theta[1]) ? along_normal(scene, theta[0] * kUm) : Vec3{};
 }
 
@@ -48,8 +48,8 @@ constinit const Effect kTipRadius{
         "(tells the radius from the mean pretravel)",
     .stage = Stage::probe,
     .needs = 0u | Covariate::normal,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kTipRadiusParameters,
+    .displace = tip_radius,
 };
 
 }  // namespace abbe

@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kTriggerDelayParameters[] = {
     {.name = "delay_ms",
      .unit = "ms",
      .help = "delay at the trigger minus that at the qualification; positive: late",
@@ -24,7 +24,7 @@ constexpr EffectParameter kParameters[] = {
      .linear = true},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 trigger_delay(const TouchScene& scene, const double* theta, const double*) {
   const double delay_s = theta[0] * 1e-3;
   return delay_s * scene.speed_mm_s * approach(scene);
 }
@@ -44,8 +44,8 @@ constinit const Effect kTriggerDelay{
     .separate = "repeat at a second probing speed",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::speed,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kTriggerDelayParameters,
+    .displace = trigger_delay,
 };
 
 }  // namespace abbe

@@ -22,7 +22,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kBridgeBendingParameters[] = {
     {.name = "gradient_K",
      .unit = "K",
      .help = "top minus bottom of the beam, beyond what is logged",
@@ -82,7 +82,7 @@ Vec3 rolled(const TouchScene& scene, double roll_rad, double leg_length_mm) {
   return {0, roll_rad * above_foot, -roll_rad * across};
 }
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 bridge_bending(const TouchScene& scene, const double* theta, const double*) {
   const double beam_K = theta[0] + theta[2] * scene.temperature.bridge_gradient_K;
   const double legs_K = theta[1] + theta[2] * scene.temperature.legs_difference_K;
   const double roll_rad = theta[3] * kPpm * theta[5] * legs_K / theta[6];
@@ -106,8 +106,8 @@ constinit const Effect kBridgeBending{
     .separate = "repeat at another time of day with sensors on beam and legs; a reversal square",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kBridgeBendingParameters,
+    .displace = bridge_bending,
 };
 
 }  // namespace abbe

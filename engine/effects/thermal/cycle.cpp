@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kThermalCycleParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "amplitude of the translation; peak to valley is twice this",
@@ -40,7 +40,7 @@ constexpr EffectParameter kParameters[] = {
     kElevationParameter,
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 thermal_cycle(const TouchScene& scene, const double* theta, const double*) {
   const double swing = std::sin(2 * kPi * scene.time_s / theta[1] + theta[2] * kDegree);
   return theta[0] * kUm * swing * chosen_direction(theta + 3);
 }
@@ -62,8 +62,8 @@ constinit const Effect kThermalCycle{
         "repeat with the period",
     .stage = Stage::thermal,
     .needs = 0u | Covariate::time,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kThermalCycleParameters,
+    .displace = thermal_cycle,
 };
 
 }  // namespace abbe

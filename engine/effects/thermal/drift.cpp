@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kThermalDriftParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
      .help = "length of the whole translation, from the start to settled",
@@ -46,7 +46,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = kGraniteTable_s},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 thermal_drift(const TouchScene& scene, const double* theta, const double*) {
   double reached = settled_share(scene.time_s, theta[4]);
   if (theta[5] != 0) reached += theta[5] * (settled_share(scene.time_s, theta[6]) - reached);
   return theta[0] * kUm * reached * chosen_direction(theta + 1);
@@ -70,8 +70,8 @@ constinit const Effect kThermalDrift{
         "measure longer than two time constants",
     .stage = Stage::thermal,
     .needs = 0u | Covariate::time,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kThermalDriftParameters,
+    .displace = thermal_drift,
 };
 
 }  // namespace abbe

@@ -18,7 +18,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kPartExpansionParameters[] = {
     {.name = "cte_error_ppm_per_K",
      .unit = "ppm/K",
      .help = "true minus assumed expansion coefficient of the part",
@@ -42,7 +42,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 11.5},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 part_expansion(const TouchScene& scene, const double* theta, const double*) {
   const double above_K = scene.temperature.part - kReference_C;
   return isotropic_growth(scene, kPpm * (theta[0] * above_K + theta[2] * theta[1]));
 }
@@ -65,8 +65,8 @@ constinit const Effect kPartExpansion{
         "material",
     .stage = Stage::thermal,
     .needs = Covariate::normal | Covariate::part_frame | Covariate::part_temperature,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kPartExpansionParameters,
+    .displace = part_expansion,
 };
 
 }  // namespace abbe

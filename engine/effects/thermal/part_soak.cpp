@@ -16,7 +16,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kPartSoakParameters[] = {
     {.name = "start_K",
      .unit = "K",
      .help = "temperature of the part at the start minus the settled one",
@@ -40,7 +40,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 11.5},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 part_soak(const TouchScene& scene, const double* theta, const double*) {
   const double left_K = theta[0] * (1 - settled_share(scene.time_s, theta[1]));
   return isotropic_growth(scene, kPpm * theta[2] * left_K);
 }
@@ -59,8 +59,8 @@ constinit const Effect kPartSoak{
     .separate = "repeat the first length at the end; wait; a sensor on the part",
     .stage = Stage::thermal,
     .needs = Covariate::normal | Covariate::part_frame | Covariate::time,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kPartSoakParameters,
+    .displace = part_soak,
 };
 
 }  // namespace abbe

@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kRamGrowthParameters[] = {
     {.name = "rise_K",
      .unit = "K",
      .help = "settled rise of the ram's temperature above what is compensated",
@@ -46,7 +46,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 400},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 ram_growth(const TouchScene& scene, const double* theta, const double*) {
   const double rise_K = theta[0] * settled_share(scene.time_s, theta[1]);
   return {0, 0, theta[2] * kPpm * rise_K * (theta[3] - scene.reading.z)};
 }
@@ -65,8 +65,8 @@ constinit const Effect kRamGrowth{
         "the same artefact at several heights; a second head orientation; a sensor on the ram",
     .stage = Stage::thermal,
     .needs = Covariate::position | Covariate::time,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kRamGrowthParameters,
+    .displace = ram_growth,
 };
 
 }  // namespace abbe

@@ -16,7 +16,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kScaleExpansionParameters[] = {
     {.name = "cte_error_ppm_per_K",
      .unit = "ppm/K",
      .help = "true minus assumed expansion coefficient of the scales",
@@ -54,7 +54,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 10.5},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 scale_expansion(const TouchScene& scene, const double* theta, const double*) {
   Vec3 d;
   for (int axis = 0; axis < 3; ++axis) {
     const double above_K = scene.temperature.scale[axis] - kReference_C;
@@ -79,8 +79,8 @@ constinit const Effect kScaleExpansion{
         "expansion",
     .stage = Stage::thermal,
     .needs = Covariate::position | Covariate::scale_temperature,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kScaleExpansionParameters,
+    .displace = scale_expansion,
 };
 
 }  // namespace abbe

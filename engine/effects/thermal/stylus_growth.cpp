@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kStylusGrowthParameters[] = {
     {.name = "rise_K",
      .unit = "K",
      .help = "settled temperature of the stylus minus that at its qualification",
@@ -32,7 +32,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 600},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 stylus_growth(const TouchScene& scene, const double* theta, const double*) {
   const StylusScene& stylus = scene.stylus;
   const double growth_mm =
       stylus.cte_per_K * stylus.length_mm * theta[0] * settled_share(scene.time_s, theta[1]);
@@ -52,8 +52,8 @@ constinit const Effect kStylusGrowth{
     .separate = "two head orientations; two stylus lengths or materials; a new qualification",
     .stage = Stage::probe,
     .needs = Covariate::time | Covariate::head | Covariate::sensor,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kStylusGrowthParameters,
+    .displace = stylus_growth,
 };
 
 }  // namespace abbe

@@ -19,7 +19,7 @@
 namespace abbe {
 namespace {
 
-constexpr EffectParameter kParameters[] = {
+constexpr EffectParameter kTableBendingParameters[] = {
     {.name = "gradient_K",
      .unit = "K",
      .help = "top minus bottom of the table, beyond what is logged",
@@ -50,7 +50,7 @@ constexpr EffectParameter kParameters[] = {
      .standard = 200},
 };
 
-Vec3 displace(const TouchScene& scene, const double* theta, const double*) {
+Vec3 table_bending(const TouchScene& scene, const double* theta, const double*) {
   const double difference_K = theta[0] + theta[1] * scene.temperature.table_top_minus_bottom_K;
   return bent_guide(scene, 0, thermal_curvature(theta[2], difference_K, theta[3]));
 }
@@ -73,8 +73,8 @@ constinit const Effect kTableBending{
         "loading and unloading",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
-    .parameters = kParameters,
-    .displace = displace,
+    .parameters = kTableBendingParameters,
+    .displace = table_bending,
 };
 
 }  // namespace abbe

@@ -17,8 +17,8 @@ const char* reason_of(const FitError& error) {
   return "the points of the features admit no best fit";
 }
 
-Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                           const Arguments&) {
+Outcome<Element> construct_best_fit(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                                    const Arguments&) {
   for (const Shape shape : shapes)
     if (!has_centre(shape))
       return cannot("BF takes points, circles, spheres and tori: features with a centre");
@@ -48,7 +48,7 @@ extern const Construction best_fit_method{
     .help = "least-squares fit through the points and centres of features",
     .example = "CONST/PLANE,F(P1),BF,FA(A),FA(B),FA(C)",
     .source = "ISO 22093:2011, CONST BF; orthogonal least squares as for measured features",
-    .construct = construct,
+    .construct = construct_best_fit,
 };
 
 }  // namespace abbe

@@ -104,7 +104,7 @@ Outcome<Element> intersect_two(Shape result, Shapes shapes, Elements from, const
       "ellipse of a plane and a cylinder, cone or sphere");
 }
 
-Outcome<Element> construct(Shape result, Shapes shapes, Elements from, const Element& nominal,
+Outcome<Element> intersect(Shape result, Shapes shapes, Elements from, const Element& nominal,
                            const Arguments&) {
   if (from.size() == 2) return intersect_two(result, shapes, from, nominal);
   for (const Shape shape : shapes)
@@ -124,7 +124,7 @@ extern const Construction intersection_method{
         "to the nominal); circle or ellipse of plane and round surface",
     .example = "CONST/LINE,F(L1),INTOF,FA(P1),FA(P2)",
     .source = "ISO 22093:2011, CONST INTOF",
-    .construct = construct,
+    .construct = intersect,
 };
 
 }  // namespace abbe

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-std::vector<TestLine> lines(const Machine& machine) {
+std::vector<TestLine> e0_lines(const Machine& machine) {
   static constexpr struct {
     std::string_view name;
     Vec3 runs;
@@ -29,7 +29,7 @@ extern const AcceptanceTest length_e0_test{
         "five lengths on each of seven lines: the axes and the space diagonals, with the tip below "
         "the ram",
     .source = "ISO 10360-2:2001 (E) and ISO 10360-2:2009 (E0)",
-    .lines = lines,
+    .lines = e0_lines,
 };
 
 }  // namespace abbe

@@ -10,7 +10,7 @@
 namespace abbe {
 namespace {
 
-std::vector<TestLine> lines(const Machine& machine) {
+std::vector<TestLine> e150_lines(const Machine& machine) {
   constexpr double kOffset_mm = 150;
   static constexpr struct {
     std::string_view name;
@@ -35,7 +35,7 @@ extern const AcceptanceTest length_e150_test{
         "five lengths on the diagonals of the yz and xz planes, with the tip 150 mm to either side "
         "of the plane",
     .source = "ISO 10360-2:2009 (E150)",
-    .lines = lines,
+    .lines = e150_lines,
 };
 
 }  // namespace abbe

@@ -87,7 +87,7 @@ ProbeCheck judge(std::string_view name, double limit_mm, std::vector<double> val
   return {name, limit_mm, values_mm[kTests / 2], double(passed) / kTests};
 }
 
-std::vector<ProbeCheck> check(const Machine& machine, std::uint64_t seed) {
+std::vector<ProbeCheck> check_form_and_size(const Machine& machine, std::uint64_t seed) {
   const Specification& spec = machine.specification;
   if (!spec.form_mpe_mm && !spec.size_mpe_mm) return {};
   const auto normal = pattern();
@@ -122,7 +122,7 @@ extern const AcceptanceTest form_and_size_test{
         "25 touches on a sphere: range of the radial distances and error of the diameter, by the "
         "repeatability of the probe",
     .source = "ISO 10360-5:2020 (P_Form.Sph.1x25, P_Size.Sph.1x25)",
-    .probe = check,
+    .probe = check_form_and_size,
 };
 
 }  // namespace abbe

@@ -35,7 +35,7 @@ double median_of(const std::vector<double>& sd_mm) {
   return high;
 }
 
-std::vector<ProbeCheck> check(const Machine& machine, std::uint64_t) {
+std::vector<ProbeCheck> check_r0(const Machine& machine, std::uint64_t) {
   const std::optional<double> limit = machine.specification.r0_mpl_mm;
   if (!limit) return {};
   const Mat3 R_WR = head_rotation(0, machine.head.mounting_rad);
@@ -69,7 +69,7 @@ extern const AcceptanceTest repeatability_r0_test{
     .name = "R0",
     .help = "range of three repeats of every length of E0, by the repeatability of the probe",
     .source = "ISO 10360-2:2009 (R0)",
-    .probe = check,
+    .probe = check_r0,
 };
 
 }  // namespace abbe

@@ -92,7 +92,7 @@ constexpr Factor kFactors[] = {{"time, min", [](const ResidualRow& r) { return r
                                {"y, mm", [](const ResidualRow& r) { return r.y_mm; }},
                                {"z, mm", [](const ResidualRow& r) { return r.z_mm; }}};
 
-std::string residuals(const Diagnosis& d) {
+std::string residual_plots(const Diagnosis& d) {
   if (d.residuals.empty()) return "";
   double largest = 0;
   for (const ResidualRow& r : d.residuals) largest = std::max({largest, std::abs(r.before_um), std::abs(r.after_um)});
@@ -129,7 +129,7 @@ std::string values(const Diagnosis& d) {
   return out + table(rows);
 }
 
-std::string next(const Diagnosis& d) {
+std::string next_measurements(const Diagnosis& d) {
   if (d.next_measurement.empty()) return "";
   std::string rows = row({"change", "tells apart", "probability of the truth after it", "minutes"}, "th");
   for (const NextMeasurement& n : d.next_measurement)
@@ -140,7 +140,7 @@ std::string next(const Diagnosis& d) {
   return out;
 }
 
-std::string detectable(const Diagnosis& d) {
+std::string detectable_effects(const Diagnosis& d) {
   if (d.smallest_detectable.empty()) return "";
   std::string rows = row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
@@ -169,7 +169,7 @@ std::string diagnosis_html(const Diagnosis& d, const std::string& recording, con
                                 "<title>Diagnosis of {0}</title><style>{1}</style></head><body>\n<h1>{2}</h1>\n<p class=\"note\">Recording {0}; machine {3}; p = {4:.3g}</p>\n",
                                 escaped(recording), kStyle, title(d.verdict), escaped(machine), d.p_value);
   for (const std::string& sentence : diagnosis_sentences(d)) out += "<p>" + escaped(sentence) + "</p>\n";
-  out += explanations(d) + improvement(d) + values(d) + residuals(d) + next(d) + detectable(d) + open_questions(d) + messages(d);
+  out += explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) + detectable_effects(d) + open_questions(d) + messages(d);
   return out + "</body></html>\n";
 }
 

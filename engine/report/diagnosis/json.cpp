@@ -1,16 +1,9 @@
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "engine/report/diagnosis/diagnosis_report.hpp"
+#include "engine/report/json_value.hpp"
 
 namespace abbe {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-Json number(const std::optional<double>& value) { return value ? number(*value) : Json(); }
 
 template <class List, class F>
 Json array(const List& list, F item) {

@@ -1,20 +1,12 @@
 // The report for programs, schema "abbe.run/1". A key once published stays; every number is in the
-// unit that its key, or the characteristic's "unit", names. JSON has no NaN: what has no value is
-// null.
-#include <cmath>
-#include <nlohmann/json.hpp>
-
+// unit that its key, or the characteristic's "unit", names.
+#include "engine/report/json_value.hpp"
 #include "engine/report/writer.hpp"
 
 namespace abbe {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(std::optional<double> value) {
-  return value && std::isfinite(*value) ? Json(*value) : Json();
-}
 Json pair(std::optional<double> low, std::optional<double> high) {
   return Json::array({number(low), number(high)});
 }

@@ -12,7 +12,7 @@ using namespace abbe::diagnose;
 
 namespace {
 
-double normal(std::uint32_t address) { return normal_quantile(uniform_pair({11, address, stream_of("evidence_test"), 0, 0, 0}).a); }
+double standard_normal(std::uint32_t address) { return normal_quantile(uniform_pair({11, address, stream_of("evidence_test"), 0, 0, 0}).a); }
 
 LinearModel noise_only(int rows, std::uint32_t stream) {
   LinearModel m;
@@ -24,7 +24,7 @@ LinearModel noise_only(int rows, std::uint32_t stream) {
   m.noise_group.assign(static_cast<std::size_t>(rows), 0);
   m.follows.assign(static_cast<std::size_t>(rows), 0);
   m.y.resize(rows);
-  for (int i = 0; i < rows; ++i) m.y(i) = normal(stream + static_cast<std::uint32_t>(i));
+  for (int i = 0; i < rows; ++i) m.y(i) = standard_normal(stream + static_cast<std::uint32_t>(i));
   return m;
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("errors rougher than the ensemble are no mismatch") {
   m.rough = Matrix::Zero(n, 12);
   for (int k = 0; k < 12; ++k)
     for (int i = 0; i < n; ++i) m.rough(i, k) = std::exp(-0.5 * std::pow((i - 10.0 * k) / 6, 2));
-  for (int k = 0; k < 12; ++k) m.y += 5 * normal(static_cast<std::uint32_t>(5000 + k)) * m.rough.col(k);
+  for (int k = 0; k < 12; ++k) m.y += 5 * standard_normal(static_cast<std::uint32_t>(5000 + k)) * m.rough.col(k);
   Hyperparameters h;
   h.noise = Vector::Ones(1);
   h.scale = 4;

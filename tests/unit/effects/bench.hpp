@@ -67,4 +67,12 @@ inline TouchScene touch(const Vec3& normal, double length_mm = 50, double a_rad 
   return scene;
 }
 
+/// A touch at a place on the part, whose normal there is that in W.
+inline TouchScene touch_on_part(const Vec3& on_part, const Vec3& normal) {
+  TouchScene scene = touch(normal);
+  scene.on_part = on_part;
+  scene.normal_on_part = normal;
+  return scene;
+}
+
 }  // namespace abbe::effects_test

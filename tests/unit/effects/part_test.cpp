@@ -18,13 +18,6 @@ TouchScene touch_under_load(double load_kg, const Vec3& reading, const Vec3& lev
   return scene;
 }
 
-TouchScene touch_on_part(const Vec3& on_part, const Vec3& normal_on_part) {
-  TouchScene scene = touch({0, 0, 1});
-  scene.on_part = on_part;
-  scene.normal_on_part = normal_on_part;
-  return scene;
-}
-
 }  // namespace
 
 TEST_CASE("load bending: the sag of the middle against the ends, in proportion to the mass") {

@@ -10,13 +10,6 @@ using namespace effects_test;
 namespace {
 
 /// A touch at `on_part` of a part whose axes are those of the machine.
-TouchScene touch_on_part(const Vec3& on_part, const Vec3& normal) {
-  TouchScene scene = touch(normal);
-  scene.on_part = on_part;
-  scene.normal_on_part = normal;
-  return scene;
-}
-
 /// A touch with the carriages at `reading` and the tip at `lever` from the frame of a carriage.
 TouchScene touch_at(const Vec3& reading, const Vec3& lever, const Vec3& normal = {0, 0, 1}) {
   TouchScene scene = touch(normal);

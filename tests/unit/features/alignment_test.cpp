@@ -5,17 +5,13 @@
 #include <vector>
 
 #include "engine/features/alignment.hpp"
+#include "tests/unit/features/operands.hpp"
 
 using namespace abbe;
 
 namespace {
 
 const Rigid kPose{rotation(unit({1, 2, 3}), 0.7), {100, -50, 30}};
-
-void check_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
-  INFO(a.x, " ", a.y, " ", a.z, " expected ", b.x, " ", b.y, " ", b.z);
-  CHECK(norm(a - b) <= tolerance);
-}
 
 void check_near(const Rigid& a, const Rigid& b, double tolerance = 1e-12) {
   check_near(a.R.cx, b.R.cx, tolerance);

@@ -5,24 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "engine/features/construct.hpp"
+#include "tests/unit/features/operands.hpp"
 
 using namespace abbe;
 
 namespace {
 
-struct Operand {
-  Shape shape;
-  Element element;
-};
-
 Operand plane(Vec3 point, Vec3 normal) {
   return {Shape::plane, {.point = point, .direction = unit(normal)}};
 }
-Operand line(Vec3 point, Vec3 along) {
-  return {Shape::line, {.point = point, .direction = unit(along)}};
-}
-Operand point(Vec3 at) { return {Shape::point, {.point = at}}; }
 Operand cylinder(Vec3 at, Vec3 axis, double radius) {
   return {Shape::cylinder, {.point = at, .direction = unit(axis), .size = radius}};
 }
@@ -50,11 +41,6 @@ Element made(const char* word, Shape result, const std::vector<Operand>& operand
 std::string reason(const char* word, Shape result, const std::vector<Operand>& operands) {
   const Outcome<Element> outcome = build(word, result, operands);
   return outcome ? "" : outcome.failure;
-}
-
-void check_near(const Vec3& a, const Vec3& b, double tolerance = 1e-12) {
-  INFO(a.x, " ", a.y, " ", a.z, " expected ", b.x, " ", b.y, " ", b.z);
-  CHECK(norm(a - b) <= tolerance);
 }
 
 }  // namespace

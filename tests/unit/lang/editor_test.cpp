@@ -17,7 +17,7 @@ namespace {
 
 const std::string kEditor = std::string(ABBE_SOURCE_DIR) + "/lang/editor/";
 
-nlohmann::ordered_json read(const std::string& path) {
+nlohmann::ordered_json read_json(const std::string& path) {
   return nlohmann::ordered_json::parse(std::ifstream(kEditor + path));
 }
 
@@ -33,7 +33,7 @@ TEST_CASE("the grammar for editors knows the words of the language") {
   for (const DirectiveHelp& directive : directives()) directive_words.push_back(directive.word);
   const std::string majors = alternatives(major_words());
   const std::string file = "syntaxes/dmis.tmLanguage.json";
-  const nlohmann::ordered_json found = read(file);
+  const nlohmann::ordered_json found = read_json(file);
   nlohmann::ordered_json expected = found;
   nlohmann::ordered_json& rules = expected["repository"];
   rules["statement"]["match"] = fmt::format("(?i)^\\s*({})(?![A-Z0-9_(])(?!\\s*=)", majors);
@@ -43,11 +43,11 @@ TEST_CASE("the grammar for editors knows the words of the language") {
       fmt::format("\\b(?:{})\\b", alternatives(directive_words));
   if (std::getenv("ABBE_REFRESH_GOLDEN")) std::ofstream(kEditor + file) << expected.dump(2) << "\n";
   INFO("ABBE_REFRESH_GOLDEN=1 test_lang writes the grammar anew");
-  CHECK(read(file) == expected);
+  CHECK(read_json(file) == expected);
 }
 
 TEST_CASE("editors indent by the blocks of the language") {
-  const auto rules = read("language-configuration.json")["indentationRules"];
+  const auto rules = read_json("language-configuration.json")["indentationRules"];
   const std::string more = rules["increaseIndentPattern"].get<std::string>().substr(4);
   const std::string less = rules["decreaseIndentPattern"].get<std::string>().substr(4);
   for (const Block& block : blocks()) {

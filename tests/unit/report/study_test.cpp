@@ -13,7 +13,7 @@ using namespace abbe::test;
 
 namespace {
 
-const SourceFile& no_source() {
+const SourceFile& length_source() {
   static const SourceFile source("length.dmi", "");
   return source;
 }
@@ -34,7 +34,7 @@ Arguments distance() {
 }
 
 /// A length of 200 mm along y between two touches with one head position.
-plan::Plan length() {
+plan::Plan length_plan() {
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
   const auto p = b.point({800, 400, -500}, {0, -1, 0});
@@ -58,7 +58,7 @@ bool has(const std::vector<Diagnostic>& messages, Code code) {
 }  // namespace
 
 TEST_CASE("a study reports figures, shares, counts and the machine's weak spot") {
-  const Study study = run_study(length(), machine(), few(400), no_source());
+  const Study study = run_study(length_plan(), machine(), few(400), length_source());
   const RunReport& r = study.report;
   CHECK(r.program == "length.dmi");
   CHECK(r.machine == "coord3-mc16");
@@ -76,7 +76,7 @@ TEST_CASE("a study reports figures, shares, counts and the machine's weak spot")
 }
 
 TEST_CASE("the probe's share is the variance of two touches") {
-  const Study study = run_study(length(), machine(), few(2000), no_source());
+  const Study study = run_study(length_plan(), machine(), few(2000), length_source());
   const CharacteristicReport& c = study.report.characteristics.at(0);
   // Contributors are independent and act linearly: u^2 = V(geometry) + V(probe), V(probe) = 2 sd^2.
   // Of 2000 machines the sample variance of the probe scatters by sqrt(2 / 1999) = 3.2 %, and the
@@ -90,8 +90,8 @@ TEST_CASE("the probe's share is the variance of two touches") {
 TEST_CASE("threads change no bit of a study") {
   StudyOptions one = few(150);
   one.threads = 1;
-  const Study a = run_study(length(), machine(), one, no_source());
-  const Study b = run_study(length(), machine(), few(150), no_source());
+  const Study a = run_study(length_plan(), machine(), one, length_source());
+  const Study b = run_study(length_plan(), machine(), few(150), length_source());
   CHECK(a.result.samples[0].value == b.result.samples[0].value);
   CHECK(a.report.characteristics[0].contributions[0].share ==
         b.report.characteristics[0].contributions[0].share);
@@ -101,7 +101,7 @@ TEST_CASE("an adaptive study continues where a fixed one ends, and says when it 
   StudyOptions options = few(0);
   options.digits = 2;
   options.max_blocks = 2;
-  const Study study = run_study(length(), machine(), options, no_source());
+  const Study study = run_study(length_plan(), machine(), options, length_source());
   const Samples& all = study.result.samples.at(0);
   REQUIRE(study.result.machines == 2 * kBlockMachines);
   CHECK(study.report.machines.used == 2 * kBlockMachines);
@@ -113,12 +113,12 @@ TEST_CASE("an adaptive study continues where a fixed one ends, and says when it 
 
   // The same 20 000 machines at once give the same values: blocks of trials are only a way of
   // counting.
-  const Study whole = run_study(length(), machine(), few(2 * kBlockMachines), no_source());
+  const Study whole = run_study(length_plan(), machine(), few(2 * kBlockMachines), length_source());
   CHECK(whole.result.samples[0].value == all.value);
   CHECK(whole.report.machines.generated == study.report.machines.generated);
 
   options.max_blocks = 1;
-  CHECK(has(run_study(length(), machine(), options, no_source()).report.messages, Code::W0605));
+  CHECK(has(run_study(length_plan(), machine(), options, length_source()).report.messages, Code::W0605));
 }
 
 TEST_CASE("a characteristic that next to no machine reaches is lost, with the reason") {
@@ -133,7 +133,7 @@ TEST_CASE("a characteristic that next to no machine reaches is lost, with the re
                              plan::Op1::abs, plan::PushConstant{1e-9}, plan::Op2::less},
                             loop});
   b.evaluate({p, p}, "DISTB", distance());
-  const Study study = run_study(b.plan, machine(), few(5), no_source());
+  const Study study = run_study(b.plan, machine(), few(5), length_source());
   CHECK(study.report.characteristics.empty());
   REQUIRE(study.report.lost.size() == 1);
   CHECK(study.report.lost[0].feature == "F0, F0");
@@ -148,7 +148,7 @@ TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncer
   with.effects = {{"probe.tip_radius", {{"amplitude_um", {2, 0.5, ""}}}}};
   StudyOptions options = few(400);
   const auto figures = [&](const Machine& m) {
-    const Study study = run_study(length(), m, options, no_source());
+    const Study study = run_study(length_plan(), m, options, length_source());
     CHECK(study.report.effect_use.has_value() == !m.effects.empty());
     if (study.report.effect_use) CHECK(*study.report.effect_use == options.effect_use);
     return study.report.characteristics.at(0);
@@ -167,15 +167,15 @@ TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncer
 }
 
 TEST_CASE("settings that make no sense are refused") {
-  CHECK_THROWS_AS(run_study(length(), machine(), few(1), no_source()), UserError);  // E0603
+  CHECK_THROWS_AS(run_study(length_plan(), machine(), few(1), length_source()), UserError);  // E0603
   StudyOptions options = few(100);
   options.digits = 3;
-  CHECK_THROWS_AS(run_study(length(), machine(), options, no_source()), UserError);
+  CHECK_THROWS_AS(run_study(length_plan(), machine(), options, length_source()), UserError);
 }
 
 TEST_CASE("the steps of a study are announced") {
   std::vector<std::string> steps;
-  run_study(length(), machine(), few(20), no_source(),
+  run_study(length_plan(), machine(), few(20), length_source(),
             [&](std::string_view step) { steps.emplace_back(step); });
   CHECK(std::find(steps.begin(), steps.end(), "probe alone") != steps.end());
 }

@@ -10,11 +10,6 @@ using namespace abbe::test;
 
 namespace {
 
-const SourceFile& no_source() {
-  static const SourceFile source("test", "");
-  return source;
-}
-
 /// A random program: measures points and, wherever a measured coordinate differs from its nominal by more or less than a random
 /// threshold of the size of the errors, measures other points, builds another coordinate system or loops back.
 Plan random_program(std::uint32_t number) {

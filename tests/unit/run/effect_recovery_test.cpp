@@ -11,11 +11,6 @@ using namespace abbe::test;
 
 namespace {
 
-const SourceFile& no_source() {
-  static const SourceFile source("test", "");
-  return source;
-}
-
 /// Two stylus systems in four orientations at three heights, each touching a ball all round, at two speeds.
 plan::Plan rich_program() {
   PlanBuilder b;

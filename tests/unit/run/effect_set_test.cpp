@@ -18,22 +18,22 @@ constexpr std::uint64_t kSeed = 7;
 constexpr std::uint32_t kSite = 3, kVisitSite = 0x20000000u;
 constexpr int kMachines = 11;
 
-enum class Uncertain { nothing, sizes, everything };
+enum class UncertainParameters { nothing, sizes, everything };
 
 /// Every parameter inside its range (so that no value needs to be cut there), some of them uncertain.
-EffectSetting setting_of(const Effect& effect, Uncertain uncertain) {
+EffectSetting setting_of(const Effect& effect, UncertainParameters uncertain) {
   EffectSetting setting{std::string(effect.name), {}};
   for (const EffectParameter& p : effect.parameters) {
     const double value = p.choices.empty() ? 0.5 * (p.typical + p.standard) : p.standard;
     const bool doubtful =
-        uncertain == Uncertain::everything ? p.choices.empty() : uncertain == Uncertain::sizes && p.linear;
+        uncertain == UncertainParameters::everything ? p.choices.empty() : uncertain == UncertainParameters::sizes && p.linear;
     const double u = doubtful ? 1e-3 * (p.high - p.low) : 0;
     setting.parameters[std::string(p.name)] = {std::clamp(value, p.low, p.high), u, ""};
   }
   return setting;
 }
 
-std::vector<EffectSetting> all_settings(Uncertain uncertain) {
+std::vector<EffectSetting> all_settings(UncertainParameters uncertain) {
   std::vector<EffectSetting> settings;
   for (const Effect* effect : effects()) settings.push_back(setting_of(*effect, uncertain));
   return settings;
@@ -95,7 +95,7 @@ Vec3 plain(const EffectSet& set, int k, const EffectSet::LaneParameters& drawn, 
   return subtract ? d - effect.displace(c.scene, estimate.data(), z.data()) : d;
 }
 
-void compare_with_plain(Uncertain uncertain, EffectUse use, const std::vector<int>& lanes) {
+void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std::vector<int>& lanes) {
   const std::vector<EffectSetting> settings = all_settings(uncertain);
   const EffectSet set(settings, use, "test");
   const auto machines = machines_from(100, kMachines);
@@ -129,7 +129,7 @@ void compare_with_plain(Uncertain uncertain, EffectUse use, const std::vector<in
 
 TEST_CASE("effect set: every effect is what displace() says, lane by lane") {
   const std::vector<int> together = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, middle = {4, 5, 6}, scattered = {0, 3, 4, 7, 10}, one = {9};
-  for (const Uncertain uncertain : {Uncertain::nothing, Uncertain::sizes, Uncertain::everything})
+  for (const UncertainParameters uncertain : {UncertainParameters::nothing, UncertainParameters::sizes, UncertainParameters::everything})
     for (const EffectUse use : {EffectUse::left_in, EffectUse::corrected})
       for (const auto* lanes : {&together, &middle, &scattered, &one}) {
         CAPTURE(static_cast<int>(uncertain));
@@ -140,7 +140,7 @@ TEST_CASE("effect set: every effect is what displace() says, lane by lane") {
 }
 
 TEST_CASE("effect set: a machine has the same errors in any block, to the bit") {
-  const EffectSet set(all_settings(Uncertain::sizes), EffectUse::left_in, "test");
+  const EffectSet set(all_settings(UncertainParameters::sizes), EffectUse::left_in, "test");
   Numbers random(2);
   const TouchScene where = random_scene(random);
   const auto errors = [&](std::uint32_t first, int count) {
@@ -157,7 +157,7 @@ TEST_CASE("effect set: a machine has the same errors in any block, to the bit") 
 }
 
 TEST_CASE("effect set: numbers do not depend on which other effects exist") {
-  const std::vector<EffectSetting> settings = all_settings(Uncertain::everything);
+  const std::vector<EffectSetting> settings = all_settings(UncertainParameters::everything);
   const auto machines = machines_from(100, kMachines);
   const auto together = EffectSet(settings, EffectUse::left_in, "test").draw(kSeed, machines);
   for (std::size_t k = 0; k < settings.size(); ++k) {

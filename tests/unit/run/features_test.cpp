@@ -13,11 +13,6 @@ using doctest::Approx;
 
 namespace {
 
-const SourceFile& no_source() {
-  static const SourceFile source("test", "");
-  return source;
-}
-
 const Vec3 kPart{700, 400, -500};  // where the parts of these tests lie, machine coordinates
 
 Arguments zone(double value) {
@@ -70,13 +65,6 @@ RunOptions only_probe() {
   RunOptions options;
   options.contributors.geometry = options.contributors.head = false;
   return options;
-}
-
-double variance(const std::vector<double>& x) {
-  double mean = 0, sum = 0;
-  for (const double v : x) mean += v / static_cast<double>(x.size());
-  for (const double v : x) sum += (v - mean) * (v - mean);
-  return sum / static_cast<double>(x.size() - 1);
 }
 
 }  // namespace

@@ -13,11 +13,6 @@ using namespace abbe::test;
 
 namespace {
 
-const SourceFile& no_source() {
-  static const SourceFile source("test", "");
-  return source;
-}
-
 Workpiece workpiece(const std::string& members) {
   return parse_workpiece(
       SourceFile("w.json", R"({"schema": "abbe.workpiece/1", "name": "w", )" + members + "}"));

@@ -9,6 +9,20 @@ namespace abbe::test {
 
 inline plan::Point constant(const Vec3& v) { return {plan::Operand{v.x, {}}, plan::Operand{v.y, {}}, plan::Operand{v.z, {}}}; }
 
+/// Of a plan that no text was compiled to.
+inline const SourceFile& no_source() {
+  static const SourceFile source("test", "");
+  return source;
+}
+
+/// Of a sample: over n - 1.
+inline double variance(const std::vector<double>& x) {
+  double mean = 0, sum = 0;
+  for (const double v : x) mean += v / static_cast<double>(x.size());
+  for (const double v : x) sum += (v - mean) * (v - mean);
+  return sum / static_cast<double>(x.size() - 1);
+}
+
 struct PlanBuilder {
   plan::Plan plan;
 

@@ -12,11 +12,6 @@ using namespace abbe::test;
 
 namespace {
 
-const SourceFile& no_source() {
-  static const SourceFile source("test", "");
-  return source;
-}
-
 Arguments distance(std::string axis) {
   Arguments a;
   a.add_text("mode", "NOMINL");
@@ -37,13 +32,6 @@ plan::Plan two_points(double a1_deg, double a2_deg) {
   const auto q = b.point({800, 600, -500}, {0, 1, 0});
   b.evaluate({p, q}, "DISTB", distance("YAXIS"));
   return b.plan;
-}
-
-double variance(const std::vector<double>& x) {
-  double mean = 0, sum = 0;
-  for (const double v : x) mean += v / static_cast<double>(x.size());
-  for (const double v : x) sum += (v - mean) * (v - mean);
-  return sum / static_cast<double>(x.size() - 1);
 }
 
 RunOptions only_head() {
