@@ -3,7 +3,7 @@ BUILD ?= build
 JOBS  ?= $(shell nproc)
 PYTHON ?= python3
 
-.PHONY: all setup build run test figures evidence clean
+.PHONY: all setup build run test sanitize figures evidence clean
 all: build
 
 setup:            ## installs the Debian packages that are missing
@@ -18,6 +18,11 @@ run: build        ## the paper's gauge blocks: our Table 3 beside the paper's
 
 test: build       ## every test
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+sanitize: setup   ## random and damaged programs under address, leak and undefined-behaviour sanitizers
+	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
+	@cmake --build $(BUILD) -j $(JOBS) --target fuzz_sanitized
+	@$(BUILD)/fuzz_sanitized .
 
 figures: build    ## draws the figures of docs/ anew; the only thing here that needs Node
 	@command -v npm >/dev/null || { echo "figures need Node 18 or later and npm: apt-get install nodejs npm"; exit 1; }

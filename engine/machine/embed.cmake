@@ -24,4 +24,5 @@ function(abbe_embed_machines layer)
     COMMAND ${CMAKE_COMMAND} -DFOLDER=${folder} -DOUTPUT=${output} -P ${ABBE_EMBED_SCRIPT}
     DEPENDS ${machines} ${ABBE_EMBED_SCRIPT} VERBATIM)
   target_sources(abbe_${layer} PRIVATE ${output})
+  add_custom_target(abbe_shipped_machines DEPENDS ${output})  # for other targets that compile it
 endfunction()
