@@ -2,8 +2,10 @@
 BUILD ?= build
 JOBS  ?= $(shell nproc)
 PYTHON ?= python3
+CLANG  ?= clang++-14
+SECONDS_EACH ?= 300
 
-.PHONY: all setup build run test sanitize figures evidence clean
+.PHONY: all setup build run test sanitize fuzz figures evidence clean
 all: build
 
 setup:            ## installs the Debian packages that are missing
@@ -19,10 +21,18 @@ run: build        ## the paper's gauge blocks: our Table 3 beside the paper's
 test: build       ## every test
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
 
-sanitize: setup   ## random and damaged programs under address, leak and undefined-behaviour sanitizers
+sanitize: setup   ## ten times as many random and damaged programs under sanitizers as in `make test`
 	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
 	@cmake --build $(BUILD) -j $(JOBS) --target fuzz_sanitized
-	@$(BUILD)/fuzz_sanitized .
+	@$(BUILD)/fuzz_sanitized . 20261122 400
+
+fuzz: setup       ## five minutes of libFuzzer on programs and five on machine files; needs clang
+	@command -v $(CLANG) >/dev/null || { echo "make fuzz needs $(CLANG): apt-get install clang-14, or CLANG=another clang++"; exit 1; }
+	@cmake -S . -B $(BUILD)-fuzz -G Ninja -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DABBE_FUZZ=ON >/dev/null
+	@cmake --build $(BUILD)-fuzz -j $(JOBS) --target fuzz_program fuzz_json
+	@mkdir -p $(BUILD)-fuzz/programs $(BUILD)-fuzz/files
+	@$(BUILD)-fuzz/fuzz_program -max_total_time=$(SECONDS_EACH) -timeout=30 $(BUILD)-fuzz/programs tests/lang/ok
+	@$(BUILD)-fuzz/fuzz_json -max_total_time=$(SECONDS_EACH) $(BUILD)-fuzz/files examples/machines
 
 figures: build    ## draws the figures of docs/ anew; the only thing here that needs Node
 	@command -v npm >/dev/null || { echo "figures need Node 18 or later and npm: apt-get install nodejs npm"; exit 1; }
@@ -37,4 +47,4 @@ evidence: build   ## the concealed cases of docs/evidence.md again, its tables a
 	  $(if $(ROUND),--round $(ROUND)) $(if $(SCALE),--scale $(SCALE)) $(if $(SECRET),--secret $(SECRET))
 
 clean:
-	@rm -rf $(BUILD)
+	@rm -rf $(BUILD) $(BUILD)-fuzz

@@ -207,13 +207,14 @@ void keep_best(const Starts& candidates, const Points<double>& points, int count
   std::sort(order.begin(), order.end());
   Starts chosen;
   for (const auto& [cost, i] : order) {
-    const double(&w)[3] = candidates[i].axes[2];
+    const Placed<double>& candidate = candidates[i];
+    const double(&w)[3] = candidate.axes[2];
     const bool near = std::any_of(chosen.begin(), chosen.end(), [&](const Placed<double>& other) {
       const double(&v)[3] = other.axes[2];
-      const double ratio = other.size[0] / candidates[i].size[0];
+      const double ratio = other.size[0] / candidate.size[0];
       return std::fabs(w[0] * v[0] + w[1] * v[1] + w[2] * v[2]) > std::cos(apart_rad) && ratio > 0.8 && ratio < 1.25;
     });
-    if (!near) chosen.push_back(candidates[i]);
+    if (!near) chosen.push_back(candidate);
     if (static_cast<int>(chosen.size()) == count) break;
   }
   kept.insert(kept.end(), chosen.begin(), chosen.end());

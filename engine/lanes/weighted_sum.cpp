@@ -8,10 +8,8 @@ void add_weighted(int n, std::span<const WeightedVector> terms, double* x, doubl
   // Four terms for each trip of the sums through memory.
   std::size_t k = 0;
   for (; k + 4 <= terms.size(); k += 4) {
-    const auto [a, wa] = terms[k];
-    const auto [b, wb] = terms[k + 1];
-    const auto [c, wc] = terms[k + 2];
-    const auto [d, wd] = terms[k + 3];
+    const Vec3 a = terms[k].vector, b = terms[k + 1].vector, c = terms[k + 2].vector, d = terms[k + 3].vector;
+    const double *wa = terms[k].weight, *wb = terms[k + 1].weight, *wc = terms[k + 2].weight, *wd = terms[k + 3].weight;
     for_lanes(n, [=](int i) {
       x[i] = x[i] + a.x * wa[i] + b.x * wb[i] + c.x * wc[i] + d.x * wd[i];
       y[i] = y[i] + a.y * wa[i] + b.y * wb[i] + c.y * wc[i] + d.y * wd[i];
@@ -19,7 +17,8 @@ void add_weighted(int n, std::span<const WeightedVector> terms, double* x, doubl
     });
   }
   for (; k < terms.size(); ++k) {
-    const auto [a, wa] = terms[k];
+    const Vec3 a = terms[k].vector;
+    const double* wa = terms[k].weight;
     for_lanes(n, [=](int i) {
       x[i] += a.x * wa[i];
       y[i] += a.y * wa[i];

@@ -1,13 +1,15 @@
 // The fuzz tests as one quick, repeatable test: fixed seeds, no fuzzing engine.
-// usage: fuzz_smoke ROOT [SEED [COUNT]]
+// usage: fuzz_smoke ROOT [SEED [COUNT]]   or, to try out the sanitizers: fuzz_smoke --fault NAME
 #include <cstdio>
 #include <cstdlib>
 
 #include "tests/fuzz/exercise.hpp"
+#include "tests/fuzz/faults.hpp"
 #include "tests/fuzz/programs.hpp"
 
 int main(int argc, char** argv) {
   using namespace abbe::fuzz;
+  if (argc == 3 && std::string_view(argv[1]) == "--fault") return commit_fault(argv[2]);
   const std::vector<std::string> existing = existing_programs(argv[1]);
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 20261121;
   const int count = argc > 3 ? std::atoi(argv[3]) : 250;
