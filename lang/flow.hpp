@@ -104,6 +104,7 @@ class Flow {
   void define_macro(int at);
   void call(int at);
   void call_macro(const LabelRef&, std::span<const RawArgument> actuals);
+  void warn_of_variable(const Macro&, const std::string& dummy, const RawArgument& actual);
   void module(int at);
   void run_module(const RawArgument& name, bool only_macros);
   Module* load(const RawArgument& name);

@@ -57,6 +57,16 @@ void Flow::call(int at) {
   }
 }
 
+/// An argument that MACRO has in quotes takes the name itself; who gives a variable may have meant its text.
+void Flow::warn_of_variable(const Macro& macro, const std::string& dummy, const RawArgument& actual) {
+  std::string_view name = actual.text;
+  if (name.starts_with('(') && name.ends_with(')')) name = name.substr(1, name.size() - 2);
+  const Variable* variable = actual.kind == ArgumentKind::text ? nullptr : find_variable(lowering_, name);
+  if (variable && variable->type == Type::text)
+    lowering_.warn(Code::W0227, actual.span, fmt::format("M({0}) takes '{1}' as it is written: here the name {2}, not what the variable {2} holds", macro.name, dummy, name),
+                   fmt::format("write '{}' if that is meant; for what the variable holds, MACRO/{} without quotes and F(@{})", name, dummy, dummy));
+}
+
 void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actuals) {
   const RawStatement& raw = *lowering_.statement;
   const auto found = macros_.find(upper(label.name));
@@ -74,6 +84,8 @@ void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actual
                     "write one for each argument of its MACRO statement");
     return failed_control();
   }
+  for (std::size_t k = 0; k < actuals.size(); ++k)
+    if (macro.dummies[k].kind == ArgumentKind::text) warn_of_variable(macro, macro.dummies[k].text, actuals[k]);
   if (depth_ >= kMaximumCalls) {
     lowering_.error(Code::E0237, raw.span, fmt::format("macros call each other more than {} deep", kMaximumCalls), "does M(" + macro.name + ") call itself without end?");
     failed_control();
