@@ -26,8 +26,9 @@ bool begins_with(const std::string& word, const std::string& beginning) {
              [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); });
 }
 
-/// The word that is being typed. A name inside `FA(` begins behind the parenthesis.
+/// The word that is being typed. A name inside `FA(` begins behind the parenthesis; the operand of a command is a path.
 std::string last_word(const std::string& line, bool inside_parenthesis) {
+  if (line.starts_with('.')) return line.substr(line.find_last_of(" /") + 1);
   std::size_t begin = line.size();
   while (begin > 0 && part_of_word(line[begin - 1]) &&
          !(inside_parenthesis && line[begin - 1] == '('))

@@ -10,6 +10,7 @@
 #include "lang/lines.hpp"
 #include "lang/parser.hpp"
 #include "programs/lsp/complete.hpp"
+#include "programs/repl/file_names.hpp"
 
 namespace abbe {
 
@@ -138,6 +139,12 @@ std::string Session::general_messages(const RunReport& report) {
 std::vector<std::string> Session::completions(const std::string& line) const {
   std::vector<std::string> words;
   if (line.starts_with('.')) {
+    const std::size_t blank = line.find(' ');
+    const std::string command = line.substr(0, blank);
+    if (command == ".load" || command == ".save") {
+      const std::size_t path = line.find_first_not_of(' ', blank);
+      if (blank != std::string::npos) return file_names(path == std::string::npos ? "" : line.substr(path));
+    }
     for (const Command& c : commands()) words.emplace_back(c.word);
     return words;
   }

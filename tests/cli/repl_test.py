@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """abbe repl: scripted sessions through a pipe."""
+import os
+import pty
 import subprocess
 
 import harness
@@ -25,6 +27,35 @@ class Repl(harness.Case):
         self.assertEqual(len(line), 1, out)
         self.assertRegex(line[0], r"^TA\(LEN\) of FA\(A\), FA\(B\): 100\.0+ mm, u95 0\.0\d+ mm$")
         self.assertAlmostEqual(float(line[0].split()[-2]), (high - low) / 2, delta=0.05 * (high - low))
+
+    def test_a_terminal_completes_the_names_of_files(self):
+        (self.folder / "parts").mkdir()
+        self.write("parts/one-length.dmi", LENGTH)
+        self.write("parts/other.dmi", LENGTH)
+        shown = self.terminal(".load pa\ton\t\r.list\r.quit\r")
+        self.assertIn("parts/one-length.dmi", shown)
+        self.assertIn("T(LEN)=TOL", shown)
+        self.assertIn("other.dmi", self.terminal(".load parts/\t\t\r.quit\r"))
+        self.assertIn("OUTPUT/FA(A)", self.terminal(".load parts/other.dmi\rOUTP\t/FA(A\t\r.list\r.quit\r"))
+
+    def terminal(self, keys):
+        """What a session in a terminal shows when these keys are pressed."""
+        master, slave = pty.openpty()
+        with subprocess.Popen([self.abbe_path, "repl", "--machines", "20"], cwd=self.folder, stdin=slave, stdout=slave, stderr=slave,
+                              env={**os.environ, "TERM": "xterm"}, start_new_session=True) as process:
+            os.close(slave)
+            shown = b""
+            try:
+                while b"abbe> " not in shown:
+                    shown += os.read(master, 4096)
+                os.write(master, keys.encode())
+                while piece := os.read(master, 4096):
+                    shown += piece
+            except OSError:  # the session has closed the terminal
+                pass
+            os.close(master)
+            self.assertEqual(process.wait(60), 0, shown)
+        return shown.decode(errors="replace")
 
     def test_only_what_is_new_is_shown(self):
         out = self.session(STATEMENTS + "T(TWO)=TOL/DISTB,NOMINL,100.0,-0.01,0.01,XAXIS\nOUTPUT/FA(A),FA(B),TA(TWO)\n")
