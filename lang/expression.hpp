@@ -23,6 +23,7 @@ struct Mistake {
   Code code{};
   std::size_t begin = 0, end = 0;
   std::string message, help, replacement;
+  bool of_variable = false;  ///< of one that is declared, so that its name is not meant as a word
 };
 
 /// Where an expression finds its variables. Both throw Mistake without a place; the reader adds it.

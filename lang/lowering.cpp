@@ -73,7 +73,13 @@ class VariablesOf : public Names {
   explicit VariablesOf(Lowering& lowering) : lowering_(lowering) {}
   std::optional<Value> variable(std::string_view name, const std::optional<Value>& index) override {
     Variable* found = find_variable(lowering_, name);
-    return found ? std::optional(read(lowering_, *found, index)) : std::nullopt;
+    if (!found) return std::nullopt;
+    try {
+      return read(lowering_, *found, index);
+    } catch (Mistake& mistake) {
+      mistake.of_variable = true;
+      throw;
+    }
   }
   std::string near(std::string_view name) override {
     std::vector<std::string_view> names;

@@ -281,9 +281,9 @@ class Matcher {
     const RawArgument& a = arguments_[at];
     constexpr std::size_t kLongestLabelKind = 3;  // a longer word before a parenthesis is meant as a function
     const bool function = a.kind == RawArgument::Kind::label && (find_intrinsic(a.label.kind) || a.label.kind.size() > kLongestLabelKind);
-    if (a.kind != RawArgument::Kind::expression && !function && at != must_have_value_) return std::nullopt;
+    const bool meant_as_value = a.kind == RawArgument::Kind::expression || function || at == must_have_value_;
     const auto* mistake = std::get_if<Mistake>(&*computed_[at]);
-    return mistake ? std::optional(*mistake) : std::nullopt;
+    return mistake && (meant_as_value || mistake->of_variable) ? std::optional(*mistake) : std::nullopt;
   }
 
   bool take_label(const SignatureItem& item, const RawArgument& argument) {

@@ -106,7 +106,10 @@ Value read(Lowering& lowering, Variable& v, const std::optional<Value>& index) {
   for (int k = 0; k < width; ++k) {
     const auto at = static_cast<std::size_t>(offset * width + k);
     const Cell& cell = v.cells[at];
-    if (!cell.set) throw Mistake{Code::E0230, 0, 0, fmt::format("{} has no value yet", v.name), fmt::format("give it one: {}=ASSIGN/...", v.name), ""};
+    if (!cell.set) {
+      const std::string name = index ? fmt::format("{}[{}]", v.name, offset + 1) : v.name;
+      throw Mistake{Code::E0230, 0, 0, fmt::format("{} has no value yet", name), fmt::format("give it one: {}=ASSIGN/...", name), ""};
+    }
     if (cell.known)
       out.parts.push_back({plan::PushConstant{cell.constant}});
     else
