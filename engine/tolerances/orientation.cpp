@@ -1,18 +1,21 @@
 // PERP, PARLEL, ANGLR: the width of the zone, exactly oriented to the datum, that holds the feature
-// over its measured extent (ISO 1101:2017, clause 17).
+// (ISO 1101:2017, clause 17).
 //
-// With u the direction of the feature (normal or axis), v that of the datum, L the extent (length
-// of an axis, diameter of the measured area of a plane) and f the spread of the residuals of a
-// plane or line, the value is L s + f, where
+// Let u be the direction of the feature (normal or axis), v that of the datum, turned so that
+// u v >= 0, and a the angle that the two shall make: 0 for planes or axes that shall be parallel, 90
+// degrees where one shall be a plane and the other an axis, and so on.
 //
-//   s = |u x v|        when u and v shall be parallel,
-//   s = |u v|          when they shall be at a right angle,
-//   s = sin |a - a0|   when they shall make the angle a0.
+// A measured plane: the zone is two parallel planes, exactly at a to the datum, about the touches.
+// Their normal is w = cos a v + sin a p with p the part of u across v; the value is the range of
+// the touches along w. Where the zone may turn about v (sin a > 0) it follows the fitted plane.
 //
-// For planes the value is an upper bound: the touches that lie highest and lowest need not lie at
-// the ends of the tilt. For an axis that shall stand on a plane or run along an axis the zone is a
-// cylinder, else it is two parallel planes. An axis is straight by construction: f = 0 for
-// cylinders and cones. MMC and LMC leave the value and widen the zone: material.hpp.
+// Everything else: with L the extent (length of an axis, diameter of the area of a constructed
+// plane) and f the spread of the residuals of a plane or line, the value is L s + f, where
+// s = |cos a |u x v| - sin a |u v|| is the sine of what the direction is off. For an axis that shall
+// stand on a plane or run along an axis the zone is a cylinder, else it is two parallel planes. An
+// axis is straight by construction: f = 0 for cylinders and cones.
+//
+// MMC and LMC leave the value and widen the zone: material.hpp.
 #include <algorithm>
 #include <cmath>
 
@@ -31,39 +34,57 @@ const char* with_extent(const Arguments&, Shapes shapes) {
              : "an orientation tolerance is for planes, lines, cylinders and cones";
 }
 
-/// What the zone turns by: 0 when exactly oriented, as a sine.
-using Slope = double (*)(const Arguments&, bool same_kind, const Vec3& u, const Vec3& v);
-
-double off_parallel(const Vec3& u, const Vec3& v) { return norm(cross(u, v)); }
-double off_square(const Vec3& u, const Vec3& v) { return std::fabs(dot(u, v)); }
+/// Of the angle that the directions of feature and datum shall make, from 0 to 90 degrees.
+struct Inclination {
+  double cosine, sine;
+};
+constexpr Inclination kAlong{1, 0}, kAcross{0, 1};
+using Wanted = Inclination (*)(const Arguments&, bool same_kind);
 
 // Two planes, or two axes, are parallel when their directions are; a plane and an axis when they
 // are at a right angle.
-double perpendicular_slope(const Arguments&, bool same_kind, const Vec3& u, const Vec3& v) {
-  return same_kind ? off_square(u, v) : off_parallel(u, v);
-}
-double parallel_slope(const Arguments&, bool same_kind, const Vec3& u, const Vec3& v) {
-  return same_kind ? off_parallel(u, v) : off_square(u, v);
-}
-double angular_slope(const Arguments& arguments, bool same_kind, const Vec3& u, const Vec3& v) {
-  const double angle = same_kind ? std::atan2(off_parallel(u, v), off_square(u, v))
-                                 : std::atan2(off_square(u, v), off_parallel(u, v));
-  const double wanted = arguments.number("angle"), acute = std::acos(std::fabs(std::cos(wanted)));
-  return std::sin(std::fabs(angle - acute));
+Inclination perpendicular(const Arguments&, bool same_kind) { return same_kind ? kAcross : kAlong; }
+Inclination parallel(const Arguments&, bool same_kind) { return same_kind ? kAlong : kAcross; }
+Inclination angular(const Arguments& arguments, bool same_kind) {
+  const double angle = arguments.number("angle");
+  const double c = std::fabs(std::cos(angle)), s = std::fabs(std::sin(angle));
+  return same_kind ? Inclination{c, s} : Inclination{s, c};
 }
 
-template <Slope slope>
+/// The normal of the zone about a plane whose normal is u.
+Vec3 zone_normal(const Vec3& u, const Vec3& datum, Inclination wanted) {
+  const Vec3 v = dot(u, datum) < 0 ? -datum : datum;
+  const Vec3 across = u - dot(u, v) * v;
+  const double length = norm(across);
+  // A plane that lies along the datum and shall stand on it: no side is nearer than another.
+  return length > 0 ? wanted.cosine * v + (wanted.sine / length) * across : u;
+}
+
+double range_along(const Vec3& w, std::span<const TouchedPoint> touches) {
+  double low = dot(w, touches[0].actual), high = low;
+  for (const TouchedPoint& touch : touches) {
+    const double height = dot(w, touch.actual);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  return high - low;
+}
+
+template <Wanted wanted_for>
 Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in) {
   const Element& feature = in.actual[0];
   if (is_spot(in.datum_shapes[0]))
     return no_value("a point or a sphere is no datum for an orientation");
+  const bool plane = in.shapes[0] == Shape::plane, line = in.shapes[0] == Shape::line;
+  const Inclination wanted = wanted_for(arguments, plane == (in.datum_shapes[0] == Shape::plane));
+  const Vec3 u = feature.direction, v = in.datums[0].direction;
+  if (plane && !in.touches.empty()) return {range_along(zone_normal(u, v, wanted), in.touches)};
   const double extent = feature.end - feature.begin;
   if (!(extent > 0))
     return no_value("the extent of the feature is not known, so that its orientation has no zone");
-  const bool plane = in.shapes[0] == Shape::plane, line = in.shapes[0] == Shape::line;
-  const bool same_kind = plane == (in.datum_shapes[0] == Shape::plane);
+  const double slope =
+      std::fabs(wanted.cosine * norm(cross(u, v)) - wanted.sine * std::fabs(dot(u, v)));
   const double form = plane || line ? feature.high - feature.low : 0;
-  return {extent * slope(arguments, same_kind, feature.direction, in.datums[0].direction) + form};
+  return {extent * slope + form};
 }
 
 }  // namespace
@@ -71,7 +92,7 @@ Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in
 extern const ToleranceKind perpendicularity_tolerance{
     .word = "PERP",
     .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "perpendicularity to a datum, over the measured extent of the feature",
+    .help = "perpendicularity to a datum: of a plane the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q1)=TOL/PERP,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/PERP; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -79,13 +100,14 @@ extern const ToleranceKind perpendicularity_tolerance{
     .applies = with_extent,
     .nominal = no_deviation,
     .limits = zone_limits,
-    .evaluate = zone_width<perpendicular_slope>,
+    .evaluate = zone_width<perpendicular>,
+    .needs_touches = true,
 };
 
 extern const ToleranceKind parallelism_tolerance{
     .word = "PARLEL",
     .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "parallelism to a datum, over the measured extent of the feature",
+    .help = "parallelism to a datum: of a plane the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q2)=TOL/PARLEL,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/PARLEL; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -93,14 +115,15 @@ extern const ToleranceKind parallelism_tolerance{
     .applies = with_extent,
     .nominal = no_deviation,
     .limits = zone_limits,
-    .evaluate = zone_width<parallel_slope>,
+    .evaluate = zone_width<parallel>,
+    .needs_touches = true,
 };
 
 extern const ToleranceKind angularity_tolerance{
     .word = "ANGLR",
     .signature =
         "angle:angle,zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "angularity: at a given angle to a datum, over the measured extent of the feature",
+    .help = "angularity: at a given angle to a datum; of a plane the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q3)=TOL/ANGLR,30,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/ANGLR; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -108,7 +131,8 @@ extern const ToleranceKind angularity_tolerance{
     .applies = with_extent,
     .nominal = no_deviation,
     .limits = zone_limits,
-    .evaluate = zone_width<angular_slope>,
+    .evaluate = zone_width<angular>,
+    .needs_touches = true,
 };
 
 }  // namespace abbe

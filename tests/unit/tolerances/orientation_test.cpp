@@ -46,6 +46,33 @@ TEST_CASE("Parallelism") {
         Approx(50 * kSine + 0.008));
 }
 
+TEST_CASE("The zone of a measured plane holds its touches") {
+  // Touches of a wall 100 long and 20 high that leans by 0.02 over its height; the last is a bump.
+  const double lean = std::atan(0.02 / 20), s = std::sin(lean), c = std::cos(lean);
+  auto zone = [](const char* word, const Vec3& normal, const Element& datum, Shape shape, std::vector<Vec3> touches, double angle = 0) {
+    Evaluation e(word);
+    e.number("angle", angle).feature(Shape::plane, spanning(at({}, normal), -51, 51)).datum(shape, datum);
+    for (const Vec3& p : touches) e.touches.push_back({p, p, normal});
+    return e.value();
+  };
+  const std::vector<Vec3> wall{{0, 0, 0}, {0, 100, 0}, {-0.02, 0, 20}, {-0.02, 100, 20}, {0, 50, 10}};
+  CHECK(zone("PERP", {c, 0, s}, kUp, Shape::plane, wall) == Approx(0.02));
+  CHECK(zone("PERP", {-c, 0, -s}, kUp, Shape::plane, wall) == Approx(0.02));  // seen from behind
+  // A wall that also turns about the datum's normal: only its lean counts.
+  CHECK(zone("PERP", {0.8 * c, 0.6 * c, s}, kUp, Shape::plane, {{0, 0, 0}, {-60, 80, 0}, {-0.016, -0.012, 20}, {-60.016, 79.988, 20}}) == Approx(0.02));
+  const std::vector<Vec3> top{{0, 0, 20}, {100, 0, 20.03}, {100, 100, 20.03}, {0, 100, 20}};
+  CHECK(zone("PARLEL", {-3e-4, 0, 1}, kUp, Shape::plane, top) == Approx(0.03));
+  CHECK(zone("PERP", {-3e-4, 0, 1}, kUp, Shape::cylinder, top) == Approx(0.03));
+  CHECK(zone("PARLEL", {-3e-4, 0, 1}, kAlongX, Shape::cylinder, top) == Approx(0.03));
+  CHECK(zone("PARLEL", {-3e-4, 0, 1}, kAlongY, Shape::cylinder, top) == Approx(0).epsilon(1e-9));
+  // 30 degrees, and 0.02 too much over 40 along the slope.
+  const double t = kPi / 6, off = std::asin(0.02 / 40);
+  const Vec3 end{40 * std::cos(t + off), 0, -40 * std::sin(t + off)}, n{std::sin(t + off), 0, std::cos(t + off)};
+  const std::vector<Vec3> slope{{}, {0, 100, 0}, end, end + Vec3{0, 100, 0}};
+  CHECK(zone("ANGLR", n, kUp, Shape::plane, slope, t) == Approx(0.02));
+  CHECK(zone("ANGLR", n, kAlongX, Shape::line, slope, t) == Approx(0.02));
+}
+
 TEST_CASE("Angularity") {
   auto plane_at = [](double degrees) {
     const double a = degrees * kPi / 180 + kTilt;
