@@ -90,10 +90,12 @@ std::string tolerance_arguments(const plan::ToleranceDef& def, const OutputRecor
   return fmt::format("{}{}{}, {}, {}", word, qualifier.empty() ? "" : ", ", qualifier, decimal(value), status);
 }
 
+/// Nine decimals of the axes: who reads the system back turns positions of a metre by them.
 std::string matrix_arguments(const Rigid& X_MD) {
-  const Mat3 R = transpose(X_MD.R);  // its rows are the axes of D in the machine system
-  return numbers({R.cx.x, R.cy.x, R.cz.x}) + ", " + numbers({R.cx.y, R.cy.y, R.cz.y}) + ", " + numbers({R.cx.z, R.cy.z, R.cz.z}) + ", " +
-         numbers(X_MD.p);
+  const Mat3& R = X_MD.R;  // its columns are the axes of D in the machine system
+  std::string out;
+  for (const double v : {R.cx.x, R.cx.y, R.cx.z, R.cy.x, R.cy.y, R.cy.z, R.cz.x, R.cz.y, R.cz.z}) out += fmt::format("{:.9f}, ", v == 0 ? 0.0 : v);
+  return out + numbers(X_MD.p);
 }
 
 class ResultText {

@@ -91,12 +91,23 @@ TEST_CASE("coordinate systems, values and uncertainties are read again") {
   const Rigid X{{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}, {10, 20, 30}};
   const OutputRecord record{static_cast<int>(plan.operations.size()) - 1, {}, {}, X};
   const std::string text = dmis_result(plan, {record});
-  CHECK(text.find("DA(P) = DATSET/TRMATX, 0.00000, 1.00000, 0.00000, -1.00000") != std::string::npos);
+  CHECK(text.find("DA(P) = DATSET/TRMATX, 0.000000000, 1.000000000, 0.000000000, -1.000000000") != std::string::npos);
   const DmisResult back = read(text).result;
   REQUIRE(back.frames.size() == 1);
   CHECK(back.frames[0].label == "P");
   check_near(back.frames[0].X_MD.p, X.p);
   check_near(back.frames[0].X_MD.R * Vec3{1, 2, 3}, X.R * Vec3{1, 2, 3});
+}
+
+TEST_CASE("a turned coordinate system comes back to a nanometre over a metre") {
+  const SourceFile source("turned.dmi", "DMISMN/'t'\nD(P)=ROTATE/ZAXIS,0.5\nOUTPUT/DA(P)\nENDFIL\n");
+  Sink sink;
+  const plan::Plan plan = compile(source, sink).plan;
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  const Rigid X{{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}, {10, 20, 30}};
+  const DmisResult back = read(dmis_result(plan, {OutputRecord{static_cast<int>(plan.operations.size()) - 1, {}, {}, X}})).result;
+  REQUIRE(back.frames.size() == 1);
+  CHECK(norm(back.frames[0].X_MD.R * Vec3{600, 800, 0} - X.R * Vec3{600, 800, 0}) < 1e-6);
 }
 
 TEST_CASE("every form of a result and its uncertainty comes back as it was written") {
