@@ -145,7 +145,7 @@ std::vector<std::string> Session::completions(const std::string& line) const {
       const std::size_t path = line.find_first_not_of(' ', blank);
       if (blank != std::string::npos) return file_names(path == std::string::npos ? "" : line.substr(path));
     }
-    for (const Command& c : commands()) words.emplace_back(c.word);
+    for (const Command& c : commands()) words.push_back(std::string(c.word) + (c.form.find(' ') == std::string_view::npos ? "" : " "));
     return words;
   }
   const SourceFile source("session", text() + pending_ + line);

@@ -32,7 +32,7 @@ class Repl(harness.Case):
         (self.folder / "parts").mkdir()
         self.write("parts/one-length.dmi", LENGTH)
         self.write("parts/other.dmi", LENGTH)
-        shown = self.terminal(".load pa\ton\t\r.list\r.quit\r")
+        shown = self.terminal(".lo\tpa\ton\t\r.list\r.quit\r")
         self.assertIn("parts/one-length.dmi", shown)
         self.assertIn("T(LEN)=TOL", shown)
         self.assertIn("other.dmi", self.terminal(".load parts/\t\t\r.quit\r"))
