@@ -55,8 +55,11 @@ struct SearchResult {
   Evidence first;                    ///< before any finding
   std::vector<Evidence> null;        ///< simulated, before any finding
 };
-/// `first`: the evidence of the whole recording.
-SearchResult search(const Case&, const EvidenceSearch& first);
+/// `first`: the evidence of the whole recording. Both get finer variants of what is found.
+SearchResult search(Case&, EvidenceSearch& first);
+/// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of the grid. They are appended
+/// to the blocks and take the place of the coarse ones in their explanations; the search judges them too.
+void refine(Case&, EvidenceSearch&);
 
 /// Steps that fill parts of the answer.
 void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
@@ -73,6 +76,6 @@ std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
 std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*, const std::vector<Detectable>&);
-Rivals rivals(const Case&, const EvidenceSearch&, const Evidence&);
+Rivals rivals(const Case&, const Evidence& first);
 
 }  // namespace abbe::diagnose

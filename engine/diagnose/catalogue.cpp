@@ -62,15 +62,21 @@ class Evaluation {
   std::vector<TouchScene> scenes_;
 };
 
-/// Every combination of the values tried.
-std::vector<std::vector<double>> settings(const Effect& effect, const std::vector<Search>& search) {
-  std::vector<std::vector<double>> list{{}};
+/// Every combination of the values tried, with what each stands for.
+std::vector<Block> settings(const Effect& effect, const std::vector<Search>& search) {
+  std::vector<Block> list(1);
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-    const bool varied = !effect.parameters[p].linear && search[p].kind == Search::Kind::tried;
-    const std::vector<double> values = effect.parameters[p].linear ? std::vector<double>{0.0} : varied ? search[p].values : std::vector{search[p].values[0]};
-    std::vector<std::vector<double>> longer;
-    for (const std::vector<double>& prefix : list)
-      for (const double v : values) longer.push_back(prefix), longer.back().push_back(v);
+    const bool linear = effect.parameters[p].linear, varied = !linear && search[p].kind == Search::Kind::tried;
+    const std::vector<double> values = linear ? std::vector{0.0} : varied ? search[p].values : std::vector{search[p].values[0]};
+    const std::vector<Cell> cells = varied ? cells_of(search[p]) : std::vector<Cell>{{values[0], values[0]}};
+    std::vector<Block> longer;
+    for (const Block& prefix : list) {
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        longer.push_back(prefix);
+        longer.back().theta.push_back(values[k]);
+        longer.back().cells.push_back(cells[k]);
+      }
+    }
     list = std::move(longer);
   }
   return list;
@@ -162,7 +168,24 @@ Factor factor_of(const Effect& effect) {
 /// Effects of the noise change no mean: they are judged by the variance (noise_effects.hpp).
 bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
 
+std::vector<Search> searches(const Effect& effect, const RecordedTouches& t) {
+  std::vector<Search> list;
+  for (const EffectParameter& p : effect.parameters) list.push_back(search_of(p, t));
+  return list;
+}
+
 }  // namespace
+
+Block variant_at(const Effect& effect, const std::vector<double>& theta, const RecordedTouches& t, const std::vector<int>& rows) {
+  Block block;
+  block.theta = theta;
+  VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
+  return block;
+}
+
+void share_belief(const Explanation& e, std::vector<Block>& blocks) {
+  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = 1 / double(e.blocks.size());
+}
 
 Matrix compressed(const Matrix& m) {
   if (m.cols() == 0) return m;
@@ -180,19 +203,17 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.effect = &effect;
   explanation.factor = factor_of(effect);
   explanation.missing = missing_of(effect, t);
-  std::vector<Search> search;
-  for (const EffectParameter& p : effect.parameters) search.push_back(search_of(p, t));
+  const std::vector<Search> search = searches(effect, t);
   const Evaluation evaluation(effect, t, rows);
   const VariantColumns variant(effect, search, evaluation);
-  for (std::vector<double>& theta : settings(effect, search)) {
-    Block block;
+  for (Block& block : settings(effect, search)) {
     block.explanation = static_cast<int>(out.list.size());
-    block.theta = std::move(theta);
     variant.fill(block);
     if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
     explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
     out.blocks.push_back(std::move(block));
   }
+  share_belief(explanation, out.blocks);
   if (explanation.missing || explanation.blocks.empty()) out.unjudged.push_back({&effect, explanation.missing});
   if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
 }

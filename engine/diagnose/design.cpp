@@ -109,7 +109,7 @@ std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch&
   return out;
 }
 
-Rivals rivals(const Case& c, const EvidenceSearch& search, const Evidence& evidence) {
+Rivals rivals(const Case& c, const Evidence& evidence) {
   Rivals out;
   // The paper's model as it stands: specification and nothing re-estimated, chi-squared of what it leaves.
   Hyperparameters stated;
@@ -121,35 +121,30 @@ Rivals rivals(const Case& c, const EvidenceSearch& search, const Evidence& evide
   out.chi2_p = chi2_above(squares, rotated.rank() + rotated.rest_dof());
   // One best Bayes factor over the catalogue, nothing else allowed.
   std::vector<double> logs;
-  std::vector<std::size_t> effects;
+  std::vector<int> effects;
   for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
-    if (c.explanations.list[k].effect) effects.push_back(k), logs.push_back(evidence.log_bayes[k]);
+    if (c.explanations.list[k].effect) effects.push_back(static_cast<int>(k)), logs.push_back(evidence.log_bayes[k]);
   const auto best = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
-  out.best_bayes_factor = c.explanations.list[effects[best]].name;
+  out.best_bayes_factor = c.explanations.list[static_cast<std::size_t>(effects[best])].name;
   out.best_bayes_probability = std::exp(logs[best] - log_sum_exp(logs));
   // Forward selection by BIC over single variants.
+  const Explanations catalogue = only(c.explanations, effects);
   std::vector<const Matrix*> taken;
   const double log_n = std::log(double(c.model.y.size()));
   for (int step = 0; step < 3; ++step) {
-    const EvidenceSearch* now = &search;
-    std::optional<EvidenceSearch> reduced;
-    if (step > 0) now = &reduced.emplace(with_free(c.model, taken), c.hyper, only(c.explanations, [&] {
-        std::vector<int> list;
-        for (const std::size_t k : effects) list.push_back(static_cast<int>(k));
-        return list;
-      }()));
+    const EvidenceSearch now(with_free(c.model, taken), c.hyper, catalogue);
     double most = 0;
     int chosen = -1;
-    for (std::size_t b = 0; b < c.explanations.blocks.size(); ++b) {
-      if (!c.explanations.list[static_cast<std::size_t>(c.explanations.blocks[b].explanation)].effect) continue;
-      const auto info = now->information(static_cast<int>(b));
+    for (std::size_t b = 0; b < catalogue.blocks.size(); ++b) {
+      const auto info = now.information(static_cast<int>(b));
       const Matrix g = info.g + 1e-9 * (1 + info.g.trace()) * Matrix::Identity(info.g.rows(), info.g.cols());
       const double gain = info.u.dot(Eigen::LDLT<Matrix>(g).solve(info.u)) - log_n * double(info.u.size());
       if (gain > most) most = gain, chosen = static_cast<int>(b);
     }
     if (chosen < 0) break;
-    taken.push_back(&c.explanations.blocks[static_cast<std::size_t>(chosen)].signature);
-    out.stepwise_bic.push_back(c.explanations.list[static_cast<std::size_t>(c.explanations.blocks[static_cast<std::size_t>(chosen)].explanation)].name);
+    const Block& block = catalogue.blocks[static_cast<std::size_t>(chosen)];
+    taken.push_back(&block.signature);
+    out.stepwise_bic.push_back(catalogue.list[static_cast<std::size_t>(block.explanation)].name);
   }
   return out;
 }

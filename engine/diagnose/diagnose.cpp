@@ -239,7 +239,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   c.explanations = explanations_for(c.touches, c.rows);
   out.baseline = summary(c, !machine.known_state.empty());
   out.cannot_judge = unjudged(c.explanations);
-  const EvidenceSearch first(c.model, c.hyper, c.explanations);
+  EvidenceSearch first(c.model, c.hyper, c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
   if (options.design_only) {
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
@@ -248,7 +248,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   c.rough = first.rough() > 0.5;
   const SearchResult result = search(c, first);
   out.p_value = result.p_value;
-  out.rivals = rivals(c, first, result.first);
+  out.rivals = rivals(c, result.first);
   tell_findings(c, result, out);
   tell_noise(judge_noise(c, result), out);
   if (result.other) tell_unexplained(c, result, out);

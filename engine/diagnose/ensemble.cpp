@@ -58,23 +58,38 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
   }
 }
 
-void Ensemble::prepare(const std::vector<Block>& blocks, const std::vector<Matrix>& uneven) {
-  Eigen::Index columns = 0;
-  for (const Block& b : blocks) columns += b.signature.cols();
-  for (const Matrix& function : uneven) columns += function.cols();
-  coordinates_.resize(rotated_.rank(), columns);
-  remainder_.resize(rotated_.rows(), columns);
-  for (const Block& b : blocks) prepare(b.signature, false);
-  for (const Matrix& function : uneven) prepare(function, true);
+void Ensemble::prepare(const std::vector<Matrix>& uneven) {
+  std::vector<const Matrix*> list;
+  for (const Matrix& function : uneven) list.push_back(&function);
+  functions_ = uneven.size();
+  prepare(list, true);
 }
 
-void Ensemble::prepare(const Matrix& signature, bool of_machine) {
+void Ensemble::add(const std::vector<Block>& blocks) {
+  std::vector<const Matrix*> list;
+  for (const Block& b : blocks) list.push_back(&b.signature);
+  prepare(list, false);
+}
+
+void Ensemble::prepare(const std::vector<const Matrix*>& signatures, bool of_machine) {
+  Eigen::Index first = coordinates_.cols(), columns = first;
+  for (const Matrix* m : signatures) columns += m->cols();
+  coordinates_.conservativeResize(rotated_.rank(), columns);
+  remainder_.conservativeResize(rotated_.rows(), columns);
+  for (const Matrix* m : signatures) {
+    const Matrix projected = rotated_.project(*m);
+    coordinates_.middleCols(first, m->cols()) = rotated_.coordinates(projected);
+    remainder_.middleCols(first, m->cols()) = rotated_.remainder(projected, coordinates_.middleCols(first, m->cols()));
+    blocks_.push_back(prepared(first, m->cols(), of_machine));
+    first += m->cols();
+  }
+}
+
+Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, bool of_machine) const {
   Prepared b;
-  b.first = blocks_.empty() ? 0 : blocks_.back().first + blocks_.back().count;
-  b.count = signature.cols();
-  const Matrix projected = rotated_.project(signature), a = rotated_.coordinates(projected), rest = rotated_.remainder(projected, a);
-  coordinates_.middleCols(b.first, b.count) = a;
-  remainder_.middleCols(b.first, b.count) = rest;
+  b.first = first;
+  b.count = count;
+  const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
   const Matrix outside = rest.transpose() * rest;
   b.sizes = sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
@@ -83,7 +98,7 @@ void Ensemble::prepare(const Matrix& signature, bool of_machine) {
     for (const Size& s : axes.sizes) axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
     b.axes.push_back(std::move(axes));
   }
-  blocks_.push_back(std::move(b));
+  return b;
 }
 
 Ensemble::Verdicts Ensemble::judge(const Vector& y) const {
@@ -143,13 +158,13 @@ Vector Ensemble::simulated(const Level& level, std::uint64_t seed, int replicate
 }
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
-  const Prepared &i = blocks_[static_cast<std::size_t>(a)], &j = blocks_[static_cast<std::size_t>(b)];
+  const Prepared &i = of(a), &j = of(b);
   return coordinates_.middleCols(i.first, i.count).transpose() * precision(level).asDiagonal() * coordinates_.middleCols(j.first, j.count) +
          remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
 }
 
 Vector Ensemble::with_data(const Level& level, int block, const Vector& y) const {
-  const Prepared& b = blocks_[static_cast<std::size_t>(block)];
+  const Prepared& b = of(block);
   const Vector z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
          remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;

@@ -37,15 +37,17 @@ class Ensemble {
  public:
   /// `log_prior`: of this family among others.
   Ensemble(const LinearModel&, const Hyperparameters&, double log_prior);
-  /// Makes it ready to judge these blocks in their order, and after them error functions that are larger than the others.
-  void prepare(const std::vector<Block>&, const std::vector<Matrix>& uneven);
+  /// Makes it ready to judge error functions that are larger than the others. Before any block.
+  void prepare(const std::vector<Matrix>& uneven);
+  /// Makes it ready to judge blocks, after those before.
+  void add(const std::vector<Block>&);
 
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {
     std::vector<double> alone;                     ///< without any block
-    std::vector<std::vector<double>> with;         ///< by block
+    std::vector<std::vector<double>> with;         ///< by error function, then by block
     Vector squares;                                ///< what is left of the sum of squares alone
-    std::vector<std::vector<double>> squares_with; ///< by block, at its best size
+    std::vector<std::vector<double>> squares_with; ///< likewise, at its best size
   };
   /// `y`: rows of a recording, projected (Rotated::project).
   Verdicts judge(const Vector& y) const;
@@ -60,9 +62,9 @@ class Ensemble {
   Vector with_data(const Level&, int block, const Vector& y) const;
   Vector against_all(const Level&, int block, Eigen::Index column) const;
 
-  const std::vector<Size>& sizes(int block) const { return blocks_[static_cast<std::size_t>(block)].sizes; }
+  const std::vector<Size>& sizes(int block) const { return of(block).sizes; }
   /// Where the columns of a block begin among those of all.
-  Eigen::Index first_column(int block) const { return blocks_[static_cast<std::size_t>(block)].first; }
+  Eigen::Index first_column(int block) const { return of(block).first; }
   const Rotated& rotated() const { return rotated_; }
 
  private:
@@ -78,7 +80,9 @@ class Ensemble {
     std::vector<Size> sizes;
     std::vector<Axes> axes;              ///< by scale
   };
-  void prepare(const Matrix& signature, bool of_machine);
+  void prepare(const std::vector<const Matrix*>& signatures, bool of_machine);
+  Prepared prepared(Eigen::Index first, Eigen::Index count, bool of_machine) const;
+  const Prepared& of(int block) const { return blocks_[functions_ + static_cast<std::size_t>(block)]; }
   Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
   Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
 
@@ -88,6 +92,7 @@ class Ensemble {
   Matrix precision_;                     ///< 1 / (g^2 lambda + 1), one column for each scale
   std::vector<double> log_scale_;        ///< log prior of family and scale, and its determinant
   Matrix coordinates_, remainder_;       ///< of all columns: U' h, h - U U' h
+  std::size_t functions_ = 0;            ///< of the machine; blocks follow them
   std::vector<Prepared> blocks_;
 };
 

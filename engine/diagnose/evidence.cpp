@@ -33,10 +33,20 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
     rough_ = 1 / (1 + std::exp(harmonic - other));
     if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   }
-  blocks_ = explanations.blocks.size();
-  for (Ensemble& e : ensembles_) e.prepare(explanations.blocks, model.uneven);
+  functions_ = model.uneven.size();
+  for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.blocks);
+  for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (!plan) evidence_ = judge(y_, &alone_, &with_);
+}
+
+void EvidenceSearch::extend(const Explanations& explanations) {
+  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(log_weight_.size()), explanations.blocks.end());
+  for (Ensemble& e : ensembles_) e.add(more);
+  explanations_ = explanations.list;
+  log_weight_.clear();
+  for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
+  evidence_ = judge(y_, &alone_, &with_);
 }
 
 Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
@@ -49,16 +59,15 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
     for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[k]));
     explained.push_back(log_sum_exp(logs));
   }
-  const std::size_t functions = explained.size() - blocks_;
-  std::vector<double> no_mismatch{log_sum_exp(nulls) + std::log(functions > 0 ? 1 - kPriorUneven : 1)};
-  for (std::size_t k = blocks_; k < explained.size(); ++k) no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions)));
+  std::vector<double> no_mismatch{log_sum_exp(nulls) + std::log(functions_ > 0 ? 1 - kPriorUneven : 1)};
+  for (std::size_t k = 0; k < functions_; ++k) no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions_)));
   const double null = log_sum_exp(no_mismatch);
   Evidence out;
-  for (std::size_t k = 0; k < blocks_; ++k) out.block_log_bayes.push_back(explained[k] - null);
+  for (std::size_t k = functions_; k < explained.size(); ++k) out.block_log_bayes.push_back(explained[k] - null);
   std::vector<double> all;
   for (const Explanation& x : explanations_) {
     std::vector<double> variants;
-    for (const int k : x.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] - std::log(double(x.blocks.size())));
+    for (const int k : x.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] + log_weight_[static_cast<std::size_t>(k)]);
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
@@ -69,9 +78,9 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
   *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, {squares.begin(), squares.end()})};
   if (out.block_log_bayes[block] <= 0) return out;
   std::vector<double> logs;
-  for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[block]));
+  for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[functions_ + block]));
   const std::size_t f = index_of_largest(logs);
-  *with = {f, ensembles_[f].level(verdicts[f].with[block], verdicts[f].squares_with[block])};
+  *with = {f, ensembles_[f].level(verdicts[f].with[functions_ + block], verdicts[f].squares_with[functions_ + block])};
   return out;
 }
 

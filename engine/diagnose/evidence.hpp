@@ -21,6 +21,9 @@ class EvidenceSearch {
  public:
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
+  /// Judges the blocks that were appended to the list, and weighs all of them by it.
+  void extend(const Explanations&);
+
   /// Of the recording.
   const Evidence& evidence() const { return evidence_; }
   /// The belief that the machine's errors are rougher than the specification's ensemble, without any explanation.
@@ -54,7 +57,8 @@ class EvidenceSearch {
 
   std::vector<Explanation> explanations_;
   std::vector<Ensemble> ensembles_;
-  std::size_t blocks_ = 0;           ///< of explanations; uneven error functions follow them
+  std::vector<double> log_weight_;   ///< by block
+  std::size_t functions_ = 0;        ///< uneven error functions, before the blocks
   Vector y_;
   Evidence evidence_;
   Baseline alone_, with_;

@@ -29,9 +29,17 @@ struct Column {
   double unit = 1;                ///< parameter value of one prior standard deviation
 };
 
+/// The values of a parameter that one value stands for.
+struct Cell {
+  double low = 0, high = 0;
+};
+
 struct Block {
   int explanation = 0;
   std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
+  std::vector<Cell> cells;        ///< by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is possible
+  double weight = 1;              ///< belief before the data in this variant, among those of its explanation
+  bool finest = false;            ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
   Matrix signature;               ///< rows x columns, um per prior standard deviation
   bool joined = false;            ///< columns are combinations of the original ones: no parameter can be read from them
@@ -69,6 +77,12 @@ Explanations named_explanations(const RecordedTouches&, const std::vector<int>& 
 void add_catalogue(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 void add_effect(const Effect&, const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+
+/// A variant of an effect at these parameters; no columns where the effect does nothing there.
+Block variant_at(const Effect&, const std::vector<double>& theta, const RecordedTouches&, const std::vector<int>& rows);
+
+/// Belief in each variant of an explanation: the same.
+void share_belief(const Explanation&, std::vector<Block>&);
 
 /// The same space with as few orthogonal columns as its rank needs.
 Matrix compressed(const Matrix&);

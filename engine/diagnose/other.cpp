@@ -277,6 +277,7 @@ class Patterns {
       e.blocks.push_back(static_cast<int>(out_.blocks.size()));
       out_.blocks.push_back(std::move(block));
     }
+    share_belief(e, out_.blocks);
     out_.list.push_back(std::move(e));
   }
 

@@ -1,6 +1,7 @@
 // Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a linear-Gaussian posterior with a prior so
 // wide that it does not pull.
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -64,19 +65,21 @@ MixtureTerm linear_estimate(const Block& block, const Vector& mean, const Matrix
   return {0, unit * corrected, unit * std::sqrt(variance)};
 }
 
-/// The standard deviation of draws: the rms of the coefficients that they took.
-MixtureTerm spread_estimate(const Block& block, const Vector& mean, double unit) {
-  const double n = std::max<double>(1, double(block.signature.cols()));
-  const double rms = std::sqrt(mean.squaredNorm() / n);
-  return {0, unit * rms, unit * rms / std::sqrt(2 * n)};
-}
-
-/// Between which values of its grid a searched parameter lies: half the way to its neighbours.
-double grid_u(const std::vector<double>& grid, double value) {
-  double nearest = 1e300;
-  for (const double g : grid)
-    if (g != value) nearest = std::min(nearest, std::abs(g - value));
-  return nearest < 1e300 ? nearest / std::sqrt(12.0) : 0;
+/// The standard deviation of draws: what their likelihood says of it, beside what the machine file lets them do anyway.
+std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info, double unit) {
+  constexpr double kLeast = 0.01, kMost = 100, kStep = 1.03;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(info.g);
+  const Vector d = solver.eigenvalues().cwiseMax(0), t = (solver.eigenvectors().transpose() * info.u).array().square();
+  std::vector<MixtureTerm> terms;
+  std::vector<double> logs;
+  for (double s = kLeast; s < kMost; s *= kStep) {
+    const Vector v = 1 + s * s * d.array();
+    logs.push_back(0.5 * (s * s * (t.array() / v.array()).sum() - v.array().log().sum()) + std::log(s));   // evenly in s
+    terms.push_back({0, unit * s, unit * s * (kStep - 1) / std::sqrt(12.0)});
+  }
+  const double total = log_sum_exp(logs);
+  for (std::size_t k = 0; k < terms.size(); ++k) terms[k].weight = std::exp(logs[k] - total);
+  return terms;
 }
 
 class Estimator {
@@ -92,16 +95,16 @@ class Estimator {
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     const EvidenceSearch search(with_free(c.model, others), hyper, mine);
     const Evidence evidence = search.evidence();
-    std::vector<double> logs = evidence.block_log_bayes;
+    std::vector<double> logs;
+    for (const int b : mine.list[0].blocks) logs.push_back(evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(mine.blocks[static_cast<std::size_t>(b)].weight));
     const double total = log_sum_exp(logs);
-    for (const Block& b : mine.blocks) tried_.push_back(b.theta);
     for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
       const double weight = std::exp(logs[b] - total);
       if (weight < 1e-4) continue;
       const auto info = search.information(static_cast<int>(b));
       const Matrix precision = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide);
       const Eigen::LLT<Matrix> llt(precision);
-      variants_.push_back({weight, mine.blocks[b], llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))});
+      variants_.push_back({weight, mine.blocks[b], llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols())), info});
     }
   }
 
@@ -128,6 +131,7 @@ class Estimator {
     Block block;
     Vector mean;
     Matrix covariance;
+    EvidenceSearch::Information info;
   };
 
   std::vector<MixtureTerm> linear(int p) const {
@@ -147,18 +151,17 @@ class Estimator {
   std::vector<MixtureTerm> spread(const EffectParameter& parameter) const {
     std::vector<MixtureTerm> mixture;
     for (const Variant& v : variants_) {
-      MixtureTerm c = spread_estimate(v.block, v.mean, parameter.typical);
-      c.weight = v.weight;
-      mixture.push_back(c);
+      for (MixtureTerm c : spread_estimate(v.info, parameter.typical)) {
+        c.weight *= v.weight;
+        mixture.push_back(c);
+      }
     }
     return normalised(mixture);
   }
 
   std::vector<MixtureTerm> searched(std::size_t p) const {
-    std::vector<double> grid;
-    for (const std::vector<double>& theta : tried_) grid.push_back(theta[p]);
     std::vector<MixtureTerm> mixture;
-    for (const Variant& v : variants_) mixture.push_back({v.weight, v.block.theta[p], grid_u(grid, v.block.theta[p])});
+    for (const Variant& v : variants_) mixture.push_back({v.weight, v.block.theta[p], (v.block.cells[p].high - v.block.cells[p].low) / std::sqrt(12.0)});
     return normalised(mixture);
   }
 
@@ -192,7 +195,6 @@ class Estimator {
   }
 
   const Explanation& explanation_;
-  std::vector<std::vector<double>> tried_;
   std::vector<Variant> variants_;
 };
 

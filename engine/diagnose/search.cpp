@@ -91,19 +91,20 @@ Finding renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
 
 }  // namespace
 
-SearchResult search(const Case& c, const EvidenceSearch& first) {
+SearchResult search(Case& c, EvidenceSearch& first) {
   SearchResult result;
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
     if (number > 0) rest.emplace(rest_of(c, result.findings));
-    Round r = round(c, rest ? *rest : first, number);
+    EvidenceSearch& here = rest ? *rest : first;
+    Round r = round(c, here, number);
     if (number == 0) {
       result.p_value = r.p;
-      result.first = r.evidence;
       result.null = std::move(r.null);
     }
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
-    Finding named = finding_of(c, r.evidence, true), other = finding_of(c, r.evidence, false);
+    refine(c, here);
+    Finding named = finding_of(c, here.evidence(), true), other = finding_of(c, here.evidence(), false);
     named.p = other.p = r.p;
     result.findings.push_back(named);
     if (named.probability >= other.probability || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
@@ -111,6 +112,8 @@ SearchResult search(const Case& c, const EvidenceSearch& first) {
     result.other = std::move(other);
     break;
   }
+  first.extend(c.explanations);
+  result.first = first.evidence();
   // A pattern alone that is as good as effects with a pattern beside them: the effects were not there.
   if (result.other && !result.findings.empty()) {
     const Finding alone = finding_of(c, result.first, false);

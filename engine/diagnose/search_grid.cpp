@@ -72,18 +72,37 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
       {"wavelength_mm", {50, 100, 200, 400}},
       {"bearing_base_mm", {200, 300, 500}},
       {"half_size_mm", {250}},
+      {"cross_share", {0, 1}},
   };
   if (is_direction(p)) return {Kind::direction, {0, 1, 2}};
   if (!p.choices.empty() || p.name == "sensor" || p.name == "tip") return {Kind::tried, choices(p, t)};
-  if (p.name == "t0_s") return {Kind::tried, moments(t)};
-  if (p.name == "period_s") return {Kind::tried, periods(t)};
-  if (p.name == "tau_s") return {Kind::tried, time_constants(t)};
-  if (p.name == "position_mm") return {Kind::tried, places(t)};
+  if (p.name == "t0_s") return {Kind::tried, moments(t), true};
+  if (p.name == "period_s") return {Kind::tried, periods(t), true};
+  if (p.name == "tau_s") return {Kind::tried, time_constants(t), true};
+  if (p.name == "position_mm") return {Kind::tried, places(t), true};
   if (p.name == "second_phase_deg" || (p.name == "phase_deg" && p.low < -180)) return {Kind::phase, {0, 90}};
   if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}};  // a tripod: 120 degrees are all
   const auto found = tried.find(p.name);
   if (found != tried.end()) return {Kind::tried, found->second};
   return {Kind::fixed, {p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))}};
+}
+
+std::vector<Cell> cells_of(const Search& search) {
+  std::vector<Cell> cells;
+  if (!search.between || search.values.size() < 2) {
+    for (const double v : search.values) cells.push_back({v, v});
+    return cells;
+  }
+  std::vector<double> sorted = search.values;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t last = sorted.size() - 1;
+  const auto half_above = [&](std::size_t k) { return (sorted[k + 1] - sorted[k]) / 2; };
+  for (const double v : search.values) {
+    const auto k = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), v) - sorted.begin());
+    const double below = k > 0 ? half_above(k - 1) : half_above(0), above = k < last ? half_above(k) : half_above(last - 1);
+    cells.push_back({v - below, v + above});
+  }
+  return cells;
 }
 
 }  // namespace abbe::diagnose

@@ -19,7 +19,11 @@ struct Search {
   };
   Kind kind = Kind::fixed;
   std::vector<double> values;
+  bool between = false;   ///< of `tried`: values between these are possible too, and sought where the recording asks for them
 };
+
+/// What each value of a list stands for: up to halfway to its neighbours, and as far beyond the ends.
+std::vector<Cell> cells_of(const Search&);
 
 Search search_of(const EffectParameter&, const RecordedTouches&);
 

@@ -43,7 +43,7 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
   std::vector<double> all;
   for (const Explanation& e : explanations_.list) {
     std::vector<double> variants;
-    for (const int b : e.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(b)] - std::log(double(e.blocks.size())));
+    for (const int b : e.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(b)] + std::log(explanations_.blocks[static_cast<std::size_t>(b)].weight));
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(e.prior) + out.log_bayes.back());
   }

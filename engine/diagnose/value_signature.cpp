@@ -165,6 +165,7 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
     e.blocks.push_back(static_cast<int>(out.blocks.size()));
     out.blocks.push_back(std::move(d.block));
   }
+  share_belief(e, out.blocks);
   if (e.blocks.empty()) out.unjudged.push_back({&effect, effect.needs & unknown});
   else out.list.push_back(std::move(e));
 }

@@ -1,0 +1,122 @@
+// The grid of the search is as coarse as a small effect allows; a large one tells its moment or period much more closely, and on the coarse
+// grid would leave a remainder that no longer looks like it. Where the recording speaks for an effect, the cells of its likeliest variants are
+// therefore divided, and again, as in adaptive quadrature: the sum of likelihood times cell is the evidence.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr int kSteps = 4, kMostEffects = 6, kMostCells = 3, kParts = 3;
+/// Nats below the likeliest cell from which on one is not worth a closer look.
+constexpr double kFarBelow = 3;
+/// Columns nearer than this to those of the cell before are the same: no touch lies between.
+constexpr double kSame_um = 1e-9;
+
+bool divisible(const Block& b) {
+  return !b.finest && std::any_of(b.cells.begin(), b.cells.end(), [](const Cell& cell) { return cell.high > cell.low; });
+}
+
+/// The effects that may be the name, likeliest first. How far they are below a pattern tells nothing yet: on the coarse grid it may be far.
+std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
+  std::vector<std::pair<double, int>> order;
+  for (std::size_t k = 0; k < all.list.size(); ++k)
+    if (all.list[k].effect) order.emplace_back(-evidence.log_bayes[k], static_cast<int>(k));
+  std::sort(order.begin(), order.end());
+  order.resize(std::min<std::size_t>(order.size(), kMostEffects));
+  std::vector<int> list;
+  for (const auto& [minus, k] : order) list.push_back(k);
+  return list;
+}
+
+/// Whether two variants differ in no choice and their cells touch.
+bool neighbours(const Block& a, const Block& b) {
+  for (std::size_t p = 0; p < a.theta.size(); ++p) {
+    const Cell &x = a.cells[p], &y = b.cells[p];
+    const double rounding = 1e-9 * (std::abs(x.low) + std::abs(x.high));
+    if (x.low > y.high + rounding || y.low > x.high + rounding) return false;
+  }
+  return true;
+}
+
+/// The likeliest divisible variants, and those beside the likeliest: the value that stands for a cell may be the wrong one.
+std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, const Evidence& evidence) {
+  const auto block = [&](int b) -> const Block& { return all.blocks[static_cast<std::size_t>(b)]; };
+  const auto belief = [&](int b) { return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(block(b).weight); };
+  std::vector<int> order = e.blocks, list;
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool likely = k < kMostCells && belief(order[k]) > belief(order[0]) - kFarBelow;
+    if (divisible(block(order[k])) && (likely || neighbours(block(order[0]), block(order[k])))) list.push_back(order[k]);
+  }
+  return list;
+}
+
+/// The cell in thirds along every parameter that it has an extent in.
+std::vector<Block> parts_of(const Block& whole) {
+  std::vector<Block> list(1);
+  list[0].explanation = whole.explanation;
+  list[0].weight = whole.weight;
+  for (std::size_t p = 0; p < whole.theta.size(); ++p) {
+    const Cell& cell = whole.cells[p];
+    const int parts = cell.high > cell.low ? kParts : 1;
+    std::vector<Block> longer;
+    for (const Block& prefix : list) {
+      for (int k = 0; k < parts; ++k) {
+        const double step = (cell.high - cell.low) / parts;
+        Block part = prefix;
+        part.cells.push_back(parts == 1 ? cell : Cell{cell.low + k * step, cell.low + (k + 1) * step});
+        part.theta.push_back(parts == 1 ? whole.theta[p] : cell.low + (k + 0.5) * step);
+        part.weight /= parts;
+        longer.push_back(std::move(part));
+      }
+    }
+    list = std::move(longer);
+  }
+  return list;
+}
+
+bool same(const Block& a, const Block& b) {
+  return a.signature.cols() == b.signature.cols() && (a.signature - b.signature).cwiseAbs().maxCoeff() < kSame_um;
+}
+
+/// Divides one variant of an explanation; false when its parts are all the same.
+bool divide(Case& c, int explanation, int which) {
+  std::vector<Block> parts = parts_of(c.explanations.blocks[static_cast<std::size_t>(which)]);
+  const Explanation& e = c.explanations.list[static_cast<std::size_t>(explanation)];
+  for (Block& part : parts) {
+    Block made = variant_at(*e.effect, part.theta, c.touches, c.rows);
+    part.columns = std::move(made.columns);
+    part.signature = std::move(made.signature);
+    part.joined = made.joined;
+  }
+  std::erase_if(parts, [](const Block& b) { return b.signature.cols() == 0; });
+  if (std::all_of(parts.begin(), parts.end(), [&](const Block& b) { return same(b, parts.front()); })) {
+    c.explanations.blocks[static_cast<std::size_t>(which)].finest = true;
+    return false;
+  }
+  std::vector<int>& blocks = c.explanations.list[static_cast<std::size_t>(explanation)].blocks;
+  blocks.erase(std::find(blocks.begin(), blocks.end(), which));
+  for (Block& part : parts) {
+    blocks.push_back(static_cast<int>(c.explanations.blocks.size()));
+    c.explanations.blocks.push_back(std::move(part));
+  }
+  return true;
+}
+
+}  // namespace
+
+void refine(Case& c, EvidenceSearch& search) {
+  for (int step = 0; step < kSteps; ++step) {
+    bool divided = false;
+    for (const int k : candidates(c.explanations, search.evidence()))
+      for (const int b : cells_to_divide(c.explanations, c.explanations.list[static_cast<std::size_t>(k)], search.evidence())) divided = divide(c, k, b) || divided;
+    if (!divided) return;
+    search.extend(c.explanations);
+  }
+}
+
+}  // namespace abbe::diagnose
