@@ -21,6 +21,7 @@ struct Case {
   RecordedTouches touches;
   Baseline baseline;
   std::vector<char> masked;          ///< by touch: a gross outlier
+  Vector off_um;                     ///< by touch: how far a masked one lies from what the others predict
   std::vector<int> rows;             ///< touches that take part
   LinearModel model;                 ///< of `rows`
   Hyperparameters hyper;
@@ -60,6 +61,9 @@ SearchResult search(Case&, EvidenceSearch& first);
 /// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of the grid. They are appended
 /// to the blocks and take the place of the coarse ones in their explanations; the search judges them too.
 void refine(Case&, EvidenceSearch&);
+
+/// Fits the recording without its gross outliers: fills `masked`, `off_um`, `rows`, `model`, `hyper`.
+void mask_outliers(Case&);
 
 /// Steps that fill parts of the answer.
 void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);

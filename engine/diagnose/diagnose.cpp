@@ -16,8 +16,6 @@ using namespace diagnose;
 
 namespace {
 
-constexpr int kMaskings = 4;
-
 /// A real part is not where its drawing says: residuals far beyond what machines do, and runs to compare, mean that only the runs can be compared.
 Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<Diagnostic>& messages, const std::string& file) {
   for (const auto& [key, value] : r.metadata) {
@@ -38,32 +36,6 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<D
                                             "Every surface point counts as unknown, and only what repeats differently is judged", file, middle),
                                 "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right"));
   return Surfaces::unknown;
-}
-
-/// Gross outliers out, the rest fitted again, until none is left.
-void mask_outliers(Case& c) {
-  c.masked.assign(c.touches.touches.size(), 0);
-  const LinearModel whole = compact(c.baseline.model);
-  for (int round = 0; round < kMaskings; ++round) {
-    c.model = without_rows(whole, c.masked);
-    c.hyper = estimate(c.model);
-    const Vector loo = leave_one_out(c.model, c.hyper);
-    Eigen::Index k = 0;
-    bool found = false;
-    const double worst = loo.cwiseAbs().maxCoeff();
-    for (std::size_t i = 0; i < c.masked.size(); ++i) {
-      if (c.masked[i]) continue;
-      // Only what is near the worst: a gross touch spoils its neighbours, which come back once it is out.
-      const double size = std::abs(loo(k++));
-      if (size > kOutlier && size > worst / 2) c.masked[i] = found = true;
-    }
-    if (!found) break;
-  }
-  c.model = without_rows(whole, c.masked);
-  c.hyper = estimate(c.model);
-  c.rows.clear();
-  for (std::size_t i = 0; i < c.masked.size(); ++i)
-    if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));
 }
 
 /// Raw readings as they would be without the noise of the touch. A reading holds its own touch's noise, and so does the residual: where
@@ -111,13 +83,16 @@ std::string sentence_of(const Case& c, const Finding& f, const std::vector<Diagn
   return fmt::format("One of these explains it, and this recording cannot tell which: {}. As the first: {}.", fmt::join(titles, "; "), sizes);
 }
 
+/// Belief in a name beside a pattern that has none: whatever made the pattern may have made the rest too.
+constexpr double kBesideUnexplained = 0.5;
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding& f = result.findings[k];
     DiagnosedEffect e;
     for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
-    e.probability = f.probability;
+    e.probability = result.other ? std::min(f.probability, kBesideUnexplained) : f.probability;
     e.parameters = estimate_parameters(c, result, k);
     e.sentence = sentence_of(c, f, e.parameters);
     EffectSetting setting{c.explanations.list[f.explanation].name, {}};
@@ -148,7 +123,7 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
-    out.effects.push_back({{std::string(n.effect->name)}, 1 - n.p, n.parameters, n.sentence});
+    out.effects.push_back({{std::string(n.effect->name)}, out.unexplained ? std::min(1 - n.p, kBesideUnexplained) : 1 - n.p, n.parameters, n.sentence});
     EffectSetting setting{std::string(n.effect->name), {}};
     for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
     out.model_effects.push_back(std::move(setting));
@@ -250,8 +225,8 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
   tell_findings(c, result, out);
-  tell_noise(judge_noise(c, result), out);
   if (result.other) tell_unexplained(c, result, out);
+  tell_noise(judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
   if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);

@@ -149,14 +149,20 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
   return f;
 }
 
-/// More touches beyond the limit of gross outliers than normal noise puts there: the tail of a Poisson law.
+/// More touches beyond the limit of gross outliers than normal noise puts there, by the tail of a Poisson law, and far beyond it: the ends of a
+/// pattern that the search has missed are just beyond.
 std::optional<NoiseFinding> outliers(const Case& c) {
-  double n = 0, sum = 0;
-  for (std::size_t i = 0; i < c.masked.size(); ++i)
-    if (c.masked[i]) n += 1, sum += 1e3 * std::abs(c.touches.touches[i].residual_mm);
+  constexpr double kFar = 1.5;
+  double n = 0, sum = 0, limit = 0;
+  for (std::size_t i = 0; i < c.masked.size(); ++i) {
+    if (!c.masked[i]) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    n += 1, sum += std::abs(c.off_um(row));
+    limit += kOutlier * c.baseline.model.noise_um(row) * c.hyper.noise(c.baseline.model.noise_group[i]);
+  }
   const double all = static_cast<double>(c.masked.size()), share = n / all, expected = all * std::erfc(kOutlier / std::sqrt(2.0));
   const double p = std::exp(n * std::log(expected) - std::lgamma(n + 1));
-  if (n < 2 || p > kNoiseAlarm) return std::nullopt;
+  if (n < 2 || p > kNoiseAlarm || sum < kFar * limit) return std::nullopt;
   NoiseFinding f{find_effect("noise.outliers"), p, {figure("share", "1", share, std::sqrt(share / all)), figure("size_um", "um", sum / n, sum / n / std::sqrt(n))}, {}};
   f.sentence = fmt::format("{:.0f} of {} touches are outliers: dirt, burrs or early triggers.", n, c.masked.size());
   return f;

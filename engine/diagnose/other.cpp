@@ -119,7 +119,13 @@ class Patterns {
       orientation_.push_back(orientation.emplace(std::pair{s.stylus.head_a_rad, s.stylus.head_b_rad}, int(orientation.size())).first->second);
       sensor_.push_back(s.stylus.ordinal), feature_.push_back(s.feature), setup_.push_back(s.setup), run_.push_back(s.run);
       speed_.push_back(int(std::lround(1000 * s.speed_mm_s)));
-      above20_.push_back(s.temperature.part - 20);
+    }
+    part_above20_.resize(static_cast<Eigen::Index>(rows.size()));
+    for (Vector& v : scale_above20_) v.resize(part_above20_.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto& temperature = t.touches[rows[i]].scene.temperature;
+      part_above20_(static_cast<Eigen::Index>(i)) = temperature.part - 20;
+      for (int k = 0; k < 3; ++k) scale_above20_[k](static_cast<Eigen::Index>(i)) = temperature.scale[k] - 20;
     }
     for (auto& p : time_) p[0] = (p[0] - t.touches.front().scene.time_s) / std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
     normalise(place_);
@@ -138,6 +144,7 @@ class Patterns {
     add(Factor::time, "slow", along(smooth(time_, 0.3, 8), normal_));
     add(Factor::time, "quick", along(smooth(time_, 0.07, 22), normal_));
     add(Factor::time, "rugged", in_one_direction(rugged(time_, 0.2, 40)));
+    add(Factor::time, "stretching", stretching());
     add(Factor::time, "turning to and fro", turning());
     add(Factor::position, "smooth", along(smooth(place_, 0.6, 14), normal_));
     add(Factor::position, "patch", along(smooth(place_, 0.25, 26), normal_));
@@ -145,7 +152,7 @@ class Patterns {
     add(Factor::position, "along a guide", guides());
     add(Factor::position, "in time", along(products(smooth(place_, 0.6, 8), trend()), normal_));
     add(Factor::direction, "smooth", smooth(directions_, 0.6, 40));
-    add(Factor::direction, "in time", products(smooth(directions_, 0.9, 8), trend()));
+    add(Factor::direction, "in time", products(smooth(directions_, 0.9, 8), smooth(time_, 0.2, 8)));
     if (several(orientation_)) {
       add(Factor::direction, "on the probe", smooth(on_probe_, 0.6, 40));
       add(Factor::direction, "lobes", lobes());
@@ -155,7 +162,7 @@ class Patterns {
     }
     if (several(sensor_)) {
       add(Factor::sensor, "offset", hcat(along(indicator(sensor_), normal_), indicator(sensor_)));
-      add(Factor::sensor, "over position", along(by_group(linear_place(), sensor_), normal_));
+      add(Factor::sensor, "over position", along(by_group(smooth(place_, 0.6, 8), sensor_), normal_));
     }
     if (several(feature_)) {
       add(Factor::feature, "size", indicator(feature_));
@@ -165,9 +172,14 @@ class Patterns {
     if (several(setup_)) add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
     if (several(run_)) add(Factor::run, "offset", along(indicator(run_), normal_));
     if (several(speed_)) add(Factor::speed, "offset", by_group(one, speed_));
-    Matrix warm(normal_.size(), 1);
-    for (std::size_t i = 0; i < above20_.size(); ++i) warm(i, 0) = above20_[i];
-    if (warm.maxCoeff() - warm.minCoeff() > 0.1) add(Factor::temperature, "growth", along(warm.asDiagonal() * linear_place(), normal_));
+    constexpr double kDiffers_K = 0.1;
+    if (part_above20_.maxCoeff() - part_above20_.minCoeff() > kDiffers_K)
+      add(Factor::temperature, "growth", along(part_above20_.asDiagonal() * linear_place(), normal_));
+    std::vector<Matrix> scales;
+    for (int k = 0; k < 3; ++k)
+      if (scale_above20_[k].maxCoeff() - scale_above20_[k].minCoeff() > kDiffers_K)
+        scales.push_back(Vector(scale_above20_[k].array() * normals_along(k).array()).asDiagonal() * smooth(reading_[k], 0.1, 16));
+    if (!scales.empty()) add(Factor::temperature, "along a scale", scales);
   }
 
  private:
@@ -242,6 +254,24 @@ class Patterns {
     return out;
   }
 
+  Vector normals_along(int axis) const {
+    Vector v(static_cast<Eigen::Index>(normal_.size()));
+    for (Eigen::Index i = 0; i < v.size(); ++i) v(i) = normal_[static_cast<std::size_t>(i)][axis];
+    return v;
+  }
+
+  /// One axis shifts and stretches along itself, as a rugged function of time.
+  std::vector<Matrix> stretching() const {
+    std::vector<Matrix> out;
+    const Matrix f = rugged(time_, 0.2, 20);
+    for (int k = 0; k < 3; ++k) {
+      Matrix shift_and_stretch(f.rows(), 2);
+      for (Eigen::Index i = 0; i < f.rows(); ++i) shift_and_stretch.row(i) << 1, 2 * reading_[k][static_cast<std::size_t>(i)][0] - 1;
+      out.push_back(normals_along(k).asDiagonal() * products(shift_and_stretch, f));
+    }
+    return out;
+  }
+
   /// Functions of the time since the head was indexed: a straight line, and one that slows down.
   Matrix settling() const {
     Matrix m(settled_.size(), 2);
@@ -285,7 +315,7 @@ class Patterns {
   std::vector<Vec3> normal_;
   Points time_, place_, directions_, on_probe_, reading_[3], settled_;
   std::vector<int> orientation_, sensor_, feature_, setup_, run_, speed_;
-  std::vector<double> above20_;
+  Vector part_above20_, scale_above20_[3];
 };
 
 }  // namespace

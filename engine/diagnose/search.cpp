@@ -10,6 +10,8 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kRounds = 3;
+/// A name must be so many times as likely as no name.
+constexpr double kNamed = 3;
 /// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second name needs more.
 constexpr double kLaterAlarm = 1e-3;
 
@@ -107,7 +109,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
     Finding named = finding_of(c, here.evidence(), true), other = finding_of(c, here.evidence(), false);
     named.p = other.p = r.p;
     result.findings.push_back(named);
-    if (named.probability >= other.probability || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
+    if (named.probability >= kNamed * other.probability || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
     result.findings.pop_back();
     result.other = std::move(other);
     break;

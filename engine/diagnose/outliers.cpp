@@ -1,0 +1,105 @@
+// Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers. They are left out, or they would
+// spoil the fit. Dirt strikes single touches by chance, though: touches next to each other, of one stylus one after the other, or of one place
+// again and again, that are all off, are a mismatch with a cause, and stay in.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr int kMaskings = 4;
+/// Probability of so many pairs of neighbours among touches struck by chance, below which they are no chance.
+constexpr double kChance = 1e-3;
+
+/// Gross outliers out, the rest fitted again, until none is left. Those `kept` are none.
+void mask(Case& c, const std::vector<char>& kept) {
+  c.masked.assign(c.touches.touches.size(), 0);
+  const LinearModel whole = compact(c.baseline.model);
+  for (int round = 0; round < kMaskings; ++round) {
+    c.model = without_rows(whole, c.masked);
+    c.hyper = estimate(c.model);
+    const Vector loo = leave_one_out(c.model, c.hyper);
+    Eigen::Index k = 0;
+    bool found = false;
+    const double worst = loo.cwiseAbs().maxCoeff();
+    for (std::size_t i = 0; i < c.masked.size(); ++i) {
+      if (c.masked[i]) continue;
+      // Only what is near the worst: a gross touch spoils its neighbours, which come back once it is out.
+      const double size = std::abs(loo(k++));
+      if (size > kOutlier && size > worst / 2 && !kept[i]) c.masked[i] = found = true;
+    }
+    if (!found) break;
+  }
+  c.model = without_rows(whole, c.masked);
+  c.hyper = estimate(c.model);
+}
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+/// Touches that follow each other among those with the same key.
+template <class Key>
+Pairs followers(const RecordedTouches& t, Key key) {
+  std::map<decltype(key(t.touches[0])), std::size_t> last;
+  Pairs out;
+  for (std::size_t i = 0; i < t.touches.size(); ++i) {
+    const auto [at, first] = last.try_emplace(key(t.touches[i]), i);
+    if (!first) out.emplace_back(at->second, i), at->second = i;
+  }
+  return out;
+}
+
+/// Upper tail of a Poisson law.
+double at_least(int n, double expected) {
+  double term = std::exp(-expected), below = 0;
+  for (int k = 0; k < n; ++k) below += term, term *= expected / (k + 1);
+  return std::max(0.0, 1 - below);
+}
+
+/// Outliers that are no chance: in more pairs of neighbours than chance makes.
+std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows, const std::vector<char>& masked) {
+  const auto place = [&](const RecordedTouch& touch) { return std::tuple(touch.scene.feature, rows[touch.row].touch); };
+  const Pairs relations[] = {followers(t, [](const RecordedTouch& touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
+                             followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, place)};
+  const double n = static_cast<double>(masked.size()), m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
+  std::vector<char> out(masked.size(), 0);
+  for (const Pairs& pairs : relations) {
+    int both = 0;
+    for (const auto& [a, b] : pairs) both += masked[a] && masked[b] ? 1 : 0;
+    if (at_least(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance) continue;
+    for (const auto& [a, b] : pairs)
+      if (masked[a] && masked[b]) out[a] = out[b] = 1;
+  }
+  return out;
+}
+
+/// Errors of prediction of the masked touches: with a noise of their own so large that they tell nothing about each other.
+Vector off_um(const Case& c) {
+  constexpr double kTellsNothing = 1e4;
+  LinearModel m = compact(c.baseline.model);
+  for (std::size_t i = 0; i < c.masked.size(); ++i)
+    if (c.masked[i]) m.noise_um(static_cast<Eigen::Index>(i)) *= kTellsNothing;
+  const Vector standardised = leave_one_out(m, c.hyper);
+  Vector out = Vector::Zero(standardised.size());
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    if (c.masked[static_cast<std::size_t>(i)]) out(i) = standardised(i) * m.noise_um(i) * c.hyper.noise(m.noise_group[static_cast<std::size_t>(i)]);
+  return out;
+}
+
+}  // namespace
+
+void mask_outliers(Case& c) {
+  mask(c, std::vector<char>(c.touches.touches.size(), 0));
+  const std::vector<char> kept = systematic(c.touches, c.recording->rows.data(), c.masked);
+  if (std::count(kept.begin(), kept.end(), 1) > 0) mask(c, kept);
+  if (std::count(c.masked.begin(), c.masked.end(), 1) > 0) c.off_um = off_um(c);
+  c.rows.clear();
+  for (std::size_t i = 0; i < c.masked.size(); ++i)
+    if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));
+}
+
+}  // namespace abbe::diagnose
