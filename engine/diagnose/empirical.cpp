@@ -52,11 +52,12 @@ std::vector<Piece> offsets(const Case& c, bool by_sensor) {
   return list;
 }
 
+/// Effects that follow an explanation's pattern; none where it is a function of two factors, or of what another program does not share.
 std::vector<Piece> pieces_of(const Case& c, const Explanation& e) {
+  static const std::set<std::string_view> of_two_factors = {"turning to and fro", "stretching", "in time", "orientation in time", "settling", "over position", "along a scale"};
+  if (of_two_factors.count(e.shape) > 0) return {};
   switch (e.factor) {
-    case Factor::time:
-      if (e.shape == "turning to and fro") return {};   // a rotation is no curve of displacements
-      return {curve(c, CurveCoordinate::time)};
+    case Factor::time: return {curve(c, CurveCoordinate::time)};
     case Factor::position: {
       std::vector<Piece> list{curve(c, CurveCoordinate::x), curve(c, CurveCoordinate::y), curve(c, CurveCoordinate::z)};
       if (e.shape == "height") list.push_back(piece(kEmpiricalDirection));   // along the normal: on a ball, place and direction are one
@@ -133,16 +134,31 @@ EffectSetting setting_of(const Piece& piece) {
   return s;
 }
 
+/// The likeliest pattern that an effect can follow, which need not be the likeliest of all: a feature of this program is in no other, but its
+/// place and its directions are. None where nothing follows it that the recording speaks for.
+const Explanation* carried(const Case& c, const Finding& f) {
+  const Explanation* best = nullptr;
+  double most = 0;
+  for (std::size_t k = 0; k < c.explanations.list.size(); ++k) {
+    const Explanation& e = c.explanations.list[k];
+    if (e.effect || f.evidence.log_bayes[k] <= most || pieces_of(c, e).empty()) continue;
+    most = f.evidence.log_bayes[k];
+    best = &e;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& result) {
   if (!result.other) return {};
-  const Explanation& e = c.explanations.list[static_cast<std::size_t>(result.other->explanation)];
-  const std::vector<Piece> pieces = pieces_of(c, e);
-  if (pieces.empty()) return {};
+  const Explanation& found = c.explanations.list[static_cast<std::size_t>(result.other->explanation)];
+  const Explanation* e = pieces_of(c, found).empty() ? carried(c, *result.other) : &found;
+  if (!e) return {};
+  const std::vector<Piece> pieces = pieces_of(c, *e);
   const Basis basis = basis_of(c, pieces);
   Explanations one;
-  one.list.push_back(e);
+  one.list.push_back(*e);
   one.list.back().blocks = {0};
   one.list.back().prior = 1;
   one.blocks.emplace_back();

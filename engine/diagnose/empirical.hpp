@@ -1,13 +1,14 @@
 // A model of a mismatch that the catalogue does not explain: the pattern in the factor where it lies, as an empirical effect of a machine
 // file (engine/effects/empirical). Its coefficients are the ridge estimate under a common prior size, chosen by its evidence; their
-// uncertainties are those that the data leave in what the data can see. Patterns over setup, run or feature are no property of a machine: none is made.
+// uncertainties are those that the data leave in what the data can see. Patterns over setup, run or feature are no property of a machine, and
+// patterns over two factors have no such effect: the likeliest other one stands for them.
 #pragma once
 
 #include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 
-/// Settings of empirical effects; empty: the factor is not one of the machine.
+/// Settings of empirical effects; empty: no pattern that the recording speaks for has one.
 std::vector<EffectSetting> empirical_model(const Case&, const SearchResult&);
 
 }  // namespace abbe::diagnose

@@ -140,10 +140,9 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
     best = std::move(f);
   }
   if (best) return best;
-  const double excess = c.hyper.noise.minCoeff();
-  const double u = 1 / std::sqrt(2 * n);
+  const double spec = c.model.noise_um.mean(), excess = r.noise_um / spec, u = 1 / std::sqrt(2 * n);
   if (excess - 3 * u < kLeastExcess) return std::nullopt;
-  const double spec = c.model.noise_um.mean(), sd = spec * std::sqrt(excess * excess - 1);
+  const double sd = spec * std::sqrt(excess * excess - 1);
   NoiseFinding f{find_effect("noise.vibration"), std::erfc((excess - kLeastExcess) / u), {figure("sd_um", "um", sd, sd * u)}, {}};
   f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says, in every direction.", excess);
   return f;

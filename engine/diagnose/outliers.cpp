@@ -7,14 +7,24 @@
 #include <tuple>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/median.hpp"
 
 namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kMaskings = 4;
+constexpr int kMaskings = 8;
 /// Probability of so many pairs of neighbours among touches struck by chance, below which they are no chance.
 constexpr double kChance = 1e-3;
+
+/// By how much the middle half of the residuals scatters less than the fit says, where gross outliers have spoilt the fit; 1 otherwise. Tails
+/// of the kind that sensors have do not spoil it so much.
+double spoilt(const Vector& standardised) {
+  constexpr double kNormal = 1.4826, kTails = 2;
+  std::vector<double> size;
+  for (const double r : standardised) size.push_back(std::abs(r));
+  return std::min(1.0, kTails * kNormal * median(std::move(size)));
+}
 
 /// Gross outliers out, the rest fitted again, until none is left. Those `kept` are none.
 void mask(Case& c, const std::vector<char>& kept) {
@@ -26,12 +36,12 @@ void mask(Case& c, const std::vector<char>& kept) {
     const Vector loo = leave_one_out(c.model, c.hyper);
     Eigen::Index k = 0;
     bool found = false;
-    const double worst = loo.cwiseAbs().maxCoeff();
+    const double worst = loo.cwiseAbs().maxCoeff(), limit = kOutlier * spoilt(loo);
     for (std::size_t i = 0; i < c.masked.size(); ++i) {
       if (c.masked[i]) continue;
       // Only what is near the worst: a gross touch spoils its neighbours, which come back once it is out.
       const double size = std::abs(loo(k++));
-      if (size > kOutlier && size > worst / 2 && !kept[i]) c.masked[i] = found = true;
+      if (size > limit && size > worst / 2 && !kept[i]) c.masked[i] = found = true;
     }
     if (!found) break;
   }

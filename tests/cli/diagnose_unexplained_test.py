@@ -45,6 +45,30 @@ class Unexplained(harness.Case):
         size = lambda machine: next(c for c in self.run_json(PROGRAM, "--machine", machine, "--machines", 100)["characteristics"] if c["tolerance"] == "FORM")
         self.assertGreater(size("improved.json")["mean"], size(MACHINE)["mean"] + 0.001)
 
+    def test_a_pattern_that_no_program_shares_is_saved_as_one_that_it_does(self):
+        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "clean.csv", "--seed", 4)
+        lines = (self.folder / "clean.csv").read_text().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        late = sorted(float(row["time_s"]) for row in rows)[len(rows) // 2]
+        for row in rows:   # the part is larger in x and smaller in y from half of the time on: direction in time
+            n = [float(row["n" + a]) for a in "xyz"]
+            grown = 0.012 * (n[0] ** 2 - n[1] ** 2) * (1 if float(row["time_s"]) > late else -1)
+            for k, a in enumerate("xyz"):
+                row[a] = repr(float(row[a]) + grown * n[k])
+        out = io.StringIO()
+        writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        said = self.diagnosis(self.write("grown.csv", "\n".join(comments) + "\n" + out.getvalue()), "--machine", MACHINE, "--model-out", "improved.json")
+        self.assertEqual(said["verdict"], "unexplained", said["effects"])
+        self.assertEqual(said["unexplained"]["shape"], "in time", "on a ball, place and direction are one")
+        saved = [e["name"] for e in json.loads((self.folder / "improved.json").read_text()).get("effects", [])]
+        if said["unexplained"]["model"]:
+            self.assertIn(said["unexplained"]["model"], saved)
+        else:
+            self.assertEqual([name for name in saved if name.startswith("empirical.")], [])
+
     def test_empirical_effects_move_what_they_say(self):
         def touches(*options):
             self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "rec.csv", *options)
