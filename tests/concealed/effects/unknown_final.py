@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from .base import Change, Effect, vector
-from .probe import directions
+from .base import Change, Effect, unit, vector
 
 UNKNOWN = {}
 
@@ -12,103 +11,106 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_balls(scene, rng):
-    return {"amplitude_um": 1.0, "excess": {str(f): float(rng.normal()) for f in np.unique(scene.feature)}}
+def draw_leaves(scene, rng):
+    soft = rng.choice(np.unique(scene.feature), 3, replace=False)
+    return {"amplitude_um": 1.0, "soft_deg": {str(f): rng.uniform(0, 180) for f in soft}}
 
 
-def change_balls(scene, p):
-    """The balls of the part come from several batches: each has a radius of its own."""
-    return Change(along=p["amplitude_um"] * np.array([p["excess"][f] for f in scene.feature]))
+def change_leaves(scene, p):
+    """Three balls stand on upright leaves, each turned its own way: a push along the soft side of a leaf bends it."""
+    yielding = np.zeros(scene.size)
+    for ball, deg in p["soft_deg"].items():
+        push = scene.part_normal @ [np.cos(np.radians(deg)), np.sin(np.radians(deg)), 0]
+        yielding += push**2 * [f == ball for f in scene.feature]
+    return Change(along=-p["amplitude_um"] * yielding)
 
 
-def draw_gauge(scene, rng):
+def draw_magnet(scene, rng):
+    size, aside = np.ptp(scene.target, axis=0), rng.choice([-1.0, 1.0], 3) * rng.uniform(0.1, 0.35, 3)
     return {
-        "amplitude_um": 1.0,
-        "side": rng.uniform(0, 2 * np.pi),
-        "cycles": rng.uniform(1, 2.5),
-        "phase": rng.uniform(0, 2 * np.pi),
+        "amplitude_um": rng.choice([-1.0, 1.0]),
+        "place_mm": scene.target.min(0) + (0.5 + aside) * size,
+        "reach_mm": rng.uniform(0.18, 0.28) * float(size[:2].mean()),
     }
 
 
-def change_gauge(scene, p):
-    """One of three strain gauges gains and loses sensitivity with its amplifier: touches on its side only come
-    early and late by turns."""
-    phi, beta = directions(scene)
-    side = np.clip(np.cos(phi - p["side"]), 0, None) ** 2 * np.cos(beta) ** 2
-    return Change(
-        along=p["amplitude_um"] * side * np.sin(2 * np.pi * p["cycles"] * scene.time / scene.duration + p["phase"])
-    )
+def change_magnet(scene, p):
+    """A magnet of the fixture draws the steel stylus towards it, or pushes it off: most at some distance, nothing far
+    away."""
+    away = (scene.target - p["place_mm"]) / p["reach_mm"]
+    return Change(tip=-p["amplitude_um"] * away * np.exp(0.5 - 0.5 * np.sum(away**2, 1))[:, None])
 
 
-def draw_sunny(scene, rng):
+def draw_sunbeam(scene, rng):
     axis = int(rng.integers(2))
-    x = scene.reading[:, axis]
     return {
         "amplitude_um": 1.0,
         "axis": axis,
-        "side": rng.choice([-1.0, 1.0]),
-        "edge_mm": float(np.quantile(x, rng.uniform(0.35, 0.65))),
-        "blur_mm": float(0.05 * np.ptp(x)),
+        "backwards": bool(rng.integers(2)),
+        "width_mm": rng.uniform(0.15, 0.25) * float(np.ptp(scene.reading[:, axis])),
+        "late": rng.uniform(-0.15, 0.15),
     }
 
 
-def change_sunny(scene, p):
-    """The sun falls on one end of the machine: there the thin stylus is warm, and longer by its length."""
-    share = 1 / (1 + np.exp(-p["side"] * (scene.reading[:, p["axis"]] - p["edge_mm"]) / p["blur_mm"]))
-    return Change(tip=scene.shank * (p["amplitude_um"] * share * scene.length / scene.length.max())[:, None])
+def change_sunbeam(scene, p):
+    """A beam of sunlight wanders along a guide in the course of the run: the guide bulges where it falls, and there
+    the carriage is lifted."""
+    x = scene.reading[:, p["axis"]]
+    share = scene.time / scene.duration - p["late"]
+    beam = x.min() + np.ptp(x) * (1 - share if p["backwards"] else share)
+    return Change(tip=vector([0, 0, 1], p["amplitude_um"] * np.exp(-0.5 * ((x - beam) / p["width_mm"]) ** 2)))
 
 
-def draw_draught(scene, rng):
+def draw_overhang(scene, rng):
+    return {"amplitude_um": 1.0, "qualified_at": rng.uniform(0.4, 0.6)}
+
+
+def change_overhang(scene, p):
+    """The weight of a lying stylus bends the ram to the other side, the more the further the ram is out. At the height
+    of the reference sphere the qualification has taken it."""
+    out = np.abs(scene.reading[:, 2])
+    out = out / out.max()
+    level = np.quantile(out, p["qualified_at"])
+    side = scene.arm * [1, 1, 0] / scene.length.max()
+    return Change(tip=-p["amplitude_um"] * side * (out**2 - level**2)[:, None])
+
+
+def draw_bellows(scene, rng):
+    axis = int(rng.integers(2))
+    return {"amplitude_um": 1.0, "axis": axis, "end": rng.choice([-1.0, 1.0]), "direction": unit(rng)}
+
+
+def change_bellows(scene, p):
+    """The air in a bellows escapes too slowly when the machine is fast: it pushes the carriage away near the end where
+    the bellows is folded."""
+    x = scene.reading[:, p["axis"]]
+    folded = np.exp(-3 * (0.5 - p["end"] * ((x - x.min()) / np.ptp(x) - 0.5)))
+    return Change(tip=vector(p["direction"], p["amplitude_um"] * folded * (scene.speed / scene.speed.max()) ** 2))
+
+
+def draw_glue(scene, rng):
+    ball = str(rng.choice(np.unique(scene.feature)))
+    used = scene.time[[f == ball for f in scene.feature]]
     return {
         "amplitude_um": 1.0,
-        "axis": int(rng.integers(2)),
-        "opened_s": np.sort(np.quantile(scene.time, rng.uniform(0, 0.95, 6))),
-        "tau_s": rng.uniform(60, 150),
+        "ball": ball,
+        "direction": unit(rng),
+        "half_life_s": rng.uniform(0.15, 0.4) * float(np.ptp(used)),
+        "knocked_s": float(np.quantile(used, rng.uniform(0.15, 0.6))) + 0.5,
     }
 
 
-def change_draught(scene, p):
-    """The door of the hall opens now and then: a scale, held at its home end, shrinks at once and recovers
-    slowly."""
-    since = scene.time[:, None] - np.asarray(p["opened_s"])
-    cold = np.sum(np.where(since >= 0, np.exp(-np.maximum(since, 0) / p["tau_s"]), 0), 1)
-    share = scene.reading[:, p["axis"]] / scene.machine.travel["xyz"[p["axis"]]]
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * cold * share))
+def change_glue(scene, p):
+    """A ball is knocked aside in its soft glue and creeps back to its place."""
+    here = np.array([f == p["ball"] for f in scene.feature])
+    since = scene.time - p["knocked_s"]
+    left = here * (since >= 0) * 0.5 ** (np.maximum(since, 0) / p["half_life_s"])
+    return Change(along=p["amplitude_um"] * left * (scene.part_normal @ np.asarray(p["direction"])))
 
 
-def draw_crowding(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "axis": int(rng.integers(2))}
-
-
-def change_crowding(scene, p):
-    """A scale, clamped at five places, expands unevenly between them: with every kelvin its lines crowd in one half
-    of a span and spread in the other."""
-    name = "xyz"[p["axis"]]
-    wave = np.sin(4 * np.pi * scene.reading[:, p["axis"]] / scene.machine.travel[name])
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * (scene.temperature[name] - 20) * wave))
-
-
-def draw_wobble(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "placement": int(rng.choice(np.unique(scene.setup))),
-        "diagonal_deg": float(rng.choice([45, 135, 225, 315]) + rng.uniform(-10, 10)),
-        "held": rng.uniform(0.05, 0.25),
-        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
-    }
-
-
-def change_wobble(scene, p):
-    """In one placement the part stands on four feet, one of them short: a push strong enough about the diagonal tips
-    it, and it falls back."""
-    a = np.radians(p["diagonal_deg"])
-    push = np.cross(scene.part_point / p["half_size_mm"], -scene.part_normal) @ [np.cos(a), np.sin(a), 0]
-    return Change(along=-p["amplitude_um"] * push * ((push > p["held"]) & (scene.setup == p["placement"])))
-
-
-unknown("mixed_balls", draw_balls, change_balls, ["feature", "position"])
-unknown("weak_gauge", draw_gauge, change_gauge, ["direction", "time", "head", "sensor"], "D")
-unknown("sunny_end", draw_sunny, change_sunny, ["position", "head", "sensor", "feature"])
-unknown("draught", draw_draught, change_draught, ["time", "position"])
-unknown("crowded_lines", draw_crowding, change_crowding, ["temperature", "position", "feature", "setup"], "D")
-unknown("wobble", draw_wobble, change_wobble, ["feature", "direction", "position", "setup"])
+unknown("leaves", draw_leaves, change_leaves, ["feature", "direction", "position"])
+unknown("magnet", draw_magnet, change_magnet, ["position", "feature"])
+unknown("sunbeam", draw_sunbeam, change_sunbeam, ["time", "position"])
+unknown("overhang", draw_overhang, change_overhang, ["head", "sensor", "position", "feature"], "D")
+unknown("bellows", draw_bellows, change_bellows, ["speed", "position", "feature"], "D")
+unknown("glue", draw_glue, change_glue, ["feature", "time", "position"])
