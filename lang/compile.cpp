@@ -174,6 +174,8 @@ class Compiler {
                                        "this MEAS has no ENDMES",
                                        "end the measurement with ENDMES"));
     }
+    if (lowering_.external_files)
+      lowering_.sink.add(diagnostic_at(lowering_.source, *lowering_.external_files, Code::E0117, "this XTERN has no ENDXTN", "end the list of external files with ENDXTN"));
     if (lowering_.begin_line == 0 && !lowering_.out.plan.operations.empty())
       lowering_.warn(Code::W0226, {0, 1}, "the program has no DMISMN",
                      "begin it with DMISMN/'name',5.2");

@@ -200,6 +200,7 @@ class Lowering : public State {
 
   bool skipping = false;                              ///< DMESW/OFF
   int begin_line = 0, end_line = 0;                   ///< of DMISMN and ENDFIL; 0 before them
+  std::optional<Span> external_files;                 ///< the XTERN whose list is open
   std::set<std::string> reported_words;               ///< words warned about once
   std::vector<Span> expectation_spans;                ///< of Directives::expectations
 

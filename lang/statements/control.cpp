@@ -1,4 +1,6 @@
 // The words that decide which statements run. Their meaning is in flow.hpp; here they get their form and their help.
+#include <fmt/format.h>
+
 #include "lang/statement.hpp"
 
 namespace abbe::lang {
@@ -37,16 +39,29 @@ const Statement kExtfil = {"EXTFIL", "", "DMIS, file:text", "Makes the macros of
                            "ISO 22093, EXTFIL", nullptr, Varying::taken, Control::module};
 
 namespace {
-void only_marks(Lowering&, const RawStatement&, const Match&) {}
+void begin_list(Lowering& lowering, const RawStatement& raw, const Match&) {
+  if (lowering.external_files) return lowering.error(Code::E0118, raw.word_span, "a list of external files is open already", "end it with ENDXTN");
+  if (lowering.file == &lowering.source) lowering.external_files = raw.word_span;
+}
+
+void end_list(Lowering& lowering, const RawStatement& raw, const Match&) {
+  if (lowering.file == &lowering.source && !lowering.external_files)
+    lowering.error(Code::E0116, raw.word_span, "ENDXTN closes nothing", "remove it, or write XTERN before the list of external files");
+  lowering.external_files.reset();
+}
 
 /// A module may be checked by itself.
 void begin_module(Lowering& lowering, const RawStatement& raw, const Match&) {
-  if (lowering.file == &lowering.source && lowering.begin_line == 0) lowering.begin_line = raw.line;
+  if (lowering.file != &lowering.source) return;
+  if (lowering.begin_line != 0)
+    return lowering.error(Code::E0209, raw.word_span, fmt::format("a module begins here, inside the program of line {}", lowering.begin_line),
+                          "give the module a file of its own");
+  lowering.begin_line = raw.line;
 }
 }  // namespace
 
-const Statement kXtern = {"XTERN", "", "", "Begins the list of external files.", "XTERN", "ISO 22093, XTERN", only_marks};
-const Statement kEndxtn = {"ENDXTN", "", "", "Ends the list of external files.", "ENDXTN", "ISO 22093, ENDXTN", only_marks};
+const Statement kXtern = {"XTERN", "", "", "Begins the list of external files.", "XTERN", "ISO 22093, XTERN", begin_list};
+const Statement kEndxtn = {"ENDXTN", "", "", "Ends the list of external files.", "ENDXTN", "ISO 22093, ENDXTN", end_list};
 const Statement kDmismd = {"DMISMD", "", "name:text, [ version:number, ... ]", "Begins a module: a file that programs read with INCLUD, EXTFIL or CALL.", "DMISMD/'sensors',5.2",
                            "ISO 22093, DMISMD", begin_module};
 

@@ -8,7 +8,11 @@
 #include <fstream>
 #include <random>
 #include <regex>
+#include <set>
 #include <sstream>
+
+#include "lang/parser.hpp"
+#include "lang/statement.hpp"
 
 namespace abbe::lang {
 
@@ -105,6 +109,30 @@ TEST_CASE("correct programs compile without errors") {
 
 TEST_CASE("mistakes are reported at their places, all of them") {
   for (const fs::path& path : case_files("error")) run_case(path);
+}
+
+TEST_CASE("every statement has a case in which it is right and one in which it is wrong") {
+  const auto words_of = [](const std::string& folder, bool reported) {
+    std::set<std::string> words;
+    for (const fs::path& path : case_files(folder)) {
+      const SourceFile source(path.string(), read_text(path));
+      std::set<int> lines;   // with an expected error
+      for (const std::string& message : expected_messages(source))
+        if (message.find(" E") != std::string::npos) lines.insert(std::stoi(message));
+      Sink sink;
+      for (const LogicalLine& line : logical_lines(source)) {
+        const auto raw = parse_statement(line, source, sink);
+        if (raw && (!reported || lines.count(line.line) > 0)) words.insert(raw->word);
+      }
+    }
+    return words;
+  };
+  const std::set<std::string> right = words_of("ok", false), wrong = words_of("error", true);
+  for (const Statement* s : statements()) {
+    INFO(s->word);
+    CHECK((right.count(std::string(s->word)) > 0 || s->word == "READ"));   // there is no device to read from: always an error
+    CHECK(wrong.count(std::string(s->word)) > 0);
+  }
 }
 
 TEST_CASE("limits are reported") {
