@@ -80,6 +80,7 @@ std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
 std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*, const std::vector<Detectable>&);
+std::string otherwise(const Case&, const SearchResult&, const std::vector<NextMeasurement>&);
 Rivals rivals(const Case&, const Evidence& first);
 
 }  // namespace abbe::diagnose

@@ -231,6 +231,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
+  out.otherwise = otherwise(c, result, out.next_measurement);
   if (options.keep_state) out.known_state = known_state_beside(c, result);
   return out;
 }

@@ -137,6 +137,7 @@ struct Diagnosis {
   std::vector<CannotJudge> cannot_judge;
   std::vector<Detectable> smallest_detectable;
   std::vector<NextMeasurement> next_measurement;
+  std::string otherwise;                       ///< what separates the rest where no next measurement does, in the words of the effects; else empty
   BaselineSummary baseline;
   Rivals rivals;
   std::vector<ResidualRow> residuals;

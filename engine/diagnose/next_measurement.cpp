@@ -1,6 +1,8 @@
 #include "engine/diagnose/next_measurement.hpp"
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,6 +17,8 @@ constexpr std::size_t kShown = 3, kMostRivals = 8;
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
 constexpr double kDecides = 0.95;
+/// What it must be above chance, or the measurement is not worth a proposal.
+constexpr double kAboveChance = 0.05;
 /// Signal-to-noise that a plan without data reckons with.
 constexpr double kPlanned = 6;
 
@@ -211,8 +215,20 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
   std::vector<NextMeasurement> out;
   for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {
     const Scored& s = judge.list()[k];
+    if (s.measurement.expected_probability < 1 / double(rivals.size()) + kAboveChance) break;
     out.push_back(s.measurement);
     if (k == 0) out.back().program = dmis_program(s.longer, s.change);
+  }
+  return out;
+}
+
+std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
+  const std::vector<int> rivals = next.empty() ? rivals_of(c, &result, {}) : std::vector<int>{};
+  if (rivals.size() < 2) return "";
+  std::string out = "No other run of these touches would tell them apart. What would:";
+  for (const int k : rivals) {
+    const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
+    out += fmt::format(" {}: {}.", e.name, e.effect->separate);
   }
   return out;
 }

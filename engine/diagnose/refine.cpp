@@ -55,22 +55,52 @@ std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, 
   return list;
 }
 
+/// What one value of a parameter stands for, and the value.
+struct Part {
+  Cell cell;
+  double value = 0;
+};
+
+/// A cell in thirds.
+std::vector<Part> thirds(const Cell& cell) {
+  std::vector<Part> out;
+  const double step = (cell.high - cell.low) / kParts;
+  for (int k = 0; k < kParts; ++k) out.push_back({{cell.low + k * step, cell.low + (k + 1) * step}, cell.low + (k + 0.5) * step});
+  return out;
+}
+
+/// A stretch of time in parts with the same number of gaps between touches: only in which gap a moment lies can be told, and a pause is one.
+std::vector<Part> thirds_of_touches(const Cell& cell, const RecordedTouches& t) {
+  std::vector<double> ends{cell.low};
+  for (const RecordedTouch& touch : t.touches)
+    if (touch.scene.time_s > ends.back() && touch.scene.time_s < cell.high) ends.push_back(touch.scene.time_s);
+  ends.push_back(cell.high);
+  const std::size_t gaps = ends.size() - 1, parts = std::min<std::size_t>(kParts, gaps);
+  std::vector<Part> out;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const std::size_t first = k * gaps / parts, last = (k + 1) * gaps / parts, middle = (first + last - 1) / 2;
+    out.push_back({{ends[first], ends[last]}, (ends[middle] + ends[middle + 1]) / 2});
+  }
+  return out;
+}
+
 /// The cell in thirds along every parameter that it has an extent in.
-std::vector<Block> parts_of(const Block& whole) {
+std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t) {
   std::vector<Block> list(1);
   list[0].explanation = whole.explanation;
   list[0].weight = whole.weight;
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
-    const int parts = cell.high > cell.low ? kParts : 1;
+    const std::vector<Part> parts = cell.high <= cell.low                    ? std::vector<Part>{{cell, whole.theta[p]}}
+                                    : effect.parameters[p].name == "t0_s" ? thirds_of_touches(cell, t)
+                                                                          : thirds(cell);
     std::vector<Block> longer;
     for (const Block& prefix : list) {
-      for (int k = 0; k < parts; ++k) {
-        const double step = (cell.high - cell.low) / parts;
+      for (const Part& at : parts) {
         Block part = prefix;
-        part.cells.push_back(parts == 1 ? cell : Cell{cell.low + k * step, cell.low + (k + 1) * step});
-        part.theta.push_back(parts == 1 ? whole.theta[p] : cell.low + (k + 0.5) * step);
-        part.weight /= parts;
+        part.cells.push_back(at.cell);
+        part.theta.push_back(at.value);
+        part.weight /= double(parts.size());
         longer.push_back(std::move(part));
       }
     }
@@ -85,8 +115,8 @@ bool same(const Block& a, const Block& b) {
 
 /// Divides one variant of an explanation; false when its parts are all the same.
 bool divide(Case& c, int explanation, int which) {
-  std::vector<Block> parts = parts_of(c.explanations.blocks[static_cast<std::size_t>(which)]);
   const Explanation& e = c.explanations.list[static_cast<std::size_t>(explanation)];
+  std::vector<Block> parts = parts_of(c.explanations.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches);
   for (Block& part : parts) {
     Block made = variant_at(*e.effect, part.theta, c.touches, c.rows);
     part.columns = std::move(made.columns);

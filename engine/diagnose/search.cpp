@@ -10,8 +10,12 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kRounds = 3;
-/// A name must be so many times as likely as no name.
+/// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less flexible than a pattern.
 constexpr double kNamed = 3;
+bool likelier(const Case& c, const Finding& name, const Finding& pattern) {
+  const bool drawn = c.explanations.list[static_cast<std::size_t>(name.explanation)].effect->draws > 0;
+  return name.probability >= (drawn ? 1 : kNamed) * pattern.probability;
+}
 /// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second name needs more.
 constexpr double kLaterAlarm = 1e-3;
 
@@ -82,13 +86,19 @@ bool better_with_partner(const Case& c, const std::vector<Finding>& before, cons
   return partner.probability >= finding_of(c, r.evidence, false).probability && log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
 }
 
-/// Names a finding again, given what was found after it: a later finding may have taken over part of it.
-Finding renamed(const Case& c, const std::vector<Finding>& all, std::size_t which) {
+/// Names a finding again, given what was found after it, which may have taken over part of it. Where a pattern is likelier now than any name, it
+/// is that pattern.
+struct Renamed {
+  Finding finding;
+  bool pattern = false;
+};
+Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which) {
   std::vector<Finding> others = all;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
-  Finding f = finding_of(c, rest_of(c, others).evidence(), true);
-  f.p = all[which].p;
-  return f;
+  const Evidence evidence = rest_of(c, others).evidence();
+  Finding name = finding_of(c, evidence, true), pattern = finding_of(c, evidence, false);
+  name.p = pattern.p = all[which].p;
+  return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
 }
 
 }  // namespace
@@ -109,7 +119,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
     Finding named = finding_of(c, here.evidence(), true), other = finding_of(c, here.evidence(), false);
     named.p = other.p = r.p;
     result.findings.push_back(named);
-    if (named.probability >= kNamed * other.probability || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
+    if (likelier(c, named, other) || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
     result.findings.pop_back();
     result.other = std::move(other);
     break;
@@ -129,14 +139,14 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   }
   if (result.findings.size() > 1) {
     const std::vector<Finding> before = result.findings;
-    for (std::size_t k = 0; k < before.size(); ++k) result.findings[k] = renamed(c, before, k);
-    // Two rounds may have named one effect twice: then one name is enough.
-    std::vector<Finding> distinct;
-    for (Finding& f : result.findings) {
-      const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Finding& d) { return d.explanation == f.explanation; });
-      if (!known) distinct.push_back(std::move(f));
+    result.findings.clear();
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      auto [f, pattern] = renamed(c, before, k);
+      // Two rounds may have named one effect twice: then one name is enough.
+      const bool known = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& d) { return d.explanation == f.explanation; });
+      if (!pattern && !known) result.findings.push_back(std::move(f));
+      else if (pattern && !result.other) result.other = std::move(f);
     }
-    result.findings = std::move(distinct);
   }
   return result;
 }

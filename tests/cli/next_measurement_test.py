@@ -36,6 +36,14 @@ class NextMeasurement(harness.Case):
                              setup=lambda s: 2 if moved else 1)
         return said["effects"][0]["members"], self.diagnosis(first, second)["effects"][0]["members"]
 
+    def test_what_no_run_tells_apart_gets_no_proposal(self):
+        first = self.record(PROGRAM, "shifted.csv", "part.shift:amplitude_um=12,t0_s=100,direction=x")
+        said = self.diagnosis(first)
+        self.assertEqual(set(said["effects"][0]["members"]), {"part.shift", "machine.step"})
+        self.assertEqual(said["next_measurement"], [])
+        self.assertIn("machine.step: return to a fixed reference sphere", said["otherwise"])
+        self.assertIn("No other run", self.abbe("diagnose", first, "--machine", MACHINE).stdout)
+
     def test_a_second_speed_tells_radius_from_delay(self):
         before, after = self.decided("probe.tip_radius:amplitude_um=2", "probing speed")
         self.assertIn("probe.trigger_delay", before)

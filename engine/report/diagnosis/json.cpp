@@ -118,6 +118,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"cannot_judge", array(d.cannot_judge, [](const CannotJudge& c) { return Json{{"effect", c.effect}, {"missing", c.missing}}; })},
       {"smallest_detectable", array(d.smallest_detectable, detectable)},
       {"next_measurement", array(d.next_measurement, next)},
+      {"otherwise", d.otherwise.empty() ? Json() : Json(d.otherwise)},
       {"baseline", baseline(d.baseline)},
       {"rivals", rivals(d.rivals)},
       {"messages", array(d.messages, [](const Diagnostic& m) { return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}}; })}};

@@ -85,7 +85,7 @@ std::string cannot_judge(const Diagnosis& d) {
 }
 
 std::string next_steps(const Diagnosis& d) {
-  if (d.next_measurement.empty()) return "";
+  if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "what to measure next:\n  " + d.otherwise + "\n";
   std::string out = "what to measure next:\n";
   for (const NextMeasurement& n : d.next_measurement)
     out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability);
@@ -106,7 +106,7 @@ std::string baseline_line(const Diagnosis& d) {
   const BaselineSummary& b = d.baseline;
   std::string out = fmt::format("baseline: {}; errors of the machine {:.2f} times the specification's, noise {:.2f} um", b.known ? "known machine" : "specification", b.geometry_scale, b.noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
-  if (!b.outliers.empty()) out += fmt::format("; {} touches left out: {}", b.outliers.size(), fmt::join(b.outliers, ", "));
+  if (!b.outliers.empty()) out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches", fmt::join(b.outliers, ", "));
   return out + "\n";
 }
 
