@@ -16,7 +16,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-
 /// Sensitivities of the touches to every coefficient: a block of perturbed machines, the k-th with coefficient k of 1.
 Matrix perturbed_machines(const RecordedTouches& t, const Machine& machine) {
   const int size = kComponents * basis_size(machine.harmonics);

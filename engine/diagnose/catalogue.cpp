@@ -11,7 +11,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-
 /// Covariates that must not only be known but differ, or nothing of the effect can be told from a constant.
 constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::acceleration | Covariate::part_temperature |
                                Covariate::scale_temperature | Covariate::air_temperature | Covariate::load;

@@ -12,7 +12,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-
 /// Several settings are fitted together: a pattern over position is the sum of one along each axis.
 struct Piece {
   const Effect* effect = nullptr;
