@@ -43,6 +43,7 @@ int best_block(const Explanation&, const Evidence&);
 struct Finding {
   int explanation = -1;              ///< the likeliest
   int block = -1;                    ///< its likeliest variant
+  std::vector<int> variants;         ///< blocks, those of its variants that count; empty: those of its explanation
   std::vector<int> set;              ///< explanations that together reach kCredible, likeliest first
   double probability = 0;            ///< of the set
   double p = 1;                      ///< that the search finds so much without a mismatch
@@ -56,11 +57,11 @@ struct SearchResult {
   Evidence first;                    ///< before any finding
   std::vector<Evidence> null;        ///< simulated, before any finding
 };
-/// `first`: the evidence of the whole recording. Both get finer variants of what is found.
+/// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
 SearchResult search(Case&, EvidenceSearch& first);
 /// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of the grid. They are appended
 /// to the blocks and take the place of the coarse ones in their explanations; the search judges them too.
-void refine(Case&, EvidenceSearch&);
+void refine(const Case&, Explanations&, EvidenceSearch&);
 
 /// Fits the recording without its gross outliers: fills `masked`, `off_um`, `rows`, `model`, `hyper`.
 void mask_outliers(Case&);

@@ -71,6 +71,13 @@ void Ensemble::add(const std::vector<Block>& blocks) {
   prepare(list, false);
 }
 
+void Ensemble::keep(std::size_t count) {
+  blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(functions_ + count), blocks_.end());
+  const Eigen::Index columns = blocks_.empty() ? 0 : blocks_.back().first + blocks_.back().count;
+  coordinates_.conservativeResize(Eigen::NoChange, columns);
+  remainder_.conservativeResize(Eigen::NoChange, columns);
+}
+
 void Ensemble::prepare(const std::vector<const Matrix*>& signatures, bool of_machine) {
   Eigen::Index first = coordinates_.cols(), columns = first;
   for (const Matrix* m : signatures) columns += m->cols();

@@ -41,6 +41,8 @@ class Ensemble {
   void prepare(const std::vector<Matrix>& uneven);
   /// Makes it ready to judge blocks, after those before.
   void add(const std::vector<Block>&);
+  /// Forgets the blocks after the first `count`.
+  void keep(std::size_t count);
 
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {

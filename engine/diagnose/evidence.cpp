@@ -1,9 +1,9 @@
 #include "engine/diagnose/evidence.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
+
+#include "engine/base/on_threads.hpp"
 
 namespace abbe::diagnose {
 
@@ -40,9 +40,9 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   if (!plan) evidence_ = judge(y_, &alone_, &with_);
 }
 
-void EvidenceSearch::extend(const Explanations& explanations) {
-  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(log_weight_.size()), explanations.blocks.end());
-  for (Ensemble& e : ensembles_) e.add(more);
+void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {
+  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(same), explanations.blocks.end());
+  for (Ensemble& e : ensembles_) e.keep(same), e.add(more);
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
@@ -91,15 +91,9 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates,
   while (static_cast<int>(out.size()) < replicates && extreme < kEnough) {
     const int first = static_cast<int>(out.size()), count = std::min(kBatch, replicates - first);
     out.resize(first + count);
-    std::atomic<int> next = first;
-    const auto work = [&] {
-      for (int r = next++; r < first + count; r = next++) out[r] = judge(ensembles_[alone_.ensemble].simulated(alone_.level, seed, r), nullptr, nullptr);
-    };
-    {
-      std::vector<std::jthread> pool;
-      for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-      work();
-    }
+    on_threads(count, threads, [&](int k) {
+      out[first + k] = judge(ensembles_[alone_.ensemble].simulated(alone_.level, seed, first + k), nullptr, nullptr);
+    });
     for (int r = first; r < first + count; ++r) extreme += out[r].statistic >= observed ? 1 : 0;
   }
   return out;

@@ -21,8 +21,8 @@ class EvidenceSearch {
  public:
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
-  /// Judges the blocks that were appended to the list, and weighs all of them by it.
-  void extend(const Explanations&);
+  /// Judges a list whose blocks are new after the first `same`.
+  void extend(const Explanations&, std::size_t same);
 
   /// Of the recording.
   const Evidence& evidence() const { return evidence_; }

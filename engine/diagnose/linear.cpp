@@ -146,6 +146,13 @@ LinearModel with_ensemble(const LinearModel& m, const Matrix& ensemble) {
   return out;
 }
 
+/// Z with group 0 at its scale.
+Matrix scaled(const LinearModel& m, const Hyperparameters& h) {
+  Matrix z = m.random;
+  for (const Eigen::Index k : columns_of_group(m, true)) z.col(k) *= h.scale;
+  return z;
+}
+
 }  // namespace
 
 Hyperparameters estimate(const LinearModel& m) {
@@ -220,13 +227,33 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
   return out;
 }
 
-Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation) {
-  q_ = independent(whiten(m.free));
-  y_ = project(m.y);
-  Matrix scaled = m.random;
-  for (Eigen::Index k = 0; k < scaled.cols(); ++k)
-    if (m.random_group[k] == 0) scaled.col(k) *= h.scale;
-  const Matrix z = project(scaled);
+Projection::Projection(const LinearModel& m, const Hyperparameters& h)
+    : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation), q_(independent(whitened(m.free, weight_, correlation_, follows_))) {}
+
+Matrix Projection::operator()(const Matrix& columns) const {
+  Matrix w = whitened(columns, weight_, correlation_, follows_);
+  w -= q_ * (q_.transpose() * w);
+  return w;
+}
+
+Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(m.y) {
+  const Matrix z = project_(scaled(m, h));
+  Matrix square = Matrix::Identity(z.cols(), z.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(z.transpose());
+  const Eigen::LLT<Matrix> llt(square);
+  reach_ = llt.matrixL().solve(z.transpose());
+}
+
+Precision::Seen Precision::seen(const Matrix& columns) const {
+  Seen out{project_(columns), {}};
+  out.taken = reach_ * out.rows;
+  return out;
+}
+
+Matrix inner(const Precision::Seen& a, const Precision::Seen& b) { return a.rows.transpose() * b.rows - a.taken.transpose() * b.taken; }
+
+Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(project(m.y)) {
+  const Matrix z = project(scaled(m, h));
   // The eigenvectors of Z Z' from those of the smaller of Z'Z and Z Z'.
   constexpr double kNegligible = 1e-6;
   const bool wide = z.cols() > z.rows();
@@ -238,24 +265,16 @@ Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : follows_(m.fo
   lambda_ = values.tail(rank);
   if (wide) basis_ = solver.eigenvectors().rightCols(rank);
   else basis_ = z * solver.eigenvectors().rightCols(rank) * lambda_.cwiseSqrt().cwiseInverse().asDiagonal();
-  rest_dof_ = static_cast<int>(y_.size() - q_.cols() - rank);
-}
-
-Matrix Rotated::whiten(const Matrix& columns) const { return whitened(columns, weight_, correlation_, follows_); }
-
-Matrix Rotated::project(const Matrix& columns) const {
-  Matrix w = whiten(columns);
-  w -= q_ * (q_.transpose() * w);
-  return w;
+  rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank);
 }
 
 Vector Rotated::off_model(const Vector& white) const {
-  const Vector free = white - q_ * (q_.transpose() * white);
+  const Vector free = white - project_.free() * (project_.free().transpose() * white);
   return free - basis_ * (basis_.transpose() * free);
 }
 
 Vector Rotated::precision_diagonal() const {
-  Vector d = Vector::Ones(y_.size()) - q_.rowwise().squaredNorm();
+  Vector d = Vector::Ones(y_.size()) - project_.free().rowwise().squaredNorm();
   const Vector taken = (lambda_.array() / (1 + lambda_.array())).sqrt();
   return d - (basis_ * taken.asDiagonal()).rowwise().squaredNorm();
 }

@@ -60,6 +60,45 @@ LinearModel rougher(const LinearModel&);
 /// The model without some rows.
 LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);
 
+/// Rows whitened by the noise of a model and free of what X can do.
+class Projection {
+ public:
+  Projection(const LinearModel&, const Hyperparameters&);
+
+  Matrix operator()(const Matrix& columns) const;
+  /// Orthonormal basis of the whitened X.
+  const Matrix& free() const { return q_; }
+
+ private:
+  std::vector<char> follows_;
+  Vector weight_;                                    ///< 1 / sd by row
+  double correlation_ = 0;
+  Matrix q_;
+};
+
+/// The precision of a recording, the inverse of its covariance with X projected out, as an inner product of columns. With the projected Z and
+/// L L' = 1 + Z'Z it is a'P b = a'b - (L^-1 Z'a)'(L^-1 Z'b): no eigen-decomposition, so the cheaper way when scale and noise stay as they are.
+class Precision {
+ public:
+  Precision(const LinearModel&, const Hyperparameters&);
+
+  /// Columns as it sees them.
+  struct Seen {
+    Matrix rows, taken;                              ///< projected; and what of them the ensemble can do
+
+    Seen operator*(const Matrix& coefficients) const { return {rows * coefficients, taken * coefficients}; }
+  };
+  Seen seen(const Matrix& columns) const;
+  Seen y() const { return seen(y_); }
+
+ private:
+  Projection project_;
+  Matrix reach_;                                     ///< L^-1 Z'
+  Vector y_;
+};
+/// a'P b.
+Matrix inner(const Precision::Seen& a, const Precision::Seen& b);
+
 /// A model in the basis in which its ensemble is diagonal.
 class Rotated {
  public:
@@ -70,7 +109,7 @@ class Rotated {
   int rest_dof() const { return rest_dof_; }
   const Vector& lambda() const { return lambda_; }
   /// Columns of the recording's rows, whitened and free of X.
-  Matrix project(const Matrix& columns) const;
+  Matrix project(const Matrix& columns) const { return project_(columns); }
   /// U' of projected columns.
   Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
   /// What of projected columns the ensemble cannot do.
@@ -85,11 +124,7 @@ class Rotated {
   Vector precision_diagonal() const;
 
  private:
-  Matrix whiten(const Matrix&) const;
-  const std::vector<char> follows_;
-  Vector weight_;                                    ///< 1 / sd by row
-  double correlation_ = 0;
-  Matrix q_;                                         ///< orthonormal basis of the whitened X
+  Projection project_;
   Matrix basis_;                                     ///< U
   Vector lambda_, y_;
   int rest_dof_ = 0;

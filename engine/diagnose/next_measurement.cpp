@@ -8,6 +8,8 @@
 #include <limits>
 #include <string_view>
 
+#include "engine/base/on_threads.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -47,59 +49,36 @@ std::vector<int> rivals_of(const Case& c, const SearchResult* result, const std:
   return list;
 }
 
-/// Rows in the metric of a model: inner products are those of its precision, what is free projected out.
-class Metric {
- public:
-  Metric(const LinearModel& model, const Hyperparameters& h) : rotated_(model, h) {}
-
-  Matrix operator()(const Matrix& columns) const { return of_projected(rotated_.project(columns)); }
-  Vector y() const { return of_projected(rotated_.y()); }
-
- private:
-  Matrix of_projected(const Matrix& m) const {
-    const Matrix a = rotated_.coordinates(m), rest = rotated_.remainder(m, a);
-    Matrix out(a.rows() + rest.rows(), m.cols());
-    out << ((1 + rotated_.lambda().array()).rsqrt().matrix().asDiagonal() * a), rest;
-    return out;
-  }
-
-  Rotated rotated_;
-};
-
-/// What columns cannot imitate of a vector.
-double left_of(const Vector& s, const Matrix& columns) {
-  constexpr double kRidge = 1e-9;
-  const Matrix g = columns.transpose() * columns;
-  const Vector cross = columns.transpose() * s;
-  const double shared = cross.dot(Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross));
-  return std::max(0.0, s.squaredNorm() - shared);
-}
+using Seen = Precision::Seen;
 
 /// The variants of one rival, and what it would be as the truth.
 struct Contender {
-  std::vector<Matrix> first, both;         ///< by variant: columns on the first recording, and on both
-  Vector shift_first, shift_both;          ///< as the truth
+  std::vector<Seen> first, both;           ///< by variant: columns on the first recording, and on both
+  Seen shift_first, shift_both;            ///< as the truth
 };
 
 /// As the truth: the variant that explains the first recording best, of the size that it takes there; of a plan, the one that shows best.
-void suppose(const Vector& y, Contender& c) {
+void suppose(const Seen& y, Contender& c) {
+  const bool planned = y.rows.squaredNorm() == 0;
   double most = -std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < c.first.size(); ++k) {
-    const Matrix& w = c.first[k];
-    const Matrix g = w.transpose() * w;
-    if (y.squaredNorm() == 0) {
+    const Seen& w = c.first[k];
+    const Matrix g = inner(w, w);
+    if (planned) {
       Eigen::Index column = 0;
       const double information = g.diagonal().maxCoeff(&column);
       if (information <= std::max(most, 0.0)) continue;
       most = information;
-      c.shift_first = kPlanned / std::sqrt(information) * w.col(column), c.shift_both = kPlanned / std::sqrt(information) * c.both[k].col(column);
+      const Vector size = kPlanned / std::sqrt(information) * Vector::Unit(g.cols(), column);
+      c.shift_first = w * size, c.shift_both = c.both[k] * size;
       continue;
     }
+    const Vector u = inner(w, y);
     for (const Size& size : sizes_of(g.trace())) {
       const double s2 = size.factor * size.factor;
       const Matrix posterior = g + Matrix::Identity(g.rows(), g.cols()) / s2;
       const Eigen::LLT<Matrix> llt(posterior);
-      const Vector u = w.transpose() * y, theta = llt.solve(u);
+      const Vector theta = llt.solve(u);
       const double log_bayes = size.log_prior + 0.5 * u.dot(theta) - 0.5 * double(g.rows()) * std::log(s2) - Matrix(llt.matrixL()).diagonal().array().log().sum();
       if (log_bayes <= most) continue;
       most = log_bayes;
@@ -108,7 +87,7 @@ void suppose(const Vector& y, Contender& c) {
   }
 }
 
-std::vector<Contender> contenders_of(const Case& c, const std::vector<int>& rivals, const Longer& longer, const Metric& first) {
+std::vector<Contender> contenders_of(const Case& c, const std::vector<int>& rivals, const Longer& longer, const Precision& first) {
   std::vector<char> masked(longer.touches.touches.size(), 0);
   std::copy(c.masked.begin(), c.masked.end(), masked.begin());
   std::vector<int> rows;
@@ -118,17 +97,41 @@ std::vector<Contender> contenders_of(const Case& c, const std::vector<int>& riva
   Hyperparameters hyper = c.hyper;
   hyper.noise = Vector::Constant(baseline.model.noise_groups, c.hyper.noise.mean());
   const LinearModel model = without_rows(baseline.model, masked);
-  const Metric both(c.rough && model.rough.cols() > 0 ? rougher(model) : model, hyper);
+  const Precision both(c.rough && model.rough.cols() > 0 ? rougher(model) : model, hyper);
   std::vector<Contender> out;
   for (const int rival : rivals) {
     const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
     Contender contender;
     for (const Block& b : own.blocks) {
-      contender.first.push_back(first(b.signature.topRows(static_cast<Eigen::Index>(c.rows.size()))));
-      contender.both.push_back(both(b.signature));
+      contender.first.push_back(first.seen(b.signature.topRows(static_cast<Eigen::Index>(c.rows.size()))));
+      contender.both.push_back(both.seen(b.signature));
     }
     suppose(first.y(), contender);
-    if (contender.shift_both.size() > 0) out.push_back(std::move(contender));
+    if (contender.shift_both.rows.size() > 0) out.push_back(std::move(contender));
+  }
+  return out;
+}
+
+/// What the likeliest of some variants leaves of each truth, which is one column.
+Vector left_of(const Seen& truths, const std::vector<Seen>& variants) {
+  constexpr double kRidge = 1e-9;
+  const Vector squares = inner(truths, truths).diagonal();
+  Vector left = squares;
+  for (const Seen& w : variants) {
+    const Matrix g = inner(w, w), cross = inner(w, truths);
+    const Matrix fit = Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross);
+    left = left.cwiseMin(squares - cross.cwiseProduct(fit).colwise().sum().transpose());
+  }
+  return left.cwiseMax(0);
+}
+
+/// The columns side by side.
+Seen side_by_side(const std::vector<Contender>& list, Seen Contender::*column) {
+  const auto columns = static_cast<Eigen::Index>(list.size());
+  Seen out{Matrix((list.front().*column).rows.rows(), columns), Matrix((list.front().*column).taken.rows(), columns)};
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const Seen& s = list[static_cast<std::size_t>(k)].*column;
+    out.rows.col(k) = s.rows, out.taken.col(k) = s.taken;
   }
   return out;
 }
@@ -137,19 +140,17 @@ std::vector<Contender> contenders_of(const Case& c, const std::vector<int>& riva
 double expected_probability(const std::vector<Contender>& list) {
   // Gauss-Hermite nodes and weights of a standard normal (Abramowitz & Stegun 25.10).
   constexpr double kNodes[] = {-2.8569700, -1.3556262, 0, 1.3556262, 2.8569700}, kWeights[] = {0.0112574, 0.2220759, 0.5333333, 0.2220759, 0.0112574};
+  if (list.empty()) return 0;
+  const Seen first = side_by_side(list, &Contender::shift_first), both = side_by_side(list, &Contender::shift_both);
+  Matrix gain(list.size(), list.size());   // by truth and rival: what the second recording adds
+  for (std::size_t rival = 0; rival < list.size(); ++rival)
+    gain.col(static_cast<Eigen::Index>(rival)) = (left_of(both, list[rival].both) - left_of(first, list[rival].first)).cwiseMax(0);
   double expected = 0;
-  for (const Contender& truth : list) {
-    std::vector<double> gains;   // what the second recording adds against each rival
-    for (const Contender& rival : list) {
-      if (&rival == &truth) continue;
-      double before = std::numeric_limits<double>::infinity(), after = before;
-      for (const Matrix& w : rival.first) before = std::min(before, left_of(truth.shift_first, w));
-      for (const Matrix& w : rival.both) after = std::min(after, left_of(truth.shift_both, w));
-      gains.push_back(std::max(0.0, after - before));
-    }
+  for (Eigen::Index truth = 0; truth < gain.rows(); ++truth) {
     for (int i = 0; i < 5; ++i) {
       double against = 0;
-      for (const double gain : gains) against += std::exp(-gain / 2 - std::sqrt(gain) * kNodes[i]);
+      for (Eigen::Index rival = 0; rival < gain.cols(); ++rival)
+        if (rival != truth) against += std::exp(-gain(truth, rival) / 2 - std::sqrt(gain(truth, rival)) * kNodes[i]);
       expected += kWeights[i] / (1 + against) / double(list.size());
     }
   }
@@ -177,24 +178,32 @@ class Judge {
  public:
   Judge(const Case& c, const std::vector<int>& rivals) : case_(c), rivals_(rivals), first_(c.rough && c.model.rough.cols() > 0 ? rougher(c.model) : c.model, c.hyper) {}
 
-  void add(const Change& change) {
+  void add(const std::vector<Change>& changes) {
+    std::vector<std::optional<Scored>> scored(changes.size());
+    on_threads(static_cast<int>(changes.size()), case_.options.threads,
+               [&](int k) { scored[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
+    for (std::optional<Scored>& s : scored)
+      if (s) list_.push_back(std::move(*s));
+    std::stable_sort(list_.begin(), list_.end(), [](const Scored& a, const Scored& b) { return a.worth > b.worth; });
+  }
+  const std::vector<Scored>& list() const { return list_; }
+
+ private:
+  std::optional<Scored> judged(const Change& change) const {
     std::optional<Longer> longer = repeated(case_, change);
-    if (!longer) return;
+    if (!longer) return std::nullopt;
     NextMeasurement m;
     m.change = change.text;
     for (const int k : rivals_) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
     m.expected_probability = expected_probability(contenders_of(case_, rivals_, *longer, first_));
     m.minutes = change.minutes + minutes_of(*longer);
     const double worth = (m.expected_probability - 1 / double(rivals_.size())) / (kRound_min + m.minutes);
-    list_.push_back({std::move(m), worth, change, std::move(*longer)});
-    std::stable_sort(list_.begin(), list_.end(), [](const Scored& a, const Scored& b) { return a.worth > b.worth; });
+    return Scored{std::move(m), worth, change, std::move(*longer)};
   }
-  const std::vector<Scored>& list() const { return list_; }
 
- private:
   const Case& case_;
   const std::vector<int>& rivals_;
-  Metric first_;
+  Precision first_;
   std::vector<Scored> list_;               ///< the best first
 };
 
@@ -205,12 +214,14 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
   if (rivals.size() < 2) return {};
   Judge judge(c, rivals);
   const std::vector<Change> menu = changes_for(c);
-  for (const Change& change : menu) judge.add(change);
+  judge.add(menu);
   // Where one change does not decide, the best one together with each of the others.
   if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) {
     const Change best = judge.list().front().change;
+    std::vector<Change> pairs;
     for (const Change& change : menu)
-      if (change.changes_touches && best.changes_touches && change.text != best.text) judge.add(joined(best, change));
+      if (change.changes_touches && best.changes_touches && change.text != best.text) pairs.push_back(joined(best, change));
+    judge.add(pairs);
   }
   std::vector<NextMeasurement> out;
   for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {

@@ -113,10 +113,10 @@ bool same(const Block& a, const Block& b) {
   return a.signature.cols() == b.signature.cols() && (a.signature - b.signature).cwiseAbs().maxCoeff() < kSame_um;
 }
 
-/// Divides one variant of an explanation; false when its parts are all the same.
-bool divide(Case& c, int explanation, int which) {
-  const Explanation& e = c.explanations.list[static_cast<std::size_t>(explanation)];
-  std::vector<Block> parts = parts_of(c.explanations.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches);
+/// Divides one variant of an explanation, unless its parts are all the same.
+void divide(const Case& c, Explanations& all, int explanation, int which) {
+  Explanation& e = all.list[static_cast<std::size_t>(explanation)];
+  std::vector<Block> parts = parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches);
   for (Block& part : parts) {
     Block made = variant_at(*e.effect, part.theta, c.touches, c.rows);
     part.columns = std::move(made.columns);
@@ -125,27 +125,25 @@ bool divide(Case& c, int explanation, int which) {
   }
   std::erase_if(parts, [](const Block& b) { return b.signature.cols() == 0; });
   if (std::all_of(parts.begin(), parts.end(), [&](const Block& b) { return same(b, parts.front()); })) {
-    c.explanations.blocks[static_cast<std::size_t>(which)].finest = true;
-    return false;
+    all.blocks[static_cast<std::size_t>(which)].finest = true;
+    return;
   }
-  std::vector<int>& blocks = c.explanations.list[static_cast<std::size_t>(explanation)].blocks;
-  blocks.erase(std::find(blocks.begin(), blocks.end(), which));
+  e.blocks.erase(std::find(e.blocks.begin(), e.blocks.end(), which));
   for (Block& part : parts) {
-    blocks.push_back(static_cast<int>(c.explanations.blocks.size()));
-    c.explanations.blocks.push_back(std::move(part));
+    e.blocks.push_back(static_cast<int>(all.blocks.size()));
+    all.blocks.push_back(std::move(part));
   }
-  return true;
 }
 
 }  // namespace
 
-void refine(Case& c, EvidenceSearch& search) {
+void refine(const Case& c, Explanations& all, EvidenceSearch& search) {
   for (int step = 0; step < kSteps; ++step) {
-    bool divided = false;
-    for (const int k : candidates(c.explanations, search.evidence()))
-      for (const int b : cells_to_divide(c.explanations, c.explanations.list[static_cast<std::size_t>(k)], search.evidence())) divided = divide(c, k, b) || divided;
-    if (!divided) return;
-    search.extend(c.explanations);
+    const std::size_t before = all.blocks.size();
+    for (const int k : candidates(all, search.evidence()))
+      for (const int b : cells_to_divide(all, all.list[static_cast<std::size_t>(k)], search.evidence())) divide(c, all, k, b);
+    if (all.blocks.size() == before) return;
+    search.extend(all, before);
   }
 }
 

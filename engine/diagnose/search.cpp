@@ -1,7 +1,8 @@
 // Detect, name, remove, and look again: every round tests the whole catalogue and OTHER on what the findings before leave unexplained.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <set>
 
 #include "engine/diagnose/case.hpp"
 
@@ -29,8 +30,7 @@ std::vector<double> probabilities(const Explanations& explanations, const Eviden
 }
 
 /// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind.
-Finding finding_of(const Case& c, const Evidence& evidence, bool catalogue) {
-  const Explanations& all = c.explanations;
+Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
   const std::vector<double> p = probabilities(all, evidence);
   std::vector<int> order;
   double total = 0;
@@ -50,6 +50,32 @@ Finding finding_of(const Case& c, const Evidence& evidence, bool catalogue) {
   f.explanation = order.front();
   f.block = best_block(all.list[f.explanation], evidence);
   return f;
+}
+
+struct Named {
+  Finding name, pattern;
+};
+
+/// What a round has found, on a grid that is refined where the recording asks for it. The grid of the case stays as it is, for what is
+/// sought next; the variants of the name that count are appended to its blocks.
+Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
+  constexpr double kOutOfQuestion = 12;   // nats
+  Explanations fine = c.explanations;
+  refine(c, fine, search);
+  const Evidence& evidence = search.evidence();
+  Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
+  const auto belief = [&](int b) { return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(fine.blocks[static_cast<std::size_t>(b)].weight); };
+  const std::vector<int>& variants = fine.list[static_cast<std::size_t>(out.name.explanation)].blocks;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const int b : variants) best = std::max(best, belief(b));
+  const int likeliest = out.name.block;
+  for (const int b : variants) {
+    if (b != likeliest && belief(b) < best - kOutOfQuestion) continue;
+    if (b == likeliest) out.name.block = static_cast<int>(c.explanations.blocks.size());
+    out.name.variants.push_back(static_cast<int>(c.explanations.blocks.size()));
+    c.explanations.blocks.push_back(std::move(fine.blocks[static_cast<std::size_t>(b)]));
+  }
+  return out;
 }
 
 double log_belief(const Case& c, const Finding& f) {
@@ -82,8 +108,8 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
 bool better_with_partner(const Case& c, const std::vector<Finding>& before, const Finding& pattern, int number) {
   const Round r = round(c, rest_of(c, before), number);
   if (r.p > kLaterAlarm) return false;
-  const Finding partner = finding_of(c, r.evidence, true);
-  return partner.probability >= finding_of(c, r.evidence, false).probability && log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
+  const Finding partner = finding_of(c.explanations, r.evidence, true);
+  return partner.probability >= finding_of(c.explanations, r.evidence, false).probability && log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
 }
 
 /// Names a finding again, given what was found after it, which may have taken over part of it. Where a pattern is likelier now than any name, it
@@ -96,7 +122,7 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
   std::vector<Finding> others = all;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
   const Evidence evidence = rest_of(c, others).evidence();
-  Finding name = finding_of(c, evidence, true), pattern = finding_of(c, evidence, false);
+  Finding name = finding_of(c.explanations, evidence, true), pattern = finding_of(c.explanations, evidence, false);
   name.p = pattern.p = all[which].p;
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
 }
@@ -105,6 +131,7 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
 
 SearchResult search(Case& c, EvidenceSearch& first) {
   SearchResult result;
+  const std::size_t grid = c.explanations.blocks.size();
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
     if (number > 0) rest.emplace(rest_of(c, result.findings));
@@ -115,8 +142,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
       result.null = std::move(r.null);
     }
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
-    refine(c, here);
-    Finding named = finding_of(c, here.evidence(), true), other = finding_of(c, here.evidence(), false);
+    auto [named, other] = named_on_finer_grid(c, here);
     named.p = other.p = r.p;
     result.findings.push_back(named);
     if (likelier(c, named, other) || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
@@ -124,11 +150,17 @@ SearchResult search(Case& c, EvidenceSearch& first) {
     result.other = std::move(other);
     break;
   }
-  first.extend(c.explanations);
+  std::set<int> refined;
+  for (const Finding& f : result.findings) {
+    std::vector<int>& blocks = c.explanations.list[static_cast<std::size_t>(f.explanation)].blocks;
+    if (refined.insert(f.explanation).second) blocks.clear();
+    blocks.insert(blocks.end(), f.variants.begin(), f.variants.end());
+  }
+  first.extend(c.explanations, grid);
   result.first = first.evidence();
   // A pattern alone that is as good as effects with a pattern beside them: the effects were not there.
   if (result.other && !result.findings.empty()) {
-    const Finding alone = finding_of(c, result.first, false);
+    const Finding alone = finding_of(c.explanations, result.first, false);
     double together = log_belief(c, *result.other);
     for (const Finding& f : result.findings) together += log_belief(c, f);
     if (log_belief(c, alone) > together) {

@@ -1,10 +1,9 @@
 #include "engine/diagnose/value_signature.hpp"
 
 #include <Eigen/Cholesky>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
+#include "engine/base/on_threads.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/run/run.hpp"
 
@@ -129,14 +128,9 @@ std::vector<Draft> drafts_of(const Effect& effect) {
 /// The signatures of all plantings, on all threads.
 std::vector<Vector> grow(const Plantation& plantation, const std::vector<Planting>& plantings, int threads) {
   std::vector<Vector> out(plantings.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t k = next++; k < plantings.size(); k = next++) out[k] = plantation.signature(plantings[k]);
-  };
-  std::vector<std::jthread> pool;
-  for (int t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  pool.clear();
+  on_threads(static_cast<int>(plantings.size()), threads, [&](int k) {
+    out[static_cast<std::size_t>(k)] = plantation.signature(plantings[static_cast<std::size_t>(k)]);
+  });
   return out;
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <thread>
+
+#include "engine/base/on_threads.hpp"
 
 namespace abbe {
 
@@ -81,18 +81,6 @@ Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed,
   for (const GeometryCoefficients& one : batch.geometry) pointers.push_back(&one);
   batch.errors = length_errors(lines, GeometryBlock(machine, pointers));
   return batch;
-}
-
-/// f(0) .. f(n-1), each on some thread. f writes to its own slot, so the order does not matter.
-template <class F>
-void on_threads(int n, int threads, const F& f) {
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next++; i < n; i = next++) f(i);
-  };
-  std::vector<std::jthread> helpers;
-  for (int t = 1; t < std::min(threads, n); ++t) helpers.emplace_back(work);
-  work();
 }
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }

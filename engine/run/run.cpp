@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <map>
-#include <mutex>
-#include <thread>
 
+#include "engine/base/on_threads.hpp"
 #include "engine/run/executor.hpp"
 #include "engine/run/recorded_sensor.hpp"
 
@@ -64,27 +61,10 @@ std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& 
   const int per_block = lanes_of_block(executor, options);
   const int blocks = (machines.size() + per_block - 1) / per_block;
   std::vector<BlockResult> results(blocks);
-  std::atomic<int> next = 0;
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto work = [&] {
-    for (int b = next++; b < blocks; b = next++) {
-      try {
-        const int first = b * per_block;
-        results[b] = run_block(executor, plan, machines, first, std::min(per_block, machines.size() - first));
-      } catch (...) {
-        const std::lock_guard lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = blocks;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (int t = 1; t < std::min(options.threads, blocks); ++t) pool.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
+  on_threads(blocks, options.threads, [&](int b) {
+    const int first = b * per_block;
+    results[static_cast<std::size_t>(b)] = run_block(executor, plan, machines, first, std::min(per_block, machines.size() - first));
+  });
   return results;
 }
 

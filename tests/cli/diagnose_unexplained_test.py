@@ -11,28 +11,27 @@ MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
 
 
 class Unexplained(harness.Case):
-    def dented(self):
-        """A recording of a sphere with a dent of 12 um, which no effect makes."""
+    def recorded(self, name, dent):
+        """A recording of a sphere that is larger by dent(normal, share of the touches before) mm, which no effect makes."""
         self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "clean.csv", "--seed", 4)
         lines = (self.folder / "clean.csv").read_text().splitlines()
         comments = [line for line in lines if line.startswith("#")]
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        for row in rows:
+        for number, row in enumerate(rows):
             n = [float(row["n" + a]) for a in "xyz"]
-            dent = 0.012 * math.exp(-((n[0] - 0.5) ** 2 + (n[1] - 0.6) ** 2 + (n[2] - 0.62) ** 2) / 0.25)
             for k, a in enumerate("xyz"):
-                row[a] = repr(float(row[a]) + dent * n[k])
+                row[a] = repr(float(row[a]) + dent(n, number / len(rows)) * n[k])
         out = io.StringIO()
         writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
-        return self.write("dented.csv", "\n".join(comments) + "\n" + out.getvalue())
+        return self.write(name, "\n".join(comments) + "\n" + out.getvalue())
 
     def diagnosis(self, *args):
         return json.loads(self.abbe("diagnose", *args, "--format", "json").stdout)
 
     def test_the_pattern_is_saved_and_explains(self):
-        recording = self.dented()
+        recording = self.recorded("dented.csv", lambda n, _: 0.012 * math.exp(-((n[0] - 0.5) ** 2 + (n[1] - 0.6) ** 2 + (n[2] - 0.62) ** 2) / 0.25))
         before = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
         self.assertEqual(before["verdict"], "unexplained")
         model = before["unexplained"]["model"]
@@ -46,21 +45,9 @@ class Unexplained(harness.Case):
         self.assertGreater(size("improved.json")["mean"], size(MACHINE)["mean"] + 0.001)
 
     def test_a_pattern_that_no_program_shares_is_saved_as_one_that_it_does(self):
-        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "clean.csv", "--seed", 4)
-        lines = (self.folder / "clean.csv").read_text().splitlines()
-        comments = [line for line in lines if line.startswith("#")]
-        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        late = sorted(float(row["time_s"]) for row in rows)[len(rows) // 2]
-        for row in rows:   # the part is larger in x and smaller in y from half of the time on: direction in time
-            n = [float(row["n" + a]) for a in "xyz"]
-            grown = 0.012 * (n[0] ** 2 - n[1] ** 2) * (1 if float(row["time_s"]) > late else -1)
-            for k, a in enumerate("xyz"):
-                row[a] = repr(float(row[a]) + grown * n[k])
-        out = io.StringIO()
-        writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        said = self.diagnosis(self.write("grown.csv", "\n".join(comments) + "\n" + out.getvalue()), "--machine", MACHINE, "--model-out", "improved.json")
+        # The part is larger in x and smaller in y from half of the time on: direction in time.
+        recording = self.recorded("grown.csv", lambda n, share: math.copysign(0.012, share - 0.5) * (n[0] ** 2 - n[1] ** 2))
+        said = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
         self.assertEqual(said["verdict"], "unexplained", said["effects"])
         self.assertEqual(said["unexplained"]["shape"], "in time", "on a ball, place and direction are one")
         saved = [e["name"] for e in json.loads((self.folder / "improved.json").read_text()).get("effects", [])]
