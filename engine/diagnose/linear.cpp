@@ -186,6 +186,12 @@ Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
   return out;
 }
 
+Matrix squared_correlation(const LinearModel& m, const Hyperparameters& h) {
+  const Matrix p = Rotated(m, h).precision();
+  const Vector variance = p.diagonal().cwiseMax(1e-9);
+  return (p.array().square().colwise() / variance.array()).rowwise() / variance.transpose().array();
+}
+
 LinearModel compact(const LinearModel& m) {
   constexpr double kNegligible = 1e-3;   // of the variance of one row, over all rows together
   const Vector weight = m.noise_um.cwiseInverse();
@@ -277,6 +283,11 @@ Vector Rotated::precision_diagonal() const {
   Vector d = Vector::Ones(y_.size()) - project_.free().rowwise().squaredNorm();
   const Vector taken = (lambda_.array() / (1 + lambda_.array())).sqrt();
   return d - (basis_ * taken.asDiagonal()).rowwise().squaredNorm();
+}
+
+Matrix Rotated::precision() const {
+  const Matrix &x = project_.free(), taken = basis_ * (lambda_.array() / (1 + lambda_.array())).sqrt().matrix().asDiagonal();
+  return Matrix::Identity(y_.size(), y_.size()) - x * x.transpose() - taken * taken.transpose();
 }
 
 }  // namespace abbe::diagnose

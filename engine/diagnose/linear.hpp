@@ -51,6 +51,9 @@ Hyperparameters estimate(const LinearModel&);
 /// Standardised residual of each row, predicted from all other rows.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);
 
+/// Squares of the correlations of these residuals, by pair of rows, when the model is right.
+Matrix squared_correlation(const LinearModel&, const Hyperparameters&);
+
 /// The same model without the combinations of group 0 of Z, and of the other ensemble, that stay far below the noise.
 LinearModel compact(const LinearModel&);
 
@@ -122,6 +125,8 @@ class Rotated {
   Vector z() const { return basis_.transpose() * y_; }
   /// Diagonal of the inverse covariance of the whitened rows, X projected out.
   Vector precision_diagonal() const;
+  /// The whole of it.
+  Matrix precision() const;
 
  private:
   Projection project_;

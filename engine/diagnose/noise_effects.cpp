@@ -11,8 +11,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// The looks at the variance may not cost more false alarms than a tenth of what the search allows itself.
-constexpr double kNoiseAlarm = 3e-4;
+/// The looks at the variance, six of them, may not cost more false alarms than a tenth of what the search allows itself.
+constexpr double kNoiseAlarm = 1.5e-4;
 
 /// The probability that a chi-squared variable of one degree of freedom exceeds x.
 double chi2_above_1(double x) { return std::erfc(std::sqrt(std::max(0.0, x) / 2)); }
@@ -21,6 +21,7 @@ struct Residuals {
   Vector standardised;              ///< variance 1 under the fitted noise
   double noise_um = 1;              ///< that noise
   double tails = 1;                 ///< by how much squares scatter more than those of normal residuals
+  Matrix coupling;                  ///< squares of their correlations: what is common to many rows counts less
 };
 
 /// Half the variance of the squared residuals: 1 for normal ones, more for heavy tails, which would pass for unequal scatter.
@@ -39,17 +40,19 @@ Residuals residuals(const Case& c, const SearchResult& result) {
   m.noise_group.assign(m.noise_group.size(), 0);
   m.noise_groups = 1;
   const Hyperparameters h = estimate(m);
-  Residuals r{leave_one_out(m, h), m.noise_um.mean() * h.noise(0), 1};
+  Residuals r{leave_one_out(m, h), m.noise_um.mean() * h.noise(0), 1, squared_correlation(m, h)};
   r.tails = tails_of(r.standardised);
   return r;
 }
 
-/// Variances 1 + excess * share, times a common factor: what they gain over equal ones.
+/// Variances 1 + excess * share, times a common factor: what they gain over equal ones. The gain of independent normal residuals has half a
+/// chi-squared law; that of others is larger by the variance of the score, sum of share times square, over what it would be for those.
 struct Excess {
   double size = 0, p = 1;
 };
-Excess excess_along(const Vector& standardised, const Vector& share, double tails) {
-  const Vector square = standardised.array().square();
+Excess excess_along(const Residuals& r, const Vector& share) {
+  const Vector square = r.standardised.array().square(), centred = share.array() - share.mean();
+  const double inflation = r.tails - 1 + centred.dot(r.coupling * centred) / centred.squaredNorm();
   const auto n = static_cast<double>(square.size());
   const auto log_likelihood = [&](double excess) {
     const Vector v = 1 + excess * share.array();
@@ -61,7 +64,7 @@ Excess excess_along(const Vector& standardised, const Vector& share, double tail
     const double gain = log_likelihood(excess) - log_likelihood(0);
     if (gain > best) best = gain, out.size = excess;
   }
-  out.p = chi2_above_1(2 * best / tails) / 2;
+  out.p = chi2_above_1(2 * best / std::max(1.0, inflation)) / 2;
   return out;
 }
 
@@ -92,7 +95,7 @@ std::optional<NoiseFinding> unequal(const Case& c, const Residuals& r) {
   for (const Split& s : splits) {
     const double in = s.in.sum(), out = double(rows) - in;
     if (in < kEnough || out < kEnough) continue;
-    const Excess e = excess_along(r.standardised, s.in, r.tails);
+    const Excess e = excess_along(r, s.in);
     const double ratio = std::sqrt(1 + e.size), u = ratio * std::sqrt(1 / (2 * in) + 1 / (2 * out));
     if (e.p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->p < e.p)) continue;
     NoiseFinding f{find_effect("noise.unequal"), e.p, {figure("ratio", "1", ratio, u)}, {}};
@@ -129,7 +132,7 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
     for (std::size_t k = 0; k < c.rows.size(); ++k)
       along(static_cast<Eigen::Index>(k)) = std::pow(c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene.normal[axis], 2);
     if ((along.array() - along.mean()).square().sum() < 1) continue;
-    const Excess e = excess_along(r.standardised, along, r.tails);
+    const Excess e = excess_along(r, along);
     if (e.p > kNoiseAlarm || std::sqrt(1 + e.size) < kLeastAlong || (best && best->p < e.p)) continue;
     // The fitted noise is that of all touches together; what is left of it across the axis is the probe's own.
     const double probe = r.noise_um * std::sqrt((r.standardised.array().square() / (1 + e.size * along.array())).mean());

@@ -60,6 +60,21 @@ TEST_CASE("residuals predicted from all other rows are those of the dense formul
   const Matrix p = dense_precision(m, h);
   const Vector py = p * m.y, loo = leave_one_out(m, h);
   for (Eigen::Index i = 0; i < loo.size(); ++i) CHECK(loo(i) == doctest::Approx(py(i) / std::sqrt(p(i, i))).epsilon(1e-6));
+  // cov(P y) = P, so the correlations of the residuals are those of P.
+  const Matrix squared = squared_correlation(m, h);
+  for (Eigen::Index i = 0; i < 60; ++i)
+    for (Eigen::Index j = 0; j < 60; ++j) CHECK(squared(i, j) == doctest::Approx(p(i, j) * p(i, j) / (p(i, i) * p(j, j))).epsilon(1e-6));
+}
+
+TEST_CASE("the precision as an inner product is that of the dense formula") {
+  const LinearModel m = model_of(50, 1, 1, 0, 2);
+  Hyperparameters h;
+  h.scale = 1.3;
+  h.noise = Vector::Constant(1, 0.8);
+  const Precision precision(m, h);
+  const Matrix a = random_matrix(50, 4, 900), dense = dense_precision(m, h), expected = a.transpose() * dense * a;
+  CHECK((inner(precision.seen(a), precision.seen(a)) - expected).cwiseAbs().maxCoeff() < 1e-8 * expected.cwiseAbs().maxCoeff());
+  CHECK((inner(precision.seen(a), precision.y()) - a.transpose() * dense * m.y).cwiseAbs().maxCoeff() < 1e-8 * (a.transpose() * dense * m.y).cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("the rotated basis keeps inner products") {
