@@ -51,7 +51,7 @@ KnownGeometry ensemble(const Machine& machine, std::uint64_t seed, int threads) 
   Matrix values(sample.size(), size);
   for (int i = 0; i < sample.size(); ++i)
     for (int k = 0; k < size; ++k) values(i, k) = sample.geometry[i][k];
-  KnownGeometry out{values.colwise().mean(), Matrix::Zero(size, size), true};
+  KnownGeometry out{values.colwise().mean(), Matrix::Zero(size, size)};
   values.rowwise() -= out.mean.transpose();
   for (int c = 0; c < kComponents; ++c) {
     const Matrix part = values.middleCols(c * basis, basis);
@@ -185,7 +185,6 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   const KnownGeometry known = options.known ? *options.known : options.sampled ? *options.sampled : ensemble(machine, options.seed, options.threads);
   out.mean = known.mean;
   out.factor = known.factor;
-  out.rough = known.rough;
   out.surfaces = options.surfaces;
   const Matrix geometry = out.geometry_um * known.factor;
   random.add(geometry);
@@ -200,9 +199,8 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     m.uneven = uneven_functions(t, machine);
   } else {
     m.scale_spread = 0.3;            // an earlier recording has found the scale
-  }
-  if (options.known && options.known->rough) {
-    constexpr double kNotFollowed = 0.4;   // by the harmonics that were fitted to it
+    // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.
+    constexpr double kNotFollowed = 0.4;
     const Matrix rough = rough_geometry(t, machine, 0);
     m.rough.resize(n, geometry.cols() + rough.cols());
     m.rough << geometry, kNotFollowed * rough;
@@ -241,7 +239,7 @@ KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, const std::
   const Eigen::Index size = b.factor.cols();
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.block(free, free, size, size));
   const Matrix root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  return {b.mean + b.factor * mean.segment(free, size), b.factor * root, true};
+  return {b.mean + b.factor * mean.segment(free, size), b.factor * root};
 }
 
 }  // namespace abbe::diagnose

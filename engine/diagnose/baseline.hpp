@@ -23,7 +23,6 @@ namespace abbe::diagnose {
 struct KnownGeometry {
   Vector mean;
   Matrix factor;                    ///< covariance = factor factor'
-  bool rough = true;                ///< whether harmonics may have left out some of them
 };
 
 /// Whether the true places of surfaces are known.
@@ -42,7 +41,6 @@ struct Baseline {
   Matrix geometry_um;               ///< rows x coefficients: um per unit coefficient
   Matrix factor;                    ///< covariance of the coefficients = factor factor', before its scale is estimated
   Vector mean;                      ///< of the coefficients
-  bool rough = true;                ///< KnownGeometry::rough of these
   Surfaces surfaces = Surfaces::calibrated;
   std::vector<std::string> noise_names;  ///< of the groups of rows with a common noise
 };

@@ -118,7 +118,7 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
   if (result.other) found.push_back(&c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature);
   Baseline beside = c.baseline;
   beside.model = with_free(without_rows(c.baseline.model, c.masked), found);
-  return write_known_state(posterior(beside, c.hyper, std::vector<char>(c.rows.size(), 0)), c.hyper, c.rough);
+  return write_known_state(posterior(beside, c.hyper, std::vector<char>(c.rows.size(), 0)), c.hyper);
 }
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {

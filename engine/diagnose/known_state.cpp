@@ -43,7 +43,6 @@ std::optional<KnownGeometry> read_known_state(const Machine& machine) {
   for (const char* key : {"mean", "factor"})
     if (!state.contains(key)) refuse(machine, fmt::format("\"{}\" is missing", key));
   KnownGeometry out;
-  out.rough = state.value("rough", true);
   out.mean = vector_of(machine, state["mean"], size);
   if (!state["factor"].is_array() || state["factor"].empty()) refuse(machine, "\"factor\" is a list of columns");
   out.factor.resize(size, static_cast<Eigen::Index>(state["factor"].size()));
@@ -51,11 +50,10 @@ std::optional<KnownGeometry> read_known_state(const Machine& machine) {
   return out;
 }
 
-std::string write_known_state(const KnownGeometry& known, const Hyperparameters& hyper, bool rough) {
+std::string write_known_state(const KnownGeometry& known, const Hyperparameters& hyper) {
   nlohmann::ordered_json state;
   state["schema"] = kSchema;
   state["geometry_scale"] = hyper.scale;
-  state["rough"] = rough;
   state["mean"] = list_of(known.mean);
   state["factor"] = nlohmann::ordered_json::array();
   for (Eigen::Index k = 0; k < known.factor.cols(); ++k)

@@ -13,7 +13,7 @@ namespace abbe::diagnose {
 /// a missing key, a row of another length.
 std::optional<KnownGeometry> read_known_state(const Machine&);
 
-/// JSON text for the key `known_state`. `rough`: whether the machine's errors were rougher than the specification's ensemble.
-std::string write_known_state(const KnownGeometry&, const Hyperparameters&, bool rough);
+/// JSON text for the key `known_state`.
+std::string write_known_state(const KnownGeometry&, const Hyperparameters&);
 
 }  // namespace abbe::diagnose

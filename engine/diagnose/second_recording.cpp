@@ -103,7 +103,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change) {
 }
 
 Baseline baseline_of(const Case& c, const Longer& longer) {
-  const KnownGeometry geometry{c.baseline.mean, c.baseline.factor, c.baseline.rough};
+  const KnownGeometry geometry{c.baseline.mean, c.baseline.factor};
   const bool known = !c.machine->known_state.empty();
   Baseline out = baseline_of(longer.touches, longer.machine,
                              {.surfaces = c.baseline.surfaces, .known = known ? &geometry : nullptr, .seed = c.options.seed, .threads = c.options.threads, .sampled = &geometry});
