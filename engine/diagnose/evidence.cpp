@@ -108,7 +108,9 @@ double tail_probability(double observed, std::vector<double> simulated) {
   const double from = simulated[simulated.size() - tail - 1];
   double mean = 0;
   for (std::size_t k = simulated.size() - tail; k < simulated.size(); ++k) mean += (simulated[k] - from) / double(tail);
-  return std::max(1e-12, double(tail) / n * std::exp(-(observed - from) / std::max(mean, 1e-9)));
+  // The mean of so few values is uncertain itself: averaged over that (flat in its logarithm), the exponential law becomes that of Lomax.
+  const auto values = double(tail);
+  return std::max(1e-12, values / n * std::pow(1 + (observed - from) / (values * std::max(mean, 1e-9)), -values));
 }
 
 double log_sum_exp(const std::vector<double>& v) {

@@ -65,8 +65,8 @@ class EvidenceSearch {
   double rough_ = 0;
 };
 
-/// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail by the exponential law that
-/// the upper tenth of the simulated values follows.
+/// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the next value would be of the
+/// exponential law that the upper tenth of the simulated values follows.
 double tail_probability(double observed, std::vector<double> simulated);
 
 double log_sum_exp(const std::vector<double>&);
