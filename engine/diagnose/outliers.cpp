@@ -14,8 +14,9 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kMaskings = 8;
-/// Probability of so many pairs of neighbours among touches struck by chance, below which they are no chance.
-constexpr double kChance = 1e-3;
+/// Probability of so many pairs of neighbours among touches struck by chance, below which they are no chance. One pair may be one piece of dirt.
+constexpr double kChance = 0.005;
+constexpr int kLeastPairs = 2;
 
 /// By how much the middle half of the residuals scatters less than the fit says, where gross outliers have spoilt the fit; 1 otherwise. Tails
 /// of the kind that sensors have do not spoil it so much.
@@ -80,7 +81,7 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
   for (const Pairs& pairs : relations) {
     int both = 0;
     for (const auto& [a, b] : pairs) both += masked[a] && masked[b] ? 1 : 0;
-    if (at_least(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance) continue;
+    if (both < kLeastPairs || at_least(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance) continue;
     for (const auto& [a, b] : pairs)
       if (masked[a] && masked[b]) out[a] = out[b] = 1;
   }

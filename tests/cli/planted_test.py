@@ -106,10 +106,17 @@ class Planted(harness.Case):
         self.write("part.json", json.dumps({"schema": "abbe.workpiece/1", "name": "ball frame", "material": {"cte_ppm_per_K": 0}, "scales": {"cte_ppm_per_K": 0},
                                             "temperature": {"log": "log.csv"}, "load_kg": 50}))
 
+    def recorded(self, name, effects):
+        """A recording in which these effects were planted."""
+        planted = [word for effect in effects if PLANTED[effect] for word in ("--with", f"{effect}:{PLANTED[effect]}")]
+        self.abbe("record", "frame.dmi", "--machine", MACHINE, "--workpiece", "part.json", "--seed", SEED, "-o", name, *planted)
+
+    def diagnosis(self, recording):
+        return json.loads(self.abbe("diagnose", recording, "--machine", MACHINE, "--threads", 1, "--format", "json").stdout)
+
     def looked_for(self, effect):
         """What the diagnosis says of a recording in which this effect was planted."""
-        planted = ["--with", f"{effect}:{PLANTED[effect]}"] if PLANTED[effect] else []
-        self.abbe("record", "frame.dmi", "--machine", MACHINE, "--workpiece", "part.json", "--seed", SEED, "-o", effect + ".csv", *planted)
+        self.recorded(effect + ".csv", [effect])
         if effect == "noise.resolution":
             lines = (self.folder / (effect + ".csv")).read_text().splitlines()
             head = next(k for k, line in enumerate(lines) if not line.startswith("#"))
@@ -120,7 +127,15 @@ class Planted(harness.Case):
                     cells[column] = f"{ROUNDED_MM * round(float(cells[column]) / ROUNDED_MM):.7f}"
                 lines[k] = ",".join(cells)
             self.write(effect + ".csv", "\n".join([*lines, ""]))
-        return json.loads(self.abbe("diagnose", effect + ".csv", "--machine", MACHINE, "--threads", 1, "--format", "json").stdout)
+        return self.diagnosis(effect + ".csv")
+
+    def test_touches_that_two_effects_drive_apart_are_no_dirt(self):
+        self.recorded("two.csv", ["part.shift", "machine.squareness"])
+        said = self.diagnosis("two.csv")
+        self.assertEqual([e["members"] for e in said["effects"]], [["part.shift"], ["machine.squareness"]])
+        shift, squareness = (e["parameters"] for e in said["effects"])
+        for parameter, truth in ((shift["amplitude_um"], 12), (shift["t0_s"], 250), (squareness["squareness_urad"], 60)):
+            self.assertLess(abs(parameter["value"] - truth), 3 * parameter["u"], parameter)
 
     def test_every_effect_is_found_or_cannot_be_judged(self):
         catalogue = set(re.findall(r"^\s*([a-z]+\.[a-z_]+)", self.abbe("explain").stdout, re.MULTILINE))
