@@ -172,3 +172,11 @@ TEST_CASE("far tails are extrapolated, near ones counted") {
   CHECK(tail_probability(std::log(10.0), simulated) == doctest::Approx(0.1).epsilon(0.02));
   CHECK(std::log(tail_probability(std::log(1e5), simulated)) == doctest::Approx(std::log(1e-5)).epsilon(0.1));
 }
+
+TEST_CASE("a tail of thirty values is as uncertain as thirty values are") {
+  // The next exponential value after k of mean 1 exceeds x with probability (1 + x / k)^-k; e^-x would be too sure.
+  std::vector<double> simulated(269, -1.0);
+  simulated.insert(simulated.end(), 1, 0.0);
+  for (int k = 0; k < 30; ++k) simulated.push_back(k % 2 ? 0.5 : 1.5);
+  CHECK(tail_probability(10, simulated) == doctest::Approx(0.1 * std::pow(1 + 10.0 / 30, -30)));
+}
