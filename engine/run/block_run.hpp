@@ -83,6 +83,8 @@ class BlockRun {
   void go_to(int lane, const Vec3& point);
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
+  void move_twins(int machines);
+  TouchScene scene_of(const plan::Touch&, int slot) const;
   void add_effects(const plan::Touch&, int machines);
   void set_temperatures(const Temperatures& estimate, EffectSet::Group&) const;
   void put_on_part(const plan::Touch&, Lane& twin, int slot);

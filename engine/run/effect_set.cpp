@@ -97,6 +97,10 @@ bool EffectSet::sees_temperatures(const Active& a) {
   return (a.effect->needs & (Covariate::part_temperature | Covariate::scale_temperature)) != 0;
 }
 
+bool EffectSet::sees_reading(const Active& a) {
+  return (a.effect->needs & static_cast<unsigned>(Covariate::raw_reading)) != 0;
+}
+
 bool EffectSet::sees_temperatures() const {
   return std::any_of(active_.begin(), active_.end(), [](const Active& a) { return sees_temperatures(a); });
 }
@@ -218,18 +222,28 @@ struct EffectSet::Sum {
 void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std::uint64_t seed, std::uint32_t site,
                     TouchBatch& batch) const {
   if (group.slots.empty()) return;
+  std::vector<int> anywhere, by_reading;
+  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) (sees_reading(active_[e]) ? by_reading : anywhere).push_back(e);
+  if (!anywhere.empty()) add_alike(anywhere, group, lanes, seed, site, batch);
+  if (by_reading.empty()) return;
+  find_contact(batch);
+  add_alike(by_reading, group, lanes, seed, site, batch);
+}
+
+void EffectSet::add_alike(const std::vector<int>& which, const Group& group, const LaneParameters& lanes, std::uint64_t seed,
+                          std::uint32_t site, TouchBatch& batch) const {
   Sum sum(group, batch, lanes.lanes);
-  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) {
+  for (const int e : which) {
     const Active& a = active_[e];
     std::vector<double> draws;
     if (a.effect->draws_per == DrawsPer::touch) draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
     if (a.effect->draws_per == DrawsPer::visit)
       draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
-    const bool own_scenes = sees_temperatures(a) && !group.temperatures.empty();
+    const bool own_scenes = sees_reading(a) || (sees_temperatures(a) && !group.temperatures.empty());
     if (a.linear && !own_scenes)
       add_linear(a, lanes.weights[e], draws, sum);
     else
-      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, sum);
+      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, batch, sum);
   }
   auto& [x, y, z] = sum.error.column;
   add_weighted(sum.n, sum.terms, x.data(), y.data(), z.data());
@@ -258,15 +272,23 @@ void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, 
   }
 }
 
-void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws, Sum& sum) {
+void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch& batch,
+                            Sum& sum) {
   const std::size_t parameters = a.value.size(), numbers = a.effect->draws;
   ABBE_CHECK(parameters <= kMostNumbers && numbers <= kMostNumbers);
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
   double values[kMostNumbers], z[kMostNumbers] = {};
-  TouchScene scene = *sum.group.scene;
-  const Vec3 estimate = a.corrected ? a.effect->displace(scene, a.value.data(), z) : Vec3{};
+  const double none[kMostNumbers] = {};
+  TouchScene scene = *sum.group.scene, estimated = scene;
+  const auto estimate_there = [&] { return a.corrected ? a.effect->displace(estimated, a.value.data(), none) : Vec3{}; };
+  Vec3 estimate = estimate_there();
   for (int i = 0; i < sum.n; ++i) {
     if (!sum.group.temperatures.empty()) scene.temperature = sum.group.temperatures[i];
+    if (sees_reading(a)) {
+      const int slot = sum.group.slots[i];
+      scene.reading = estimated.reading = sum.group.scene->reading + batch.travel[slot] * batch.normal.get(slot);
+      estimate = estimate_there();
+    }
     for (std::size_t p = 0; p < parameters; ++p) values[p] = theta[p * sum.lanes + sum.lane[i]];
     for (std::size_t j = 0; j < numbers; ++j) z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
     sum.error.set(i, sum.error.get(i) + a.effect->displace(scene, values, z) - estimate);

@@ -5,7 +5,8 @@
 // (its uncertain parameters, its draws) is evaluated once per touch for each of these, not once per machine:
 //   d = D(certain) + sum over the uncertain parameters p of theta_p D(unit p),   D(.) = sum over the draws j of z_j D(., unit j)
 // leaves a sum of vectors with weights by machine (lanes/weighted_sum.hpp). Other effects are sampled machine by machine, and so are
-// those that need the temperature of part or scales where every machine has its own: then not even the scene is the same for all. What is
+// those for which not even the scene is the same for all: those that need the temperature of part or scales where every machine has its own,
+// and those that need the raw reading, which is where the axes of each machine stand after all other errors. What is
 // corrected is what the best estimates of parameters and temperatures together give.
 #pragma once
 
@@ -50,7 +51,8 @@ class EffectSet {
     std::vector<std::uint32_t> indexings;    ///< by slot of the group: which indexing event the head is in
     std::vector<Temperatures> temperatures;  ///< by slot of the group; empty: all have those of the scene
   };
-  /// Adds effect `k` (every effect when k < 0) to the errors of a group. `site`: the ordinal of the touch.
+  /// Adds effect `k` (every effect when k < 0) to the errors of a group, which hold all errors but those of the effects. `site`: the
+  /// ordinal of the touch.
   void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
 
   /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation of each of its unknowns.
@@ -80,11 +82,13 @@ class EffectSet {
   struct Sum;                ///< of the effects on one group
   static bool is_linear(const Active&);
   static bool sees_temperatures(const Active&);
+  static bool sees_reading(const Active&);
+  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
   static std::vector<Component> components_of(const Active&);
   static std::vector<double> weights(const Active&, const std::vector<double>& theta, const std::vector<double>& machine_draws,
                                      int lanes);
   static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&);
-  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws, Sum&);
+  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch&, Sum&);
 
   std::vector<Active> active_;
 };

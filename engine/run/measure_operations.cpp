@@ -195,8 +195,9 @@ void BlockRun::operator()(const plan::Touch& touch) {
   }
   touch_batch.n = n;
   add_errors(machines);
-  add_effects(touch, machines);
+  move_twins(machines);
   if (executor.part_.given()) add_part(machines);
+  add_effects(touch, machines);
   if (!executor.errors_act_on(touch.feature))
     for (int slot = 0; slot < machines; ++slot) touch_batch.error.set(slot, {});
   find_contact(touch_batch);

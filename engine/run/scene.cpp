@@ -22,8 +22,46 @@ void log_covariates(const Workpiece& w, RecordingRow& row) {
 
 }  // namespace
 
+void BlockRun::move_twins(int machines) {
+  for (int slot = machines; slot < touch_batch.n; ++slot) {
+    Lane& twin = block.lanes[touch_batch.lane[slot]];
+    twin.last_touch = twin.motion->touch(touch_batch.commanded.get(slot), touch_batch.normal.get(slot));
+  }
+}
+
+TouchScene BlockRun::scene_of(const plan::Touch& touch, int slot) const {
+  const Lane& twin = block.lanes[touch_batch.lane[slot]];
+  const TouchMotion& motion = twin.last_touch;
+  TouchScene scene;
+  scene.point = touch_batch.surface.get(slot);
+  scene.normal = touch_batch.surface_normal.get(slot);
+  scene.travel = motion.travel;
+  scene.reading = touch_batch.reading.get(slot);
+  scene.on_part = inverse(twin.X_WD) * scene.point;
+  scene.normal_on_part = transpose(twin.X_WD.R) * scene.normal;
+  scene.stylus = stylus_scene(executor.sensors_[twin.sensor.value]);
+  scene.time_s = motion.time_s;
+  scene.speed_mm_s = motion.speed_mm_s;
+  scene.acceleration_mm_s2 = motion.acceleration_mm_s2;
+  scene.settled_s = motion.settled_s;
+  std::copy(motion.sense, motion.sense + 3, scene.sense);
+  std::copy(motion.since_reversal_mm, motion.since_reversal_mm + 3, scene.since_reversal_mm);
+  if (executor.part_.given()) {
+    scene.temperature = executor.part_.workpiece().temperatures(motion.time_s);
+    scene.load_kg = executor.part_.workpiece().load_kg;
+  }
+  scene.touch = static_cast<int>(executor.site_[operation]);
+  scene.feature = touch.feature.value;
+  scene.curved = !is_flat(executor.plan_[touch.feature].kind->shape);
+  scene.visit = static_cast<int>(twin.indexings);
+  set_levers(executor.machine_, scene);
+  return scene;
+}
+
 void BlockRun::add_effects(const plan::Touch& touch, int machines) {
-  // The twins stand behind the machines in the batch; each moves, and makes the scene for the machines that share its path.
+  const EffectSet& effects = executor.effects_;
+  if (!executor.options_.contributors.effects || effects.empty()) return;
+  // The twins stand behind the machines in the batch; each makes the scene for the machines that share its path.
   std::map<int, EffectSet::Group> groups;
   for (int slot = 0; slot < machines; ++slot) {
     const Lane& lane = block.lanes[touch_batch.lane[slot]];
@@ -31,43 +69,15 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     group.slots.push_back(slot);
     group.indexings.push_back(lane.indexings);
   }
-  const bool acting = executor.options_.contributors.effects && !executor.effects_.empty();
-  const bool own_temperatures =
-      acting && executor.part_.given() && temperatures_vary(executor.part_.workpiece()) && executor.effects_.sees_temperatures();
+  const bool own_temperatures = executor.part_.given() && temperatures_vary(executor.part_.workpiece()) && effects.sees_temperatures();
   for (int slot = machines; slot < touch_batch.n; ++slot) {
-    const int index = touch_batch.lane[slot];
-    Lane& twin = block.lanes[index];
-    twin.last_touch = twin.motion->touch(touch_batch.commanded.get(slot), touch_batch.normal.get(slot));
-    const TouchMotion& motion = twin.last_touch;
-    const auto group = groups.find(index);
-    if (!acting || group == groups.end()) continue;
-    TouchScene scene;
-    scene.point = touch_batch.surface.get(slot);
-    scene.normal = touch_batch.surface_normal.get(slot);
-    scene.travel = motion.travel;
-    scene.reading = touch_batch.reading.get(slot);
-    scene.on_part = inverse(twin.X_WD) * scene.point;
-    scene.normal_on_part = transpose(twin.X_WD.R) * scene.normal;
-    scene.stylus = stylus_scene(executor.sensors_[twin.sensor.value]);
-    scene.time_s = motion.time_s;
-    scene.speed_mm_s = motion.speed_mm_s;
-    scene.acceleration_mm_s2 = motion.acceleration_mm_s2;
-    scene.settled_s = motion.settled_s;
-    std::copy(motion.sense, motion.sense + 3, scene.sense);
-    std::copy(motion.since_reversal_mm, motion.since_reversal_mm + 3, scene.since_reversal_mm);
-    if (executor.part_.given()) {
-      scene.temperature = executor.part_.workpiece().temperatures(motion.time_s);
-      scene.load_kg = executor.part_.workpiece().load_kg;
-    }
-    scene.touch = static_cast<int>(executor.site_[operation]);
-    scene.feature = touch.feature.value;
-    scene.curved = !is_flat(executor.plan_[touch.feature].kind->shape);
-    scene.visit = static_cast<int>(twin.indexings);
-    set_levers(executor.machine_, scene);
+    const auto group = groups.find(touch_batch.lane[slot]);
+    if (group == groups.end()) continue;
+    const TouchScene scene = scene_of(touch, slot);
     group->second.scene = &scene;
     if (own_temperatures) set_temperatures(scene.temperature, group->second);
-    executor.effects_.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.noise_seed(),
-                          executor.site_[operation], touch_batch);
+    effects.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.noise_seed(),
+                executor.site_[operation], touch_batch);
   }
 }
 

@@ -2,7 +2,7 @@
 //
 //   d_i = a1 sin(2 pi x/p + f1) + a2 sin(4 pi x/p + f2),     p: signal period
 //
-// x: raw reading of axis i. From offset, unequal gain and phase of the two sensor signals (first
+// x: raw reading of axis i where it stops. From offset, unequal gain and phase of the two sensor signals (first
 // and second harmonic).
 // Size: TONiC < 0.03 um, RGH25F 0.05 um at 20 um; about 1 % of the period at most: LIDA 4xx 0.2 um
 // at 20 um, LIDA 2xx 2 um at 200 um. Looks like noise against x, clear when folded to one period;

@@ -61,7 +61,13 @@ Case case_of(const TouchScene& scene, const std::vector<int>& lanes, const std::
     c.batch.lane[i] = lanes[i];
     c.batch.machine[i] = m;
     c.batch.visit[i] = m % 3;
-    c.batch.error.set(static_cast<int>(i), {});
+    const int slot = static_cast<int>(i);
+    c.batch.error.set(slot, {});
+    c.batch.surface.set(slot, {});   // where the part is does not matter, nor the size of the tip
+    c.batch.surface_normal.set(slot, scene.normal);
+    c.batch.normal.set(slot, scene.normal);
+    c.batch.radius[slot] = 0;
+    c.batch.commanded.set(slot, {});
     c.group.slots.push_back(static_cast<int>(i));
     c.group.indexings.push_back(m % 2);
   }
@@ -74,10 +80,15 @@ double draw(const Effect& effect, std::uint32_t machine, std::uint32_t site, std
   return normal_quantile(j % 2 == 0 ? u.a : u.b);
 }
 
+bool sees_reading(const Effect& effect) { return (effect.needs & static_cast<unsigned>(Covariate::raw_reading)) != 0; }
+
 /// Effect k of the set on one slot, as effect.hpp describes it.
 Vec3 plain(const EffectSet& set, int k, const EffectSet::LaneParameters& drawn, const Case& c, int slot,
-           const EffectSetting* taken_out) {
+           const EffectSetting* taken_out, const Vec3& other_errors = {}) {
   const Effect& effect = set.effect(k);
+  TouchScene scene = c.scene;
+  // The machine stops where all other errors have brought it along the normal.
+  if (sees_reading(effect)) scene.reading += dot(scene.normal, other_errors) * scene.normal;
   const auto lane = static_cast<std::size_t>(c.batch.lane[slot]), width = static_cast<std::size_t>(drawn.lanes);
   std::vector<double> theta, z, estimate;
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
@@ -90,9 +101,9 @@ Vec3 plain(const EffectSet& set, int k, const EffectSet::LaneParameters& drawn, 
                 : effect.draws_per == DrawsPer::visit ? draw(effect, m, kVisitSite, c.group.indexings[slot], j)
                                                       : draw(effect, m, kSite, c.batch.visit[slot], j));
   }
-  const Vec3 d = effect.displace(c.scene, theta.data(), z.data());
+  const Vec3 d = effect.displace(scene, theta.data(), z.data());
   const bool subtract = taken_out && effect.draws_per == DrawsPer::none;
-  return subtract ? d - effect.displace(c.scene, estimate.data(), z.data()) : d;
+  return subtract ? d - effect.displace(scene, estimate.data(), z.data()) : d;
 }
 
 void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std::vector<int>& lanes) {
@@ -116,9 +127,14 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
       for (int slot = 0; slot < one.batch.n; ++slot) {
         const Vec3 expected = plain(set, k, drawn, one, slot, use == EffectUse::corrected ? &settings[k] : nullptr);
         CHECK(norm(one.batch.error.get(slot) - expected) <= 1e-15 * std::fmax(1, norm(expected)));
-        total[slot] += expected;
+        if (!sees_reading(set.effect(k))) total[slot] += expected;
         largest = std::fmax(largest, norm(expected));
       }
+    }
+    for (int slot = 0; slot < all.batch.n; ++slot) {
+      const Vec3 others = total[slot];
+      for (int k = 0; k < set.size(); ++k)
+        if (sees_reading(set.effect(k))) total[slot] += plain(set, k, drawn, all, slot, use == EffectUse::corrected ? &settings[k] : nullptr, others);
     }
     for (int slot = 0; slot < all.batch.n; ++slot)
       CHECK(norm(all.batch.error.get(slot) - total[slot]) <= 1e-15 * std::fmax(1, 10 * largest));
