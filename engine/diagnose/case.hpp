@@ -56,7 +56,10 @@ struct SearchResult {
   std::optional<Finding> other;      ///< what the catalogue does not explain
   Evidence first;                    ///< before any finding
   std::vector<Evidence> null;        ///< simulated, before any finding
+  Hyperparameters hyper;             ///< of the recording beside all that was found: a mismatch passes for noise and for larger errors
 };
+/// The signatures of all that was found, a pattern without a name too.
+std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);
 /// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
 SearchResult search(Case&, EvidenceSearch& first);
 /// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of the grid. They are appended
@@ -65,6 +68,8 @@ void refine(const Case&, Explanations&, EvidenceSearch&);
 
 /// Fits the recording without its gross outliers: fills `masked`, `off_um`, `rows`, `model`, `hyper`.
 void mask_outliers(Case&);
+/// Takes the noise of each touch out of its raw readings, where there are any (own_noise.cpp).
+void free_readings_of_noise(Case&);
 
 /// Steps that fill parts of the answer.
 void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);

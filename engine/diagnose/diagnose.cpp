@@ -38,30 +38,17 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<D
   return Surfaces::unknown;
 }
 
-/// Raw readings as they would be without the noise of the touch. A reading holds its own touch's noise, and so does the residual: where
-/// targets lie on a grid, any short period of the scale would seem to explain the one by the other.
-void free_readings_of_noise(Case& c) {
-  if ((c.touches.known & static_cast<unsigned>(Covariate::raw_reading)) == 0) return;
-  const Vector loo = leave_one_out(c.model, c.hyper);
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    const double noise_mm = 1e-3 * loo(i) * c.model.noise_um(i) * c.hyper.noise(c.model.noise_group[k]);
-    TouchScene& scene = c.touches.touches[c.rows[k]].scene;
-    scene.reading -= noise_mm * scene.normal;
-  }
-}
-
-BaselineSummary summary(const Case& c, bool known) {
+BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known) {
   BaselineSummary b;
   b.known = known;
-  b.geometry_scale = c.hyper.scale;
-  b.correlation = c.hyper.correlation;
+  b.geometry_scale = hyper.scale;
+  b.correlation = hyper.correlation;
   double sum = 0;
-  for (Eigen::Index i = 0; i < c.model.y.size(); ++i) sum += std::pow(c.model.noise_um(i) * c.hyper.noise(c.model.noise_group[i]), 2);
+  for (Eigen::Index i = 0; i < c.model.y.size(); ++i) sum += std::pow(c.model.noise_um(i) * hyper.noise(c.model.noise_group[i]), 2);
   b.noise_um = std::sqrt(sum / double(c.model.y.size()));
   const double stated = c.model.noise_um.mean();
   for (std::size_t g = 0; g < c.baseline.noise_names.size(); ++g)
-    if (!c.baseline.noise_names[g].empty()) b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], stated * c.hyper.noise(static_cast<Eigen::Index>(g)));
+    if (!c.baseline.noise_names[g].empty()) b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], stated * hyper.noise(static_cast<Eigen::Index>(g)));
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
     if (!c.masked[i]) continue;
     const RecordingRow& row = c.recording->rows[c.touches.touches[i].row];
@@ -113,12 +100,9 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
 
 /// The geometry of this machine beside what was found: findings are free, so that no error function takes them over.
 std::string known_state_beside(const Case& c, const SearchResult& result) {
-  std::vector<const Matrix*> found;
-  for (const Finding& f : result.findings) found.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
-  if (result.other) found.push_back(&c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature);
   Baseline beside = c.baseline;
-  beside.model = with_free(without_rows(c.baseline.model, c.masked), found);
-  return write_known_state(posterior(beside, c.hyper, std::vector<char>(c.rows.size(), 0)), c.hyper);
+  beside.model = with_free(without_rows(c.baseline.model, c.masked), signatures_of(c, result));
+  return write_known_state(posterior(beside, result.hyper, std::vector<char>(c.rows.size(), 0)), result.hyper);
 }
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
@@ -212,16 +196,18 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
     free_readings_of_noise(c);
   }
   c.explanations = explanations_for(c.touches, c.rows);
-  out.baseline = summary(c, !machine.known_state.empty());
   out.cannot_judge = unjudged(c.explanations);
   EvidenceSearch first(c.model, c.hyper, c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
+  const bool known = !machine.known_state.empty();
   if (options.design_only) {
+    out.baseline = summary(c, c.hyper, known);
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
     return out;
   }
   c.rough = first.rough() > 0.5;
   const SearchResult result = search(c, first);
+  out.baseline = summary(c, result.hyper, known);
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
   tell_findings(c, result, out);

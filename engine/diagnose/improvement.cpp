@@ -158,11 +158,11 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   i.rms_after_um = rms(after);
   i.bias_before_um = bias(before, shape);
   i.bias_after_um = bias(after, shape);
-  const Vector loo = leave_one_out(c.model, c.hyper);
+  const Vector loo = leave_one_out(c.model, result.hyper);
   LinearModel improved = c.model;
   improved.y -= predicted;
   i.chi2_per_dof_before = loo.squaredNorm() / double(loo.size());
-  i.chi2_per_dof_after = leave_one_out(improved, c.hyper).squaredNorm() / double(loo.size());
+  i.chi2_per_dof_after = leave_one_out(improved, result.hyper).squaredNorm() / double(loo.size());
   out.improvement = i;
   tell_residuals(c, before, after, out);
   // The runner-up: the best explanation outside the named sets.

@@ -87,15 +87,15 @@ void suppose(const Seen& y, Contender& c) {
   }
 }
 
-std::vector<Contender> contenders_of(const Case& c, const std::vector<int>& rivals, const Longer& longer, const Precision& first) {
+std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const std::vector<int>& rivals, const Longer& longer, const Precision& first) {
   std::vector<char> masked(longer.touches.touches.size(), 0);
   std::copy(c.masked.begin(), c.masked.end(), masked.begin());
   std::vector<int> rows;
   for (std::size_t i = 0; i < masked.size(); ++i)
     if (!masked[i]) rows.push_back(static_cast<int>(i));
   const Baseline baseline = baseline_of(c, longer);
-  Hyperparameters hyper = c.hyper;
-  hyper.noise = Vector::Constant(baseline.model.noise_groups, c.hyper.noise.mean());
+  Hyperparameters hyper = fitted;
+  hyper.noise = Vector::Constant(baseline.model.noise_groups, fitted.noise.mean());
   const LinearModel model = without_rows(baseline.model, masked);
   const Precision both(c.rough && model.rough.cols() > 0 ? rougher(model) : model, hyper);
   std::vector<Contender> out;
@@ -176,7 +176,8 @@ struct Scored {
 /// Judges changes for a case.
 class Judge {
  public:
-  Judge(const Case& c, const std::vector<int>& rivals) : case_(c), rivals_(rivals), first_(c.rough && c.model.rough.cols() > 0 ? rougher(c.model) : c.model, c.hyper) {}
+  Judge(const Case& c, const Hyperparameters& hyper, const std::vector<int>& rivals)
+      : case_(c), hyper_(hyper), rivals_(rivals), first_(c.rough && c.model.rough.cols() > 0 ? rougher(c.model) : c.model, hyper) {}
 
   void add(const std::vector<Change>& changes) {
     std::vector<std::optional<Scored>> scored(changes.size());
@@ -195,13 +196,14 @@ class Judge {
     NextMeasurement m;
     m.change = change.text;
     for (const int k : rivals_) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
-    m.expected_probability = expected_probability(contenders_of(case_, rivals_, *longer, first_));
+    m.expected_probability = expected_probability(contenders_of(case_, hyper_, rivals_, *longer, first_));
     m.minutes = change.minutes + minutes_of(*longer);
     const double worth = (m.expected_probability - 1 / double(rivals_.size())) / (kRound_min + m.minutes);
     return Scored{std::move(m), worth, change, std::move(*longer)};
   }
 
   const Case& case_;
+  const Hyperparameters& hyper_;
   const std::vector<int>& rivals_;
   Precision first_;
   std::vector<Scored> list_;               ///< the best first
@@ -212,7 +214,7 @@ class Judge {
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
   const std::vector<int> rivals = rivals_of(c, result, detectable);
   if (rivals.size() < 2) return {};
-  Judge judge(c, rivals);
+  Judge judge(c, result ? result->hyper : c.hyper, rivals);
   const std::vector<Change> menu = changes_for(c);
   judge.add(menu);
   // Where one change does not decide, the best one together with each of the others.

@@ -82,11 +82,12 @@ double log_belief(const Case& c, const Finding& f) {
   return std::log(c.explanations.list[f.explanation].prior) + f.evidence.log_bayes[f.explanation];
 }
 
-/// The recording with what was found taken out.
+/// The recording with what was found taken out. Its noise is fitted again: the first fit took the mismatch for noise.
 EvidenceSearch rest_of(const Case& c, const std::vector<Finding>& findings) {
   std::vector<const Matrix*> removed;
   for (const Finding& f : findings) removed.push_back(&c.explanations.blocks[f.block].signature);
-  return {with_free(c.model, removed), c.hyper, c.explanations};
+  const LinearModel model = with_free(c.model, removed);
+  return {model, estimate(model), c.explanations};
 }
 
 struct Round {
@@ -180,7 +181,15 @@ SearchResult search(Case& c, EvidenceSearch& first) {
       else if (pattern && !result.other) result.other = std::move(f);
     }
   }
+  result.hyper = result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
   return result;
+}
+
+std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& result) {
+  std::vector<const Matrix*> list;
+  for (const Finding& f : result.findings) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+  if (result.other) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature);
+  return list;
 }
 
 int best_block(const Explanation& e, const Evidence& evidence) {

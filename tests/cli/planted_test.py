@@ -137,6 +137,15 @@ class Planted(harness.Case):
         for parameter, truth in ((shift["amplitude_um"], 12), (shift["t0_s"], 250), (squareness["squareness_urad"], 60)):
             self.assertLess(abs(parameter["value"] - truth), 3 * parameter["u"], parameter)
 
+    def test_readings_tell_a_scale_error_beside_a_large_effect(self):
+        """The period is 20 um; lobing moves the readings by 12 um, and what the readings do not explain would pass for vibration."""
+        self.recorded("two.csv", ["probe.pretravel_lobing", "machine.scale_interpolation"])
+        said = self.diagnosis("two.csv")
+        self.assertEqual([e["members"] for e in said["effects"]], [["probe.pretravel_lobing"], ["machine.scale_interpolation"]])
+        for e, truth in zip(said["effects"], (6, 4)):
+            size = e["parameters"]["amplitude_um"]
+            self.assertLess(abs(size["value"] - truth), 3 * size["u"], e)
+
     def test_every_effect_is_found_or_cannot_be_judged(self):
         catalogue = set(re.findall(r"^\s*([a-z]+\.[a-z_]+)", self.abbe("explain").stdout, re.MULTILINE))
         self.assertEqual({e for e in catalogue if not e.startswith("empirical.")}, set(PLANTED), "every effect of the catalogue is planted")

@@ -1,0 +1,50 @@
+// Raw readings as they would be without the noise of the touch. A reading holds its own touch's noise, and so does the residual: where
+// targets lie on a grid, any short period of the scale would seem to explain the one by the other. What the recording plainly holds beside
+// noise must stay in the reading, or the phase within a short period is lost: it is fitted first, as far as readings are not needed for it.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// Explanations that look at no reading.
+Explanations without_readings(const Case& c) {
+  const Explanations all = explanations_for(c.touches, c.rows);
+  std::vector<int> kept;
+  for (std::size_t k = 0; k < all.list.size(); ++k) {
+    const Effect* effect = all.list[k].effect;
+    if (effect == nullptr || (effect->needs & static_cast<unsigned>(Covariate::raw_reading)) == 0) kept.push_back(static_cast<int>(k));
+  }
+  return only(all, kept);
+}
+
+}  // namespace
+
+void free_readings_of_noise(Case& c) {
+  constexpr int kMost = 3;
+  constexpr double kPlain = 10;   // nats
+  if ((c.touches.known & static_cast<unsigned>(Covariate::raw_reading)) == 0) return;
+  const Explanations explanations = without_readings(c);
+  LinearModel model = c.model;
+  Hyperparameters hyper = c.hyper;
+  for (int round = 0; round < kMost; ++round) {
+    const Evidence evidence = EvidenceSearch(model, hyper, explanations).evidence();
+    if (evidence.statistic < kPlain) break;
+    const auto& bayes = evidence.block_log_bayes;
+    const auto best = static_cast<std::size_t>(std::max_element(bayes.begin(), bayes.end()) - bayes.begin());
+    model = with_free(model, {&explanations.blocks[best].signature});
+    hyper = estimate(model);
+  }
+  const Vector loo = leave_one_out(model, hyper);
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const double noise_mm = 1e-3 * loo(i) * model.noise_um(i) * hyper.noise(model.noise_group[k]);
+    TouchScene& scene = c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene;
+    scene.reading -= noise_mm * scene.normal;
+  }
+}
+
+}  // namespace abbe::diagnose
