@@ -50,10 +50,15 @@ struct Finding {
   Evidence evidence;                 ///< given the findings before
 };
 
+/// Adequacy below which the findings are doubted.
+inline constexpr double kInadequate = 0.05;
+
 struct SearchResult {
   double p_value = 1;
+  double adequacy = 1;               ///< p-value of what the findings leave; 1 without any
   std::vector<Finding> findings;     ///< of the catalogue
   std::optional<Finding> other;      ///< what the catalogue does not explain
+  std::optional<Finding> nearest;    ///< the name that was doubted in favour of `other`
   Evidence first;                    ///< before any finding
   std::vector<Evidence> null;        ///< simulated, before any finding
   Hyperparameters hyper;             ///< of the recording beside all that was found: a mismatch passes for noise and for larger errors

@@ -146,6 +146,10 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
   u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
   u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
   u.sentence = fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording that no effect of the catalogue makes.", u.factor, u.shape, u.amplitude_um);
+  if (result.nearest) {
+    u.sentence += fmt::format(" {} comes nearest, but leaves more than chance does (p = {:.1f} %).", c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name,
+                              100 * result.adequacy);
+  }
   return u;
 }
 

@@ -34,7 +34,6 @@ double tails_of(const Vector& standardised) {
 Residuals residuals(const Case& c, const SearchResult& result) {
   std::vector<const Matrix*> named;
   for (const Finding& f : result.findings) named.push_back(&c.explanations.blocks[f.block].signature);
-  if (result.other) named.push_back(&c.explanations.blocks[result.other->block].signature);
   // One noise for all rows, so that a difference between groups shows.
   LinearModel m = with_free(c.rough ? rougher(c.model) : c.model, named);
   m.noise_group.assign(m.noise_group.size(), 0);
@@ -173,9 +172,15 @@ std::optional<NoiseFinding> outliers(const Case& c) {
 }  // namespace
 
 std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result) {
-  const Residuals r = residuals(c, result);
+  std::vector<std::optional<NoiseFinding>> judged{resolution(c), outliers(c)};
+  // What an imperfect explanation leaves is no scatter.
+  if (!result.other && result.adequacy >= kInadequate) {
+    const Residuals r = residuals(c, result);
+    judged.push_back(unequal(c, r));
+    judged.push_back(vibration(c, r));
+  }
   std::vector<NoiseFinding> out;
-  for (std::optional<NoiseFinding> f : {resolution(c), unequal(c, r), vibration(c, r), outliers(c)})
+  for (std::optional<NoiseFinding>& f : judged)
     if (f) out.push_back(std::move(*f));
   std::stable_sort(out.begin(), out.end(), [](const NoiseFinding& a, const NoiseFinding& b) { return a.p < b.p; });
   return out;

@@ -12,10 +12,11 @@ namespace {
 
 constexpr int kRounds = 3;
 /// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less flexible than a pattern.
-constexpr double kNamed = 3;
-bool likelier(const Case& c, const Finding& name, const Finding& pattern) {
+/// A name that leaves something of the mismatch must be far likelier: physics that the catalogue does not have looks like its nearest effect.
+constexpr double kNamed = 3, kNamedInDoubt = 100;
+bool likelier(const Case& c, const Finding& name, const Finding& pattern, double times) {
   const bool drawn = c.explanations.list[static_cast<std::size_t>(name.explanation)].effect->draws > 0;
-  return name.probability >= (drawn ? 1 : kNamed) * pattern.probability;
+  return name.probability >= (drawn ? times / kNamed : times) * pattern.probability;
 }
 /// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second name needs more.
 constexpr double kLaterAlarm = 1e-3;
@@ -132,6 +133,7 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
 
 SearchResult search(Case& c, EvidenceSearch& first) {
   SearchResult result;
+  std::optional<Finding> instead;   // of the last name: the pattern without a name
   const std::size_t grid = c.explanations.blocks.size();
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
@@ -142,14 +144,21 @@ SearchResult search(Case& c, EvidenceSearch& first) {
       result.p_value = r.p;
       result.null = std::move(r.null);
     }
+    if (number > 0) result.adequacy = r.p;
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     auto [named, other] = named_on_finer_grid(c, here);
     named.p = other.p = r.p;
     result.findings.push_back(named);
-    if (likelier(c, named, other) || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
+    instead = other;
+    if (likelier(c, named, other, kNamed) || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
     result.findings.pop_back();
     result.other = std::move(other);
     break;
+  }
+  if (!result.other && result.adequacy < kInadequate && !likelier(c, result.findings.back(), *instead, kNamedInDoubt)) {
+    result.nearest = std::move(result.findings.back());
+    result.findings.pop_back();
+    result.other = std::move(instead);
   }
   std::set<int> refined;
   for (const Finding& f : result.findings) {
