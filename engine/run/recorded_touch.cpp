@@ -229,6 +229,7 @@ void fill_covariates(const RecordingRow& row, const Machine& machine, int ordina
 void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
   constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
   int sense[3] = {1, 1, 1}, visit = 0;
+  std::map<std::pair<int, int>, int> visits;   // every run counts its own
   double a = 1e9, b = 1e9;
   for (RecordedTouch& t : touches) {
     for (int k = 0; k < 3; ++k) {
@@ -239,7 +240,8 @@ void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& tou
     if (t.scene.stylus.head_a_rad != a || t.scene.stylus.head_b_rad != b) ++visit;
     a = t.scene.stylus.head_a_rad;
     b = t.scene.stylus.head_b_rad;
-    t.scene.visit = recording.rows[t.row].visit.value_or(visit);
+    const std::pair logged{t.scene.run, recording.rows[t.row].visit.value_or(visit)};
+    t.scene.visit = visits.emplace(logged, static_cast<int>(visits.size())).first->second;
   }
 }
 

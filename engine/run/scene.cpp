@@ -126,6 +126,7 @@ RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
   RecordingRow row;
   row.feature = executor.plan_[touch.feature].label;
   row.touch = static_cast<int>(lane.points.size());
+  row.run = executor.options_.repeat + 1;
   row.position_mm = touch_batch.commanded.get(slot) + along - executor.options_.placement_mm;
   row.target_mm = touch_batch.surface.get(slot) + sensor.radius_mm * true_normal - executor.options_.placement_mm;
   row.normal = true_normal;

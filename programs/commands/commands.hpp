@@ -66,6 +66,7 @@ struct RecordOptions {
   std::optional<std::string> dmo;           ///< where the result file of the recorded machine goes
   std::optional<std::string> machine, workpiece;
   std::optional<std::uint64_t> seed;
+  int run = 1;                              ///< which repeat: the same machine, other noise
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
   std::vector<std::string> with;            ///< "EFFECT" or "EFFECT:parameter=value,..."
 };

@@ -10,9 +10,9 @@ PAUSE_S = 900
 
 
 class NextMeasurement(harness.Case):
-    def record(self, program, name, effect, **changes):
+    def record(self, program, name, effect, run=1, **changes):
         """A recording; `changes` are functions from the old value of a column to the new one."""
-        self.abbe("record", program, "--machine", MACHINE, "-o", name, "--with", effect)
+        self.abbe("record", program, "--machine", MACHINE, "-o", name, "--with", effect, "--run", run)
         lines = (self.folder / name).read_text().splitlines()
         comments = [line for line in lines if line.startswith("#")]
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
@@ -32,7 +32,7 @@ class NextMeasurement(harness.Case):
         self.assertGreater(best["expected_probability"], 1 / len(best["separates"]))
         self.assertGreater(best["minutes"], 1)
         self.write("next.dmi", best["program"])
-        second = self.record("next.dmi", "second.csv", effect, run=lambda r: 2, visit=lambda v: int(v) + 10, time_s=lambda t: float(t) + PAUSE_S,
+        second = self.record("next.dmi", "second.csv", effect, run=2, time_s=lambda t: float(t) + PAUSE_S,
                              setup=lambda s: 2 if moved else 1)
         return said["effects"][0]["members"], self.diagnosis(first, second)["effects"][0]["members"]
 

@@ -49,6 +49,15 @@ with tempfile.TemporaryDirectory() as folder:
     difference = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, larger)]
     check(all(abs(d - 2) < 0.002 for d in difference), "a tip larger by 2 um reads +2 um everywhere, all else equal")
 
+    run, out = record(folder, "--run", "2")
+    again = rows(out)
+    repeats = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, again)]
+    run, out = record(folder, "--seed", "2")
+    elsewhere = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, rows(out))]
+    check({r["run"] for r in plain} == {"1"} and {r["run"] for r in again} == {"2"}, "a repeat says that it is one")
+    check(all(repeats) and max(map(abs, repeats)) < max(map(abs, elsewhere)) / 2, "it has other noise, but not another machine")
+    check(record(folder, "--run", "0")[0].returncode == 2, "runs begin with 1")
+
     run, out = record(folder, "--with", "machine.scale:axis=x,scale_um_per_m=10")
     check(run.returncode == 0, "a choice may be given by its word")
 
