@@ -106,15 +106,21 @@ int edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// The letters of one word in another order: "XZPLAN" is ZXPLAN rather than XYPLAN.
+bool same_letters(std::string_view a, std::string_view b) {
+  return std::is_permutation(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+}
+
 }  // namespace
 
 std::string nearest_word(std::string_view word, const std::vector<std::string_view>& candidates) {
+  constexpr int kTooFar = 3;
   std::string_view best;
-  int best_distance = 3;
+  std::pair least{kTooFar, false};
   for (const std::string_view candidate : candidates) {
-    const int distance = edit_distance(word, candidate);
+    const std::pair distance{edit_distance(word, candidate), !same_letters(word, candidate)};
     const int longest = static_cast<int>(std::max(word.size(), candidate.size()));
-    if (distance < best_distance && 3 * distance <= longest) best = candidate, best_distance = distance;
+    if (distance < least && 3 * distance.first <= longest) best = candidate, least = distance;
   }
   return std::string(best);
 }

@@ -44,6 +44,7 @@ TEST_CASE("a slip of the pen is recognised, another word is not") {
   CHECK(nearest_word("PTMAES", {"PTMEAS", "GOTO"}) == "PTMEAS");
   CHECK(nearest_word("goto", {"PTMEAS", "GOTO"}) == "GOTO");
   CHECK(nearest_word("MAES", {"GOTO", "MEAS"}) == "MEAS");  // neighbours exchanged: one slip
+  CHECK(nearest_word("XZPLAN", {"XYPLAN", "YZPLAN", "ZXPLAN"}) == "ZXPLAN");
   CHECK(nearest_word("ab", {"xy"}).empty());
   CHECK(nearest_word("travel", {"direction"}).empty());
   CHECK(nearest_word("anything", {}).empty());
