@@ -7,6 +7,7 @@ nulls, a stranger, a missing column, a decoy. Every step of `make evidence` but 
 
 import json
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -17,6 +18,7 @@ except ModuleNotFoundError:
     print("needs numpy (Debian: python3-numpy)")
     sys.exit(77)
 
+import cases
 import evidence
 import follow
 import generate
@@ -66,6 +68,16 @@ class SmallRound(unittest.TestCase):
 
     def test_a_stranger_is_not_named(self):
         self.assertEqual(self.rows["0006"]["verdict"], "unexplained")
+
+    def test_a_name_that_leaves_something_is_doubted(self):
+        """A stranger of the fourth final round: the room's cycle comes nearest, and had been its name."""
+        data, _ = cases.make("final a440d084911db323c16f92486047d783", "0188", Spec("unknown", "busy_motor", 16.0))
+        for name, text in data.items():
+            (self.root / name).write_text(text)
+        words = [ABBE, "diagnose", self.root / "recording.csv", "--machine", self.root / "machine.json", "--format", "json"]
+        said = json.loads(subprocess.run(words, capture_output=True, check=True, text=True).stdout)
+        self.assertEqual((said["verdict"], said["effects"]), ("unexplained", []))
+        self.assertIn("thermal.cycle comes nearest", said["unexplained"]["sentence"])
 
     def test_what_was_not_logged_cannot_be_judged(self):
         self.assertIn("thermal.part_expansion", self.rows["0007"]["cannot_judge"])
