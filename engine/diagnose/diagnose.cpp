@@ -105,9 +105,18 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
   return write_known_state(posterior(beside, result.hyper, std::vector<char>(c.rows.size(), 0)), result.hyper);
 }
 
+/// Belief in a change of the scatter that chance alone shows with probability p: the most that a p-value can say for it (Sellke, Bayarri &
+/// Berger, The American Statistician 55, 2001), where one recording in a hundred has such a change.
+double believed(double p) {
+  constexpr double kPrior = 0.01;
+  const double least = std::max(p, 1e-300), chance = p < std::exp(-1.0) ? -std::exp(1.0) * least * std::log(least) : 1;
+  return kPrior / (kPrior + (1 - kPrior) * chance);
+}
+
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
-    out.effects.push_back({{std::string(n.effect->name)}, out.unexplained ? std::min(1 - n.p, kBesideUnexplained) : 1 - n.p, n.parameters, n.sentence});
+    const double probability = believed(n.p);
+    out.effects.push_back({{std::string(n.effect->name)}, out.unexplained ? std::min(probability, kBesideUnexplained) : probability, n.parameters, n.sentence});
     EffectSetting setting{std::string(n.effect->name), {}};
     for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
     out.model_effects.push_back(std::move(setting));
