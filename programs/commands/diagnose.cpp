@@ -30,6 +30,29 @@ Recording nominal_recording(const std::string& path, const Machine& machine) {
   return record_plan(plan, machine, screened_machines(machine, 1, 1, 1), run, program.source).recording;
 }
 
+/// First and last time of a recording, if any.
+std::optional<std::pair<double, double>> time_span(const Recording& r) {
+  std::optional<std::pair<double, double>> span;
+  for (const RecordingRow& row : r.rows) {
+    if (!row.time_s) continue;
+    if (!span) span = {*row.time_s, *row.time_s};
+    span = {std::min(span->first, *row.time_s), std::max(span->second, *row.time_s)};
+  }
+  return span;
+}
+
+/// A machine takes one recording at a time: where the clock of the next file begins before the last one has ended, it was set anew.
+void continue_clock(const Recording& before, Recording& next, const std::string& file) {
+  constexpr double kPause_s = 60;
+  const auto past = time_span(before), own = time_span(next);
+  if (!past || !own || own->first > past->second) return;
+  const double later_s = past->second + kPause_s - own->first;
+  for (RecordingRow& row : next.rows)
+    if (row.time_s) *row.time_s += later_s;
+  print_messages({diagnostic(Code::N0708, fmt::format("{}: its clock begins before the recording ahead of it ends; its times count as {:.0f} s later", file, later_s),
+                             "if it was measured at another time, write its true times into time_s")});
+}
+
 /// Several files are one recording; their frames must agree.
 Recording joined(const std::vector<std::string>& files) {
   Recording all;
@@ -42,6 +65,7 @@ Recording joined(const std::vector<std::string>& files) {
     if (one.in_part_frame != all.in_part_frame || one.point != all.point)
       throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0], files[k]),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
+    continue_clock(all, one, files[k]);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());   // new styli; of what is said twice the first counts
   }
