@@ -41,15 +41,15 @@ std::optional<std::pair<double, double>> time_span(const Recording& r) {
   return span;
 }
 
-/// A machine takes one recording at a time: where the clock of the next file begins before the last one has ended, it was set anew.
+/// A machine takes one recording at a time: where two overlap, the clock was set anew between them, and the next one counts as measured later.
 void continue_clock(const Recording& before, Recording& next, const std::string& file) {
   constexpr double kPause_s = 60;
   const auto past = time_span(before), own = time_span(next);
-  if (!past || !own || own->first > past->second) return;
+  if (!past || !own || own->first > past->second || own->second < past->first) return;
   const double later_s = past->second + kPause_s - own->first;
   for (RecordingRow& row : next.rows)
     if (row.time_s) *row.time_s += later_s;
-  print_messages({diagnostic(Code::N0708, fmt::format("{}: its clock begins before the recording ahead of it ends; its times count as {:.0f} s later", file, later_s),
+  print_messages({diagnostic(Code::N0708, fmt::format("{}: its times overlap those of the recording ahead of it; they count as {:.0f} s later", file, later_s),
                              "if it was measured at another time, write its true times into time_s")});
 }
 
