@@ -63,7 +63,8 @@ struct SearchResult {
   std::vector<Evidence> null;        ///< simulated, before any finding
   Hyperparameters hyper;             ///< of the recording beside all that was found: a mismatch passes for noise and for larger errors
 };
-/// The signatures of all that was found, a pattern without a name too.
+/// The signatures of findings; of all that was found, a pattern without a name too.
+std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>&);
 std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);
 /// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
 SearchResult search(Case&, EvidenceSearch& first);
@@ -73,8 +74,9 @@ void refine(const Case&, Explanations&, EvidenceSearch&);
 
 /// Fits the recording without its gross outliers: fills `masked`, `off_um`, `rows`, `model`, `hyper`.
 void mask_outliers(Case&);
-/// Takes the noise of each touch out of its raw readings, where there are any (own_noise.cpp).
-void free_readings_of_noise(Case&);
+/// Takes the noise of each touch out of its raw readings, where there are any (own_noise.cpp). `first`: the evidence of the explanations so
+/// far, none of which looks at readings.
+void free_readings_of_noise(Case&, const EvidenceSearch& first);
 
 /// Steps that fill parts of the answer.
 void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);

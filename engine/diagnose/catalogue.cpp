@@ -164,6 +164,15 @@ Factor factor_of(const Effect& effect) {
   return Factor::direction;
 }
 
+bool sees_reading(const Effect& effect) { return (effect.needs & static_cast<unsigned>(Covariate::raw_reading)) != 0; }
+
+/// The names share their belief equally, and so do the patterns.
+void share_priors(Explanations& all) {
+  const auto named = static_cast<double>(std::count_if(all.list.begin(), all.list.end(), [](const Explanation& e) { return e.effect != nullptr; }));
+  const double patterns = static_cast<double>(all.list.size()) - named;
+  for (Explanation& e : all.list) e.prior = e.effect ? kPriorCatalogue / named : kPriorOther / patterns;
+}
+
 /// Effects of the noise change no mean: they are judged by the variance (noise_effects.hpp).
 bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
 
@@ -217,9 +226,9 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
 }
 
-void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out) {
   for (const Effect* effect : effects())
-    if (!is_noise(*effect)) add_effect(*effect, t, rows, out);
+    if (!is_noise(*effect) && sees_reading(*effect) == of_readings) add_effect(*effect, t, rows, out);
 }
 
 Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows, const std::vector<std::string>& names) {
@@ -229,15 +238,19 @@ Explanations named_explanations(const RecordedTouches& t, const std::vector<int>
   return out;
 }
 
-Explanations explanations_for(const RecordedTouches& t, const std::vector<int>& rows) {
+Explanations explanations_without_readings(const RecordedTouches& t, const std::vector<int>& rows) {
   Explanations out;
-  add_catalogue(t, rows, out);
-  const std::size_t catalogue = out.list.size();
+  add_catalogue(t, rows, false, out);
   add_other(t, rows, out);
-  const std::size_t other = out.list.size() - catalogue;
-  for (std::size_t k = 0; k < out.list.size(); ++k)
-    out.list[k].prior = k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(other);
+  share_priors(out);
   return out;
+}
+
+void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  add_catalogue(t, rows, true, out);
+  const auto place = [](const Explanations::Unjudged& u) { return std::find(effects().begin(), effects().end(), u.effect) - effects().begin(); };
+  std::stable_sort(out.unjudged.begin(), out.unjudged.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  share_priors(out);
 }
 
 }  // namespace abbe::diagnose

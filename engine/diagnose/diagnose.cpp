@@ -105,17 +105,12 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
   return write_known_state(posterior(beside, result.hyper, std::vector<char>(c.rows.size(), 0)), result.hyper);
 }
 
-/// Belief in a change of the scatter that chance alone shows with probability p: the most that a p-value can say for it (Sellke, Bayarri &
-/// Berger, The American Statistician 55, 2001), where one recording in a hundred has such a change.
-double believed(double p) {
-  constexpr double kPrior = 0.01;
-  const double least = std::max(p, 1e-300), chance = p < std::exp(-1.0) ? -std::exp(1.0) * least * std::log(least) : 1;
-  return kPrior / (kPrior + (1 - kPrior) * chance);
-}
+/// One recording in so many has a change of the scatter.
+constexpr double kPriorScatter = 0.01;
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
-    const double probability = believed(n.p);
+    const double probability = most_believed(n.p, kPriorScatter);
     out.effects.push_back({{std::string(n.effect->name)}, out.unexplained ? std::min(probability, kBesideUnexplained) : probability, n.parameters, n.sentence});
     EffectSetting setting{std::string(n.effect->name), {}};
     for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
@@ -202,11 +197,14 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
     for (std::size_t i = 0; i < c.masked.size(); ++i) c.rows.push_back(static_cast<int>(i));
   } else {
     mask_outliers(c);
-    free_readings_of_noise(c);
   }
-  c.explanations = explanations_for(c.touches, c.rows);
-  out.cannot_judge = unjudged(c.explanations);
+  c.explanations = explanations_without_readings(c.touches, c.rows);
   EvidenceSearch first(c.model, c.hyper, c.explanations);
+  const std::size_t without_readings = c.explanations.blocks.size();
+  if (!options.design_only) free_readings_of_noise(c, first);
+  add_explanations_of_readings(c.touches, c.rows, c.explanations);
+  first.extend(c.explanations, without_readings);
+  out.cannot_judge = unjudged(c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
   const bool known = !machine.known_state.empty();
   if (options.design_only) {

@@ -162,9 +162,7 @@ std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& re
   one.list.back().prior = 1;
   one.blocks.emplace_back();
   one.blocks.back().signature = basis.columns;
-  std::vector<const Matrix*> named;
-  for (const Finding& f : result.findings) named.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
-  const Fit fit = fitted(EvidenceSearch(with_free(c.model, named), c.hyper, one).information(0));
+  const Fit fit = fitted(EvidenceSearch(with_free(c.model, signatures_of(c, result.findings)), result.hyper, one).information(0));
   std::vector<EffectSetting> settings;
   for (const Piece& p : pieces) settings.push_back(setting_of(p));
   for (std::size_t k = 0; k < basis.of.size(); ++k) {

@@ -46,7 +46,7 @@ void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) 
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
-  evidence_ = judge(y_, &alone_, &with_);
+  if (y_.squaredNorm() > 0) evidence_ = judge(y_, &alone_, &with_);
 }
 
 Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
@@ -111,6 +111,12 @@ double tail_probability(double observed, std::vector<double> simulated) {
   // The mean of so few values is uncertain itself: averaged over that (flat in its logarithm), the exponential law becomes that of Lomax.
   const auto values = double(tail);
   return std::max(1e-12, values / n * std::pow(1 + (observed - from) / (values * std::max(mean, 1e-9)), -values));
+}
+
+double most_believed(double p, double prior) {
+  const double least = std::max(p, 1e-300);
+  const double chance = least < std::exp(-1.0) ? -std::exp(1.0) * least * std::log(least) : 1;
+  return prior / (prior + (1 - prior) * chance);
 }
 
 double log_sum_exp(const std::vector<double>& v) {

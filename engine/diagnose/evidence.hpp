@@ -21,7 +21,7 @@ class EvidenceSearch {
  public:
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
-  /// Judges a list whose blocks are new after the first `same`.
+  /// Judges a list whose blocks are new after the first `same`; a plan has nothing to judge.
   void extend(const Explanations&, std::size_t same);
 
   /// Of the recording.
@@ -68,6 +68,10 @@ class EvidenceSearch {
 /// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the next value would be of the
 /// exponential law that the upper tenth of the simulated values follows.
 double tail_probability(double observed, std::vector<double> simulated);
+
+/// Belief in what chance alone shows with probability p, believed with `prior` before: the most that a p-value can say for it, by the bound
+/// -e p ln p on the Bayes factor of chance. [Sellke, Bayarri & Berger, The American Statistician 55 (2001), eq. 2]
+double most_believed(double p, double prior);
 
 double log_sum_exp(const std::vector<double>&);
 

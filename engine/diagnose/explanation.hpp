@@ -67,14 +67,16 @@ struct Explanations {
 
 /// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
 inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
-/// Every explanation for these touches; `rows`: which touches take part.
-Explanations explanations_for(const RecordedTouches&, const std::vector<int>& rows);
+/// Every explanation for these touches but those that look at raw readings, which are added once the readings are free of noise
+/// (own_noise.cpp); `rows`: which touches take part.
+Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
+void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
 /// The effects of these names only, in the order of the names.
 Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows, const std::vector<std::string>& names);
 
-/// Appends the blocks of every effect of the registry (catalogue.cpp), and those of OTHER (other.cpp).
-void add_catalogue(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+/// Appends the blocks of every effect of the registry that looks at readings, or not (catalogue.cpp), and those of OTHER (other.cpp).
+void add_catalogue(const RecordedTouches&, const std::vector<int>& rows, bool of_readings, Explanations&);
 void add_effect(const Effect&, const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 

@@ -131,9 +131,7 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
 
 Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
   const Finding& f = *result.other;
-  std::vector<const Matrix*> removed;
-  for (const Finding& named : result.findings) removed.push_back(&c.explanations.blocks[named.block].signature);
-  const EvidenceSearch search(with_free(c.model, removed), result.hyper, c.explanations);
+  const EvidenceSearch search(with_free(c.model, signatures_of(c, result.findings)), result.hyper, c.explanations);
   const Explanation& e = c.explanations.list[f.explanation];
   const Block& block = c.explanations.blocks[f.block];
   const Pattern pattern = pattern_of(search, block, f.block);

@@ -2,41 +2,25 @@
 // targets lie on a grid, any short period of the scale would seem to explain the one by the other. What the recording plainly holds beside
 // noise must stay in the reading, or the phase within a short period is lost: it is fitted first, as far as readings are not needed for it.
 #include <algorithm>
-#include <cmath>
 
 #include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 
-namespace {
-
-/// Explanations that look at no reading.
-Explanations without_readings(const Case& c) {
-  const Explanations all = explanations_for(c.touches, c.rows);
-  std::vector<int> kept;
-  for (std::size_t k = 0; k < all.list.size(); ++k) {
-    const Effect* effect = all.list[k].effect;
-    if (effect == nullptr || (effect->needs & static_cast<unsigned>(Covariate::raw_reading)) == 0) kept.push_back(static_cast<int>(k));
-  }
-  return only(all, kept);
-}
-
-}  // namespace
-
-void free_readings_of_noise(Case& c) {
+void free_readings_of_noise(Case& c, const EvidenceSearch& first) {
   constexpr int kMost = 3;
   constexpr double kPlain = 10;   // nats
   if ((c.touches.known & static_cast<unsigned>(Covariate::raw_reading)) == 0) return;
-  const Explanations explanations = without_readings(c);
   LinearModel model = c.model;
   Hyperparameters hyper = c.hyper;
-  for (int round = 0; round < kMost; ++round) {
-    const Evidence evidence = EvidenceSearch(model, hyper, explanations).evidence();
-    if (evidence.statistic < kPlain) break;
+  Evidence evidence = first.evidence();
+  for (int round = 1; evidence.statistic >= kPlain; ++round) {
     const auto& bayes = evidence.block_log_bayes;
     const auto best = static_cast<std::size_t>(std::max_element(bayes.begin(), bayes.end()) - bayes.begin());
-    model = with_free(model, {&explanations.blocks[best].signature});
+    model = with_free(model, {&c.explanations.blocks[best].signature});
     hyper = estimate(model);
+    if (round == kMost) break;
+    evidence = EvidenceSearch(model, hyper, c.explanations).evidence();
   }
   const Vector loo = leave_one_out(model, hyper);
   for (std::size_t k = 0; k < c.rows.size(); ++k) {

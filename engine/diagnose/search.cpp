@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "engine/diagnose/case.hpp"
 
@@ -85,9 +86,7 @@ double log_belief(const Case& c, const Finding& f) {
 
 /// The recording with what was found taken out. Its noise is fitted again: the first fit took the mismatch for noise.
 EvidenceSearch rest_of(const Case& c, const std::vector<Finding>& findings) {
-  std::vector<const Matrix*> removed;
-  for (const Finding& f : findings) removed.push_back(&c.explanations.blocks[f.block].signature);
-  const LinearModel model = with_free(c.model, removed);
+  const LinearModel model = with_free(c.model, signatures_of(c, findings));
   return {model, estimate(model), c.explanations};
 }
 
@@ -129,12 +128,10 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
 }
 
-}  // namespace
-
-SearchResult search(Case& c, EvidenceSearch& first) {
+/// Round after round, until nothing is left or what is left has no name.
+SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
   SearchResult result;
   std::optional<Finding> instead;   // of the last name: the pattern without a name
-  const std::size_t grid = c.explanations.blocks.size();
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
     if (number > 0) rest.emplace(rest_of(c, result.findings));
@@ -143,60 +140,84 @@ SearchResult search(Case& c, EvidenceSearch& first) {
     if (number == 0) {
       result.p_value = r.p;
       result.null = std::move(r.null);
+    } else {
+      result.adequacy = r.p;
     }
-    if (number > 0) result.adequacy = r.p;
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     auto [named, other] = named_on_finer_grid(c, here);
     named.p = other.p = r.p;
     result.findings.push_back(named);
-    instead = other;
-    if (likelier(c, named, other, kNamed) || (number + 1 < kRounds && better_with_partner(c, result.findings, other, number + 1))) continue;
-    result.findings.pop_back();
-    result.other = std::move(other);
-    break;
+    if (!likelier(c, named, other, kNamed) && (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
+      result.findings.pop_back();
+      result.other = std::move(other);
+      return result;
+    }
+    instead = std::move(other);
   }
-  if (!result.other && result.adequacy < kInadequate && !likelier(c, result.findings.back(), *instead, kNamedInDoubt)) {
+  if (result.adequacy < kInadequate && !likelier(c, result.findings.back(), *instead, kNamedInDoubt)) {
     result.nearest = std::move(result.findings.back());
     result.findings.pop_back();
     result.other = std::move(instead);
   }
+  return result;
+}
+
+/// The finer variants of what was found take the place of the coarse ones.
+void keep_variants(Case& c, const std::vector<Finding>& findings) {
   std::set<int> refined;
-  for (const Finding& f : result.findings) {
+  for (const Finding& f : findings) {
     std::vector<int>& blocks = c.explanations.list[static_cast<std::size_t>(f.explanation)].blocks;
     if (refined.insert(f.explanation).second) blocks.clear();
     blocks.insert(blocks.end(), f.variants.begin(), f.variants.end());
   }
+}
+
+/// Where a pattern alone is as good as effects with a pattern beside them, the effects were not there.
+void drop_names_beside_a_pattern(const Case& c, SearchResult& result) {
+  if (!result.other || result.findings.empty()) return;
+  const Finding alone = finding_of(c.explanations, result.first, false);
+  double together = log_belief(c, *result.other);
+  for (const Finding& f : result.findings) together += log_belief(c, f);
+  if (log_belief(c, alone) <= together) return;
+  result.findings.clear();
+  result.other = alone;
+  result.other->p = result.p_value;
+}
+
+/// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is enough.
+void name_again(const Case& c, SearchResult& result) {
+  if (result.findings.size() < 2) return;
+  const std::vector<Finding> before = std::exchange(result.findings, {});
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    auto [f, pattern] = renamed(c, before, k);
+    const bool known = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& d) { return d.explanation == f.explanation; });
+    if (!pattern && !known) result.findings.push_back(std::move(f));
+    else if (pattern && !result.other) result.other = std::move(f);
+  }
+}
+
+}  // namespace
+
+SearchResult search(Case& c, EvidenceSearch& first) {
+  const std::size_t grid = c.explanations.blocks.size();
+  SearchResult result = found_in_rounds(c, first);
+  keep_variants(c, result.findings);
   first.extend(c.explanations, grid);
   result.first = first.evidence();
-  // A pattern alone that is as good as effects with a pattern beside them: the effects were not there.
-  if (result.other && !result.findings.empty()) {
-    const Finding alone = finding_of(c.explanations, result.first, false);
-    double together = log_belief(c, *result.other);
-    for (const Finding& f : result.findings) together += log_belief(c, f);
-    if (log_belief(c, alone) > together) {
-      result.findings.clear();
-      result.other = alone;
-      result.other->p = result.p_value;
-    }
-  }
-  if (result.findings.size() > 1) {
-    const std::vector<Finding> before = result.findings;
-    result.findings.clear();
-    for (std::size_t k = 0; k < before.size(); ++k) {
-      auto [f, pattern] = renamed(c, before, k);
-      // Two rounds may have named one effect twice: then one name is enough.
-      const bool known = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& d) { return d.explanation == f.explanation; });
-      if (!pattern && !known) result.findings.push_back(std::move(f));
-      else if (pattern && !result.other) result.other = std::move(f);
-    }
-  }
+  drop_names_beside_a_pattern(c, result);
+  name_again(c, result);
   result.hyper = result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
   return result;
 }
 
-std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& result) {
+std::vector<const Matrix*> signatures_of(const Case& c, const std::vector<Finding>& findings) {
   std::vector<const Matrix*> list;
-  for (const Finding& f : result.findings) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+  for (const Finding& f : findings) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+  return list;
+}
+
+std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& result) {
+  std::vector<const Matrix*> list = signatures_of(c, result.findings);
   if (result.other) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature);
   return list;
 }

@@ -180,3 +180,12 @@ TEST_CASE("a tail of thirty values is as uncertain as thirty values are") {
   for (int k = 0; k < 30; ++k) simulated.push_back(k % 2 ? 0.5 : 1.5);
   CHECK(tail_probability(10, simulated) == doctest::Approx(0.1 * std::pow(1 + 10.0 / 30, -30)));
 }
+
+TEST_CASE("what a p-value can say at most is what Sellke, Bayarri and Berger tabulate") {
+  // Their table 1: the least error probability of rejecting, for a prior of one half.
+  CHECK(1 - most_believed(0.05, 0.5) == doctest::Approx(0.289).epsilon(0.002));
+  CHECK(1 - most_believed(0.01, 0.5) == doctest::Approx(0.111).epsilon(0.005));
+  CHECK(1 - most_believed(0.001, 0.5) == doctest::Approx(0.0184).epsilon(0.005));
+  CHECK(most_believed(0.5, 0.01) == doctest::Approx(0.01));
+  CHECK(most_believed(0, 0.01) == doctest::Approx(1));
+}
