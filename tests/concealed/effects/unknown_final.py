@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from .base import Change, Effect, vector
+from .base import Change, Effect, unit, vector
+from .probe import directions
 
 UNKNOWN = {}
 
@@ -11,113 +12,105 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_sagging(scene, rng):
+def draw_refitted(scene, rng):
+    return {"amplitude_um": 1.0, "turned": unit(rng), "placement": int(rng.choice(np.unique(scene.setup)[1:]))}
+
+
+def change_refitted(scene, p):
+    """Before one placement the head is taken off and put on again, a little turned on its mount, and nobody qualifies
+    the styli: each tip is off by its lever, until the head is put right. Amplitude at the longest lever."""
+    lever = scene.tip / np.linalg.norm(scene.tip, axis=1).max()
+    moved = np.cross(p["turned"], lever) * (scene.setup == p["placement"])[:, None]
+    return Change(tip=p["amplitude_um"] * moved)
+
+
+def draw_dust(scene, rng):
+    turn, lean = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(20, 40))
     return {
         "amplitude_um": 1.0,
-        "spans_mm": rng.uniform(0.6, 0.85, 2) * np.ptp(scene.reading[:, :2], axis=0),
-        "first_mm": [float(rng.uniform(*np.quantile(scene.reading[:, i], [0.05, 0.95]))) for i in range(2)],
+        "towards": [np.sin(lean) * np.cos(turn), np.sin(lean) * np.sin(turn), np.cos(lean)],
+        "width_deg": rng.uniform(18, 28),
     }
 
 
-def change_sagging(scene, p):
-    """The table lies on a grid of posts and sags between them, and the carriage follows it: hills and hollows in
-    both directions, as in an egg box."""
-    waves = np.cos(2 * np.pi * (scene.reading[:, :2] - p["first_mm"]) / p["spans_mm"])
-    return Change(tip=vector([0, 0, 1], p["amplitude_um"] * waves[:, 0] * waves[:, 1]))
-
-
-def draw_ganged(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "right_at_mm_s": rng.uniform(4.4, 5.6)}
-
-
-def change_ganged(scene, p):
-    """Every axis drives at the full speed by itself, so that an approach between the axes is faster than the
-    controller believes. The compensation of the delay is right on average, and at one speed in all directions."""
-    faster = np.abs(scene.travel).sum(1)
-    share = (scene.speed - p["right_at_mm_s"]) / 6
-    return Change(along=-p["amplitude_um"] * share * (faster - faster.mean()) / faster.std())
-
-
-def draw_sinking(scene, rng):
-    return {"amplitude_um": 1.0, "towards": rng.uniform(0, 2 * np.pi), "tau_s": rng.uniform(120, 400)}
-
-
-def change_sinking(scene, p):
-    """The fixture stands on a post in its middle and on pads around it. One pad is soft: after every placement it
-    sinks for some minutes, and the part tilts about the post. Amplitude at the pad."""
-    out = np.array([np.cos(p["towards"]), np.sin(p["towards"]), 0])
+def change_dust(scene, p):
+    """Dust of a grinding machine settles on the balls where they are flat, a little to the side it comes from. The
+    layer grows until the part is placed anew and wiped. Amplitude in the longest placement."""
     placed = np.array([scene.time[scene.setup == k].min() for k in scene.setup])
-    sunk = p["amplitude_um"] * (1 - np.exp(-(scene.time - placed) / p["tau_s"]))
-    away = scene.target - scene.target.mean(0)
-    angle = np.outer(sunk / np.abs(away @ out).max(), np.cross(out, [0, 0, -1]))
-    return Change(tip=np.cross(angle, away))
+    layer = (scene.time - placed) / np.max(scene.time - placed)
+    angle = np.degrees(np.arccos(np.clip(scene.normal @ np.asarray(p["towards"]), -1, 1)))
+    return Change(along=p["amplitude_um"] * layer * np.exp(-0.5 * (angle / p["width_deg"]) ** 2))
 
 
-def draw_hose(scene, rng):
-    low, high = np.quantile(scene.target[:, :2], [0.05, 0.95], axis=0)
+def draw_grease(scene, rng):
+    air = scene.temperature["air"]
+    return {"amplitude_um": 1.0, "qualified_at_C": float((air.min() + air.max()) / 2 + rng.uniform(-0.4, 0.4))}
+
+
+def change_grease(scene, p):
+    """The grease of the probe's seats is stiff in the cold: it takes a larger moment to tip them than when the styli
+    were qualified, and a stylus touched from the side bends more, by the square of its length. The warm probe is the
+    other way round."""
+    _, beta = directions(scene)
+    bent = np.cos(beta) ** 2 * (scene.length / scene.length.max()) ** 2
+    return Change(along=p["amplitude_um"] * (scene.temperature["air"] - p["qualified_at_C"]) * bent)
+
+
+def draw_leg(scene, rng):
+    along = "xyz".index(scene.machine.chain[0])
     return {
         "amplitude_um": 1.0,
-        "hung_at_mm": low + rng.uniform(0.3, 0.7, 2) * (high - low),
-        "slack": rng.uniform(0.15, 0.35),
+        "along": along,
+        "driven_end": rng.choice([-1.0, 1.0]),
+        "freed_after_mm": rng.uniform(0.1, 0.2) * float(np.ptp(scene.reading[:, along])),
     }
 
 
-def change_hose(scene, p):
-    """A hose hangs from the ceiling to the head. Where it is taut it pulls the elbow of a lying stylus towards the
-    place below its hook: the wrist turns by the lever."""
-    pull = np.asarray(p["hung_at_mm"]) - (scene.target - scene.arm)[:, :2]
-    far = np.linalg.norm(pull, axis=1)
-    taut = np.clip(far / far.max() - p["slack"], 0, None) / np.maximum(far, 1e-9)
-    torque = taut * (scene.shank[:, 1] * pull[:, 0] - scene.shank[:, 0] * pull[:, 1])
-    return Change(tip=np.cross([0, 0, 1.0], scene.arm / scene.length.max()) * p["amplitude_um"] * torque[:, None])
+def change_leg(scene, p):
+    """The bridge is driven at one leg; the other one drags and stays behind in the sense of the last long way. A short
+    approach does not free it. Amplitude at the far leg."""
+    i, held = p["along"], p["freed_after_mm"]
+    state, behind = scene.start[0, i], np.empty(scene.size)
+    for k, way in enumerate(np.column_stack([scene.start[:, i], scene.reading[:, i]])):
+        for x in way:
+            state = min(max(state, x - held), x + held)
+        behind[k] = (way[1] - state) / held
+    x = scene.target[:, 1 - i]
+    far = 0.5 - p["driven_end"] * (x - (x.min() + x.max()) / 2) / np.ptp(x)
+    return Change(tip=vector(np.eye(3)[i], p["amplitude_um"] * behind * far))
 
 
-def draw_pickup(scene, rng):
-    count = int(rng.integers(3, 6))
+def draw_battery(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "wiped_s": np.quantile(scene.time, (np.arange(count) + rng.uniform(0.2, 0.8, count)) / count),
+        "low_s": float(np.quantile(scene.time, rng.uniform(0.3, 0.5))),
+        "changed_s": float(np.quantile(scene.time, rng.uniform(0.75, 0.95))) + 0.5,
     }
 
 
-def change_pickup(scene, p):
-    """A tip picks up metal from the part with every touch and grows, until it is wiped. The qualification has taken
-    the mean."""
-    layer, wiped = np.zeros(scene.size), np.searchsorted(p["wiped_s"], scene.time)
-    for tip in np.unique(scene.length):
-        mine = scene.length == tip
-        for k in np.unique(wiped[mine]):
-            here = mine & (wiped == k)
-            layer[here] = np.arange(here.sum())
-        layer[mine] -= layer[mine].mean()
-    return Change(along=p["amplitude_um"] * layer / np.ptp(layer))
+def change_battery(scene, p):
+    """The battery of a radio probe runs low: its message must be repeated more and more often, and the machine goes on
+    meanwhile. Then the battery is changed. Amplitude at 8 mm/s."""
+    low = np.clip((scene.time - p["low_s"]) / (p["changed_s"] - p["low_s"]), 0, 1) * (scene.time < p["changed_s"])
+    return Change(tip=scene.travel * (p["amplitude_um"] * low * scene.speed / 8)[:, None])
 
 
-def draw_bar(scene, rng):
-    angles = rng.normal(size=len(np.unique(scene.setup)))
-    return {
-        "amplitude_um": 1.0,
-        "across": int(rng.integers(2)),
-        "side": rng.choice([-1.0, 1.0]),
-        "screw": rng.choice([-1.0, 1.0]) * rng.uniform(1.1, 1.6),
-        "turned": (angles - angles.mean()) / angles.std(),
-        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
-    }
+def draw_certificate(scene, rng):
+    excess = rng.normal(size=(3, 3, 3)) * [1, 1, 0.5]
+    swapped = excess - excess.transpose(1, 0, 2)
+    return {"amplitude_um": 1.0, "excess": (swapped / np.sqrt(np.mean(swapped**2))).reshape(9, 3)}
 
 
-def change_bar(scene, p):
-    """The balls of one side sit on a bar that a single screw holds at its end: whenever the part is placed anew, the
-    bar is turned a little about the screw."""
-    i, h = p["across"], p["half_size_mm"]
-    on_bar = p["side"] * scene.part_point[:, i] > 0.5 * h
-    lever = (scene.part_point[:, 1 - i] / h - p["screw"]) / (1 + abs(p["screw"]))
-    turned = np.asarray(p["turned"])[np.unique(scene.setup, return_inverse=True)[1]]
-    return Change(along=p["amplitude_um"] * on_bar * turned * lever * scene.part_normal[:, i])
+def change_certificate(scene, p):
+    """The certificate counts the balls by columns, the operator types its deviations in by rows: balls on both sides of
+    the diagonal have each other's deviations, and are off by opposite amounts, in height by less."""
+    ball = [int(f.removeprefix("BALL")) - 1 for f in scene.feature]
+    return Change(along=p["amplitude_um"] * np.sum(np.asarray(p["excess"])[ball] * scene.part_normal, 1))
 
 
-unknown("sagging_table", draw_sagging, change_sagging, ["position", "feature"])
-unknown("ganged_axes", draw_ganged, change_ganged, ["speed", "direction"], "D")
-unknown("sinking_pad", draw_sinking, change_sinking, ["time", "setup", "position", "feature"], "D")
-unknown("hanging_hose", draw_hose, change_hose, ["head", "sensor", "position", "feature"], "D")
-unknown("metal_pickup", draw_pickup, change_pickup, ["time", "sensor"])
-unknown("loose_bar", draw_bar, change_bar, ["feature", "setup", "position"], "D")
+unknown("refitted_head", draw_refitted, change_refitted, ["setup", "head", "sensor", "time"], "D")
+unknown("falling_dust", draw_dust, change_dust, ["direction", "time"], "D")
+unknown("cold_grease", draw_grease, change_grease, ["temperature", "direction", "sensor"], "D")
+unknown("dragging_leg", draw_leg, change_leg, ["position", "feature"])
+unknown("weak_battery", draw_battery, change_battery, ["speed", "time"], "D")
+unknown("swapped_certificate", draw_certificate, change_certificate, ["feature", "position"])
