@@ -37,7 +37,7 @@ TouchScene with_surrogates(TouchScene scene, unsigned known) {
 class Evaluation {
  public:
   Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
-    for (const int i : rows) scenes_.push_back(with_surrogates(t.touches[i].scene, t.known));
+    for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t.known));
   }
 
   Vector column(const std::vector<double>& theta, const std::vector<double>& draws, int visit = -1) const {
@@ -164,8 +164,6 @@ Factor factor_of(const Effect& effect) {
   return Factor::direction;
 }
 
-bool sees_reading(const Effect& effect) { return (effect.needs & static_cast<unsigned>(Covariate::raw_reading)) != 0; }
-
 /// The names share their belief equally, and so do the patterns.
 void share_priors(Explanations& all) {
   const auto named = static_cast<double>(std::count_if(all.list.begin(), all.list.end(), [](const Explanation& e) { return e.effect != nullptr; }));
@@ -228,7 +226,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
 
 void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out) {
   for (const Effect* effect : effects())
-    if (!is_noise(*effect) && sees_reading(*effect) == of_readings) add_effect(*effect, t, rows, out);
+    if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings) add_effect(*effect, t, rows, out);
 }
 
 Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows, const std::vector<std::string>& names) {

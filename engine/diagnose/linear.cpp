@@ -12,7 +12,7 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr double kNoisePrior = 0.5;   // of the logarithm
-constexpr double kDependent = 1e-9;
+constexpr double kDependent = 1e-6;                      // of the longest column: less is the rounding of targets
 constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
 constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
 

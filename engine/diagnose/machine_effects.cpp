@@ -7,7 +7,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-
 void append(LinearModel& m, const Vector& column) {
   if (column.squaredNorm() == 0) return;
   m.random.conservativeResize(Eigen::NoChange, m.random.cols() + 1);
@@ -18,7 +17,7 @@ void append(LinearModel& m, const Vector& column) {
 }  // namespace
 
 void remove_estimates(const EffectSet& effects, RecordedTouches& t) {
-  for (RecordedTouch& touch : t.touches) touch.residual_mm -= dot(touch.scene.normal, effects.estimate(touch.scene));
+  for (RecordedTouch& touch : t.touches) touch.residual_mm -= dot(touch.scene.normal, effects.estimate(touch));
 }
 
 void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& baseline) {
@@ -26,8 +25,8 @@ void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& ba
   for (const EffectSet::Doubt& doubt : effects.doubts()) {
     Vector column(m.y.size());
     for (Eigen::Index i = 0; i < column.size(); ++i) {
-      const TouchScene& scene = t.touches[static_cast<std::size_t>(i)].scene;
-      column(i) = kUmPerMm * dot(scene.normal, effects.one_sd(doubt, scene));
+      const RecordedTouch& touch = t.touches[static_cast<std::size_t>(i)];
+      column(i) = kUmPerMm * dot(touch.scene.normal, effects.one_sd(doubt, touch));
     }
     if (doubt.per == DrawsPer::touch) {
       m.noise_um = (m.noise_um.array().square() + column.array().square()).sqrt();

@@ -26,8 +26,7 @@ void free_readings_of_noise(Case& c, const EvidenceSearch& first) {
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     const double noise_mm = 1e-3 * loo(i) * model.noise_um(i) * hyper.noise(model.noise_group[k]);
-    TouchScene& scene = c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene;
-    scene.reading -= noise_mm * scene.normal;
+    c.touches.touches[static_cast<std::size_t>(c.rows[k])].beyond_target_mm -= noise_mm;
   }
 }
 

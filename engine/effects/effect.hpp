@@ -131,6 +131,9 @@ struct Effect {
 constexpr unsigned operator|(Covariate a, Covariate b) { return static_cast<unsigned>(a) | static_cast<unsigned>(b); }
 constexpr unsigned operator|(unsigned a, Covariate b) { return a | static_cast<unsigned>(b); }
 
+/// Whether it acts within the signal period of a scale.
+constexpr bool needs_raw_reading(const Effect& effect) { return (effect.needs & static_cast<unsigned>(Covariate::raw_reading)) != 0; }
+
 /// Every effect, in the order of the catalogue.
 std::span<const Effect* const> effects();
 const Effect* find_effect(std::string_view name);

@@ -97,10 +97,6 @@ bool EffectSet::sees_temperatures(const Active& a) {
   return (a.effect->needs & (Covariate::part_temperature | Covariate::scale_temperature)) != 0;
 }
 
-bool EffectSet::sees_reading(const Active& a) {
-  return (a.effect->needs & static_cast<unsigned>(Covariate::raw_reading)) != 0;
-}
-
 bool EffectSet::sees_temperatures() const {
   return std::any_of(active_.begin(), active_.end(), [](const Active& a) { return sees_temperatures(a); });
 }
@@ -140,10 +136,10 @@ std::vector<double> EffectSet::weights(const Active& a, const std::vector<double
   return weights;
 }
 
-Vec3 EffectSet::estimate(const TouchScene& scene) const {
+Vec3 EffectSet::estimate(const RecordedTouch& touch) const {
   const double none[kMostNumbers] = {};
   Vec3 d;
-  for (const Active& a : active_) d += a.effect->displace(scene, a.value.data(), none);
+  for (const Active& a : active_) d += a.effect->displace(scene_for(*a.effect, touch), a.value.data(), none);
   return d;
 }
 
@@ -158,8 +154,9 @@ std::vector<EffectSet::Doubt> EffectSet::doubts() const {
   return list;
 }
 
-Vec3 EffectSet::one_sd(const Doubt& doubt, const TouchScene& scene) const {
+Vec3 EffectSet::one_sd(const Doubt& doubt, const RecordedTouch& touch) const {
   const Active& a = active_[doubt.effect];
+  const TouchScene scene = scene_for(*a.effect, touch);
   std::vector<double> value = a.value;
   double draws[kMostNumbers] = {};
   const Vec3 estimate = a.effect->displace(scene, value.data(), draws);
@@ -223,7 +220,7 @@ void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std:
                     TouchBatch& batch) const {
   if (group.slots.empty()) return;
   std::vector<int> anywhere, by_reading;
-  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) (sees_reading(active_[e]) ? by_reading : anywhere).push_back(e);
+  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) (needs_raw_reading(*active_[e].effect) ? by_reading : anywhere).push_back(e);
   if (!anywhere.empty()) add_alike(anywhere, group, lanes, seed, site, batch);
   if (by_reading.empty()) return;
   find_contact(batch);
@@ -239,7 +236,7 @@ void EffectSet::add_alike(const std::vector<int>& which, const Group& group, con
     if (a.effect->draws_per == DrawsPer::touch) draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
     if (a.effect->draws_per == DrawsPer::visit)
       draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
-    const bool own_scenes = sees_reading(a) || (sees_temperatures(a) && !group.temperatures.empty());
+    const bool own_scenes = needs_raw_reading(*a.effect) || (sees_temperatures(a) && !group.temperatures.empty());
     if (a.linear && !own_scenes)
       add_linear(a, lanes.weights[e], draws, sum);
     else
@@ -284,7 +281,7 @@ void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, c
   Vec3 estimate = estimate_there();
   for (int i = 0; i < sum.n; ++i) {
     if (!sum.group.temperatures.empty()) scene.temperature = sum.group.temperatures[i];
-    if (sees_reading(a)) {
+    if (needs_raw_reading(*a.effect)) {
       const int slot = sum.group.slots[i];
       scene.reading = estimated.reading = sum.group.scene->reading + batch.travel[slot] * batch.normal.get(slot);
       estimate = estimate_there();

@@ -17,6 +17,7 @@
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/run/effect_use.hpp"
+#include "engine/run/recorded_touch.hpp"
 #include "engine/run/touch.hpp"
 
 namespace abbe {
@@ -56,14 +57,14 @@ class EffectSet {
   void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
 
   /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation of each of its unknowns.
-  Vec3 estimate(const TouchScene&) const;
+  Vec3 estimate(const RecordedTouch&) const;
   struct Doubt {
     int effect = 0;
     int parameter = -1, draw = -1;           ///< an uncertain parameter, or a number drawn at random
     DrawsPer per = DrawsPer::machine;        ///< how often it is drawn anew
   };
   std::vector<Doubt> doubts() const;
-  Vec3 one_sd(const Doubt&, const TouchScene&) const;
+  Vec3 one_sd(const Doubt&, const RecordedTouch&) const;
 
  private:
   /// One term of a linear effect: its displacement at these parameters times a weight by machine.
@@ -82,7 +83,6 @@ class EffectSet {
   struct Sum;                ///< of the effects on one group
   static bool is_linear(const Active&);
   static bool sees_temperatures(const Active&);
-  static bool sees_reading(const Active&);
   void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
   static std::vector<Component> components_of(const Active&);
   static std::vector<double> weights(const Active&, const std::vector<double>& theta, const std::vector<double>& machine_draws,

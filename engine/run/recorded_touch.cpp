@@ -266,6 +266,12 @@ void find_curved(std::vector<RecordedTouch>& touches) {
 
 }  // namespace
 
+TouchScene scene_for(const Effect& effect, const RecordedTouch& touch) {
+  TouchScene scene = touch.scene;
+  if (needs_raw_reading(effect)) scene.reading += touch.beyond_target_mm * scene.normal;
+  return scene;
+}
+
 RecordedTouches recorded_touches(const Recording& recording, const Machine& machine, const std::string& file) {
   ABBE_CHECK(!recording.rows.empty());
   RecordedTouches out;
@@ -309,7 +315,10 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     s.feature = label_index(out.features, row.feature);
     fill_covariates(row, machine, s.touch, s);
     set_levers(machine, s);
-    if (row.reading_mm) s.reading = *row.reading_mm;
+    if (row.reading_mm) {
+      t.beyond_target_mm = t.residual_mm;
+      s.reading = *row.reading_mm - t.residual_mm * s.normal;
+    }
     out.touches.push_back(std::move(t));
   }
   for (RecordedTouch& t : out.touches) t.scene.stylus.name = *out.names.insert(sensor_of[t.row]->name).first;

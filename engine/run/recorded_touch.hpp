@@ -20,11 +20,15 @@
 namespace abbe {
 
 struct RecordedTouch {
-  TouchScene scene;
+  TouchScene scene;                   ///< its readings are those at the target: free of the touch's own errors and noise
   double residual_mm = 0;             ///< n . (recorded - target): positive when the surface seems too far out
   Vec3 per_rad_a_mm, per_rad_b_mm;    ///< of the tip per radian of the head's angles, W
+  double beyond_target_mm = 0;        ///< along the normal, from there to where the axes stopped; 0 where no reading was logged
   int row = 0;                        ///< index into the recording
 };
+
+/// The scene as an effect sees it: with the readings where the axes stopped, if it needs raw readings.
+TouchScene scene_for(const Effect&, const RecordedTouch&);
 
 struct RecordedTouches {
   std::vector<RecordedTouch> touches; ///< in the order of time where it was logged, else of the rows
