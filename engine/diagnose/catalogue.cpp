@@ -180,29 +180,6 @@ std::vector<Search> searches(const Effect& effect, const RecordedTouches& t) {
   return list;
 }
 
-}  // namespace
-
-Block variant_at(const Effect& effect, const std::vector<double>& theta, const RecordedTouches& t, const std::vector<int>& rows) {
-  Block block;
-  block.theta = theta;
-  VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
-  return block;
-}
-
-void share_belief(const Explanation& e, std::vector<Block>& blocks) {
-  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = 1 / double(e.blocks.size());
-}
-
-Matrix compressed(const Matrix& m) {
-  if (m.cols() == 0) return m;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(m.transpose() * m);
-  const Vector& values = solver.eigenvalues();
-  const double least = 1e-6 * values(values.size() - 1);
-  Eigen::Index first = 0;
-  while (first < values.size() - 1 && values(first) < least) ++first;
-  return m * solver.eigenvectors().rightCols(values.size() - first);
-}
-
 void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
   Explanation explanation;
   explanation.name = std::string(effect.name);
@@ -229,6 +206,29 @@ void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool 
     if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings) add_effect(*effect, t, rows, out);
 }
 
+}  // namespace
+
+Block variant_at(const Effect& effect, const std::vector<double>& theta, const RecordedTouches& t, const std::vector<int>& rows) {
+  Block block;
+  block.theta = theta;
+  VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
+  return block;
+}
+
+void share_belief(const Explanation& e, std::vector<Block>& blocks) {
+  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = 1 / double(e.blocks.size());
+}
+
+Matrix compressed(const Matrix& m) {
+  if (m.cols() == 0) return m;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(m.transpose() * m);
+  const Vector& values = solver.eigenvalues();
+  const double least = 1e-6 * values(values.size() - 1);
+  Eigen::Index first = 0;
+  while (first < values.size() - 1 && values(first) < least) ++first;
+  return m * solver.eigenvectors().rightCols(values.size() - first);
+}
+
 Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows, const std::vector<std::string>& names) {
   Explanations out;
   for (const std::string& name : names) add_effect(*find_effect(name), t, rows, out);
@@ -246,9 +246,21 @@ Explanations explanations_without_readings(const RecordedTouches& t, const std::
 
 void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
   add_catalogue(t, rows, true, out);
-  const auto place = [](const Explanations::Unjudged& u) { return std::find(effects().begin(), effects().end(), u.effect) - effects().begin(); };
-  std::stable_sort(out.unjudged.begin(), out.unjudged.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
   share_priors(out);
+}
+
+std::vector<CannotJudge> cannot_judge(const Explanations& all) {
+  std::vector<CannotJudge> out;
+  for (const Effect* effect : effects()) {
+    for (const Explanations::Unjudged& u : all.unjudged) {
+      if (u.effect != effect) continue;
+      CannotJudge c{std::string(effect->name), {}};
+      for (const Covariate covariate : covariates_in(u.missing))
+        for (const std::string& column : columns_of(covariate)) c.missing.push_back(column);
+      out.push_back(std::move(c));
+    }
+  }
+  return out;
 }
 
 }  // namespace abbe::diagnose

@@ -62,6 +62,16 @@ void check_radius(const Recording& r, const std::string& file) {
          "check the line '# point: tip_centre|surface', the sign of the compensation, and whether targets are tip centres too");
 }
 
+/// A machine travels against the normal that it touches.
+void check_normals(const Recording& r, const std::string& file) {
+  std::vector<double> along;
+  for (const RecordingRow& row : r.rows)
+    if (row.normal && row.travel) along.push_back(dot(*row.normal, *row.travel));
+  if (along.empty() || median(std::move(along)) < 0) return;
+  refuse(file, "the machine travels along the normals, out of the material, not against them",
+         "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
+}
+
 void find_duplicates(const Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
   std::map<std::tuple<std::string, int, int, int, std::string>, const RecordingRow*> seen;
   int twice = 0;
@@ -82,6 +92,7 @@ void check_data(const Recording& r, const std::string& file, std::vector<Diagnos
   find_duplicates(r, file, messages);
   const bool complete = std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
   if (!complete) return;  // recorded_touches() says what is missing
+  check_normals(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross < kGross_mm) return;
   check_units(r, file, gross);

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "engine/diagnose/empirical.hpp"
 #include "engine/diagnose/known_state.hpp"
 #include "engine/diagnose/machine_effects.hpp"
+#include "engine/diagnose/words.hpp"
 
 namespace abbe {
 
@@ -57,19 +57,6 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   return b;
 }
 
-std::string sentence_of(const Case& c, const Finding& f, const std::vector<DiagnosedParameter>& parameters) {
-  const Explanation& e = c.explanations.list[f.explanation];
-  std::string sizes;
-  for (const DiagnosedParameter& p : parameters) {
-    if (!sizes.empty()) sizes += ", ";
-    sizes += p.word.empty() ? fmt::format("{} {:.3g} ± {:.2g}", p.name, p.value, 2 * p.u) : fmt::format("{} {}", p.name, p.word);
-  }
-  if (f.set.size() == 1) return fmt::format("{} explains it: {}.", e.effect->title, sizes);
-  std::vector<std::string> titles;
-  for (const int k : f.set) titles.push_back(std::string(c.explanations.list[k].effect->title));
-  return fmt::format("One of these explains it, and this recording cannot tell which: {}. As the first: {}.", fmt::join(titles, "; "), sizes);
-}
-
 /// Belief in a name beside a pattern that has none: whatever made the pattern may have made the rest too.
 constexpr double kBesideUnexplained = 0.5;
 
@@ -81,7 +68,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
     e.probability = result.other ? std::min(f.probability, kBesideUnexplained) : f.probability;
     e.parameters = estimate_parameters(c, result, k);
-    e.sentence = sentence_of(c, f, e.parameters);
+    std::vector<std::string_view> titles;
+    for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording");
     EffectSetting setting{c.explanations.list[f.explanation].name, {}};
     for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
     out.model_effects.push_back(std::move(setting));
@@ -143,17 +132,6 @@ Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d
   return open ? Verdict::cannot_judge : several ? Verdict::one_of : Verdict::named;
 }
 
-std::vector<CannotJudge> unjudged(const Explanations& all) {
-  std::vector<CannotJudge> out;
-  for (const Explanations::Unjudged& u : all.unjudged) {
-    CannotJudge c{std::string(u.effect->name), {}};
-    for (const Covariate covariate : covariates_in(u.missing))
-      for (const std::string& column : columns_of(covariate)) c.missing.push_back(column);
-    out.push_back(std::move(c));
-  }
-  return out;
-}
-
 Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file, Diagnosis& out) {
   Case c;
   c.recording = &recording;
@@ -187,6 +165,7 @@ std::string_view name(Verdict v) {
 Diagnosis diagnose_recording(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
   Diagnosis out;
   out.touches = static_cast<int>(recording.rows.size());
+  out.judged = !options.design_only;
   if (!options.design_only) check_data(recording, file, out.messages);
   Case c = on_the_bench(recording, machine, options, file, out);
   if (options.design_only) {
@@ -204,7 +183,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   if (!options.design_only) free_readings_of_noise(c, first);
   add_explanations_of_readings(c.touches, c.rows, c.explanations);
   first.extend(c.explanations, without_readings);
-  out.cannot_judge = unjudged(c.explanations);
+  out.cannot_judge = cannot_judge(c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
   const bool known = !machine.known_state.empty();
   if (options.design_only) {

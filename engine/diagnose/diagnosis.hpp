@@ -126,6 +126,7 @@ struct JudgedValue {
 };
 
 struct Diagnosis {
+  bool judged = true;                          ///< false: of a plan, whose values were not looked at; verdict and p_value mean nothing
   Verdict verdict = Verdict::no_mismatch;
   double p_value = 1;
   int touches = 0;
@@ -137,7 +138,7 @@ struct Diagnosis {
   std::vector<CannotJudge> cannot_judge;
   std::vector<Detectable> smallest_detectable;
   std::vector<NextMeasurement> next_measurement;
-  std::string otherwise;                       ///< what separates the rest where no next measurement does, in the words of the effects; else empty
+  std::string otherwise;                       ///< what to do next where no measurement of the menu helps; else empty
   BaselineSummary baseline;
   Rivals rivals;
   std::vector<ResidualRow> residuals;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/linear.hpp"
 #include "engine/run/recorded_touch.hpp"
 
@@ -62,7 +63,7 @@ struct Explanations {
     const Effect* effect;
     unsigned missing;
   };
-  std::vector<Unjudged> unjudged; ///< effects that this recording cannot judge, in the order of the catalogue
+  std::vector<Unjudged> unjudged; ///< effects that this recording cannot judge
 };
 
 /// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
@@ -72,12 +73,13 @@ inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
 Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
 void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
+/// What cannot be judged, in the order of the catalogue, with the columns that are missing.
+std::vector<CannotJudge> cannot_judge(const Explanations&);
+
 /// The effects of these names only, in the order of the names.
 Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows, const std::vector<std::string>& names);
 
-/// Appends the blocks of every effect of the registry that looks at readings, or not (catalogue.cpp), and those of OTHER (other.cpp).
-void add_catalogue(const RecordedTouches&, const std::vector<int>& rows, bool of_readings, Explanations&);
-void add_effect(const Effect&, const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+/// Appends the blocks of OTHER (other.cpp).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
 /// A variant of an effect at these parameters; no columns where the effect does nothing there.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <map>
 
 #include "engine/diagnose/case.hpp"
@@ -34,6 +35,40 @@ Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) 
     best = {block.signature * mean, info.u.dot(mean)};
   }
   return best;
+}
+
+/// What was logged of temperature.
+struct Thermometer {
+  const char* name;
+  double (*of)(const TouchScene&);
+};
+constexpr Thermometer kThermometers[] = {{"part_C", [](const TouchScene& s) { return s.temperature.part; }},
+                                         {"x_C", [](const TouchScene& s) { return s.temperature.scale[0]; }},
+                                         {"y_C", [](const TouchScene& s) { return s.temperature.scale[1]; }},
+                                         {"z_C", [](const TouchScene& s) { return s.temperature.scale[2]; }},
+                                         {"air_C", [](const TouchScene& s) { return s.temperature.air; }}};
+
+template <class Value>
+bool differs(const Case& c, Value value) {
+  const auto at = [&](int row) { return value(c.touches.touches[static_cast<std::size_t>(row)].scene); };
+  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) { return at(row) != at(c.rows.front()); });
+}
+
+/// Whether the recording can show anything in a factor: its touches differ there.
+bool varies(const Case& c, Factor factor) {
+  switch (factor) {
+    case Factor::temperature: return std::any_of(std::begin(kThermometers), std::end(kThermometers), [&](const Thermometer& t) { return differs(c, t.of); });
+    case Factor::speed: return differs(c, [](const TouchScene& s) { return s.speed_mm_s; });
+    case Factor::head: return differs(c, [](const TouchScene& s) { return std::pair(s.stylus.head_a_rad, s.stylus.head_b_rad); });
+    case Factor::sensor: return differs(c, [](const TouchScene& s) { return s.stylus.ordinal; });
+    case Factor::setup: return differs(c, [](const TouchScene& s) { return s.setup; });
+    case Factor::run: return differs(c, [](const TouchScene& s) { return s.run; });
+    case Factor::feature: return differs(c, [](const TouchScene& s) { return s.feature; });
+    case Factor::time:
+    case Factor::position:
+    case Factor::direction: break;
+  }
+  return true;
 }
 
 /// Where a pattern is strongest, in words of its factor.
@@ -77,7 +112,12 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     case Factor::setup: return {{"setup", label([](const TouchScene& s) { return std::to_string(s.setup); })}};
     case Factor::run: return {{"run", label([](const TouchScene& s) { return std::to_string(s.run); })}};
     case Factor::feature: return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
-    case Factor::temperature: return {{"part_C", range([](const TouchScene& s) { return s.temperature.part; }, "C")}};
+    case Factor::temperature: {
+      std::vector<std::pair<std::string, std::string>> out;
+      for (const Thermometer& t : kThermometers)
+        if (differs(c, t.of)) out.emplace_back(t.name, range(t.of, "C"));
+      return out;
+    }
     case Factor::speed: return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
   }
   return {};
@@ -109,6 +149,7 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   for (const Evidence& null : result.null) simulated.push_back(*std::max_element(null.log_bayes.begin(), null.log_bayes.end()));
   struct Entry {
     Location location;
+    bool varies;
     double belief, energy;
   };
   std::vector<Entry> entries;
@@ -117,14 +158,14 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
     const Pattern pattern = pattern_of(search, all.blocks[block], block);
     entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
                         tail_probability(result.first.log_bayes[located.best], simulated)},
-                       log_sum_exp(located.log_belief), pattern.energy});
+                       varies(c, factor), log_sum_exp(located.log_belief), pattern.energy});
   }
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.belief > b.belief; });
   const double most = std::max_element(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.energy < b.energy; })->energy;
   std::vector<Location> out;
   for (Entry& e : entries) {
     e.location.share = most > 0 ? e.energy / most : 0;
-    if (e.location.p <= 0.05 || out.empty()) out.push_back(std::move(e.location));
+    if (out.empty() || (e.location.p <= 0.05 && e.varies)) out.push_back(std::move(e.location));
   }
   return out;
 }

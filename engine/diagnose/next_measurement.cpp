@@ -209,6 +209,38 @@ class Judge {
   std::vector<Scored> list_;               ///< the best first
 };
 
+/// What makes a pattern without a name is narrowed down by changing what it may belong to.
+std::string to_follow_a_pattern(Factor factor) {
+  switch (factor) {
+    case Factor::time: return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
+    case Factor::position: return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
+    case Factor::direction: return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
+    case Factor::head: return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
+    case Factor::sensor: return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
+    case Factor::setup:
+    case Factor::feature: return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
+    case Factor::run: return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
+    case Factor::temperature: return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
+    case Factor::speed: return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
+  }
+  return "";
+}
+
+/// What must be logged, and vary, before the names that were found can be judged.
+std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
+  std::vector<std::string> out;
+  for (const Finding& f : result.findings) {
+    for (const int k : f.set) {
+      const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
+      std::vector<std::string> columns;
+      for (const Covariate covariate : covariates_in(e.missing))
+        for (const std::string& column : columns_of(covariate)) columns.push_back(column);
+      if (!columns.empty()) out.push_back(fmt::format("{} shows in {}: log it, and let it vary.", e.name, fmt::join(columns, ", ")));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
@@ -236,14 +268,16 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
 }
 
 std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  const std::vector<int> rivals = next.empty() ? rivals_of(c, &result, {}) : std::vector<int>{};
-  if (rivals.size() < 2) return "";
-  std::string out = "No other run of these touches would tell them apart. What would:";
-  for (const int k : rivals) {
-    const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
-    out += fmt::format(" {}: {}.", e.name, e.effect->separate);
+  if (!next.empty()) return "";
+  if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
+  std::vector<std::string> sentences = to_log(c, result);
+  const std::vector<int> rivals = rivals_of(c, &result, {});
+  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
+  for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
+    const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
+    sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
   }
-  return out;
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 }  // namespace abbe::diagnose

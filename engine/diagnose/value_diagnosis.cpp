@@ -1,7 +1,6 @@
 #include "engine/diagnose/value_diagnosis.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/value_search.hpp"
 #include "engine/diagnose/value_signature.hpp"
+#include "engine/diagnose/words.hpp"
 #include "engine/lanes/random.hpp"
 
 namespace abbe {
@@ -155,15 +155,6 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const ValueFin
   return out;
 }
 
-std::string sentence_of(const Explanations& all, const ValueFinding& f, const std::vector<DiagnosedParameter>& parameters) {
-  std::vector<std::string> sizes, titles;
-  for (const DiagnosedParameter& p : parameters) sizes.push_back(p.word.empty() ? fmt::format("{} {:.3g} ± {:.2g}", p.name, p.value, 2 * p.u) : fmt::format("{} {}", p.name, p.word));
-  for (const int k : f.set) titles.push_back(std::string(all.list[static_cast<std::size_t>(k)].effect->title));
-  if (f.set.size() == 1) return fmt::format("{} explains it: {}.", titles.front(), fmt::join(sizes, ", "));
-  return fmt::format("One of these explains it, and these values cannot tell which: {}. As the first: {}. A recording of the touches tells more.", fmt::join(titles, "; "),
-                     fmt::join(sizes, ", "));
-}
-
 void tell(const ValueCase& c, const ValueFinding& f, Diagnosis& out) {
   const Explanations& all = c.search->explanations();
   if (f.other) {
@@ -181,7 +172,9 @@ void tell(const ValueCase& c, const ValueFinding& f, Diagnosis& out) {
   for (const int k : f.set) e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
   e.probability = f.probability;
   e.parameters = parameters_of(c, f);
-  e.sentence = sentence_of(all, f, e.parameters);
+  std::vector<std::string_view> titles;
+  for (const int k : f.set) titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
+  e.sentence = explanation_sentence(titles, e.parameters, "a file of values");
   EffectSetting setting{e.members.front(), {}};
   for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
   out.model_effects.push_back(std::move(setting));
@@ -282,26 +275,13 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
   return out;
 }
 
-std::vector<CannotJudge> unjudged_of_values(const Explanations& all) {
-  std::vector<CannotJudge> out;
-  for (const Effect* effect : effects()) {
-    for (const Explanations::Unjudged& u : all.unjudged) {
-      if (u.effect != effect) continue;
-      CannotJudge c{std::string(effect->name), {}};
-      for (const Covariate covariate : covariates_in(u.missing))
-        for (const std::string& column : columns_of(covariate)) c.missing.push_back(column);
-      out.push_back(std::move(c));
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
   const ValueCase c = on_the_bench(recording, programs, machine, options);
   Diagnosis out;
-  out.cannot_judge = unjudged_of_values(c.search->explanations());
+  out.judged = !options.design_only;
+  out.cannot_judge = cannot_judge(c.search->explanations());
   out.smallest_detectable = smallest_detectable(c);
   if (options.design_only) return out;
   out.values = judge_each(c);

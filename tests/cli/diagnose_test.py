@@ -69,12 +69,16 @@ class Diagnose(harness.Case):
         text = self.abbe("diagnose", self.record("--with", "probe.tip_radius:amplitude_um=2"), "--machine", MACHINE).stdout
         self.assertIn("are not what", text.splitlines()[0])
         self.assertIn("On touches that the model had not seen", text)
+        self.assertRegex(text, r"amplitude \d\.\d+ ± 0\.\d+ um")
+        self.assertIn("what to do next:", text)
+        self.assertNotIn("located in temperature", text)   # it was the same throughout
 
     def test_a_plan_tells_what_it_can_detect(self):
         said = self.diagnosis(self.record(), "--design-only")
         lobing = next(d for d in said["smallest_detectable"] if d["effect"] == "probe.pretravel_lobing")
         self.assertTrue(0.05 < lobing["detect_um"] < 3, lobing)
-        self.assertEqual(said["effects"], [])
+        self.assertEqual((said["effects"], said["verdict"], said["p_value"]), ([], None, None))
+        self.assertIn("No value was looked at", self.abbe("diagnose", self.record(), "--machine", MACHINE, "--design-only").stdout)
         # What it could not tell apart comes with measurements that would, the best one as a program.
         self.assertGreaterEqual(len(said["next_measurement"]), 1)
         best = said["next_measurement"][0]
@@ -111,9 +115,12 @@ class Diagnose(harness.Case):
         def swapped(row):
             return row | {"x": row["y"], "y": row["x"]}
 
+        def inside_out(row):
+            return row | {"n" + a: repr(-float(row["n" + a])) for a in "xyz"}
+
         def without_radius(row):
             return row | {a: repr(float(row[a]) - 2 * float(row["n" + a])) for a in "xyz"}
-        for what, change in (("metres", scaled(1e-3)), ("swapped", swapped), ("tip radius", without_radius)):
+        for what, change in (("metres", scaled(1e-3)), ("swapped", swapped), ("tip radius", without_radius), ("normals", inside_out)):
             message = self.refused("E0701", "diagnose", self.changed(recording, change), "--machine", MACHINE)
             self.assertIn(what, message)
         rows = recording.read_text().splitlines()

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/words.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 #include "engine/report/plot.hpp"
 
@@ -23,8 +24,9 @@ constexpr std::string_view kStyle =
     "@media print{body{max-width:none;margin:0;color:#000;background:#fff;font-size:10pt}h2{break-after:avoid}tr,svg{break-inside:avoid}"
     ".pair svg{width:49%}.note{color:#333}details{display:none}}";
 
-std::string_view title(Verdict v) {
-  switch (v) {
+std::string_view title(const Diagnosis& d) {
+  if (!d.judged) return "What such a recording can tell";
+  switch (d.verdict) {
     case Verdict::no_mismatch: return "No mismatch found";
     case Verdict::named: return "A mismatch, and what makes it";
     case Verdict::one_of: return "A mismatch, and what may make it";
@@ -46,27 +48,19 @@ std::string row(std::initializer_list<std::string> cells, const char* tag = "td"
 /// A table that scrolls by itself where the page is too narrow for it.
 std::string table(const std::string& rows) { return "<div class=\"wide\"><table>" + rows + "</table></div>\n"; }
 
-std::string size_of(const DiagnosedParameter& p) {
-  return p.word.empty() ? fmt::format("{} {:.3g} ({:.3g} to {:.3g}){}", p.name, p.value, p.low, p.high, p.plausible ? "" : ", implausible") : fmt::format("{} {}", p.name, p.word);
-}
-
 std::string explanations(const Diagnosis& d) {
   if (d.effects.empty() && !d.unexplained) return "";
   std::string rows = row({"effect", "probability", "size (95 % interval)"}, "th");
   for (const DiagnosedEffect& e : d.effects) {
     std::vector<std::string> sizes;
-    for (const DiagnosedParameter& p : e.parameters) sizes.push_back(size_of(p));
+    for (const DiagnosedParameter& p : e.parameters) sizes.push_back(with_interval(p));
     rows += row({fmt::format("{}", fmt::join(e.members, " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
   }
   if (d.unexplained)
     rows += row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
                 fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um)});
   std::string out = "<h2>Explanation</h2>\n" + table(rows);
-  for (const Location& l : d.location) {
-    std::vector<std::string> where;
-    for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
-    out += fmt::format("<p>Located in {}: {:.0f} % of the mismatch; strongest at {}.</p>\n", escaped(l.factor), 100 * l.share, escaped(fmt::format("{}", fmt::join(where, ", "))));
-  }
+  for (const Location& l : main_locations(d)) out += "<p>" + escaped(capitalised(in_words(l))) + ".</p>\n";
   return out;
 }
 
@@ -130,7 +124,7 @@ std::string values(const Diagnosis& d) {
 }
 
 std::string next_measurements(const Diagnosis& d) {
-  if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "<h2>What to measure next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
+  if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "<h2>What to do next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
   std::string rows = row({"change", "tells apart", "probability of the truth after it", "minutes"}, "th");
   for (const NextMeasurement& n : d.next_measurement)
     rows += row({n.change, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
@@ -145,7 +139,7 @@ std::string detectable_effects(const Diagnosis& d) {
   std::string rows = row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
     rows += row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::format("{}", fmt::join(s.confounded_with, ", "))});
-  return "<h2>What could have been seen</h2>\n" + table(rows);
+  return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" + table(rows);
 }
 
 std::string open_questions(const Diagnosis& d) {
@@ -166,8 +160,8 @@ std::string messages(const Diagnosis& d) {
 
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
   std::string out = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
-                                "<title>Diagnosis of {0}</title><style>{1}</style></head><body>\n<h1>{2}</h1>\n<p class=\"note\">Recording {0}; machine {3}; p = {4:.3g}</p>\n",
-                                escaped(recording), kStyle, title(d.verdict), escaped(machine), d.p_value);
+                                "<title>Diagnosis of {0}</title><style>{1}</style></head><body>\n<h1>{2}</h1>\n<p class=\"note\">Recording {0}; machine {3}{4}</p>\n",
+                                escaped(recording), kStyle, title(d), escaped(machine), d.judged ? fmt::format("; p = {:.3g}", d.p_value) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) out += "<p>" + escaped(sentence) + "</p>\n";
   out += explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) + detectable_effects(d) + open_questions(d) + messages(d);
   return out + "</body></html>\n";

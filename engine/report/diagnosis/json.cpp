@@ -105,8 +105,8 @@ Json value(const JudgedValue& v) {
 std::string diagnosis_json(const Diagnosis& d) {
   const Json out = {
       {"schema", "abbe.diagnosis/1"},
-      {"verdict", name(d.verdict)},
-      {"p_value", number(d.p_value)},
+      {"verdict", d.judged ? Json(name(d.verdict)) : Json()},
+      {"p_value", d.judged ? number(d.p_value) : Json()},
       {"touches", d.touches},
       {"values", array(d.values, value)},
       {"effects", array(d.effects, effect)},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/words.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 
 namespace abbe {
@@ -20,6 +21,7 @@ std::string what(const Diagnosis& d) {
 /// Do they agree?
 std::string first_sentence(const Diagnosis& d) {
   const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
+  if (!d.judged) return fmt::format("No value was looked at: this is what a recording of {} could tell.", d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format("The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d), machine, chance(d.p_value));
   return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d), machine, chance(d.p_value));
@@ -34,8 +36,8 @@ std::string second_sentence(const Diagnosis& d) {
     if (d.smallest_detectable.empty()) return "";
     const auto best = std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
                                        [](const Detectable& a, const Detectable& b) { return a.detect_um < b.detect_um; });
-    return fmt::format("That does not mean that nothing is there: the table says how large each effect would have to be to be seen, at the least {:.2g} um ({}).",
-                       best->detect_um, best->effect);
+    return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).",
+                       d.judged ? "That does not mean that nothing is there: the table says" : "The table says", best->detect_um, best->effect);
   }
   if (d.verdict == Verdict::cannot_judge) parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
   return fmt::format("{}", fmt::join(parts, " "));
@@ -57,16 +59,12 @@ std::string mismatch_table(const Diagnosis& d) {
       out += fmt::format("{:<38} {:>6}", (m ? "  or " : "") + e.members[m], m ? "" : fmt::format("{:.2f}", e.probability));
       std::vector<std::string> sizes;
       for (const DiagnosedParameter& p : e.parameters)
-        sizes.push_back(p.word.empty() ? fmt::format("{} {:.3g} ({:.3g} to {:.3g}){}", p.name, p.value, p.low, p.high, p.plausible ? "" : " implausible") : fmt::format("{} {}", p.name, p.word));
+        sizes.push_back(with_interval(p));
       out += m ? "\n" : fmt::format("  {}\n", fmt::join(sizes, "; "));
     }
   }
   if (d.unexplained) out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n", "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
-  for (const Location& l : d.location) {
-    std::vector<std::string> where;
-    for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
-    out += fmt::format("  located in {:<25} {:>6}  {:.0f} % of it; strongest at {}\n", l.factor, "", 100 * l.share, fmt::join(where, ", "));
-  }
+  for (const Location& l : main_locations(d)) out += "  " + in_words(l) + "\n";
   return out;
 }
 
@@ -85,11 +83,13 @@ std::string cannot_judge(const Diagnosis& d) {
 }
 
 std::string next_steps(const Diagnosis& d) {
-  if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "what to measure next:\n  " + d.otherwise + "\n";
-  std::string out = "what to measure next:\n";
+  std::string out;
   for (const NextMeasurement& n : d.next_measurement)
     out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability);
-  return out;
+  if (!d.otherwise.empty()) out += "  " + d.otherwise + "\n";
+  if (!d.effects.empty() || (d.unexplained && !d.unexplained->model.empty()))
+    out += "  To reckon with it until it is mended: --model-out writes the machine file with it, and 'abbe run' on that machine gives uncertainties with it.\n";
+  return out.empty() ? "" : "what to do next:\n" + out;
 }
 
 std::string value_table(const Diagnosis& d) {
@@ -122,7 +122,7 @@ std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out;
   for (const std::string& sentence : diagnosis_sentences(d)) out += sentence + "\n";
-  out += "\n" + value_table(d) + (d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
+  out += "\n" + value_table(d) + (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
   out += next_steps(d);
   out += cannot_judge(d);
   return out + baseline_line(d);

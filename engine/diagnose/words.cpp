@@ -1,0 +1,74 @@
+#include "engine/diagnose/words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace abbe {
+
+namespace {
+
+/// The name without the unit that it ends in: "seat radius" of "seat_radius_mm".
+std::string plain_name(const DiagnosedParameter& p) {
+  std::string suffix = "_";
+  for (const char c : p.unit) suffix += c == '/' ? "_per_" : std::string(1, c);
+  std::string name = p.name;
+  if (name.size() > suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0) name.resize(name.size() - suffix.size());
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string unit_after(const DiagnosedParameter& p) { return p.unit.empty() || p.unit == "1" || p.unit == "code" ? "" : " " + p.unit; }
+
+/// Decimals that show two significant digits of an uncertainty.
+int decimals_for(double uncertainty, double value) {
+  constexpr int kMost = 9;
+  const double least = uncertainty > 0 && std::isfinite(uncertainty) ? uncertainty / 10 : std::abs(value) / 100;
+  return least > 0 ? std::clamp(static_cast<int>(-std::floor(std::log10(least) + 1e-9)), 0, kMost) : 0;
+}
+
+}  // namespace
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string with_uncertainty(const DiagnosedParameter& p) {
+  if (!p.word.empty()) return plain_name(p) + " " + p.word;
+  const int decimals = decimals_for(2 * p.u, p.value);
+  return fmt::format("{} {:.{}f} ± {:.{}f}{}", plain_name(p), p.value, decimals, 2 * p.u, decimals, unit_after(p));
+}
+
+std::string with_interval(const DiagnosedParameter& p) {
+  if (!p.word.empty()) return plain_name(p) + " " + p.word;
+  const int decimals = decimals_for(2 * p.u, p.value);
+  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low, decimals, p.high, decimals, p.plausible ? "" : ", implausible");
+}
+
+std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data) {
+  std::vector<std::string> sizes;
+  for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
+  const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
+  if (titles.size() == 1) return capitalised(fmt::format("{} explains it{}{}.", titles.front(), told.empty() ? "" : ": ", told));
+  return fmt::format("One of these explains it, and {} cannot tell which: {}.{}{}{}", data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
+}
+
+std::string in_words(const Location& l) {
+  std::vector<std::string> where;
+  for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
+  return fmt::format("located in {}: {:.0f} % of it{}{}", l.factor, 100 * l.share, where.empty() ? "" : "; strongest at ", fmt::join(where, ", "));
+}
+
+std::vector<Location> main_locations(const Diagnosis& d) {
+  constexpr double kMain = 0.5;
+  std::vector<Location> out;
+  for (const Location& l : d.location)
+    if (out.empty() || l.share >= kMain * d.location.front().share) out.push_back(l);
+  return out;
+}
+
+}  // namespace abbe

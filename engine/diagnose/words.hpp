@@ -1,0 +1,28 @@
+// How a diagnosis is put into words: the same in its sentences and in every report.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+
+namespace abbe {
+
+/// "delay 1.20 ± 0.08 ms": with two standard uncertainties, which have two significant digits (GUM 7.2.6).
+std::string with_uncertainty(const DiagnosedParameter&);
+/// "delay 1.20 ms (1.12 to 1.28)": with the 95 % interval; "implausible" where the catalogue says so.
+std::string with_interval(const DiagnosedParameter&);
+
+/// What makes the mismatch: one title, or several that `data` ("this recording") cannot tell apart; `parameters` are those of the first.
+std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data);
+
+/// The same with a capital at its beginning.
+std::string capitalised(std::string);
+
+/// "located in time: 80 % of it; strongest at time_s 10 to 60 s"
+std::string in_words(const Location&);
+/// The locations that people are told: the first, and those that hold at least half as much.
+std::vector<Location> main_locations(const Diagnosis&);
+
+}  // namespace abbe
