@@ -102,6 +102,9 @@ Matrix by_group(const Matrix& field, const std::vector<int>& group) {
   return out;
 }
 
+/// Cosine of the angle between an approach and the surface's normal beyond which the two differ.
+constexpr double kStraight = 0.99;
+
 /// The factors of the touches, in the units in which kernels are spread.
 class Patterns {
  public:
@@ -119,7 +122,12 @@ class Patterns {
       orientation_.push_back(orientation.emplace(std::pair{s.stylus.head_a_rad, s.stylus.head_b_rad}, int(orientation.size())).first->second);
       sensor_.push_back(s.stylus.ordinal), feature_.push_back(s.feature), setup_.push_back(s.setup), run_.push_back(s.run);
       speed_.push_back(int(std::lround(1000 * s.speed_mm_s)));
+      travel_.push_back({s.travel.x, s.travel.y, s.travel.z});
+      oblique_ = oblique_ || dot(s.travel, s.normal) > -kStraight;
+      normal_on_part_.push_back(s.normal_on_part);
+      touch_.push_back({double(touch_.size())});
     }
+    onto_unit(touch_);
     part_above20_.resize(static_cast<Eigen::Index>(rows.size()));
     for (Vector& v : scale_above20_) v.resize(part_above20_.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -135,8 +143,9 @@ class Patterns {
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const TouchScene& s = t.touches[rows[k]].scene;
       settled_.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, s.visit}, s.time_s).first->second});
+      clamped_.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, -1}, s.time_s).first->second});
     }
-    onto_unit(settled_);
+    onto_unit(settled_), onto_unit(clamped_);
   }
 
   void add_all() {
@@ -146,6 +155,7 @@ class Patterns {
     add(Factor::time, "rugged", in_one_direction(rugged(time_, 0.2, 40)));
     add(Factor::time, "stretching", stretching());
     add(Factor::time, "turning to and fro", turning());
+    add(Factor::time, "size along the sequence", sizes_along_the_sequence());
     add(Factor::position, "smooth", along(smooth(place_, 0.6, 14), normal_));
     add(Factor::position, "patch", along(smooth(place_, 0.25, 26), normal_));
     add(Factor::position, "height", smooth(place_, 0.4, 24));
@@ -153,25 +163,35 @@ class Patterns {
     add(Factor::position, "in time", along(products(smooth(place_, 0.6, 8), trend()), normal_));
     add(Factor::direction, "smooth", smooth(directions_, 0.6, 40));
     add(Factor::direction, "in time", products(smooth(directions_, 0.9, 8), smooth(time_, 0.2, 8)));
+    if (oblique_) add(Factor::direction, "of travel", smooth(travel_, 0.6, 40));
     if (several(orientation_)) {
       add(Factor::direction, "on the probe", smooth(on_probe_, 0.6, 40));
       add(Factor::direction, "lobes", lobes());
       add(Factor::head, "orientation", along(indicator(orientation_), normal_));
       add(Factor::head, "orientation in time", along(by_group(trend(), orientation_), normal_));
-      add(Factor::head, "settling", along(by_group(settling(), orientation_), normal_));
+      add(Factor::head, "settling", along(by_group(settling(settled_), orientation_), normal_));
+      add(Factor::head, "over position", along(by_group(linear_place(), orientation_), normal_));
     }
     if (several(sensor_)) {
       add(Factor::sensor, "offset", hcat(along(indicator(sensor_), normal_), indicator(sensor_)));
       add(Factor::sensor, "over position", along(by_group(smooth(place_, 0.6, 8), sensor_), normal_));
+      add(Factor::sensor, "in time", by_group(hcat(along(trend(), normal_), trend()), sensor_));
     }
     if (several(feature_)) {
       add(Factor::feature, "size", indicator(feature_));
       add(Factor::feature, "size in time", by_group(trend(), feature_));
+      add(Factor::feature, "offset on the part", along(indicator(feature_), normal_on_part_));
       add(Factor::feature, "form", by_group(smooth(directions_, 0.9, 8), feature_));
     }
-    if (several(setup_)) add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
+    if (several(setup_)) {
+      add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
+      add(Factor::setup, "settling", along(by_group(products(linear_place(), settling(clamped_)), setup_), normal_));
+    }
     if (several(run_)) add(Factor::run, "offset", along(indicator(run_), normal_));
-    if (several(speed_)) add(Factor::speed, "offset", by_group(one, speed_));
+    if (several(speed_)) {
+      add(Factor::speed, "offset", by_group(one, speed_));
+      add(Factor::speed, "over direction", products(smooth(travel_, 0.6, 24), faster()));
+    }
     constexpr double kDiffers_K = 0.1;
     if (part_above20_.maxCoeff() - part_above20_.minCoeff() > kDiffers_K)
       add(Factor::temperature, "growth", along(part_above20_.asDiagonal() * linear_place(), normal_));
@@ -272,11 +292,26 @@ class Patterns {
     return out;
   }
 
-  /// Functions of the time since the head was indexed: a straight line, and one that slows down.
-  Matrix settling() const {
-    Matrix m(settled_.size(), 2);
-    for (std::size_t i = 0; i < settled_.size(); ++i) m.row(static_cast<Eigen::Index>(i)) << settled_[i][0], std::sqrt(settled_[i][0]);
+  /// Functions of a time since: a straight line, and one that slows down.
+  static Matrix settling(const Points& since) {
+    Matrix m(since.size(), 2);
+    for (std::size_t i = 0; i < since.size(); ++i) m.row(static_cast<Eigen::Index>(i)) << since[i][0], std::sqrt(since[i][0]);
     return m;
+  }
+
+  /// What gathers on the tip, or wears off it, with every touch and not with the clock: on all styli alike, or on each by itself.
+  std::vector<Matrix> sizes_along_the_sequence() const {
+    std::vector<Matrix> out{rugged(touch_, 0.2, 40)};
+    if (several(sensor_)) out.push_back(by_group(rugged(touch_, 0.2, 24), sensor_));
+    return out;
+  }
+
+  /// The approach speed beyond its mean, 1 at the farthest from it.
+  Matrix faster() const {
+    Matrix m(speed_.size(), 1);
+    for (std::size_t i = 0; i < speed_.size(); ++i) m(static_cast<Eigen::Index>(i), 0) = speed_[i];
+    m.array() -= m.mean();
+    return m / m.cwiseAbs().maxCoeff();
   }
 
   Matrix trend() const {
@@ -313,7 +348,9 @@ class Patterns {
 
   Explanations& out_;
   std::vector<Vec3> normal_;
-  Points time_, place_, directions_, on_probe_, reading_[3], settled_;
+  std::vector<Vec3> normal_on_part_;
+  Points time_, touch_, place_, directions_, on_probe_, travel_, reading_[3], settled_, clamped_;
+  bool oblique_ = false;          ///< some approaches are not along the normal
   std::vector<int> orientation_, sensor_, feature_, setup_, run_, speed_;
   Vector part_above20_, scale_above20_[3];
 };

@@ -29,6 +29,10 @@ RecordedTouches scattered(int count) {
     s.time_s = 10 * i + 60 * s.visit;
     s.stylus.head_b_rad = s.visit % 3;
     s.feature = i % 5;
+    s.speed_mm_s = u(5) < 0.5 ? 3 : 8;
+    s.travel = unit(Vec3{0.3, 0.3, 0.1} - s.normal);
+    s.normal_on_part = s.normal;
+    s.setup = i / 100;
     t.touches.push_back(touch);
   }
   return t;
@@ -79,4 +83,16 @@ TEST_CASE("a joint that settles after each indexing is seen over the time since"
   const RecordedTouches t = scattered(300);
   const auto since = [&](const TouchScene& s) { return (s.time_s - t.touches[static_cast<std::size_t>(15 * s.visit)].scene.time_s) / 140; };
   CHECK(likeliest(t, [&](const TouchScene& s) { return 3 * std::log1p(9 * since(s)) / 2.3 * Vec3{s.stylus.head_b_rad - 1, 0.5, 0}; }) == "OTHER head, settling");
+}
+
+TEST_CASE("patterns over two factors are seen where they lie") {
+  const RecordedTouches t = scattered(300);
+  const Vec3 middle{250, 200, 150};
+  CHECK(likeliest(t, [](const TouchScene& s) { return (s.speed_mm_s - 5.5) * (std::abs(s.travel.x) + std::abs(s.travel.y) + std::abs(s.travel.z) - 1.4) * 3 * s.normal; }) ==
+        "OTHER speed, over direction");
+  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.stylus.head_b_rad - 1) * Vec3{0.02 * (s.point.y - middle.y), 0, 0}; }) == "OTHER head, over position");
+  CHECK(likeliest(t, [](const TouchScene& s) { return (std::fmod(double(s.time_s), 700) / 350 - 1) * 2 * s.normal; }) == "OTHER time, size along the sequence");
+  CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{3.0 * (s.feature == 1), -3.0 * (s.feature == 3), 3.0 * (s.feature == 4)}; }) == "OTHER feature, offset on the part");
+  const auto clamped = [&](const TouchScene& s) { return (s.time_s - t.touches[static_cast<std::size_t>(100 * s.setup)].scene.time_s) / 1400; };
+  CHECK(likeliest(t, [&](const TouchScene& s) { return std::sqrt(clamped(s)) * cross(Vec3{0.04, 0, 0}, s.point - middle); }) == "OTHER setup, settling");
 }
