@@ -31,6 +31,8 @@ struct Case {
 
 /// The model with the signatures of some blocks as unknowns without a prior.
 LinearModel with_free(const LinearModel&, const std::vector<const Matrix*>& signatures);
+/// A model of this case with the ensemble of error functions that its recording fits better: the specification's, or the rougher one.
+LinearModel likelier_ensemble(const Case&, const LinearModel&);
 /// The explanations of one kind only; `kept` by index into the list.
 Explanations only(const Explanations&, const std::vector<int>& kept);
 /// Rows of every signature.

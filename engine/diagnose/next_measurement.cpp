@@ -37,16 +37,23 @@ std::vector<int> confounded(const Case& c, const std::vector<Detectable>& detect
   return list;
 }
 
+/// What a measurement is to decide.
+struct Question {
+  std::vector<int> rivals;                 ///< explanations
+  std::vector<Finding> beside;             ///< effects that are there whichever of them it is
+};
+
 /// Those of the first finding that could not be told apart; without data, those that the plan could not tell apart.
-std::vector<int> rivals_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
-  std::vector<int> list;
-  if (!result) list = confounded(c, detectable);
-  for (std::size_t i = 0; result && list.empty() && i < result->findings.size(); ++i) {
+Question question_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  if (!result) return {confounded(c, detectable), {}};
+  for (std::size_t i = 0; i < result->findings.size(); ++i) {
     const Finding& f = result->findings[i];
     if (f.set.size() < 2) continue;
-    list.assign(f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals)));
+    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))}, result->findings};
+    q.beside.erase(q.beside.begin() + static_cast<std::ptrdiff_t>(i));
+    return q;
   }
-  return list;
+  return {};
 }
 
 using Seen = Precision::Seen;
@@ -87,7 +94,18 @@ void suppose(const Seen& y, Contender& c) {
   }
 }
 
-std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const std::vector<int>& rivals, const Longer& longer, const Precision& first) {
+/// The effects beside a question, as both recordings see them.
+std::vector<Matrix> signatures_beside(const Case& c, const Question& question, const Longer& longer, const std::vector<int>& rows) {
+  std::vector<Matrix> out;
+  for (const Finding& f : question.beside) {
+    const Block& found = c.explanations.blocks[static_cast<std::size_t>(f.block)];
+    Block seen = variant_at(*c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, found.theta, longer.touches, rows);
+    if (seen.signature.cols() > 0) out.push_back(std::move(seen.signature));
+  }
+  return out;
+}
+
+std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const Question& question, const Longer& longer, const Precision& first) {
   std::vector<char> masked(longer.touches.touches.size(), 0);
   std::copy(c.masked.begin(), c.masked.end(), masked.begin());
   std::vector<int> rows;
@@ -96,10 +114,12 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
   const Baseline baseline = baseline_of(c, longer);
   Hyperparameters hyper = fitted;
   hyper.noise = Vector::Constant(baseline.model.noise_groups, fitted.noise.mean());
-  const LinearModel model = without_rows(baseline.model, masked);
-  const Precision both(c.rough && model.rough.cols() > 0 ? rougher(model) : model, hyper);
+  const std::vector<Matrix> beside = signatures_beside(c, question, longer, rows);
+  std::vector<const Matrix*> removed;
+  for (const Matrix& m : beside) removed.push_back(&m);
+  const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), hyper);
   std::vector<Contender> out;
-  for (const int rival : rivals) {
+  for (const int rival : question.rivals) {
     const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
     Contender contender;
     for (const Block& b : own.blocks) {
@@ -176,8 +196,8 @@ struct Scored {
 /// Judges changes for a case.
 class Judge {
  public:
-  Judge(const Case& c, const Hyperparameters& hyper, const std::vector<int>& rivals)
-      : case_(c), hyper_(hyper), rivals_(rivals), first_(c.rough && c.model.rough.cols() > 0 ? rougher(c.model) : c.model, hyper) {}
+  Judge(const Case& c, const Hyperparameters& hyper, const Question& question)
+      : case_(c), hyper_(hyper), question_(question), first_(with_free(likelier_ensemble(c, c.model), signatures_of(c, question.beside)), hyper) {}
 
   void add(const std::vector<Change>& changes) {
     std::vector<std::optional<Scored>> scored(changes.size());
@@ -195,16 +215,16 @@ class Judge {
     if (!longer) return std::nullopt;
     NextMeasurement m;
     m.change = change.text;
-    for (const int k : rivals_) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
-    m.expected_probability = expected_probability(contenders_of(case_, hyper_, rivals_, *longer, first_));
+    for (const int k : question_.rivals) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
+    m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *longer, first_));
     m.minutes = change.minutes + minutes_of(*longer);
-    const double worth = (m.expected_probability - 1 / double(rivals_.size())) / (kRound_min + m.minutes);
+    const double worth = (m.expected_probability - 1 / double(question_.rivals.size())) / (kRound_min + m.minutes);
     return Scored{std::move(m), worth, change, std::move(*longer)};
   }
 
   const Case& case_;
   const Hyperparameters& hyper_;
-  const std::vector<int>& rivals_;
+  const Question& question_;
   Precision first_;
   std::vector<Scored> list_;               ///< the best first
 };
@@ -244,9 +264,9 @@ std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
 }  // namespace
 
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
-  const std::vector<int> rivals = rivals_of(c, result, detectable);
-  if (rivals.size() < 2) return {};
-  Judge judge(c, result ? result->hyper : c.hyper, rivals);
+  const Question question = question_of(c, result, detectable);
+  if (question.rivals.size() < 2) return {};
+  Judge judge(c, result ? result->hyper : c.hyper, question);
   const std::vector<Change> menu = changes_for(c);
   judge.add(menu);
   // Where one change does not decide, the best one together with each of the others.
@@ -260,7 +280,7 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
   std::vector<NextMeasurement> out;
   for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {
     const Scored& s = judge.list()[k];
-    if (s.measurement.expected_probability < 1 / double(rivals.size()) + kAboveChance) break;
+    if (s.measurement.expected_probability < 1 / double(question.rivals.size()) + kAboveChance) break;
     out.push_back(s.measurement);
     if (k == 0) out.back().program = dmis_program(s.longer, s.change);
   }
@@ -271,7 +291,7 @@ std::string otherwise(const Case& c, const SearchResult& result, const std::vect
   if (!next.empty()) return "";
   if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
-  const std::vector<int> rivals = rivals_of(c, &result, {});
+  const std::vector<int> rivals = question_of(c, &result, {}).rivals;
   if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
     const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];

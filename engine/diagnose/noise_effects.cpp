@@ -33,7 +33,7 @@ double tails_of(const Vector& standardised) {
 
 Residuals residuals(const Case& c, const SearchResult& result) {
   // One noise for all rows, so that a difference between groups shows.
-  LinearModel m = with_free(c.rough ? rougher(c.model) : c.model, signatures_of(c, result.findings));
+  LinearModel m = with_free(likelier_ensemble(c, c.model), signatures_of(c, result.findings));
   m.noise_group.assign(m.noise_group.size(), 0);
   m.noise_groups = 1;
   const Hyperparameters h = estimate(m);

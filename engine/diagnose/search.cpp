@@ -235,6 +235,8 @@ LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& si
   return out;
 }
 
+LinearModel likelier_ensemble(const Case& c, const LinearModel& m) { return c.rough && m.rough.cols() > 0 ? rougher(m) : m; }
+
 Explanations only(const Explanations& all, const std::vector<int>& kept) {
   Explanations out;
   for (const int k : kept) {

@@ -9,9 +9,9 @@ MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
 
 
 class NextMeasurement(harness.Case):
-    def record(self, program, name, effect, run=1, **changes):
+    def record(self, program, name, *effects, run=1, **changes):
         """A recording; `changes` are functions from the old value of a column to the new one."""
-        self.abbe("record", program, "--machine", MACHINE, "-o", name, "--with", effect, "--run", run)
+        self.abbe("record", program, "--machine", MACHINE, "-o", name, "--run", run, *(word for e in effects for word in ("--with", e)))
         lines = (self.folder / name).read_text().splitlines()
         comments = [line for line in lines if line.startswith("#")]
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
@@ -52,6 +52,16 @@ class NextMeasurement(harness.Case):
         self.assertIn("probe.tip_radius", after)
         self.assertNotIn("probe.trigger_delay", after)
         self.assertLess(len(after), len(before))
+
+    def test_what_was_found_beside_does_not_help(self):
+        """A lobing that is known to be there tells nothing about which of the others is there too."""
+        radius = "probe.tip_radius:amplitude_um=3"
+        alone = self.diagnosis(self.record(PROGRAM, "alone.csv", radius))["next_measurement"]
+        beside = self.diagnosis(self.record(PROGRAM, "beside.csv", radius, "probe.pretravel_lobing:amplitude_um=3"))
+        self.assertEqual(beside["effects"][0]["members"], ["probe.pretravel_lobing"])
+        self.assertEqual([n["change"] for n in alone], [n["change"] for n in beside["next_measurement"]])
+        for a, b in zip(alone, beside["next_measurement"]):
+            self.assertAlmostEqual(a["expected_probability"], b["expected_probability"], delta=0.05)
 
 
 if __name__ == "__main__":

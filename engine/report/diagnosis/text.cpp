@@ -86,6 +86,7 @@ std::string next_steps(const Diagnosis& d) {
   std::string out;
   for (const NextMeasurement& n : d.next_measurement)
     out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability);
+  if (!d.next_measurement.empty()) out += "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json.\n";
   if (!d.otherwise.empty()) out += "  " + d.otherwise + "\n";
   if (!d.effects.empty() || (d.unexplained && !d.unexplained->model.empty()))
     out += "  To reckon with it until it is mended: --model-out writes the machine file with it, and 'abbe run' on that machine gives uncertainties with it.\n";
