@@ -11,12 +11,13 @@ namespace abbe {
 
 namespace {
 
-/// The name without the unit that it ends in: "seat radius" of "seat_radius_mm".
+/// The name without its unit: "seat radius" of "seat_radius_mm", "sag per 500kg" of "sag_um_per_500kg".
 std::string plain_name(const DiagnosedParameter& p) {
-  std::string suffix = "_";
-  for (const char c : p.unit) suffix += c == '/' ? "_per_" : std::string(1, c);
+  const std::size_t per = p.unit.find('/');
+  const std::string unit = "_" + p.unit.substr(0, per);
   std::string name = p.name;
-  if (name.size() > suffix.size() && name.compare(name.size() - suffix.size(), suffix.size(), suffix) == 0) name.resize(name.size() - suffix.size());
+  const std::size_t at = name.rfind(unit), after = at + unit.size();
+  if (at != std::string::npos && (after == name.size() || name[after] == '_')) name = name.substr(0, at) + (per == std::string::npos ? name.substr(after) : "");
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
@@ -40,6 +41,7 @@ std::string capitalised(std::string text) {
 std::string with_uncertainty(const DiagnosedParameter& p) {
   if (!p.word.empty()) return plain_name(p) + " " + p.word;
   const int decimals = decimals_for(2 * p.u, p.value);
+  if (p.u == 0) return fmt::format("{} {:.{}f}{}", plain_name(p), p.value, decimals, unit_after(p));
   return fmt::format("{} {:.{}f} ± {:.{}f}{}", plain_name(p), p.value, decimals, 2 * p.u, decimals, unit_after(p));
 }
 
@@ -53,7 +55,7 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles, co
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
   const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
-  if (titles.size() == 1) return capitalised(fmt::format("{} explains it{}{}.", titles.front(), told.empty() ? "" : ": ", told));
+  if (titles.size() == 1) return fmt::format("It is explained by {}{}{}.", titles.front(), told.empty() ? "" : ": ", told);
   return fmt::format("One of these explains it, and {} cannot tell which: {}.{}{}{}", data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
 }
 

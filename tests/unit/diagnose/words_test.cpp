@@ -1,0 +1,34 @@
+#include "engine/diagnose/words.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace abbe;
+
+namespace {
+
+DiagnosedParameter size(const char* name, const char* unit, double value, double u) {
+  return {.name = name, .unit = unit, .value = value, .u = u, .low = value - 1.96 * u, .high = value + 1.96 * u};
+}
+
+}  // namespace
+
+TEST_CASE("a size is told with its unit and the digits that its uncertainty bears") {
+  CHECK(with_uncertainty(size("amplitude_um", "um", 3.00543, 0.00924)) == "amplitude 3.005 ± 0.018 um");
+  CHECK(with_uncertainty(size("cte_error_ppm_per_K", "ppm/K", -2.34567, 0.3)) == "cte error -2.35 ± 0.60 ppm/K");
+  CHECK(with_uncertainty(size("tau_s", "s", 3480.7, 240)) == "tau 3481 ± 480 s");
+  CHECK(with_uncertainty(size("sag_um_per_500kg", "um", 4, 0.25)) == "sag per 500kg 4.00 ± 0.50 um");
+  CHECK(with_uncertainty(size("second_tau_s", "s", 12, 1)) == "second tau 12.0 ± 2.0 s");
+  CHECK(with_uncertainty(size("share", "1", 0.02, 0)) == "share 0.0200");
+  CHECK(with_uncertainty({.name = "axis", .unit = "code", .word = "x"}) == "axis x");
+  DiagnosedParameter far = size("squareness_urad", "urad", 46, 6);
+  far.plausible = false;
+  CHECK(with_interval(far) == "squareness 46 urad (34 to 58), implausible");
+}
+
+TEST_CASE("one explanation, or several that cannot be told apart") {
+  const std::vector<DiagnosedParameter> sizes{size("delay_ms", "ms", 1.2, 0.05)};
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording") == "It is explained by trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"outliers"}, {}, "this recording") == "It is explained by outliers.");
+  CHECK(explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
+        "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
+}
