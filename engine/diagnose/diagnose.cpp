@@ -57,8 +57,23 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   return b;
 }
 
+/// Whether what was named could be judged from this recording.
+bool judged(const Case& c, const Finding& f) {
+  double open = 0, total = 0;
+  const std::vector<double>& bayes = f.evidence.log_bayes;
+  for (const int k : f.set) {
+    const double p = c.explanations.list[k].prior * std::exp(bayes[k] - bayes[f.explanation]);
+    total += p;
+    if (c.explanations.list[k].missing) open += p;
+  }
+  constexpr double kMostly = 0.8;
+  return open < kMostly * total;
+}
+
 /// Belief in a name beside a pattern that has none: whatever made the pattern may have made the rest too.
 constexpr double kBesideUnexplained = 0.5;
+/// Belief in a name that stands on a covariate which was not logged or did not change: other functions of it would look the same.
+constexpr double kUnjudged = 0.5;
 
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
@@ -66,7 +81,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const Finding& f = result.findings[k];
     DiagnosedEffect e;
     for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
-    e.probability = result.other ? std::min(f.probability, kBesideUnexplained) : f.probability;
+    e.probability = std::min({f.probability, result.other ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged});
     e.parameters = estimate_parameters(c, result, k);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
@@ -106,19 +121,6 @@ void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
     out.model_effects.push_back(std::move(setting));
     out.p_value = std::min(out.p_value, n.p);
   }
-}
-
-/// Whether what was named first could be judged from this recording.
-bool judged(const Case& c, const Finding& f) {
-  double open = 0, total = 0;
-  const std::vector<double>& bayes = f.evidence.log_bayes;
-  for (const int k : f.set) {
-    const double p = c.explanations.list[k].prior * std::exp(bayes[k] - bayes[f.explanation]);
-    total += p;
-    if (c.explanations.list[k].missing) open += p;
-  }
-  constexpr double kMostly = 0.8;
-  return open < kMostly * total;
 }
 
 Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
@@ -248,15 +249,19 @@ std::string to_follow_a_pattern(Factor factor) {
 
 /// What must be logged, and vary, before the names that were found can be judged.
 std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
-  std::vector<std::string> out;
+  std::map<unsigned, std::vector<std::string>> names;   // by what they miss
   for (const Finding& f : result.findings) {
     for (const int k : f.set) {
       const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
-      std::vector<std::string> columns;
-      for (const Covariate covariate : covariates_in(e.missing))
-        for (const std::string& column : columns_of(covariate)) columns.push_back(column);
-      if (!columns.empty()) out.push_back(fmt::format("{} shows in {}: log it, and let it vary.", e.name, fmt::join(columns, ", ")));
+      if (e.missing) names[e.missing].push_back(e.name);
     }
+  }
+  std::vector<std::string> out;
+  for (const auto& [missing, list] : names) {
+    std::vector<std::string> columns;
+    for (const Covariate covariate : covariates_in(missing))
+      for (const std::string& column : columns_of(covariate)) columns.push_back(column);
+    if (!columns.empty()) out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "), fmt::join(list, " or ")));
   }
   return out;
 }

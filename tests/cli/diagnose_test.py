@@ -94,6 +94,16 @@ class Diagnose(harness.Case):
         entry = next(c for c in said["cannot_judge"] if c["effect"] == "probe.trigger_delay")
         self.assertEqual(entry["missing"], ["speed_mm_s"])
 
+    def test_a_name_that_cannot_be_judged_is_believed_by_half(self):
+        def without_clock(row):
+            del row["time_s"]
+            return row
+        shifted = self.record("--with", "part.shift:amplitude_um=12,t0_s=100,direction=x")
+        said = self.diagnosis(self.changed(shifted, without_clock))
+        self.assertEqual(said["verdict"], "cannot_judge")
+        self.assertEqual(said["effects"][0]["probability"], 0.5)
+        self.assertIn("Log time_s", said["otherwise"])
+
     def test_targets_may_come_from_the_program(self):
         def bare(row):
             return {k: row[k] for k in ("feature", "touch", "x", "y", "z")}
