@@ -70,7 +70,7 @@ bool judged(const Case& c, const Finding& f) {
   return open < kMostly * total;
 }
 
-/// Belief in a name beside a pattern that has none: whatever made the pattern may have made the rest too.
+/// Belief in a name beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too.
 constexpr double kBesideUnexplained = 0.5;
 /// Belief in a name that stands on a covariate which was not logged or did not change: other functions of it would look the same.
 constexpr double kUnjudged = 0.5;
@@ -81,7 +81,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const Finding& f = result.findings[k];
     DiagnosedEffect e;
     for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
-    e.probability = std::min({f.probability, result.other ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged});
+    const bool something_else = result.other || result.adequacy < kInadequate;
+    e.probability = std::min({f.probability, something_else ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged});
     e.parameters = estimate_parameters(c, result, k);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
