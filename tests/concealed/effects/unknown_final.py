@@ -2,7 +2,9 @@
 
 import numpy as np
 
-from .base import Change, Effect, unit, vector
+from scene import APPROACH
+
+from .base import Change, Effect, vector
 from .probe import directions
 
 UNKNOWN = {}
@@ -12,105 +14,112 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_refitted(scene, rng):
-    return {"amplitude_um": 1.0, "turned": unit(rng), "placement": int(rng.choice(np.unique(scene.setup)[1:]))}
+def draw_cable(scene, rng):
+    return {"amplitude_um": rng.choice([-1.0, 1.0])}
 
 
-def change_refitted(scene, p):
-    """Before one placement the head is taken off and put on again, a little turned on its mount, and nobody qualifies
-    the styli: each tip is off by its lever, until the head is put right. Amplitude at the longest lever."""
-    lever = scene.tip / np.linalg.norm(scene.tip, axis=1).max()
-    moved = np.cross(p["turned"], lever) * (scene.setup == p["placement"])[:, None]
-    return Change(tip=p["amplitude_um"] * moved)
+def change_cable(scene, p):
+    """The head turns without end and takes the short way. A cable, laid outside, winds up and unwinds by
+    the whole turns that are left over, and twists the wrist about the vertical. Amplitude for one turn at
+    the longest lying stylus."""
+    visit, first = np.unique(scene.visit, return_index=True)
+    turns = np.cumsum(np.round(np.diff(scene.b[first], prepend=0) / (2 * np.pi)))
+    wound = turns[np.searchsorted(visit, scene.visit)]
+    lying = np.cross([0, 0, 1.0], scene.arm / scene.length.max())
+    return Change(tip=p["amplitude_um"] * wound[:, None] * lying)
 
 
-def draw_dust(scene, rng):
-    turn, lean = rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(20, 40))
+def draw_pushed(scene, rng):
+    return {"amplitude_um": 1.0, "held": rng.uniform(0.2, 0.5)}
+
+
+def change_pushed(scene, p):
+    """The part lies unclamped. Every touch that comes from the side, and more than friction holds, pushes
+    it on a little, the faster the farther, and it stays there until it is placed anew. Amplitude at the
+    farthest."""
+    sideways = -scene.normal * [1, 1, 0]
+    push = np.linalg.norm(sideways, axis=1)
+    slip = sideways * (np.clip(push - p["held"], 0, None) / np.maximum(push, 1e-9) * scene.speed)[:, None]
+    moved = np.zeros((scene.size, 3))
+    for k in np.unique(scene.setup):
+        mine = scene.setup == k
+        moved[mine] = np.cumsum(slip[mine], 0) - slip[mine]
+    return Change(tip=p["amplitude_um"] * moved / np.linalg.norm(moved, axis=1).max())
+
+
+def draw_entry(scene, rng):
+    x, y = scene.reading[rng.integers(scene.size), :2]
     return {
-        "amplitude_um": 1.0,
-        "towards": [np.sin(lean) * np.cos(turn), np.sin(lean) * np.sin(turn), np.cos(lean)],
-        "width_deg": rng.uniform(18, 28),
+        "amplitude_um": rng.choice([-1.0, 1.0]),
+        "coordinate": int(rng.integers(3)),
+        "node_mm": [float(x), float(y)],
+        "mesh_mm": rng.uniform(0.25, 0.4, 2) * np.ptp(scene.reading[:, :2], axis=0),
     }
 
 
-def change_dust(scene, p):
-    """Dust of a grinding machine settles on the balls where they are flat, a little to the side it comes from. The
-    layer grows until the part is placed anew and wiped. Amplitude in the longest placement."""
-    placed = np.array([scene.time[scene.setup == k].min() for k in scene.setup])
-    layer = (scene.time - placed) / np.max(scene.time - placed)
-    angle = np.degrees(np.arccos(np.clip(scene.normal @ np.asarray(p["towards"]), -1, 1)))
-    return Change(along=p["amplitude_um"] * layer * np.exp(-0.5 * (angle / p["width_deg"]) ** 2))
+def change_entry(scene, p):
+    """One entry of the correction table over x and y is mistyped: one coordinate is wrong at this node,
+    and, by the interpolation, in the four meshes around it."""
+    away = np.abs(scene.reading[:, :2] - p["node_mm"]) / p["mesh_mm"]
+    share = np.clip(1 - away, 0, None).prod(1)
+    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * share))
 
 
-def draw_grease(scene, rng):
-    air = scene.temperature["air"]
-    return {"amplitude_um": 1.0, "qualified_at_C": float((air.min() + air.max()) / 2 + rng.uniform(-0.4, 0.4))}
+def draw_odd(scene, rng):
+    return {
+        "amplitude_um": rng.choice([-1.0, 1.0]),
+        "along": int(rng.integers(2)),
+        "side": rng.choice([-1.0, 1.0]),
+        "held_end": rng.choice([-1.0, 1.0]),
+        "built_at_C": float(np.mean(scene.temperature["part"]) + rng.uniform(-0.4, 0.4)),
+        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+    }
 
 
-def change_grease(scene, p):
-    """The grease of the probe's seats is stiff in the cold: it takes a larger moment to tip them than when the styli
-    were qualified, and a stylus touched from the side bends more, by the square of its length. The warm probe is the
-    other way round."""
+def change_odd(scene, p):
+    """The balls of one side sit on a bar of another metal, which is held at one end and slides in the
+    frame at the other: it grows past the frame with every kelvin, along itself. Amplitude at the free
+    end, for 1 K."""
+    i, h = p["along"], p["half_size_mm"]
+    on_bar = p["side"] * scene.part_point[:, 1 - i] > 0.5 * h
+    share = (1 - p["held_end"] * scene.part_point[:, i] / h) / 2
+    warmer = scene.temperature["part"] - p["built_at_C"]
+    return Change(along=p["amplitude_um"] * on_bar * warmer * share * scene.part_normal[:, i])
+
+
+def draw_whip(scene, rng):
+    return {"amplitude_um": rng.choice([-1.0, 1.0]), "decay_s": rng.uniform(0.3, 1.0)}
+
+
+def change_whip(scene, p):
+    """A stylus still swings from the acceleration, crosswise only, when it touches: the wider the longer
+    it is, the less the longer the approach takes. The tip radius has taken the mean. Amplitude from rest
+    to the hardest."""
+    swing = scene.acceleration * np.exp(-APPROACH / scene.speed / p["decay_s"])
+    across = 1 - np.sum(scene.travel * scene.shank, 1) ** 2
+    wide = across * (scene.length / scene.length.max()) ** 3
+    return Change(along=p["amplitude_um"] * wide * (swing - swing.mean()) / swing.max())
+
+
+def draw_skid(scene, rng):
+    return {"amplitude_um": 1.0}
+
+
+def change_skid(scene, p):
+    """A tip that comes obliquely skids along the surface before it trips. Friction drags it towards the
+    head or away from it: the seats are unloaded or loaded, and it trips early or late. Amplitude for a
+    skid along the shank."""
+    skid = scene.travel - scene.normal * np.sum(scene.travel * scene.normal, 1, keepdims=True)
+    upward = np.sum(skid * scene.shank, 1) / np.maximum(np.linalg.norm(skid, axis=1), 0.02)
     _, beta = directions(scene)
-    bent = np.cos(beta) ** 2 * (scene.length / scene.length.max()) ** 2
-    return Change(along=p["amplitude_um"] * (scene.temperature["air"] - p["qualified_at_C"]) * bent)
+    return Change(along=p["amplitude_um"] * upward * np.cos(beta) ** 2 * scene.length / scene.length.max())
 
 
-def draw_leg(scene, rng):
-    along = "xyz".index(scene.machine.chain[0])
-    return {
-        "amplitude_um": 1.0,
-        "along": along,
-        "driven_end": rng.choice([-1.0, 1.0]),
-        "freed_after_mm": rng.uniform(0.1, 0.2) * float(np.ptp(scene.reading[:, along])),
-    }
-
-
-def change_leg(scene, p):
-    """The bridge is driven at one leg; the other one drags and stays behind in the sense of the last long way. A short
-    approach does not free it. Amplitude at the far leg."""
-    i, held = p["along"], p["freed_after_mm"]
-    state, behind = scene.start[0, i], np.empty(scene.size)
-    for k, way in enumerate(np.column_stack([scene.start[:, i], scene.reading[:, i]])):
-        for x in way:
-            state = min(max(state, x - held), x + held)
-        behind[k] = (way[1] - state) / held
-    x = scene.target[:, 1 - i]
-    far = 0.5 - p["driven_end"] * (x - (x.min() + x.max()) / 2) / np.ptp(x)
-    return Change(tip=vector(np.eye(3)[i], p["amplitude_um"] * behind * far))
-
-
-def draw_battery(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "low_s": float(np.quantile(scene.time, rng.uniform(0.3, 0.5))),
-        "changed_s": float(np.quantile(scene.time, rng.uniform(0.75, 0.95))) + 0.5,
-    }
-
-
-def change_battery(scene, p):
-    """The battery of a radio probe runs low: its message must be repeated more and more often, and the machine goes on
-    meanwhile. Then the battery is changed. Amplitude at 8 mm/s."""
-    low = np.clip((scene.time - p["low_s"]) / (p["changed_s"] - p["low_s"]), 0, 1) * (scene.time < p["changed_s"])
-    return Change(tip=scene.travel * (p["amplitude_um"] * low * scene.speed / 8)[:, None])
-
-
-def draw_certificate(scene, rng):
-    excess = rng.normal(size=(3, 3, 3)) * [1, 1, 0.5]
-    swapped = excess - excess.transpose(1, 0, 2)
-    return {"amplitude_um": 1.0, "excess": (swapped / np.sqrt(np.mean(swapped**2))).reshape(9, 3)}
-
-
-def change_certificate(scene, p):
-    """The certificate counts the balls by columns, the operator types its deviations in by rows: balls on both sides of
-    the diagonal have each other's deviations, and are off by opposite amounts, in height by less."""
-    ball = [int(f.removeprefix("BALL")) - 1 for f in scene.feature]
-    return Change(along=p["amplitude_um"] * np.sum(np.asarray(p["excess"])[ball] * scene.part_normal, 1))
-
-
-unknown("refitted_head", draw_refitted, change_refitted, ["setup", "head", "sensor", "time"], "D")
-unknown("falling_dust", draw_dust, change_dust, ["direction", "time"], "D")
-unknown("cold_grease", draw_grease, change_grease, ["temperature", "direction", "sensor"], "D")
-unknown("dragging_leg", draw_leg, change_leg, ["position", "feature"])
-unknown("weak_battery", draw_battery, change_battery, ["speed", "time"], "D")
-unknown("swapped_certificate", draw_certificate, change_certificate, ["feature", "position"])
+unknown("wound_cable", draw_cable, change_cable, ["head", "sensor", "time"], "D")
+unknown("pushed_part", draw_pushed, change_pushed, ["time", "setup"])
+unknown("mistyped_entry", draw_entry, change_entry, ["position", "feature"])
+unknown("odd_bar", draw_odd, change_odd, ["temperature", "feature", "position"], "D")
+unknown(
+    "whipping_stylus", draw_whip, change_whip, ["acceleration", "speed", "direction", "sensor", "head"], "D"
+)
+unknown("skidding_tip", draw_skid, change_skid, ["direction", "sensor", "head"], "D")
