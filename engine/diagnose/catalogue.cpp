@@ -253,11 +253,7 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
   std::vector<CannotJudge> out;
   for (const Effect* effect : effects()) {
     for (const Explanations::Unjudged& u : all.unjudged) {
-      if (u.effect != effect) continue;
-      CannotJudge c{std::string(effect->name), {}};
-      for (const Covariate covariate : covariates_in(u.missing))
-        for (const std::string& column : columns_of(covariate)) c.missing.push_back(column);
-      out.push_back(std::move(c));
+      if (u.effect == effect) out.push_back({std::string(effect->name), columns_of(u.missing)});
     }
   }
   return out;

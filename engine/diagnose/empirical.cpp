@@ -53,9 +53,7 @@ std::vector<Piece> offsets(const Case& c, bool by_sensor) {
 
 /// Effects that follow an explanation's pattern; none where it is a function of two factors, or of what another program does not share.
 std::vector<Piece> pieces_of(const Case& c, const Explanation& e) {
-  static const std::set<std::string_view> of_two_factors = {"turning to and fro", "stretching", "in time", "orientation in time", "settling", "over position", "over direction", "of travel",
-                                                         "size along the sequence", "along a scale"};
-  if (of_two_factors.count(e.shape) > 0) return {};
+  if (!e.of_one_factor) return {};
   switch (e.factor) {
     case Factor::time: return {curve(c, CurveCoordinate::time)};
     case Factor::position: {

@@ -50,7 +50,8 @@ struct Explanation {
   std::string name;               ///< of the effect, or "OTHER time"
   const Effect* effect = nullptr; ///< none: OTHER
   Factor factor = Factor::position;
-  std::string shape;              ///< of OTHER: "smooth", "step", ...
+  std::string shape;              ///< of OTHER: "smooth", "quick", ...
+  bool of_one_factor = false;     ///< of OTHER: a function of its factor alone, which an empirical effect can follow
   double prior = 0;               ///< probability among all explanations
   unsigned missing = 0;           ///< covariates that are absent or constant: it cannot be judged
   std::vector<int> blocks;

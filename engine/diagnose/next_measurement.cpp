@@ -258,9 +258,7 @@ std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
   }
   std::vector<std::string> out;
   for (const auto& [missing, list] : names) {
-    std::vector<std::string> columns;
-    for (const Covariate covariate : covariates_in(missing))
-      for (const std::string& column : columns_of(covariate)) columns.push_back(column);
+    const std::vector<std::string> columns = columns_of(missing);
     if (!columns.empty()) out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "), fmt::join(list, " or ")));
   }
   return out;

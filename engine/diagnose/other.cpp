@@ -153,44 +153,44 @@ class Patterns {
     add(Factor::time, "slow", along(smooth(time_, 0.3, 8), normal_));
     add(Factor::time, "quick", along(smooth(time_, 0.07, 22), normal_));
     add(Factor::time, "rugged", in_one_direction(rugged(time_, 0.2, 40)));
-    add(Factor::time, "stretching", stretching());
-    add(Factor::time, "turning to and fro", turning());
-    add(Factor::time, "size along the sequence", sizes_along_the_sequence());
+    add_joint(Factor::time, "stretching", stretching());
+    add_joint(Factor::time, "turning to and fro", turning());
+    add_joint(Factor::time, "size along the sequence", sizes_along_the_sequence());
     add(Factor::position, "smooth", along(smooth(place_, 0.6, 14), normal_));
     add(Factor::position, "patch", along(smooth(place_, 0.25, 26), normal_));
     add(Factor::position, "height", smooth(place_, 0.4, 24));
     add(Factor::position, "along a guide", guides());
-    add(Factor::position, "in time", along(products(smooth(place_, 0.6, 8), trend()), normal_));
+    add_joint(Factor::position, "in time", along(products(smooth(place_, 0.6, 8), trend()), normal_));
     add(Factor::direction, "smooth", smooth(directions_, 0.6, 40));
-    add(Factor::direction, "in time", products(smooth(directions_, 0.9, 8), smooth(time_, 0.2, 8)));
-    if (oblique_) add(Factor::direction, "of travel", smooth(travel_, 0.6, 40));
+    add_joint(Factor::direction, "in time", products(smooth(directions_, 0.9, 8), smooth(time_, 0.2, 8)));
+    if (oblique_) add_joint(Factor::direction, "of travel", smooth(travel_, 0.6, 40));
     if (several(orientation_)) {
       add(Factor::direction, "on the probe", smooth(on_probe_, 0.6, 40));
       add(Factor::direction, "lobes", lobes());
       add(Factor::head, "orientation", along(indicator(orientation_), normal_));
-      add(Factor::head, "orientation in time", along(by_group(trend(), orientation_), normal_));
-      add(Factor::head, "settling", along(by_group(settling(settled_), orientation_), normal_));
-      add(Factor::head, "over position", along(by_group(linear_place(), orientation_), normal_));
+      add_joint(Factor::head, "orientation in time", along(by_group(trend(), orientation_), normal_));
+      add_joint(Factor::head, "settling", along(by_group(settling(settled_), orientation_), normal_));
+      add_joint(Factor::head, "over position", along(by_group(linear_place(), orientation_), normal_));
     }
     if (several(sensor_)) {
       add(Factor::sensor, "offset", hcat(along(indicator(sensor_), normal_), indicator(sensor_)));
-      add(Factor::sensor, "over position", along(by_group(smooth(place_, 0.6, 8), sensor_), normal_));
-      add(Factor::sensor, "in time", by_group(hcat(along(trend(), normal_), trend()), sensor_));
+      add_joint(Factor::sensor, "over position", along(by_group(smooth(place_, 0.6, 8), sensor_), normal_));
+      add_joint(Factor::sensor, "in time", by_group(hcat(along(trend(), normal_), trend()), sensor_));
     }
     if (several(feature_)) {
       add(Factor::feature, "size", indicator(feature_));
-      add(Factor::feature, "size in time", by_group(trend(), feature_));
+      add_joint(Factor::feature, "size in time", by_group(trend(), feature_));
       add(Factor::feature, "offset on the part", along(indicator(feature_), normal_on_part_));
       add(Factor::feature, "form", by_group(smooth(directions_, 0.9, 8), feature_));
     }
     if (several(setup_)) {
       add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
-      add(Factor::setup, "settling", along(by_group(products(linear_place(), settling(clamped_)), setup_), normal_));
+      add_joint(Factor::setup, "settling", along(by_group(products(linear_place(), settling(clamped_)), setup_), normal_));
     }
     if (several(run_)) add(Factor::run, "offset", along(indicator(run_), normal_));
     if (several(speed_)) {
       add(Factor::speed, "offset", by_group(one, speed_));
-      add(Factor::speed, "over direction", products(smooth(travel_, 0.6, 24), faster()));
+      add_joint(Factor::speed, "over direction", products(smooth(travel_, 0.6, 24), faster()));
     }
     constexpr double kDiffers_K = 0.1;
     if (part_above20_.maxCoeff() - part_above20_.minCoeff() > kDiffers_K)
@@ -199,7 +199,7 @@ class Patterns {
     for (int k = 0; k < 3; ++k)
       if (scale_above20_[k].maxCoeff() - scale_above20_[k].minCoeff() > kDiffers_K)
         scales.push_back(Vector(scale_above20_[k].array() * normals_along(k).array()).asDiagonal() * smooth(reading_[k], 0.1, 16));
-    if (!scales.empty()) add(Factor::temperature, "along a scale", scales);
+    if (!scales.empty()) add_joint(Factor::temperature, "along a scale", scales);
   }
 
  private:
@@ -325,11 +325,16 @@ class Patterns {
     return m;
   }
 
+  /// One explanation with these variants, functions of the factor alone.
+  void add(Factor factor, std::string shape, const std::vector<Matrix>& variants) { append(factor, std::move(shape), variants, true); }
   void add(Factor factor, std::string shape, const Matrix& columns) { add(factor, std::move(shape), std::vector{columns}); }
+  /// The same, but functions of something else too, or of what another recording does not share.
+  void add_joint(Factor factor, std::string shape, const std::vector<Matrix>& variants) { append(factor, std::move(shape), variants, false); }
+  void add_joint(Factor factor, std::string shape, const Matrix& columns) { add_joint(factor, std::move(shape), std::vector{columns}); }
 
-  /// One explanation with these variants.
-  void add(Factor factor, std::string shape, const std::vector<Matrix>& variants) {
+  void append(Factor factor, std::string shape, const std::vector<Matrix>& variants, bool of_one_factor) {
     Explanation e;
+    e.of_one_factor = of_one_factor;
     e.name = "OTHER " + std::string(abbe::diagnose::name(factor)) + ", " + shape;
     e.factor = factor;
     e.shape = std::move(shape);

@@ -354,17 +354,11 @@ void complete_from_program(Recording& recording, const Recording& nominal, const
                              fmt::format("the program has {} touches; rows are paired by feature and touch, counted from 1", nominal.rows.size())));
 }
 
-std::vector<std::string> columns_of(Covariate c) {
+std::vector<std::string> columns_of(unsigned covariates) {
+  std::vector<std::string> columns;
   for (const CovariateColumns& entry : covariate_columns())
-    if (entry.covariate == c) return entry.columns;
-  return {};
-}
-
-std::vector<Covariate> covariates_in(unsigned mask) {
-  std::vector<Covariate> list;
-  for (const CovariateColumns& entry : covariate_columns())
-    if (mask & static_cast<unsigned>(entry.covariate)) list.push_back(entry.covariate);
-  return list;
+    if (covariates & static_cast<unsigned>(entry.covariate)) columns.insert(columns.end(), entry.columns.begin(), entry.columns.end());
+  return columns;
 }
 
 }  // namespace abbe

@@ -48,9 +48,7 @@ void complete_from_program(Recording&, const Recording& nominal, const std::stri
 /// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that the machine does not know.
 RecordedTouches recorded_touches(const Recording&, const Machine&, const std::string& file);
 
-/// The columns of a recording that hold a covariate, for messages: {"temp_part_C"}.
-std::vector<std::string> columns_of(Covariate);
-/// Every covariate of a mask.
-std::vector<Covariate> covariates_in(unsigned mask);
+/// The columns of a recording that hold these covariates, for messages: {"temp_part_C"}.
+std::vector<std::string> columns_of(unsigned covariates);
 
 }  // namespace abbe
