@@ -186,6 +186,21 @@ Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
   return out;
 }
 
+Vector beyond_prediction(LinearModel m, const Hyperparameters& h, const std::vector<char>& masked) {
+  // With a noise of its own so large that it tells nothing, and has nothing to do with that of its neighbours.
+  constexpr double kTellsNothing = 1e4;
+  for (std::size_t i = 0; i < masked.size(); ++i) {
+    if (masked[i]) m.noise_um(static_cast<Eigen::Index>(i)) *= kTellsNothing;
+    if (masked[i] || (i > 0 && masked[i - 1])) m.follows[i] = 0;
+  }
+  Vector out = leave_one_out(m, h);
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    out(i) *= masked[row] ? m.noise_um(i) * h.noise(m.noise_group[row]) : 0;
+  }
+  return out;
+}
+
 Matrix squared_correlation(const LinearModel& m, const Hyperparameters& h) {
   const Matrix p = Rotated(m, h).precision();
   const Vector variance = p.diagonal().cwiseMax(1e-9);

@@ -63,6 +63,9 @@ LinearModel rougher(const LinearModel&);
 /// The model without some rows.
 LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);
 
+/// How far each of the `masked` rows is from what those that are not predict, um; 0 for the others.
+Vector beyond_prediction(LinearModel, const Hyperparameters&, const std::vector<char>& masked);
+
 /// Rows whitened by the noise of a model and free of what X can do.
 class Projection {
  public:

@@ -88,26 +88,13 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
   return out;
 }
 
-/// Errors of prediction of the masked touches: with a noise of their own so large that they tell nothing about each other.
-Vector off_um(const Case& c) {
-  constexpr double kTellsNothing = 1e4;
-  LinearModel m = compact(c.baseline.model);
-  for (std::size_t i = 0; i < c.masked.size(); ++i)
-    if (c.masked[i]) m.noise_um(static_cast<Eigen::Index>(i)) *= kTellsNothing;
-  const Vector standardised = leave_one_out(m, c.hyper);
-  Vector out = Vector::Zero(standardised.size());
-  for (Eigen::Index i = 0; i < out.size(); ++i)
-    if (c.masked[static_cast<std::size_t>(i)]) out(i) = standardised(i) * m.noise_um(i) * c.hyper.noise(m.noise_group[static_cast<std::size_t>(i)]);
-  return out;
-}
-
 }  // namespace
 
 void mask_outliers(Case& c) {
   mask(c, std::vector<char>(c.touches.touches.size(), 0));
   const std::vector<char> kept = systematic(c.touches, c.recording->rows.data(), c.masked);
   if (std::count(kept.begin(), kept.end(), 1) > 0) mask(c, kept);
-  if (std::count(c.masked.begin(), c.masked.end(), 1) > 0) c.off_um = off_um(c);
+  if (std::count(c.masked.begin(), c.masked.end(), 1) > 0) c.off_um = beyond_prediction(compact(c.baseline.model), c.hyper, c.masked);
   c.rows.clear();
   for (std::size_t i = 0; i < c.masked.size(); ++i)
     if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));

@@ -66,6 +66,19 @@ TEST_CASE("residuals predicted from all other rows are those of the dense formul
     for (Eigen::Index j = 0; j < 60; ++j) CHECK(squared(i, j) == doctest::Approx(p(i, j) * p(i, j) / (p(i, i) * p(j, j))).epsilon(1e-6));
 }
 
+TEST_CASE("rows that are left out are as far off as they were moved, whatever their neighbours have in common") {
+  LinearModel m = model_of(200, 1, 1, 0.5, 8);
+  const Hyperparameters h = estimate(m);
+  REQUIRE(h.correlation > 0);
+  std::vector<char> masked(200, 0);
+  const double before = beyond_prediction(m, h, [&] { return masked[40] = masked[41] = 1, masked; }())(40);
+  CHECK(std::abs(before) < 4 * 0.5);
+  m.y(40) += 30;
+  const Vector off = beyond_prediction(m, h, masked);
+  CHECK(off(40) - before == doctest::Approx(30).epsilon(1e-3));
+  CHECK(off(39) == 0);
+}
+
 TEST_CASE("the precision as an inner product is that of the dense formula") {
   const LinearModel m = model_of(50, 1, 1, 0, 2);
   Hyperparameters h;
