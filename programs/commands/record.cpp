@@ -48,6 +48,24 @@ EffectSetting effect_setting(const std::string& text) {
   return setting;
 }
 
+bool same_positions(const Recording& a, const Recording& b) {
+  return std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(),
+                    [](const RecordingRow& x, const RecordingRow& y) { return x.position_mm == y.position_mm; });
+}
+
+/// Warns of effects without which the same machine would have reported the same: an expansion at 20 degrees C, a head that does not turn.
+template <class Record>
+void tell_idle(const std::vector<std::string>& with, const Machine& machine, const Recording& recording, Record record) {
+  const std::size_t own = machine.effects.size() - with.size();
+  for (std::size_t k = 0; k < with.size(); ++k) {
+    Machine without = machine;
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(own + k));
+    if (!same_positions(record(without).recording, recording)) continue;
+    print_messages({diagnostic(Code::W0615, fmt::format("--with {}: it moves no touch of this program", with[k]),
+                               fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file", machine.effects[own + k].name))});
+  }
+}
+
 std::string describe(const std::vector<std::string>& with) { return with.empty() ? "none" : fmt::format("{}", fmt::join(with, " ")); }
 
 }  // namespace
@@ -71,7 +89,10 @@ int record_command(const RecordOptions& options) {
   run.repeat = options.run - 1;
   run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
-  MachineRecord record = record_plan(plan, machine, screened_machines(machine, run.seed, 1, 1), run, program.source);
+  const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
+  const auto recorded = [&](const Machine& as) { return record_plan(plan, as, one, run, program.source); };
+  MachineRecord record = recorded(machine);
+  tell_idle(options.with, machine, record.recording, recorded);
   auto& metadata = record.recording.metadata;
   const std::pair<std::string, std::string> origin[] = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                                                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};

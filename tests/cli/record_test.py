@@ -64,6 +64,10 @@ with tempfile.TemporaryDirectory() as folder:
     run, out = record(folder, "--with", "probe.tip_radius")
     check(run.returncode == 0 and rows(out) != plain, "an effect without parameters acts with its typical size")
 
+    run, out = record(folder, "--with", "thermal.part_expansion", "--with", "machine.scale")
+    check(run.returncode == 0 and "W0615" in run.stderr and "thermal.part_expansion" in run.stderr, "an expansion at 20 degrees C does nothing, and that is said")
+    check("machine.scale" not in run.stderr, "nothing is said of what does something")
+
     # Every effect that `abbe explain` lists, with its first parameter in the middle of its range.
     def explained(*words):
         return subprocess.run([ABBE, "explain", *words], capture_output=True, text=True).stdout.splitlines()
