@@ -198,6 +198,13 @@ Vec3 placement(const Recording& recording, const Machine& machine, const std::ve
   return shift;
 }
 
+/// How a part stood is not in its own coordinates.
+void doubt_axes(const Recording& recording, RecordedTouches& out, const std::string& file) {
+  if (!recording.in_part_frame) return;
+  out.messages.push_back(diagnostic(Code::W0558, fmt::format("{}: in part coordinates; the axes of the part are taken for those of the machine", file),
+                                    "if the part stood turned, errors of machine, head and probe are sought in the wrong directions: record machine coordinates"));
+}
+
 int label_index(std::vector<std::string>& labels, const std::string& label) {
   const auto index = std::find(labels.begin(), labels.end(), label) - labels.begin();
   if (index == static_cast<std::ptrdiff_t>(labels.size())) labels.push_back(label);
@@ -286,6 +293,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     const Vec3 tip = *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
     readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
   }
+  doubt_axes(recording, out, file);
   const Vec3 shift = placement(recording, machine, readings, out, file);
   const auto surface_of = [&](std::size_t i) {
     const RecordingRow& row = recording.rows[i];

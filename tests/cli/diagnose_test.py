@@ -173,6 +173,12 @@ class Diagnose(harness.Case):
         self.assertIn("W0541", done.stderr)
         self.assertIn("W0542", done.stderr)
 
+    def test_part_coordinates_are_doubted_aloud(self):
+        recording = self.record("--seed", 4)
+        self.assertNotIn("W0558", self.abbe("diagnose", recording, "--machine", MACHINE, "--design-only").stderr)
+        recording.write_text(recording.read_text().replace("# frame: mcs", "# frame: part"))
+        self.assertIn("W0558", self.abbe("diagnose", recording, "--machine", MACHINE, "--design-only").stderr)
+
     def test_a_broken_known_state_is_refused(self):
         machine = json.loads(MACHINE.read_text())
         machine["known_state"] = {"schema": "abbe.known_state/1", "mean": [1, 2], "factor": []}
