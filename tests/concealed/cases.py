@@ -4,13 +4,12 @@ shapes are drawn until the effect reaches its signal-to-noise ratio at a plausib
 import hashlib
 from dataclasses import dataclass
 
-import numpy as np
-
 import designs
 import files
 import machine as cmm
 from effects import CATALOGUE, noise, unknown, unknown_final
 from null import Null
+from portable import np
 from seal import generator
 from world import LADDER, Baseline, scaled, short
 

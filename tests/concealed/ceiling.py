@@ -4,8 +4,7 @@ import json
 import pathlib
 from collections import Counter
 
-import numpy as np
-
+from portable import np
 from score import percent, table
 
 RESULT = pathlib.Path(__file__).resolve().with_name("ideal.json")

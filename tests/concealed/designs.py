@@ -7,9 +7,8 @@ D  nine balls off a plane, three placements (one tilted), seven orientations, tw
 E  ISO 10360-2 lengths on seven lines and an ISO 10360-5 sphere, raw readings: 300
 """
 
-import numpy as np
-
 import machine as cmm
+from portable import np
 from scene import MATERIALS, Block, Scene, Stylus, climate, clock, touches
 
 TILTS = ((0, 0), (90, 0), (90, 90), (90, 180), (90, -90), (45, 45), (30, -135))

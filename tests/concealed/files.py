@@ -3,10 +3,9 @@ of docs/formats.md. Nothing here knows what was concealed."""
 
 import json
 
-import numpy as np
-
 import machine as cmm
 from designs import ARTEFACTS
+from portable import np
 
 TEMPERATURES = {"temp_part_C": "part", "temp_x_C": "x", "temp_y_C": "y", "temp_z_C": "z", "temp_air_C": "air"}
 

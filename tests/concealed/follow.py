@@ -19,8 +19,6 @@ import subprocess
 import sys
 import tempfile
 
-import numpy as np
-
 import cases
 import designs
 import files
@@ -28,6 +26,7 @@ import run
 import seal
 import world
 from effects import CATALOGUE
+from portable import np
 from scene import Scene, clock, touches
 from score import percent, table
 from tallies import share

@@ -8,9 +8,6 @@ DIR/cases/NNNN/  machine.json, recording.csv and, for a known machine, calibrati
 DIR/sealed/      secret.txt and the truths NNNN.json; keep it away from those who answer until they have answered
 """
 
-import os
-
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # cases run side by side
 import argparse
 import concurrent.futures
 import pathlib
@@ -36,6 +33,11 @@ def write_case(job):
         (folder / name).write_text(text)
     (sealed / f"{number}.json").write_bytes(raw)
     return number, seal(secret, number, raw)
+
+
+def counts_at(scale):
+    """How many cases of each kind a round of this scale has."""
+    return {kind: max(1, round(n * scale)) for kind, n in cases.COUNTS.items()}
 
 
 def numbered(secret, counts, final):
@@ -71,7 +73,7 @@ def main(argv=None):
         parser.error(f"{given.out}/cases exists already: choose another folder")
     secret = given.secret or (PUBLIC if given.round == "development" else secrets.token_hex(16))
     secret = f"{given.round} {secret}"
-    counts = {kind: max(1, round(n * given.scale)) for kind, n in cases.COUNTS.items()}
+    counts = counts_at(given.scale)
     sealed = given.sealed or given.out / "sealed"
     numbers = numbered(secret, counts, given.round == "final")
     write_round(given.round, secret, numbers, given.out, sealed, given.jobs)

@@ -18,20 +18,16 @@ are a Gaussian span; the others are drawn. These are the only approximations. Th
 of an oracle that knows the shape, of one that knows the family, of the search of all families. No sealed case is used.
 """
 
-import os
-
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import argparse
 import json
 import pathlib
 from dataclasses import dataclass
 
-import numpy as np
-
 import generate
 from cases import Stage
 from charts import detection
 from effects import CATALOGUE
+from portable import np
 from seal import generator
 from spans import spans
 from world import IMPLAUSIBLE, LADDER

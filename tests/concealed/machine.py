@@ -8,7 +8,7 @@ Positions in mm; translation errors in um, rotation errors in urad; `measured = 
 
 from dataclasses import dataclass, field
 
-import numpy as np
+from portable import np
 
 AXES = "xyz"
 HARMONICS = 7

@@ -1,7 +1,6 @@
 """The figures of a round from its rows, and the targets that they are held against."""
 
-import numpy as np
-
+from portable import np
 from tallies import area, calibration, logistic, share
 
 RICH, POOR = "D", ("A", "C", "E")

@@ -16,9 +16,8 @@ the parts lie within 3 um) that it is none.
 
 import functools
 
-import numpy as np
-
 import machine as cmm
+from portable import np
 
 POSE = 300.0  # um, and um per metre
 

@@ -6,9 +6,8 @@ carry the noise of their sensors. Frame: machine coordinates unless the name say
 
 from dataclasses import dataclass
 
-import numpy as np
-
 import machine as cmm
+from portable import np
 
 BALL = 12.5  # radius of the balls, mm
 APPROACH = 3.0  # mm of slow motion before a touch

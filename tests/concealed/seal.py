@@ -10,7 +10,7 @@ import hashlib
 import json
 import pathlib
 
-import numpy as np
+from portable import np
 
 
 def salt(secret, number):

@@ -3,7 +3,7 @@
 Parameters in which an effect is linear (direction, phase, free terms) span a set; the others (moment, period, time
 constant, sensor, axis) are drawn, and each draw has a set of its own."""
 
-import numpy as np
+from portable import np
 
 DRAWS = 60
 MANY = {"probe.step": 220, "machine.map_scallops": 240, "head.axis_errors": 120, "probe.tip_form": 120, "thermal.drift": 16}  # draws of a family with many moments, places or terms

@@ -3,7 +3,7 @@ than numpy is needed."""
 
 import math
 
-import numpy as np
+from portable import np
 
 
 def wilson(k, n, z=1.959963985):

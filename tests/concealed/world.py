@@ -1,10 +1,9 @@
 """One machine measures: everything that acts on a recording, added up; and the size of an effect for a wanted
 signal-to-noise ratio."""
 
-import numpy as np
-
 import machine as cmm
 from effects import noise
+from portable import np
 
 LADDER = (2, 3, 4.5, 6, 9, 15)
 IMPLAUSIBLE = 3  # times the range that the literature gives

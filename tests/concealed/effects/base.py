@@ -9,7 +9,7 @@ signal-to-noise ratio; the others shape it.
 from dataclasses import dataclass, field
 from typing import Callable
 
-import numpy as np
+from portable import np
 
 
 @dataclass

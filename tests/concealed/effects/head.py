@@ -1,7 +1,7 @@
 """Effects of the articulating head, with finite rotations: B turns about the axis of the mount and carries A.
 um, urad."""
 
-import numpy as np
+from portable import np
 
 import machine as cmm
 from .base import Change, effect

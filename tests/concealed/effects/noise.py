@@ -8,7 +8,7 @@ effect from that without; for a shift of the mean the same formula gives sqrt(d'
 from dataclasses import dataclass
 from typing import Callable
 
-import numpy as np
+from portable import np
 
 from null import indexing_columns
 

@@ -1,6 +1,6 @@
 """Effects of the workpiece and its fixture: plates. um, mm, kg."""
 
-import numpy as np
+from portable import np
 
 from .base import Change, along_axis_or_oblique, effect, unit
 from .probe import ball_form

@@ -1,8 +1,7 @@
 """Effects of the probe and its stylus: statics of the tripod with friction and seat compliance, beams, Hertz,
 latency. Forces N, moduli GPa."""
 
-import numpy as np
-
+from portable import np
 from scene import BALL, MATERIALS
 
 from .base import Change, effect, unit

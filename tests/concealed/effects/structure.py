@@ -2,7 +2,7 @@
 differential equation, coupled guides. The tip lies behind the levers of the exact kinematics. um, urad, mm,
 s."""
 
-import numpy as np
+from portable import np
 
 from .base import Change, along_axis_or_oblique, effect, vector
 

@@ -2,7 +2,7 @@
 conduction instead of exponentials, a relay control instead of a sine. Lengths mm, temperatures C and K,
 um."""
 
-import numpy as np
+from portable import np
 
 from .base import Change, along_axis_or_oblique, conduction_response, effect, slab_gradient, vector
 

@@ -1,7 +1,7 @@
 """Effects that no catalogue names, for development and rehearsal: a diagnosis must say that something is
 there and that it cannot name it."""
 
-import numpy as np
+from portable import np
 
 from .base import Change, Effect, unit, vector
 from .probe import directions

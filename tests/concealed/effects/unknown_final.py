@@ -1,7 +1,6 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
-import numpy as np
-
+from portable import np
 from scene import APPROACH
 
 from .base import Change, Effect, vector

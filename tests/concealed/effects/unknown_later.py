@@ -1,8 +1,7 @@
 """More effects that no catalogue names: the strangers of earlier final rounds, from the third on, which everybody
 knows now. They register themselves with those of `unknown.py`."""
 
-import numpy as np
-
+from portable import np
 from scene import BALL
 
 from .base import Change, unit, vector
