@@ -52,9 +52,6 @@ struct Finding {
   Evidence evidence;                 ///< given the findings before
 };
 
-/// Adequacy below which the findings are doubted.
-inline constexpr double kInadequate = 0.05;
-
 struct SearchResult {
   double p_value = 1;
   double adequacy = 1;               ///< p-value of what the findings leave; 1 without any

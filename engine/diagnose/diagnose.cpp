@@ -75,6 +75,9 @@ constexpr double kBesideUnexplained = 0.5;
 /// Belief in a name that stands on a covariate which was not logged or did not change: other functions of it would look the same.
 constexpr double kUnjudged = 0.5;
 
+/// Belief in a name whose size is outside the catalogue's range: rather the name is wrong than the size.
+constexpr double kImplausible = 0.5;
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -82,11 +85,13 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     DiagnosedEffect e;
     for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
     const bool something_else = result.other || result.adequacy < kInadequate;
-    e.probability = std::min({f.probability, something_else ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged});
     e.parameters = estimate_parameters(c, result, k);
+    const bool plausible = std::all_of(e.parameters.begin(), e.parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
+    e.probability = std::min({f.probability, something_else ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged, plausible ? 1.0 : kImplausible});
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording");
+    if (!plausible) e.sentence += " No such effect is so large: the name may be wrong.";
     EffectSetting setting{c.explanations.list[f.explanation].name, {}};
     for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
     out.model_effects.push_back(std::move(setting));
@@ -200,6 +205,7 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
   tell_findings(c, result, out);
+  if (!result.findings.empty()) out.adequacy_p = result.adequacy;
   if (result.other) tell_unexplained(c, result, out);
   tell_noise(judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);

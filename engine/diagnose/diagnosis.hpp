@@ -125,10 +125,14 @@ struct JudgedValue {
   double low = 0, high = 0;                    ///< 95 % of the deviations of virtual machines lie between these
 };
 
+/// Adequacy below which the names are doubted.
+inline constexpr double kInadequate = 0.05;
+
 struct Diagnosis {
   bool judged = true;                          ///< false: of a plan, whose values were not looked at; verdict and p_value mean nothing
   Verdict verdict = Verdict::no_mismatch;
   double p_value = 1;
+  std::optional<double> adequacy_p;            ///< that the named effects leave so much by chance; nothing where none were named
   int touches = 0;
   std::vector<DiagnosedEffect> effects;
   std::vector<Location> location;              ///< the one that describes most first

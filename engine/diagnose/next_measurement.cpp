@@ -264,6 +264,16 @@ std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
   return out;
 }
 
+/// What would show what it is that the names leave.
+std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
+  if (result.findings.empty() || result.other || result.adequacy >= kInadequate) return "";
+  unsigned missing = 0;
+  for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
+  const std::vector<std::string> columns = columns_of(missing);
+  if (columns.empty()) return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
+  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.", fmt::join(columns, ", "));
+}
+
 }  // namespace
 
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
@@ -291,9 +301,10 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
 }
 
 std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (!next.empty()) return "";
+  if (!next.empty()) return to_follow_what_is_left(c, result);
   if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
+  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
   const std::vector<int> rivals = question_of(c, &result, {}).rivals;
   if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {

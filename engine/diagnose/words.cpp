@@ -59,6 +59,8 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles, co
   return fmt::format("One of these explains it, and {} cannot tell which: {}.{}{}{}", data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
 }
 
+bool doubtful(const Diagnosis& d) { return d.adequacy_p && *d.adequacy_p < kInadequate && !d.unexplained; }
+
 std::string in_words(const Location& l) {
   std::vector<std::string> where;
   for (const auto& [key, value] : l.where) where.push_back(key + " " + value);

@@ -20,6 +20,9 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles, co
 /// The same with a capital at its beginning.
 std::string capitalised(std::string);
 
+/// Whether the names leave more than chance does, and no pattern says what.
+bool doubtful(const Diagnosis&);
+
 /// "located in time: 80 % of it; strongest at time_s 10 to 60 s"
 std::string in_words(const Location&);
 /// The locations that people are told: the first, and those that hold at least half as much.

@@ -129,6 +129,7 @@ std::string next_measurements(const Diagnosis& d) {
   for (const NextMeasurement& n : d.next_measurement)
     rows += row({n.change, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
   std::string out = "<h2>What to measure next</h2>\n" + table(rows);
+  if (!d.otherwise.empty()) out += "<p>" + escaped(d.otherwise) + "</p>\n";
   if (!d.next_measurement.front().program.empty())
     out += "<details><summary>DMIS program of the first</summary><pre>" + escaped(d.next_measurement.front().program) + "</pre></details>\n";
   return out;

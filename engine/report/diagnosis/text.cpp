@@ -39,6 +39,7 @@ std::string second_sentence(const Diagnosis& d) {
     return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).",
                        d.judged ? "That does not mean that nothing is there: the table says" : "The table says", best->detect_um, best->effect);
   }
+  if (doubtful(d)) parts.push_back(fmt::format("But what it leaves would come by chance in {} of recordings: something else is at work, beside it or instead.", chance(*d.adequacy_p)));
   if (d.verdict == Verdict::cannot_judge) parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
   return fmt::format("{}", fmt::join(parts, " "));
 }

@@ -32,3 +32,14 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
         "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
 }
+
+TEST_CASE("names are doubted that leave more than chance does") {
+  Diagnosis d;
+  CHECK(!doubtful(d));
+  d.adequacy_p = 0.2;
+  CHECK(!doubtful(d));
+  d.adequacy_p = 0.01;
+  CHECK(doubtful(d));
+  d.unexplained = Unexplained{};
+  CHECK(!doubtful(d));
+}
