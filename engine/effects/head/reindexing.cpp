@@ -18,7 +18,7 @@ constexpr EffectParameter kHeadReindexingParameters[] = {
      .help = "standard deviation per angle and indexing visit",
      .typical = 4,
      .low = 0,
-     .high = 500,
+     .high = 100,
      .linear = true},
 };
 
