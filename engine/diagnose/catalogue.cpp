@@ -2,6 +2,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "engine/diagnose/explanation.hpp"
@@ -40,14 +42,26 @@ class Evaluation {
     for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t.known));
   }
 
-  Vector column(const std::vector<double>& theta, const std::vector<double>& draws, int visit = -1) const {
-    Vector r(scenes_.size());
+  Vector column(const std::vector<double>& theta, int from_run, const std::vector<double>& draws, int visit = -1) const {
+    Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes_.size()));
     const std::vector<double> none(draws.size(), 0.0);
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      if (scenes_[i].run < from_run) continue;
       const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
       r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
     }
     return r;
+  }
+
+  /// Every run but the first, with the moment between it and the touch before, s.
+  std::map<int, double> later_runs() const {
+    std::map<int, double> begin;
+    double before = scenes_.front().time_s;
+    for (const TouchScene& s : scenes_) {
+      if (s.run != scenes_.front().run) begin.emplace(s.run, (before + s.time_s) / 2);
+      before = s.time_s;
+    }
+    return begin;
   }
 
   std::set<int> visits() const {
@@ -81,6 +95,30 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
   return list;
 }
 
+std::optional<std::size_t> moment_of(const Effect& effect) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].name == "t0_s") return p;
+  return std::nullopt;
+}
+
+/// The same from each run but the first on: what is new in a run, after a crash, a mend or a change of the weather. What happens at a moment
+/// happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by itself.
+std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::map<int, double>& later_runs) {
+  const std::optional<std::size_t> moment = moment_of(effect);
+  const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
+  if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
+  const std::vector<Block> in_all = list;
+  for (const auto& [run, begin_s] : later_runs) {
+    for (Block block : in_all) {
+      if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
+      if (moment) block.theta[*moment] = begin_s, block.cells[*moment] = {begin_s, begin_s};
+      block.from_run = run;
+      list.push_back(std::move(block));
+    }
+  }
+  return list;
+}
+
 /// The columns of one variant: each linear parameter by itself, along each direction and phase that is spanned.
 class VariantColumns {
  public:
@@ -110,7 +148,7 @@ class VariantColumns {
         if (direction_ >= 0) theta[direction_] = d;
         for (const int at : phases_) theta[at] = 90.0 * phase;
         const Column column{p, d + 3 * phase, unit};
-        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, {}));
+        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, block.from_run, {}));
         else add_draws(theta, column, block);
       }
     }
@@ -121,7 +159,7 @@ class VariantColumns {
     for (int j = 0; j < effect_.draws; ++j) {
       std::vector<double> z(effect_.draws, 0.0);
       z[j] = 1;
-      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, z, visit));
+      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.from_run, z, visit));
     }
   }
 
@@ -164,11 +202,15 @@ Factor factor_of(const Effect& effect) {
   return Factor::direction;
 }
 
-/// The names share their belief equally, and so do the patterns.
+/// Belief before the data that what is found is new in a later run, of what may be in all.
+constexpr double kPriorChange = 0.1;
+
+/// The names share their belief equally, and so do the patterns, but for those that only a change between runs makes.
 void share_priors(Explanations& all) {
-  const auto named = static_cast<double>(std::count_if(all.list.begin(), all.list.end(), [](const Explanation& e) { return e.effect != nullptr; }));
-  const double patterns = static_cast<double>(all.list.size()) - named;
-  for (Explanation& e : all.list) e.prior = e.effect ? kPriorCatalogue / named : kPriorOther / patterns;
+  const auto weight = [](const Explanation& e) { return !e.effect && e.factor == Factor::run ? kPriorChange : 1; };
+  double named = 0, patterns = 0;
+  for (const Explanation& e : all.list) (e.effect ? named : patterns) += weight(e);
+  for (Explanation& e : all.list) e.prior = weight(e) * (e.effect ? kPriorCatalogue / named : kPriorOther / patterns);
 }
 
 /// Effects of the noise change no mean: they are judged by the variance (noise_effects.hpp).
@@ -189,7 +231,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   const std::vector<Search> search = searches(effect, t);
   const Evaluation evaluation(effect, t, rows);
   const VariantColumns variant(effect, search, evaluation);
-  for (Block& block : settings(effect, search)) {
+  for (Block& block : with_changes(settings(effect, search), effect, evaluation.later_runs())) {
     block.explanation = static_cast<int>(out.list.size());
     variant.fill(block);
     if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
@@ -208,15 +250,19 @@ void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool 
 
 }  // namespace
 
-Block variant_at(const Effect& effect, const std::vector<double>& theta, const RecordedTouches& t, const std::vector<int>& rows) {
+Block variant_at(const Effect& effect, const std::vector<double>& theta, int from_run, const RecordedTouches& t, const std::vector<int>& rows) {
   Block block;
   block.theta = theta;
+  block.from_run = from_run;
   VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
   return block;
 }
 
 void share_belief(const Explanation& e, std::vector<Block>& blocks) {
-  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = 1 / double(e.blocks.size());
+  const auto changes = [&](int b) { return blocks[static_cast<std::size_t>(b)].from_run > 0; };
+  const auto changing = static_cast<double>(std::count_if(e.blocks.begin(), e.blocks.end(), changes)), all = double(e.blocks.size());
+  const double share = changing == 0 ? 0 : changing == all ? 1 : kPriorChange;
+  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = changes(b) ? share / changing : (1 - share) / (all - changing);
 }
 
 Matrix compressed(const Matrix& m) {

@@ -83,14 +83,19 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding& f = result.findings[k];
     DiagnosedEffect e;
-    for (const int m : f.set) e.members.push_back(c.explanations.list[m].name);
+    for (const int m : f.set) {
+      const Explanation& member = c.explanations.list[m];
+      e.members.push_back(member.name);
+      const int likeliest = m == f.explanation ? f.block : best_block(member, result.first);
+      e.new_in_run.push_back(c.explanations.blocks[static_cast<std::size_t>(likeliest)].from_run);
+    }
     const bool something_else = result.other || result.adequacy < kInadequate;
     e.parameters = estimate_parameters(c, result, k);
     const bool plausible = std::all_of(e.parameters.begin(), e.parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
     e.probability = std::min({f.probability, something_else ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged, plausible ? 1.0 : kImplausible});
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording");
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front());
     if (!plausible) e.sentence += " No such effect is so large: the name may be wrong.";
     EffectSetting setting{c.explanations.list[f.explanation].name, {}};
     for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};

@@ -39,6 +39,7 @@ struct Block {
   int explanation = 0;
   std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
   std::vector<Cell> cells;        ///< by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is possible
+  int from_run = 0;               ///< acts from this run on: what changed between runs; 0: in all
   double weight = 1;              ///< belief before the data in this variant, among those of its explanation
   bool finest = false;            ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
@@ -83,10 +84,10 @@ Explanations named_explanations(const RecordedTouches&, const std::vector<int>& 
 /// Appends the blocks of OTHER (other.cpp).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
-/// A variant of an effect at these parameters; no columns where the effect does nothing there.
-Block variant_at(const Effect&, const std::vector<double>& theta, const RecordedTouches&, const std::vector<int>& rows);
+/// A variant of an effect at these parameters, from this run on (0: in all); no columns where the effect does nothing there.
+Block variant_at(const Effect&, const std::vector<double>& theta, int from_run, const RecordedTouches&, const std::vector<int>& rows);
 
-/// Belief in each variant of an explanation: the same.
+/// Belief in each variant of an explanation: the same, but for those that are new in a run, which hold a tenth together.
 void share_belief(const Explanation&, std::vector<Block>&);
 
 /// The same space with as few orthogonal columns as its rank needs.

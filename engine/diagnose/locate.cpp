@@ -1,6 +1,6 @@
-// In which factor a mismatch lies. Every explanation shows in one factor: an effect in that of which it is a function, OTHER in its own. A
-// factor is believed as much as all its explanations together, so a mismatch that has a name lies where that physics acts, and one that
-// has none where the best pattern of no physics lies.
+// In which factor a mismatch lies. Every explanation shows in one factor: an effect in that of which it is a function, or in the run where it
+// is new in one; OTHER in its own. A factor is believed as much as all its explanations together, so a mismatch that has a name lies where that
+// physics acts, and one that has none where the best pattern of no physics lies.
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
@@ -136,8 +136,11 @@ struct Located {
 
 std::map<Factor, Located> by_factor(const Explanations& all, const Evidence& evidence) {
   std::map<Factor, Located> out;
-  for (std::size_t k = 0; k < all.list.size(); ++k)
-    out[all.list[k].factor].add(static_cast<int>(k), std::log(all.list[k].prior) + evidence.log_bayes[k], evidence);
+  for (std::size_t k = 0; k < all.list.size(); ++k) {
+    const Explanation& e = all.list[k];
+    const bool changes = all.blocks[static_cast<std::size_t>(best_block(e, evidence))].from_run > 0;
+    out[changes ? Factor::run : e.factor].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k], evidence);
+  }
   return out;
 }
 

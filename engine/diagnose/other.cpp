@@ -187,7 +187,11 @@ class Patterns {
       add(Factor::setup, "form", by_group(along(smooth(place_, 0.6, 6), normal_), setup_));
       add_joint(Factor::setup, "settling", along(by_group(products(linear_place(), settling(clamped_)), setup_), normal_));
     }
-    if (several(run_)) add(Factor::run, "offset", along(indicator(run_), normal_));
+    if (several(run_)) {
+      add(Factor::run, "offset", along(indicator(run_), normal_));
+      add_joint(Factor::run, "form", by_group(along(smooth(place_, 0.6, 6), normal_), run_));
+      add_joint(Factor::run, "over direction", by_group(smooth(directions_, 0.9, 8), run_));
+    }
     if (several(speed_)) {
       add(Factor::speed, "offset", by_group(one, speed_));
       add_joint(Factor::speed, "over direction", products(smooth(travel_, 0.6, 24), faster()));

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "engine/diagnose/case.hpp"
@@ -95,8 +96,11 @@ class Estimator {
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     const EvidenceSearch search(with_free(c.model, others), hyper, mine);
     const Evidence evidence = search.evidence();
+    // A size in all runs and a change from one run to the next are two figures: that of the likeliest variant is told.
+    const int from_run = c.explanations.blocks[result.findings[which].block].from_run;
     std::vector<double> logs;
-    for (const int b : mine.list[0].blocks) logs.push_back(evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(mine.blocks[static_cast<std::size_t>(b)].weight));
+    for (const Block& b : mine.blocks)
+      logs.push_back(b.from_run == from_run ? evidence.block_log_bayes[logs.size()] + std::log(b.weight) : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
     for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
       const double weight = std::exp(logs[b] - total);

@@ -34,6 +34,7 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
 
 /// Whether two variants differ in no choice and their cells touch.
 bool neighbours(const Block& a, const Block& b) {
+  if (a.from_run != b.from_run) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p) {
     const Cell &x = a.cells[p], &y = b.cells[p];
     const double rounding = 1e-9 * (std::abs(x.low) + std::abs(x.high));
@@ -88,6 +89,7 @@ std::vector<Part> thirds_of_touches(const Cell& cell, const RecordedTouches& t) 
 std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t) {
   std::vector<Block> list(1);
   list[0].explanation = whole.explanation;
+  list[0].from_run = whole.from_run;
   list[0].weight = whole.weight;
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
@@ -118,7 +120,7 @@ void divide(const Case& c, Explanations& all, int explanation, int which) {
   Explanation& e = all.list[static_cast<std::size_t>(explanation)];
   std::vector<Block> parts = parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches);
   for (Block& part : parts) {
-    Block made = variant_at(*e.effect, part.theta, c.touches, c.rows);
+    Block made = variant_at(*e.effect, part.theta, part.from_run, c.touches, c.rows);
     part.columns = std::move(made.columns);
     part.signature = std::move(made.signature);
     part.joined = made.joined;

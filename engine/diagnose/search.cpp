@@ -184,13 +184,16 @@ void drop_names_beside_a_pattern(const Case& c, SearchResult& result) {
   result.other->p = result.p_value;
 }
 
-/// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is enough.
+/// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is enough, but an effect and its
+/// change from one run to the next are two.
 void name_again(const Case& c, SearchResult& result) {
   if (result.findings.size() < 2) return;
   const std::vector<Finding> before = std::exchange(result.findings, {});
   for (std::size_t k = 0; k < before.size(); ++k) {
     auto [f, pattern] = renamed(c, before, k);
-    const bool known = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& d) { return d.explanation == f.explanation; });
+    const auto from_run = [&](const Finding& d) { return c.explanations.blocks[static_cast<std::size_t>(d.block)].from_run; };
+    const bool known = std::any_of(result.findings.begin(), result.findings.end(),
+                                   [&](const Finding& d) { return d.explanation == f.explanation && from_run(d) == from_run(f); });
     if (!pattern && !known) result.findings.push_back(std::move(f));
     else if (pattern && !result.other) result.other = std::move(f);
   }

@@ -14,8 +14,11 @@ std::string with_uncertainty(const DiagnosedParameter&);
 /// "delay 1.20 ms (1.12 to 1.28)": with the 95 % interval; "implausible" where the catalogue says so.
 std::string with_interval(const DiagnosedParameter&);
 
-/// What makes the mismatch: one title, or several that `data` ("this recording") cannot tell apart; `parameters` are those of the first.
-std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data);
+/// What makes the mismatch, or what is new in a run: one title, or several that `data` ("this recording") cannot tell apart;
+/// `parameters` are those of the first.
+std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, int new_in_run = 0);
+/// The names of an effect in a table: "machine.squareness, new in run 2"
+std::vector<std::string> in_words(const DiagnosedEffect&);
 
 /// The same with a capital at its beginning.
 std::string capitalised(std::string);

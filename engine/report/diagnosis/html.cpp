@@ -54,7 +54,7 @@ std::string explanations(const Diagnosis& d) {
   for (const DiagnosedEffect& e : d.effects) {
     std::vector<std::string> sizes;
     for (const DiagnosedParameter& p : e.parameters) sizes.push_back(with_interval(p));
-    rows += row({fmt::format("{}", fmt::join(e.members, " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
+    rows += row({fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
   }
   if (d.unexplained)
     rows += row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",

@@ -22,7 +22,10 @@ Json parameters(const std::vector<DiagnosedParameter>& list) {
 }
 
 Json effect(const DiagnosedEffect& e) {
-  return {{"members", e.members}, {"probability", number(e.probability)}, {"parameters", parameters(e.parameters)}, {"sentence", e.sentence}};
+  Json new_in_run = Json::array();
+  for (std::size_t m = 0; m < e.members.size(); ++m) new_in_run.push_back(m < e.new_in_run.size() && e.new_in_run[m] > 0 ? Json(e.new_in_run[m]) : Json());
+  return {{"members", e.members}, {"probability", number(e.probability)}, {"parameters", parameters(e.parameters)}, {"sentence", e.sentence},
+          {"new_in_run", new_in_run}};
 }
 
 Json location(const Location& l) {

@@ -56,8 +56,9 @@ std::string third_sentence(const Diagnosis& d) {
 std::string mismatch_table(const Diagnosis& d) {
   std::string out = fmt::format("{:<38} {:>6}  {}\n", "explanation", "prob.", "size (95 % interval)");
   for (const DiagnosedEffect& e : d.effects) {
-    for (std::size_t m = 0; m < e.members.size(); ++m) {
-      out += fmt::format("{:<38} {:>6}", (m ? "  or " : "") + e.members[m], m ? "" : fmt::format("{:.2f}", e.probability));
+    const std::vector<std::string> names = in_words(e);
+    for (std::size_t m = 0; m < names.size(); ++m) {
+      out += fmt::format("{:<38} {:>6}", (m ? "  or " : "") + names[m], m ? "" : fmt::format("{:.2f}", e.probability));
       std::vector<std::string> sizes;
       for (const DiagnosedParameter& p : e.parameters)
         sizes.push_back(with_interval(p));

@@ -1,0 +1,48 @@
+"""abbe diagnose on several runs of one program: what differs between them."""
+import json
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"   # one sphere, five orientations of the head, 125 touches
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+
+class DiagnoseRuns(harness.Case):
+    def record(self, run, *options):
+        name = f"run{run}.csv"
+        self.abbe("record", PROGRAM, "--machine", MACHINE, "--run", run, "-o", name, *options)
+        return name
+
+    def diagnosis(self, *args):
+        return json.loads(self.abbe("diagnose", *args, "--machine", MACHINE, "--format", "json").stdout)
+
+    def test_runs_of_a_machine_in_order_agree(self):
+        said = self.diagnosis(self.record(1, "--seed", 7), self.record(2, "--seed", 7))
+        self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 250))
+        self.assertGreater(said["p_value"], 0.01)
+
+    def test_what_is_new_in_a_run_is_named_as_new(self):
+        """A step of the indexing head between the runs would fit this well too, if effects were the same in all runs."""
+        recordings = self.record(1), self.record(2, "--with", "machine.squareness:squareness_urad=30,which=cwy")
+        said = self.diagnosis(*recordings, "--model-out", "now.json")
+        self.assertEqual([(e["members"], e["new_in_run"]) for e in said["effects"]], [(["machine.squareness"], [2])])
+        low, high = said["effects"][0]["parameters"]["squareness_urad"]["interval95"]
+        self.assertTrue(low < 30 < high, (low, high))
+        self.assertEqual(said["location"][0]["factor"], "run")
+        self.assertEqual(said["location"][0]["where"], {"run": "2"})
+        # The machine file is that of the machine as it is since then.
+        now = json.loads((self.folder / "now.json").read_text())
+        self.assertEqual([e["name"] for e in now["effects"]], ["machine.squareness"])
+        text = self.abbe("diagnose", *recordings, "--machine", MACHINE).stdout
+        self.assertRegex(text, r"What is new in run 2 is explained by two axes not square: squareness \d+\.\d+ ± 0\.\d+ urad")
+        self.assertIn("machine.squareness, new in run 2", text)
+
+    def test_what_is_there_in_all_runs_is_not_new(self):
+        lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")
+        said = self.diagnosis(self.record(1, *lobing), self.record(2, *lobing))
+        self.assertEqual(said["effects"][0]["members"][0], "probe.pretravel_lobing")
+        self.assertEqual(said["effects"][0]["new_in_run"][0], None)
+
+
+if __name__ == "__main__":
+    harness.main()
