@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "engine/diagnose/explanation.hpp"
 #include "engine/diagnose/search_grid.hpp"
@@ -53,14 +54,12 @@ class Evaluation {
     return r;
   }
 
-  /// Every run but the first, with the moment between it and the touch before, s.
+  /// Every run but that of the lowest number, with the moment between it and the touch before, s.
   std::map<int, double> later_runs() const {
     std::map<int, double> begin;
     double before = scenes_.front().time_s;
-    for (const TouchScene& s : scenes_) {
-      if (s.run != scenes_.front().run) begin.emplace(s.run, (before + s.time_s) / 2);
-      before = s.time_s;
-    }
+    for (const TouchScene& s : scenes_) begin.emplace(s.run, (std::exchange(before, s.time_s) + s.time_s) / 2);
+    begin.erase(begin.begin());
     return begin;
   }
 
