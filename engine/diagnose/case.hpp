@@ -87,6 +87,7 @@ struct NoiseFinding {
   double p = 1;
   std::vector<DiagnosedParameter> parameters;
   std::string sentence;
+  bool certain = true;               ///< that it is noise: what scatters may else be a pattern too fine for this recording
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);

@@ -122,11 +122,13 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
 
 /// One recording in so many has a change of the scatter.
 constexpr double kPriorScatter = 0.01;
+/// Belief that scatter is noise where no touch was repeated, or repeats have it in common.
+constexpr double kNotRepeated = 0.5;
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
-    const double probability = most_believed(n.p, kPriorScatter);
-    out.effects.push_back({{std::string(n.effect->name)}, out.unexplained ? std::min(probability, kBesideUnexplained) : probability, n.parameters, n.sentence});
+    const double probability = std::min({most_believed(n.p, kPriorScatter), out.unexplained ? kBesideUnexplained : 1.0, n.certain ? 1.0 : kNotRepeated});
+    out.effects.push_back({{std::string(n.effect->name)}, probability, n.parameters, n.sentence});
     EffectSetting setting{std::string(n.effect->name), {}};
     for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
     out.model_effects.push_back(std::move(setting));

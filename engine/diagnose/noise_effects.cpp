@@ -1,8 +1,10 @@
 // Effects that change no mean but the scatter: judged by the likelihood of a model of the variance, on residuals that are each
 // predicted from all other touches (so they are nearly independent, with a variance of 1 when the noise is what was fitted).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <numeric>
 
 #include "engine/diagnose/case.hpp"
@@ -65,12 +67,40 @@ Excess excess_along(const Residuals& r, const Vector& share) {
   return out;
 }
 
+/// Whether what scatters more, in these rows and by this share of their variance, is other each time: repeats of one touch, with the same
+/// stylus at the same place, have less than half of it in common. Without repeats nobody knows.
+bool other_each_time(const Case& c, const Residuals& r, const Vector& in, double share) {
+  constexpr int kEnough = 20;
+  constexpr double kPerMm = 1e3, kPerUnit = 1e4;   // the same to a micrometre, and to a tenth of a milliradian
+  std::map<std::array<long, 8>, Eigen::Index> first;
+  double common = 0, squares = 0;
+  int pairs = 0;
+  for (Eigen::Index k = 0; k < in.size(); ++k) {
+    if (in(k) < 0.5) continue;
+    const TouchScene& s = c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)])].scene;
+    std::array<long, 8> key{s.setup, s.stylus.tip_ordinal};
+    for (int a = 0; a < 3; ++a) key[2 + a] = std::lround(kPerMm * s.point[a]), key[5 + a] = std::lround(kPerUnit * s.normal[a]);
+    const auto [at, is_first] = first.try_emplace(key, k);
+    if (is_first) continue;
+    const double a = r.standardised(at->second), b = r.standardised(k);
+    common += a * b, squares += (a * a + b * b) / 2;
+    ++pairs;
+  }
+  return pairs >= kEnough && common < 0.5 * share * squares;
+}
+
+constexpr const char* kUncertain = " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
+
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u) {
   return {.name = name, .unit = unit, .value = value, .u = u, .low = std::max(0.0, value - 1.96 * u), .high = value + 1.96 * u};
 }
 
-/// Touches of one kind that scatter more than the others.
-std::optional<NoiseFinding> unequal(const Case& c, const Residuals& r) {
+/// Touches of one kind that scatter more than the others; `in`: which they are.
+struct Unequal {
+  NoiseFinding finding;
+  Vector in;
+};
+std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
   constexpr double kLeastRatio = 1.1;
   constexpr int kEnough = 20;
   struct Split {
@@ -88,17 +118,18 @@ std::optional<NoiseFinding> unequal(const Case& c, const Residuals& r) {
     splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > 0.02;
     splits[2].in(k) = speed(k) > (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
   }
-  std::optional<NoiseFinding> best;
+  std::optional<Unequal> best;
   for (const Split& s : splits) {
     const double in = s.in.sum(), out = double(rows) - in;
     if (in < kEnough || out < kEnough) continue;
     const Excess e = excess_along(r, s.in);
     const double ratio = std::sqrt(1 + e.size), u = ratio * std::sqrt(1 / (2 * in) + 1 / (2 * out));
-    if (e.p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->p < e.p)) continue;
+    if (e.p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->finding.p < e.p)) continue;
     NoiseFinding f{find_effect("noise.unequal"), e.p, {figure("ratio", "1", ratio, u)}, {}};
     f.parameters.push_back({.name = "group", .unit = "", .word = s.word});
-    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.what, ratio);
-    best = std::move(f);
+    f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
+    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.{}", s.what, ratio, f.certain ? "" : kUncertain);
+    best = Unequal{std::move(f), s.in};
   }
   return best;
 }
@@ -119,11 +150,10 @@ std::optional<NoiseFinding> resolution(const Case& c) {
   return f;
 }
 
-/// Scatter that depends on the direction of the normal, or that is far above the machine's.
-std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
+/// Scatter that depends on the direction of the normal, or that is far above the machine's in touches that do not scatter more than others.
+std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const Vector& quiet) {
   constexpr double kLeastExcess = 1.6, kLeastAlong = 1.2;
   std::optional<NoiseFinding> best;
-  const double n = static_cast<double>(c.rows.size());
   for (int axis = 0; axis < 3; ++axis) {
     Vector along(r.standardised.size());
     for (std::size_t k = 0; k < c.rows.size(); ++k)
@@ -136,15 +166,18 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r) {
     const double sd = probe * std::sqrt(e.size), u = sd * (1 + 1 / e.size) / std::sqrt(2 * along.sum());
     NoiseFinding f{find_effect("noise.vibration"), e.p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
-    f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.", "xyz"[axis], sd);
+    f.certain = other_each_time(c, r, along, e.size / (1 + e.size));
+    f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.{}", "xyz"[axis], sd, f.certain ? "" : kUncertain);
     best = std::move(f);
   }
   if (best) return best;
-  const double spec = c.model.noise_um.mean(), excess = r.noise_um / spec, u = 1 / std::sqrt(2 * n);
+  const double n = quiet.sum(), noise = r.noise_um * std::sqrt(r.standardised.array().square().matrix().dot(quiet) / n);
+  const double spec = c.model.noise_um.mean(), excess = noise / spec, u = 1 / std::sqrt(2 * n);
   if (excess - 3 * u < kLeastExcess) return std::nullopt;
   const double sd = spec * std::sqrt(excess * excess - 1);
   NoiseFinding f{find_effect("noise.vibration"), std::erfc((excess - kLeastExcess) / u), {figure("sd_um", "um", sd, sd * u)}, {}};
-  f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says, in every direction.", excess);
+  f.certain = other_each_time(c, r, quiet, 1 - 1 / (excess * excess));
+  f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says, in every direction.{}", excess, f.certain ? "" : kUncertain);
   return f;
 }
 
@@ -174,8 +207,9 @@ std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result)
   // What an imperfect explanation leaves is no scatter.
   if (!result.other && result.adequacy >= kInadequate) {
     const Residuals r = residuals(c, result);
-    judged.push_back(unequal(c, r));
-    judged.push_back(vibration(c, r));
+    Vector quiet = Vector::Ones(r.standardised.size());
+    if (std::optional<Unequal> u = unequal(c, r)) quiet -= u->in, judged.push_back(std::move(u->finding));
+    judged.push_back(vibration(c, r, quiet));
   }
   std::vector<NoiseFinding> out;
   for (std::optional<NoiseFinding>& f : judged)

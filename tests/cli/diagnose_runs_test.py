@@ -28,6 +28,8 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual([(e["members"], e["new_in_run"]) for e in said["effects"]], [(["machine.squareness"], [2])])
         low, high = said["effects"][0]["parameters"]["squareness_urad"]["interval95"]
         self.assertTrue(low < 30 < high, (low, high))
+        again = self.diagnosis(*reversed(recordings))   # which is new is said by the number of the run, not by the order of the files
+        self.assertEqual([(e["members"], e["new_in_run"]) for e in again["effects"]], [(["machine.squareness"], [2])])
         self.assertEqual(said["location"][0]["factor"], "run")
         self.assertEqual(said["location"][0]["where"], {"run": "2"})
         # The machine file is that of the machine as it is since then.
@@ -36,6 +38,15 @@ class DiagnoseRuns(harness.Case):
         text = self.abbe("diagnose", *recordings, "--machine", MACHINE).stdout
         self.assertRegex(text, r"What is new in run 2 is explained by two axes not square: squareness \d+\.\d+ ± 0\.\d+ urad")
         self.assertIn("machine.squareness, new in run 2", text)
+
+    def test_scatter_is_noise_where_repeats_show_it(self):
+        shaking = ("--with", "noise.unequal:ratio=5,group=1")
+        first, second = self.record(1, *shaking), self.record(2, *shaking)
+        for recordings, certain in (((first,), False), ((first, second), True)):
+            said = self.diagnosis(*recordings)
+            self.assertEqual([e["members"] for e in said["effects"]], [["noise.unequal"]])
+            self.assertEqual(said["effects"][0]["probability"] > 0.5, certain)
+            self.assertEqual("Repeats of the same touches would tell" in said["effects"][0]["sentence"], not certain)
 
     def test_what_is_there_in_all_runs_is_not_new(self):
         lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")
