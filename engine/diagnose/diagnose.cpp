@@ -70,6 +70,9 @@ bool judged(const Case& c, const Finding& f) {
   return open < kMostly * total;
 }
 
+/// Up to this belief a name is told as what it looks like, not as what it is.
+constexpr double kDoubted = 0.5;
+
 /// Belief in a name beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too.
 constexpr double kBesideUnexplained = 0.5;
 /// Belief in a name that stands on a covariate which was not logged or did not change: other functions of it would look the same.
@@ -95,7 +98,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.probability = std::min({f.probability, something_else ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged, plausible ? 1.0 : kImplausible});
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front());
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front(), e.probability <= kDoubted);
     if (!plausible) e.sentence += " No such effect is so large: the name may be wrong.";
     EffectSetting setting{c.explanations.list[f.explanation].name, {}};
     for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};

@@ -51,13 +51,14 @@ std::string with_interval(const DiagnosedParameter& p) {
   return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low, decimals, p.high, decimals, p.plausible ? "" : ", implausible");
 }
 
-std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, int new_in_run) {
+std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, int new_in_run,
+                                 bool doubted) {
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
   const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
   const std::string it = new_in_run > 0 ? fmt::format("what is new in run {}", new_in_run) : "it";
-  if (titles.size() == 1) return fmt::format("{} is explained by {}{}{}.", capitalised(it), titles.front(), told.empty() ? "" : ": ", told);
-  return fmt::format("One of these explains {}, and {} cannot tell which: {}.{}{}{}", it, data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
+  if (titles.size() == 1) return fmt::format("{} {} {}{}{}.", capitalised(it), doubted ? "looks like" : "is explained by", titles.front(), told.empty() ? "" : ": ", told);
+  return fmt::format("One of these {} {}, and {} cannot tell which: {}.{}{}{}", doubted ? "may explain" : "explains", it, data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
 }
 
 std::vector<std::string> in_words(const DiagnosedEffect& e) {

@@ -31,6 +31,9 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
   CHECK(explanation_sentence({"outliers"}, {}, "this recording") == "It is explained by outliers.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
         "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", 0, true) == "It looks like trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", 0, true) ==
+        "One of these may explain it, and this recording cannot tell which: trigger delay; tip radius.");
   CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", 2) == "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", 3) ==
         "One of these explains what is new in run 3, and this recording cannot tell which: trigger delay; tip radius.");
