@@ -85,7 +85,7 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, bool of_mac
   coordinates_.conservativeResize(rotated_.rank(), columns);
   remainder_.conservativeResize(rotated_.rows(), columns);
   for (const Matrix* m : signatures) {
-    const Matrix projected = rotated_.project(*m);
+    const Matrix projected = rotated_.project_patterns(*m);
     coordinates_.middleCols(first, m->cols()) = rotated_.coordinates(projected);
     remainder_.middleCols(first, m->cols()) = rotated_.remainder(projected, coordinates_.middleCols(first, m->cols()));
     blocks_.push_back(prepared(first, m->cols(), of_machine));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/ids.hpp"
 #include "engine/base/on_threads.hpp"
 
 namespace abbe::diagnose {
@@ -72,6 +73,7 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
   out.statistic = log_sum_exp(all);
+  ABBE_CHECK(std::isfinite(out.statistic));   // or a mistake would pass for a machine in order
   if (!alone) return out;
   const std::size_t e = index_of_largest(nulls), block = index_of_largest(out.block_log_bayes);
   const Vector& squares = verdicts[e].squares;

@@ -12,13 +12,17 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr double kNoisePrior = 0.5;   // of the logarithm
-constexpr double kDependent = 1e-6;                      // of the longest column: less is the rounding of targets
+constexpr double kDependent = 1e-6;   // of the length of a column, whatever its unit: less is the rounding of targets
+/// What X leaves of a pattern below which it is nothing: the last digits of targets and readings, which hold the touch's own error and, enlarged
+/// into a pattern, would explain it.
+constexpr double kNothingLeft = 1e-4;                    // of its length
 constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
 constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
 
 /// Columns that span the same space and are independent: touches of few directions leave parts of a placement open.
 Matrix independent(const Matrix& columns) {
-  Eigen::ColPivHouseholderQR<Matrix> qr(columns);
+  const Vector length = columns.colwise().norm().cwiseMax(1e-300);   // an unknown that these rows do not have is no column
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns * length.cwiseInverse().asDiagonal());
   qr.setThreshold(kDependent);
   return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
 }
@@ -257,6 +261,14 @@ Matrix Projection::operator()(const Matrix& columns) const {
   return w;
 }
 
+Matrix Projection::of_patterns(const Matrix& columns) const {
+  const Vector length = whitened(columns, weight_, correlation_, follows_).colwise().norm();
+  Matrix w = (*this)(columns);
+  for (Eigen::Index k = 0; k < w.cols(); ++k)
+    if (w.col(k).norm() < kNothingLeft * length(k)) w.col(k).setZero();
+  return w;
+}
+
 Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(m.y) {
   const Matrix z = project_(scaled(m, h));
   Matrix square = Matrix::Identity(z.cols(), z.cols());
@@ -266,9 +278,13 @@ Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(
 }
 
 Precision::Seen Precision::seen(const Matrix& columns) const {
-  Seen out{project_(columns), {}};
-  out.taken = reach_ * out.rows;
-  return out;
+  const Matrix rows = project_.of_patterns(columns);
+  return {rows, reach_ * rows};
+}
+
+Precision::Seen Precision::y() const {
+  const Matrix rows = project_(y_);
+  return {rows, reach_ * rows};
 }
 
 Matrix inner(const Precision::Seen& a, const Precision::Seen& b) { return a.rows.transpose() * b.rows - a.taken.transpose() * b.taken; }

@@ -72,6 +72,8 @@ class Projection {
   Projection(const LinearModel&, const Hyperparameters&);
 
   Matrix operator()(const Matrix& columns) const;
+  /// The same of patterns, of any size: those that X can do but for the last digits are zero.
+  Matrix of_patterns(const Matrix& columns) const;
   /// Orthonormal basis of the whitened X.
   const Matrix& free() const { return q_; }
 
@@ -94,8 +96,8 @@ class Precision {
 
     Seen operator*(const Matrix& coefficients) const { return {rows * coefficients, taken * coefficients}; }
   };
-  Seen seen(const Matrix& columns) const;
-  Seen y() const { return seen(y_); }
+  Seen seen(const Matrix& patterns) const;
+  Seen y() const;
 
  private:
   Projection project_;
@@ -116,6 +118,7 @@ class Rotated {
   const Vector& lambda() const { return lambda_; }
   /// Columns of the recording's rows, whitened and free of X.
   Matrix project(const Matrix& columns) const { return project_(columns); }
+  Matrix project_patterns(const Matrix& columns) const { return project_.of_patterns(columns); }
   /// U' of projected columns.
   Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
   /// What of projected columns the ensemble cannot do.

@@ -1,5 +1,8 @@
 """abbe diagnose on several runs of one program: what differs between them."""
+import csv
+import io
 import json
+import random
 
 import harness
 
@@ -47,6 +50,26 @@ class DiagnoseRuns(harness.Case):
             self.assertEqual([e["members"] for e in said["effects"]], [["noise.unequal"]])
             self.assertEqual(said["effects"][0]["probability"] > 0.5, certain)
             self.assertEqual("Repeats of the same touches would tell" in said["effects"][0]["sentence"], not certain)
+
+    def test_a_pattern_finer_than_any_effect_repeats_and_is_no_noise(self):
+        """Every touched point is off by its own amount, the same in both runs; the scale readings do not know of it."""
+        recordings = []
+        for run in (1, 2):
+            lines = (self.folder / self.record(run)).read_text().splitlines()
+            rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+            point = random.Random(5)
+            for row in rows:
+                off = point.gauss(0, 0.003) * (row["head_A_deg"] != "0.0000")
+                for a in "xyz":
+                    row[a] = f"{float(row[a]) + off * float(row['n' + a]):.7f}"
+            text = io.StringIO("\n".join(line for line in lines if line.startswith("#")) + "\n")
+            text.seek(0, io.SEEK_END)
+            writer = csv.DictWriter(text, rows[0], lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+            recordings.append(self.write(f"points{run}.csv", text.getvalue()))
+        said = self.diagnosis(*recordings)
+        self.assertEqual((said["verdict"], said["effects"], said["unexplained"]["factor"]), ("unexplained", [], "feature"))
 
     def test_what_is_there_in_all_runs_is_not_new(self):
         lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")

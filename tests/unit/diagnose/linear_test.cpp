@@ -121,6 +121,32 @@ TEST_CASE("unknowns that the rows do not determine do no harm") {
   const Hyperparameters h = estimate(m);
   CHECK(h.noise(0) == doctest::Approx(1).epsilon(0.25));
   CHECK(leave_one_out(m, h).allFinite());
+  CHECK(leave_one_out(m, h).norm() > 1);
+}
+
+TEST_CASE("what an unknown does whatever its unit is nothing") {
+  LinearModel m = model_of(80, 1, 1, 0, 9);
+  m.free.col(0) *= 1e9;
+  m.free.col(2) *= 1e-9;
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const Matrix a = random_matrix(80, 1, 901), column = 3e-9 * m.free.col(0) + m.free.col(1) - 1e9 * m.free.col(2) + 1e-5 * a;
+  const Rotated r(m, h);
+  CHECK(r.project_patterns(column).isZero(0));
+  CHECK(r.project_patterns(m.free).isZero(0));
+  CHECK((r.project_patterns(a) - r.project(a)).isZero(0));
+  CHECK(r.project(a).norm() > 0.9 * a.norm() / 0.5);
+}
+
+TEST_CASE("a recording of a part that lies far from its targets is the same recording") {
+  const LinearModel near = model_of(80, 1, 1, 0, 10);
+  LinearModel far = near;
+  far.y += 1e7 * near.free.col(1);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  CHECK((leave_one_out(far, h) - leave_one_out(near, h)).cwiseAbs().maxCoeff() < 1e-5);
+  const Precision::Seen a = Precision(near, h).y(), b = Precision(far, h).y();
+  CHECK(inner(b, b)(0, 0) == doctest::Approx(inner(a, a)(0, 0)).epsilon(1e-5));
 }
 
 TEST_CASE("a compact model is the same model") {
