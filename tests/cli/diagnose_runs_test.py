@@ -1,6 +1,4 @@
 """abbe diagnose on several runs of one program: what differs between them."""
-import csv
-import io
 import json
 import random
 
@@ -55,19 +53,13 @@ class DiagnoseRuns(harness.Case):
         """Every touched point is off by its own amount, the same in both runs; the scale readings do not know of it."""
         recordings = []
         for run in (1, 2):
-            lines = (self.folder / self.record(run)).read_text().splitlines()
-            rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
             point = random.Random(5)
-            for row in rows:
-                off = point.gauss(0, 0.003) * (row["head_A_deg"] != "0.0000")
-                for a in "xyz":
-                    row[a] = f"{float(row[a]) + off * float(row['n' + a]):.7f}"
-            text = io.StringIO("\n".join(line for line in lines if line.startswith("#")) + "\n")
-            text.seek(0, io.SEEK_END)
-            writer = csv.DictWriter(text, rows[0], lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
-            recordings.append(self.write(f"points{run}.csv", text.getvalue()))
+
+            def off(row):
+                by = point.gauss(0, 0.003) * (row["head_A_deg"] != "0.0000")
+                return row | {a: f"{float(row[a]) + by * float(row['n' + a]):.7f}" for a in "xyz"}
+
+            recordings.append(self.changed(self.folder / self.record(run), off, f"points{run}.csv"))
         said = self.diagnosis(*recordings)
         self.assertEqual((said["verdict"], said["effects"], said["unexplained"]["factor"]), ("unexplained", [], "feature"))
 

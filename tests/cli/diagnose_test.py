@@ -1,6 +1,4 @@
 """abbe diagnose: recordings against the machine that made them."""
-import csv
-import io
 import json
 import pathlib
 
@@ -17,18 +15,6 @@ class Diagnose(harness.Case):
 
     def diagnosis(self, *args, code=0):
         return json.loads(self.abbe("diagnose", *args, "--machine", MACHINE, "--format", "json", code=code).stdout)
-
-    def changed(self, path, change, name="changed.csv"):
-        """The recording with every row passed through `change`."""
-        lines = path.read_text().splitlines()
-        comments = [line for line in lines if line.startswith("#")]
-        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-        rows = [r for r in (change(dict(r)) for r in rows) if r is not None]
-        out = io.StringIO()
-        writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        return self.write(name, "\n".join(comments) + "\n" + out.getvalue())
 
     def test_a_machine_in_order_agrees(self):
         said = self.diagnosis(self.record("--seed", 4))

@@ -1,5 +1,7 @@
 """Shared by the command-line tests. A test file is tests/cli/NAME_test.py, called with the path of abbe; it defines classes derived
 from harness.Case and ends with harness.main()."""
+import csv
+import io
 import json
 import pathlib
 import subprocess
@@ -57,6 +59,18 @@ class Case(unittest.TestCase):
         self.assertIn(message_code, done.stderr)
         self.assertEqual(done.stdout, "")
         return done.stderr
+
+    def changed(self, path, change, name="changed.csv"):
+        """A recording with every row passed through `change`."""
+        lines = path.read_text().splitlines()
+        comments = [line for line in lines if line.startswith("#")]
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+        rows = [r for r in (change(dict(r)) for r in rows) if r is not None]
+        out = io.StringIO()
+        writer = csv.DictWriter(out, rows[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        return self.write(name, "\n".join(comments) + "\n" + out.getvalue())
 
     def run_json(self, *args):
         return json.loads(self.abbe("run", *args, "--format", "json").stdout)
