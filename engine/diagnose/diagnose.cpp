@@ -70,16 +70,13 @@ bool judged(const Case& c, const Finding& f) {
   return open < kMostly * total;
 }
 
-/// Up to this belief a name is told as what it looks like, not as what it is.
+/// The most that is believed of a name that is doubted. Up to this it is told as what it looks like, not as what it is. A name is doubted
+/// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
+/// - on a covariate that was not logged or did not change: other functions of it would look the same;
+/// - with a size outside the catalogue's range: rather the name is wrong than the size;
+/// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.
 constexpr double kDoubted = 0.5;
-
-/// Belief in a name beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too.
-constexpr double kBesideUnexplained = 0.5;
-/// Belief in a name that stands on a covariate which was not logged or did not change: other functions of it would look the same.
-constexpr double kUnjudged = 0.5;
-
-/// Belief in a name whose size is outside the catalogue's range: rather the name is wrong than the size.
-constexpr double kImplausible = 0.5;
+double believed(double probability, bool doubted) { return doubted ? std::min(probability, kDoubted) : probability; }
 
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
@@ -95,7 +92,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const bool something_else = result.other || result.adequacy < kInadequate;
     e.parameters = estimate_parameters(c, result, k);
     const bool plausible = std::all_of(e.parameters.begin(), e.parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
-    e.probability = std::min({f.probability, something_else ? kBesideUnexplained : 1.0, judged(c, f) ? 1.0 : kUnjudged, plausible ? 1.0 : kImplausible});
+    e.probability = believed(f.probability, something_else || !judged(c, f) || !plausible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front(), e.probability <= kDoubted);
@@ -125,13 +122,11 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
 
 /// One recording in so many has a change of the scatter.
 constexpr double kPriorScatter = 0.01;
-/// Belief that scatter is noise where no touch was repeated, or repeats have it in common.
-constexpr double kNotRepeated = 0.5;
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
-    const double probability = std::min({most_believed(n.p, kPriorScatter), out.unexplained ? kBesideUnexplained : 1.0, n.certain ? 1.0 : kNotRepeated});
-    out.effects.push_back({{std::string(n.effect->name)}, probability, n.parameters, n.sentence});
+    out.effects.push_back({{std::string(n.effect->name)}, believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain), n.parameters, n.sentence});
+    if (!n.certain) out.effects.back().sentence += " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
     EffectSetting setting{std::string(n.effect->name), {}};
     for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
     out.model_effects.push_back(std::move(setting));

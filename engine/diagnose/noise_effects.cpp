@@ -89,8 +89,6 @@ bool other_each_time(const Case& c, const Residuals& r, const Vector& in, double
   return pairs >= kEnough && common < 0.5 * share * squares;
 }
 
-constexpr const char* kUncertain = " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
-
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u) {
   return {.name = name, .unit = unit, .value = value, .u = u, .low = std::max(0.0, value - 1.96 * u), .high = value + 1.96 * u};
 }
@@ -128,7 +126,7 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
     NoiseFinding f{find_effect("noise.unequal"), e.p, {figure("ratio", "1", ratio, u)}, {}};
     f.parameters.push_back({.name = "group", .unit = "", .word = s.word});
     f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
-    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.{}", s.what, ratio, f.certain ? "" : kUncertain);
+    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.what, ratio);
     best = Unequal{std::move(f), s.in};
   }
   return best;
@@ -167,7 +165,7 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
     NoiseFinding f{find_effect("noise.vibration"), e.p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
     f.certain = other_each_time(c, r, along, e.size / (1 + e.size));
-    f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.{}", "xyz"[axis], sd, f.certain ? "" : kUncertain);
+    f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.", "xyz"[axis], sd);
     best = std::move(f);
   }
   if (best) return best;
@@ -177,7 +175,7 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
   const double sd = spec * std::sqrt(excess * excess - 1);
   NoiseFinding f{find_effect("noise.vibration"), std::erfc((excess - kLeastExcess) / u), {figure("sd_um", "um", sd, sd * u)}, {}};
   f.certain = other_each_time(c, r, quiet, 1 - 1 / (excess * excess));
-  f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says, in every direction.{}", excess, f.certain ? "" : kUncertain);
+  f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says, in every direction.", excess);
   return f;
 }
 
