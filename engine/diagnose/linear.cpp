@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/ids.hpp"
 
@@ -262,8 +263,9 @@ Matrix Projection::operator()(const Matrix& columns) const {
 }
 
 Matrix Projection::of_patterns(const Matrix& columns) const {
-  const Vector length = whitened(columns, weight_, correlation_, follows_).colwise().norm();
-  Matrix w = (*this)(columns);
+  Matrix w = whitened(columns, weight_, correlation_, follows_);
+  const Vector length = w.colwise().norm();
+  w -= q_ * (q_.transpose() * w);
   for (Eigen::Index k = 0; k < w.cols(); ++k)
     if (w.col(k).norm() < kNothingLeft * length(k)) w.col(k).setZero();
   return w;
@@ -277,14 +279,14 @@ Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(
   reach_ = llt.matrixL().solve(z.transpose());
 }
 
-Precision::Seen Precision::seen(const Matrix& columns) const {
-  const Matrix rows = project_.of_patterns(columns);
-  return {rows, reach_ * rows};
-}
+Precision::Seen Precision::seen(const Matrix& patterns) const { return with_taken(project_.of_patterns(patterns)); }
 
-Precision::Seen Precision::y() const {
-  const Matrix rows = project_(y_);
-  return {rows, reach_ * rows};
+Precision::Seen Precision::y() const { return with_taken(project_(y_)); }
+
+Precision::Seen Precision::with_taken(Matrix rows) const {
+  Seen out{std::move(rows), {}};
+  out.taken = reach_ * out.rows;
+  return out;
 }
 
 Matrix inner(const Precision::Seen& a, const Precision::Seen& b) { return a.rows.transpose() * b.rows - a.taken.transpose() * b.taken; }

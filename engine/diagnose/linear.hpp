@@ -100,6 +100,8 @@ class Precision {
   Seen y() const;
 
  private:
+  Seen with_taken(Matrix rows) const;
+
   Projection project_;
   Matrix reach_;                                     ///< L^-1 Z'
   Vector y_;
