@@ -92,7 +92,6 @@ int record_command(const RecordOptions& options) {
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
   const auto recorded = [&](const Machine& as) { return record_plan(plan, as, one, run, program.source); };
   MachineRecord record = recorded(machine);
-  tell_idle(options.with, machine, record.recording, recorded);
   auto& metadata = record.recording.metadata;
   const std::pair<std::string, std::string> origin[] = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                                                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
@@ -100,6 +99,7 @@ int record_command(const RecordOptions& options) {
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);
   write_whole(options.output, to_csv(record.recording));
   if (options.dmo) write_whole(*options.dmo, dmis_result(plan, record.outputs));
+  tell_idle(options.with, machine, record.recording, recorded);
   return kDone;
 }
 
