@@ -55,7 +55,7 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
   for (std::size_t j = 0; j < prior.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     precision_.col(column) = precision(scales_[j]);
-    log_scale_.push_back(log_prior + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum());
+    log_scale_.push_back(log_prior + rotated_.log_density() + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum());
   }
 }
 
@@ -109,8 +109,8 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, bo
   return b;
 }
 
-Ensemble::Verdicts Ensemble::judge(const Vector& y) const {
-  const Vector z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+Ensemble::Verdicts Ensemble::judge(const Vector& recording) const {
+  const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
   const Matrix weighted = z.asDiagonal() * precision_;
   Verdicts out;
   out.squares = (weighted.transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
@@ -162,7 +162,7 @@ Vector Ensemble::simulated(const Level& level, std::uint64_t seed, int replicate
     return v;
   };
   const Vector z = (level.g2 * rotated_.lambda().array() + level.s2).sqrt() * normals(rotated_.rank(), 0).array();
-  return rotated_.recombined(z, Vector(rotated_.off_model(normals(rotated_.rows(), 1u << 20)) * std::sqrt(level.s2)));
+  return rotated_.recording(z, Vector(rotated_.off_model(normals(rotated_.rows(), 1u << 20)) * std::sqrt(level.s2)));
 }
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
@@ -171,9 +171,9 @@ Matrix Ensemble::between(const Level& level, int a, int b) const {
          remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
 }
 
-Vector Ensemble::with_data(const Level& level, int block, const Vector& y) const {
+Vector Ensemble::with_data(const Level& level, int block, const Vector& recording) const {
   const Prepared& b = of(block);
-  const Vector z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+  const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
          remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;
 }

@@ -51,12 +51,12 @@ class Ensemble {
     Vector squares;                                ///< what is left of the sum of squares alone
     std::vector<std::vector<double>> squares_with; ///< likewise, at its best size
   };
-  /// `y`: rows of a recording, projected (Rotated::project).
+  /// `y`: of a recording, um.
   Verdicts judge(const Vector& y) const;
   /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
   Level level(const std::vector<double>& log_belief, const std::vector<double>& squares) const;
 
-  /// A recording of such a machine, projected.
+  /// A recording of such a machine, um, without what nothing is known of.
   Vector simulated(const Level&, std::uint64_t seed, int replicate) const;
 
   /// H_a' P H_b, H_a' P y, and H' P h of the columns of all blocks with one column of a block; at a level.
@@ -67,7 +67,6 @@ class Ensemble {
   const std::vector<Size>& sizes(int block) const { return of(block).sizes; }
   /// Where the columns of a block begin among those of all.
   Eigen::Index first_column(int block) const { return of(block).first; }
-  const Rotated& rotated() const { return rotated_; }
 
  private:
   /// What a block asks of the family at one scale: H' P_g H = E diag(d) E'.

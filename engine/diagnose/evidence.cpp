@@ -14,6 +14,8 @@ namespace {
 constexpr double kPriorRough = 0.2;
 /// Belief before the data that one of the error functions is more uneven than the others.
 constexpr double kPriorUneven = 0.2;
+/// Belief before the data that neighbours scatter alike, where they do: what goes on slowly in the sequence looks the same.
+constexpr double kPriorCorrelated = 0.5;
 /// Nats below the better ensemble from which on the other makes no difference.
 constexpr double kOutOfQuestion = 8;
 
@@ -26,19 +28,24 @@ std::size_t index_of_largest(const std::vector<T>& v) {
 
 EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations) : explanations_(explanations.list) {
   const bool plan = model.y.squaredNorm() == 0;
-  ensembles_.emplace_back(model, h, std::log(1 - kPriorRough));
-  y_ = ensembles_[0].rotated().y();
-  if (model.rough.cols() > 0 && !plan) {
-    Ensemble rough(rougher(model), h, std::log(kPriorRough));
-    const double harmonic = log_sum_exp(ensembles_[0].judge(y_).alone), other = log_sum_exp(rough.judge(y_).alone);
-    rough_ = 1 / (1 + std::exp(harmonic - other));
-    if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
-  }
+  y_ = model.y;
+  const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
+  rough_ = add_machines(model, h, std::log(correlated));
+  if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
   functions_ = model.uneven.size();
   for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.blocks);
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (!plan) evidence_ = judge(y_, &alone_, &with_);
+}
+
+double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
+  ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
+  if (model.rough.cols() == 0 || y_.squaredNorm() == 0) return 0;
+  Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
+  const double harmonic = log_sum_exp(ensembles_.back().judge(y_).alone), other = log_sum_exp(rough.judge(y_).alone);
+  if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
+  return 1 / (1 + std::exp(harmonic - other));
 }
 
 void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {

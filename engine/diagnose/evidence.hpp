@@ -48,6 +48,8 @@ class EvidenceSearch {
   const std::vector<Size>& sizes(int block) const { return likely().sizes(block); }
 
  private:
+  /// Ensembles of the specification and, if that is not out of the question, of rougher errors, with this noise; the belief in the latter.
+  double add_machines(const LinearModel&, const Hyperparameters&, double log_prior);
   struct Baseline {
     std::size_t ensemble = 0;
     Level level;

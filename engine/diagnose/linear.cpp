@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -160,10 +161,16 @@ Matrix scaled(const LinearModel& m, const Hyperparameters& h) {
 
 }  // namespace
 
-Hyperparameters estimate(const LinearModel& m) {
+Hyperparameters estimate_uncorrelated(const LinearModel& m) {
   Hyperparameters h;
   h.noise = Vector::Ones(m.noise_groups);
-  double best = maximise(Likelihood(m, 0), h, 0.5);
+  maximise(Likelihood(m, 0), h, 0.5);
+  return h;
+}
+
+Hyperparameters estimate(const LinearModel& m) {
+  Hyperparameters h = estimate_uncorrelated(m);
+  double best = Likelihood(m, 0).at(h);
   const double independent = best;
   for (const double phi : kCorrelations) {
     Hyperparameters trial = h;
@@ -254,7 +261,13 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
 }
 
 Projection::Projection(const LinearModel& m, const Hyperparameters& h)
-    : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation), q_(independent(whitened(m.free, weight_, correlation_, follows_))) {}
+    : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation), q_(independent(whitened(m.free, weight_, correlation_, follows_))) {
+  const auto neighbours = static_cast<double>(std::count(follows_.begin(), follows_.end(), 1));
+  const Matrix x = whitened(independent(m.free), weight_, correlation_, follows_);
+  const Eigen::LLT<Matrix> of_free(x.transpose() * x);
+  log_density_ = weight_.array().log().sum() - 0.5 * neighbours * std::log(1 - correlation_ * correlation_) -
+                 of_free.matrixLLT().diagonal().array().log().sum();
+}
 
 Matrix Projection::operator()(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);
@@ -269,6 +282,14 @@ Matrix Projection::of_patterns(const Matrix& columns) const {
   for (Eigen::Index k = 0; k < w.cols(); ++k)
     if (w.col(k).norm() < kNothingLeft * length(k)) w.col(k).setZero();
   return w;
+}
+
+Vector Projection::unwhitened(const Vector& projected) const {
+  const double rescale = std::sqrt(1 - correlation_ * correlation_);
+  Vector out = projected;
+  for (Eigen::Index i = 1; i < out.size(); ++i)
+    if (follows_[static_cast<std::size_t>(i)]) out(i) = rescale * out(i) + correlation_ * out(i - 1);
+  return out.array() / weight_.array();
 }
 
 Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(m.y) {

@@ -48,6 +48,9 @@ struct Hyperparameters {
 /// Restricted maximum likelihood with log-normal priors about 1 (sd 0.7 for the scale, 0.5 for the noise).
 Hyperparameters estimate(const LinearModel&);
 
+/// The same without a correlation of neighbours.
+Hyperparameters estimate_uncorrelated(const LinearModel&);
+
 /// Standardised residual of each row, predicted from all other rows.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);
 
@@ -74,14 +77,19 @@ class Projection {
   Matrix operator()(const Matrix& columns) const;
   /// The same of patterns, of any size: those that X can do but for the last digits are zero.
   Matrix of_patterns(const Matrix& columns) const;
+  /// A row vector whose projection is this one.
+  Vector unwhitened(const Vector& projected) const;
   /// Orthonormal basis of the whitened X.
   const Matrix& free() const { return q_; }
+  /// Logarithm of what whitening and taking out X do to a density of the rows.
+  double log_density() const { return log_density_; }
 
  private:
   std::vector<char> follows_;
   Vector weight_;                                    ///< 1 / sd by row
   double correlation_ = 0;
   Matrix q_;
+  double log_density_ = 0;
 };
 
 /// The precision of a recording, the inverse of its covariance with X projected out, as an inner product of columns. With the projected Z and
@@ -125,8 +133,9 @@ class Rotated {
   Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
   /// What of projected columns the ensemble cannot do.
   Matrix remainder(const Matrix& projected, const Matrix& coordinates) const { return projected - basis_ * coordinates; }
-  /// The rows that have these coordinates, and this outside of them.
-  Vector recombined(const Vector& coordinates, const Vector& rest) const { return basis_ * coordinates + rest; }
+  /// A recording, um, that has these coordinates, and this outside of them.
+  Vector recording(const Vector& coordinates, const Vector& rest) const { return project_.unwhitened(basis_ * coordinates + rest); }
+  double log_density() const { return project_.log_density(); }
   /// What of a whitened row vector neither X nor the ensemble reaches.
   Vector off_model(const Vector& white) const;
   const Vector& y() const { return y_; }             ///< projected

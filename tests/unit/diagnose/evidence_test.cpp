@@ -134,6 +134,26 @@ TEST_CASE("one error function more uneven than the others is no mismatch") {
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[0] > 10);
 }
 
+TEST_CASE("what goes on in the sequence is not taken for noise that neighbours share") {
+  // Five slow waves: noise that neighbours share imitates them, and under it slow things tell little.
+  const int n = 220;
+  LinearModel m = noise_only(n, 31);
+  m.follows.assign(n, 1);
+  m.follows[0] = 0;
+  Explanations all = two(n);
+  for (int i = 0; i < n; ++i) all.blocks[1].signature(i, 0) = std::sin(2 * kPi * 5 * i / n);
+  m.y += all.blocks[1].signature.col(0);
+  const Hyperparameters h = estimate(m);
+  REQUIRE(h.correlation > 0);
+  CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] > 20);
+  // Noise that neighbours do share is no mismatch.
+  m.y = noise_only(n, 32).y;
+  for (int i = 1; i < n; ++i) m.y(i) = 0.5 * m.y(i - 1) + std::sqrt(0.75) * m.y(i);
+  const Hyperparameters shared = estimate(m);
+  REQUIRE(shared.correlation > 0);
+  CHECK(EvidenceSearch(m, shared, all).evidence().log_bayes[1] < 2);
+}
+
 TEST_CASE("p-values without a mismatch are uniform") {
   // 60 recordings: the smallest p-values follow a binomial law; P(4 or more of 60 below 0.01) = 0.3 %, P(10 or more below 0.05) = 0.1 %.
   const int n = 50;
