@@ -249,6 +249,11 @@ void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool 
 
 }  // namespace
 
+std::string_view name(Factor f) {
+  constexpr std::string_view names[] = {"time", "position", "direction", "head", "sensor", "setup", "feature", "run", "temperature", "speed"};
+  return names[static_cast<int>(f)];
+}
+
 Block variant_at(const Effect& effect, const std::vector<double>& theta, int from_run, const RecordedTouches& t, const std::vector<int>& rows) {
   Block block;
   block.theta = theta;

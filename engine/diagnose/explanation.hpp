@@ -81,7 +81,7 @@ std::vector<CannotJudge> cannot_judge(const Explanations&);
 /// The effects of these names only, in the order of the names.
 Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows, const std::vector<std::string>& names);
 
-/// Appends the blocks of OTHER (other.cpp).
+/// Appends the blocks of OTHER (patterns/).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
 /// A variant of an effect at these parameters, from this run on (0: in all); no columns where the effect does nothing there.
