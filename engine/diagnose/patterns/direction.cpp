@@ -22,14 +22,30 @@ std::vector<Matrix> lobes(const TouchFactors& f) {
   return out;
 }
 
+/// What oblique approaches drag along the surface, in proportion or by its direction alone; of all styli alike, or of each by itself.
+std::vector<Matrix> skidding(const TouchFactors& f) {
+  constexpr double kNone = 0.02;
+  Directions way = f.skid;
+  for (Vec3& v : way) v = v / std::max(norm(v), kNone);
+  const Matrix over = side_by_side(constant(f.skid.size()), smooth(as_points(f.normal_on_probe), 0.9, 8));
+  std::vector<Matrix> out;
+  for (const Directions& dragged : {f.skid, way}) {
+    out.push_back(along(over, dragged));
+    if (several(f.sensor)) out.push_back(by_group(out.back(), f.sensor));
+  }
+  return out;
+}
+
 }  // namespace
 
 void over_direction(const TouchFactors& f, Family& family) {
   const Points normal = as_points(f.normal);
   family.add("smooth", smooth(normal, 0.6, 40));
   family.add_joint("in time", products(smooth(normal, 0.9, 8), smooth(f.time, 0.2, 8)));
+  family.add_joint("over position", products(smooth(normal, 0.9, 8), linear(f.place)));
   if (f.oblique) {
     family.add_joint("of travel", smooth(as_points(f.travel), 0.6, 40));
+    family.add_joint("of skidding", skidding(f));
   }
   if (several(f.orientation)) {
     family.add("on the probe", smooth(as_points(f.normal_on_probe), 0.6, 40));

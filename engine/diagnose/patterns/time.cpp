@@ -15,6 +15,16 @@ std::vector<Matrix> stretching(const TouchFactors& f) {
   return out;
 }
 
+/// One axis is off by the distance along another.
+std::vector<Matrix> leaning(const TouchFactors& f) {
+  std::vector<Matrix> out;
+  const Matrix course = rugged(f.time, 0.2, 20);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      if (j != k) out.push_back(Vector(component(f.normal, k).array() * from_middle(f.reading[j]).array()).asDiagonal() * course);
+  return out;
+}
+
 /// The part turns about its middle, back and forth at one frequency.
 std::vector<Matrix> turning(const TouchFactors& f) {
   constexpr int kMostHalfCycles = 24;
@@ -34,6 +44,14 @@ std::vector<Matrix> turning(const TouchFactors& f) {
   return out;
 }
 
+/// The probe moves on the head, in every direction or along one of its axes.
+std::vector<Matrix> on_the_probe(const TouchFactors& f) {
+  const Matrix course = rugged(f.time, 0.2, 24);
+  std::vector<Matrix> out{along(course, f.normal_on_probe)};
+  for (int k = 0; k < 3; ++k) out.push_back(component(f.normal_on_probe, k).asDiagonal() * course);
+  return out;
+}
+
 /// What gathers on the tip, or wears off it, with every touch and not with the clock: on all styli alike, or on each by itself.
 std::vector<Matrix> sizes_along_the_sequence(const TouchFactors& f) {
   std::vector<Matrix> out{rugged(f.touch, 0.2, 40)};
@@ -48,8 +66,10 @@ void over_time(const TouchFactors& f, Family& family) {
   family.add("quick", along(smooth(f.time, 0.07, 22), f.normal));
   family.add("rugged", along_all_or_one(rugged(f.time, 0.2, 40), f.normal));
   family.add_joint("stretching", stretching(f));
+  family.add_joint("leaning", leaning(f));
   family.add_joint("turning to and fro", turning(f));
   family.add_joint("size along the sequence", sizes_along_the_sequence(f));
+  if (several(f.orientation)) family.add_joint("on the probe", on_the_probe(f));
 }
 
 }  // namespace abbe::diagnose::patterns

@@ -10,8 +10,9 @@ namespace abbe::diagnose::patterns {
 
 namespace {
 
-/// Cosine of the angle between an approach and the surface's normal beyond which the two differ.
-constexpr double kStraight = 0.99;
+/// Cosine of the angle between an approach and the surface's normal beyond which the two differ: 1.8 degrees.
+constexpr double kStraight = 0.9995;
+constexpr double kLever_mm = 100;
 
 /// From 0 to 1 along the longest extent, the others in proportion.
 void onto_unit(Points& points) {
@@ -34,7 +35,7 @@ int ordinal(std::map<Key, int>& known, const Key& key) {
 
 TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& rows)
     : part_above_20(static_cast<Eigen::Index>(rows.size())) {
-  std::map<std::pair<double, double>, int> orientations;
+  std::map<std::pair<double, double>, int> orientations, dynamics_used;
   std::map<std::array<int, 3>, double> begun;
   for (Vector& v : scale_above_20) v.resize(part_above_20.size());
   const double first_s = t.touches.front().scene.time_s, last_s = t.touches.back().scene.time_s;
@@ -50,7 +51,10 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     normal.push_back(s.normal);
     normal_on_part.push_back(s.normal_on_part);
     normal_on_probe.push_back(on_probe(s.normal));
+    turned.push_back(cross(-s.stylus.length_mm / kLever_mm * s.stylus.to_head, s.normal));   // n . (w x l) = w . (l x n)
     travel.push_back(s.travel);
+    travel_on_probe.push_back(on_probe(s.travel));
+    skid.push_back(on_probe(s.travel - dot(s.travel, s.normal) * s.normal));
     oblique = oblique || dot(s.travel, s.normal) > -kStraight;
     orientation.push_back(ordinal(orientations, {s.stylus.head_a_rad, s.stylus.head_b_rad}));
     sensor.push_back(s.stylus.ordinal);
@@ -58,6 +62,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     setup.push_back(s.setup);
     run.push_back(s.run);
     speed.push_back(static_cast<int>(std::lround(1000 * s.speed_mm_s)));
+    dynamics.push_back(ordinal(dynamics_used, {s.speed_mm_s, s.acceleration_mm_s2}));
     const auto row = static_cast<Eigen::Index>(i);
     part_above_20(row) = s.temperature.part - 20;
     for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - 20;

@@ -20,12 +20,15 @@ struct TouchFactors {
   // Directions and displacements that a change of one unit has along the normal.
   Directions normal, normal_on_part;
   Directions normal_on_probe;        ///< last link of the head
-  Directions travel;
+  Directions turned;                 ///< of a small rotation of the wrist about its centre; 100 mm of stylus is the unit
+  Directions travel, travel_on_probe;
+  Directions skid;                   ///< what of the travel is along the surface, on the probe
   bool oblique = false;              ///< some approaches are not along the normal
 
   // Groups.
   std::vector<int> orientation, sensor, feature, setup, run;
   std::vector<int> speed;            ///< um/s
+  std::vector<int> dynamics;         ///< speeds and accelerations that were used together
 
   Vector part_above_20, scale_above_20[3];   ///< degrees C
 };

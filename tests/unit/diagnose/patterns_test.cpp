@@ -14,20 +14,25 @@ using namespace abbe::diagnose;
 
 namespace {
 
-/// Touches scattered over a volume, their normals in all directions; every fifteen the head is indexed to another of three orientations.
-RecordedTouches scattered(int count) {
+/// Touches scattered over a volume, their normals in all directions; after each `visit` of them the head is indexed to another of three orientations.
+RecordedTouches scattered(int count, int visit = 15) {
   RecordedTouches t;
   for (int i = 0; i < count; ++i) {
-    const auto u = [&](std::uint32_t which) { return uniform_pair({3, static_cast<std::uint32_t>(i), stream_of("other_test"), which, 0, 0}).a; };
+    const auto u = [&](std::uint32_t which) { return uniform_pair({3, static_cast<std::uint32_t>(i), stream_of("patterns_test"), which, 0, 0}).a; };
     RecordedTouch touch;
     touch.row = i;
     TouchScene& s = touch.scene;
     s.point = s.reading = {500 * u(0), 400 * u(1), 300 * u(2)};
     const double z = 2 * u(3) - 1, around = 2 * kPi * u(4), r = std::sqrt(1 - z * z);
     s.normal = {r * std::cos(around), r * std::sin(around), z};
-    s.visit = i / 15;
+    s.visit = i / visit;
     s.time_s = 10 * i + 60 * s.visit;
     s.stylus.head_b_rad = s.visit % 3;
+    s.stylus.to_head = Vec3{std::sin(2 * kPi / 3 * (s.visit % 3)), 0, std::cos(2 * kPi / 3 * (s.visit % 3))};
+    s.stylus.length_mm = 100;
+    s.stylus.ordinal = 1 + s.visit / 3 % 2;
+    s.acceleration_mm_s2 = u(6) < 0.5 ? 200 : 400;
+    s.temperature.part = 20 + std::round(u(7) * 4) / 4;
     s.feature = i % 5;
     s.speed_mm_s = u(5) < 0.5 ? 3 : 8;
     s.travel = unit(Vec3{0.3, 0.3, 0.1} - s.normal);
@@ -47,7 +52,7 @@ std::string likeliest(const RecordedTouches& t, const std::function<Vec3(const T
   for (Eigen::Index i = 0; i < n; ++i) {
     const TouchScene& s = t.touches[static_cast<std::size_t>(i)].scene;
     for (int k = 0; k < 3; ++k) m.free(i, k) = s.normal[k], m.random(i, k) = s.normal[k] * s.point.x / 500;
-    m.y(i) = dot(s.normal, displacement_um(s)) + normal_quantile(uniform_pair({4, static_cast<std::uint32_t>(i), stream_of("other_test"), 9, 0, 0}).a);
+    m.y(i) = dot(s.normal, displacement_um(s)) + normal_quantile(uniform_pair({4, static_cast<std::uint32_t>(i), stream_of("patterns_test"), 9, 0, 0}).a);
   }
   m.random_group.assign(3, 0);
   m.noise_um = Vector::Ones(n);
@@ -94,5 +99,37 @@ TEST_CASE("patterns over two factors are seen where they lie") {
   CHECK(likeliest(t, [](const TouchScene& s) { return (std::fmod(double(s.time_s), 700) / 350 - 1) * 2 * s.normal; }) == "OTHER time, size along the sequence");
   CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{3.0 * (s.feature == 1), -3.0 * (s.feature == 3), 3.0 * (s.feature == 4)}; }) == "OTHER feature, offset on the part");
   const auto clamped = [&](const TouchScene& s) { return (s.time_s - t.touches[static_cast<std::size_t>(100 * s.setup)].scene.time_s) / 1400; };
-  CHECK(likeliest(t, [&](const TouchScene& s) { return std::sqrt(clamped(s)) * cross(Vec3{0.04, 0, 0}, s.point - middle); }) == "OTHER setup, settling");
+  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.setup == 1 ? -1 : 1) * std::sqrt(clamped(s)) * cross(Vec3{0.04, 0, 0}, s.point - middle); }) == "OTHER setup, settling");
+}
+
+TEST_CASE("what is wrong at one place or on one spot is found there") {
+  const RecordedTouches t = scattered(300);
+  CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{0, 8 * std::exp(-(std::pow(s.reading.x - 350, 2) + std::pow(s.reading.y - 100, 2)) / 3000), 0}; }) ==
+        "OTHER position, one place");
+  CHECK(likeliest(t, [](const TouchScene& s) { return (s.feature == 2 ? 6.0 : 0.0) * std::exp(-std::pow(norm(s.normal_on_part - Vec3{0, 0.6, 0.8}) / 0.5, 2) / 2) * s.normal; }) ==
+        "OTHER feature, one spot");
+  CHECK(likeliest(t, [](const TouchScene& s) { return s.feature == 2 && s.time_s > 1500 ? Vec3{2, -2, 2} : Vec3{}; }) == "OTHER feature, one of them in time");
+}
+
+TEST_CASE("what leans, turns or yields is found as such") {
+  const RecordedTouches t = scattered(300);
+  CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{(s.visit / 5 % 2 ? 0.012 : -0.012) * (s.reading.z - 150), 0, 0}; }) == "OTHER time, leaning");
+  CHECK(likeliest(scattered(300, 4), [](const TouchScene& s) { return (s.visit / 18 % 2 ? 0.04 : -0.04) * cross(Vec3{0, 1, 1}, -s.stylus.length_mm * s.stylus.to_head); }) ==
+        "OTHER head, turning in time");
+  CHECK(likeliest(t, [](const TouchScene& s) { return 4 * std::exp(-std::pow((s.reading.x - 250) / 60, 2)) * s.normal.y * s.normal.y * s.normal; }) ==
+        "OTHER position, along a guide");
+}
+
+TEST_CASE("what dynamics, skidding and warmth do to some touches is found there") {
+  const RecordedTouches t = scattered(300);
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          const Vec3 travel = transpose(s.stylus.R_WR) * s.travel;
+          return (s.stylus.ordinal == 2 ? 2.0 : 0.5) * (s.acceleration_mm_s2 - 300) / 25 * (1 - travel.z * travel.z - 0.6) * s.normal;
+        }) == "OTHER speed, of each sensor");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          const Vec3 skid = transpose(s.stylus.R_WR) * (s.travel - dot(s.travel, s.normal) * s.normal);
+          return (s.stylus.ordinal == 2 ? 2.5 : -1.5) * skid.z / norm(skid) * s.normal;
+        }) == "OTHER direction, of skidding");
+  CHECK(likeliest(t, [](const TouchScene& s) { return (s.temperature.part - 20.5) * 3 * (s.feature == 1 ? 1 : s.feature == 4 ? -1 : 0) * s.normal; }) ==
+        "OTHER temperature, of each feature");
 }
