@@ -1,10 +1,8 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
-from scene import APPROACH
 
 from .base import Change, Effect, vector
-from .probe import directions
 
 UNKNOWN = {}
 
@@ -13,112 +11,103 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_cable(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0])}
-
-
-def change_cable(scene, p):
-    """The head turns without end and takes the short way. A cable, laid outside, winds up and unwinds by
-    the whole turns that are left over, and twists the wrist about the vertical. Amplitude for one turn at
-    the longest lying stylus."""
-    visit, first = np.unique(scene.visit, return_index=True)
-    turns = np.cumsum(np.round(np.diff(scene.b[first], prepend=0) / (2 * np.pi)))
-    wound = turns[np.searchsorted(visit, scene.visit)]
-    lying = np.cross([0, 0, 1.0], scene.arm / scene.length.max())
-    return Change(tip=p["amplitude_um"] * wound[:, None] * lying)
-
-
-def draw_pushed(scene, rng):
-    return {"amplitude_um": 1.0, "held": rng.uniform(0.2, 0.5)}
-
-
-def change_pushed(scene, p):
-    """The part lies unclamped. Every touch that comes from the side, and more than friction holds, pushes
-    it on a little, the faster the farther, and it stays there until it is placed anew. Amplitude at the
-    farthest."""
-    sideways = -scene.normal * [1, 1, 0]
-    push = np.linalg.norm(sideways, axis=1)
-    slip = sideways * (np.clip(push - p["held"], 0, None) / np.maximum(push, 1e-9) * scene.speed)[:, None]
-    moved = np.zeros((scene.size, 3))
-    for k in np.unique(scene.setup):
-        mine = scene.setup == k
-        moved[mine] = np.cumsum(slip[mine], 0) - slip[mine]
-    return Change(tip=p["amplitude_um"] * moved / np.linalg.norm(moved, axis=1).max())
-
-
-def draw_entry(scene, rng):
-    x, y = scene.reading[rng.integers(scene.size), :2]
+def draw_unloaded(scene, rng):
+    since, until = np.quantile(scene.time, [rng.uniform(0.2, 0.45), rng.uniform(0.65, 0.9)]) + 0.5
     return {
         "amplitude_um": rng.choice([-1.0, 1.0]),
+        "guide": int(rng.integers(2)),
         "coordinate": int(rng.integers(3)),
-        "node_mm": [float(x), float(y)],
-        "mesh_mm": rng.uniform(0.25, 0.4, 2) * np.ptp(scene.reading[:, :2], axis=0),
+        "waves": rng.normal(size=(4, 2)) / np.arange(1, 5)[:, None],
+        "stopped_s": float(since),
+        "loaded_s": float(until),
     }
 
 
-def change_entry(scene, p):
-    """One entry of the correction table over x and y is mistyped: one coordinate is wrong at this node,
-    and, by the interpolation, in the four meshes around it."""
-    away = np.abs(scene.reading[:, :2] - p["node_mm"]) / p["mesh_mm"]
-    share = np.clip(1 - away, 0, None).prod(1)
-    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * share))
+def change_unloaded(scene, p):
+    """After an emergency stop the controller starts without the correction of one guide, until somebody loads it: the
+    guide shows its own shape meanwhile. Amplitude where it is farthest from its middle."""
+    x = scene.reading[:, p["guide"]]
+    q = np.outer(np.pi * (x - (x.min() + x.max()) / 2) / np.ptp(x), np.arange(1, 5))
+    shape = np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * (np.cos(q) - 1), 1)
+    off = (scene.time >= p["stopped_s"]) & (scene.time < p["loaded_s"])
+    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * off * shape / np.abs(shape).max()))
 
 
-def draw_odd(scene, rng):
+def draw_lazy(scene, rng):
+    return {"amplitude_um": 1.0, "kept": rng.uniform(0, 0.4)}
+
+
+def change_lazy(scene, p):
+    """The seats of the probe are sticky: the stylus does not come home from the side that the touch before has pushed
+    it to. The long way to another feature shakes it home. Amplitude at the tip of the longest."""
+    left = np.zeros((scene.size, 3))
+    for k in range(1, scene.size):
+        if scene.block[k] == scene.block[k - 1]:
+            push, shank = scene.normal[k - 1], scene.shank[k - 1]
+            left[k] = p["kept"] * left[k - 1] + (1 - p["kept"]) * (push - shank * (push @ shank))
+    return Change(tip=-p["amplitude_um"] * left * (scene.length / scene.length.max())[:, None])
+
+
+def draw_snapped(scene, rng):
+    return {"amplitude_um": 1.0, "within_deg": rng.uniform(18, 28)}
+
+
+def change_snapped(scene, p):
+    """The software takes a normal that is near an axis of the part for this axis, and corrects the tip radius along
+    it: too little, the more the farther, and nothing beyond a limit. Amplitude of the largest tip at the limit."""
+    aside = np.arccos(np.clip(np.abs(scene.part_normal).max(1), 0, 1)) / np.radians(p["within_deg"])
+    return Change(along=p["amplitude_um"] * aside**2 * (aside < 1) * scene.tip_radius / scene.tip_radius.max())
+
+
+def draw_cleaned(scene, rng):
+    return {"amplitude_um": 1.0, "tau_s": rng.uniform(6, 12)}
+
+
+def change_cleaned(scene, p):
+    """Every ball is cleaned with alcohol right before it is measured: its post is cold and short, and is as warm as
+    the part again after some touches. Amplitude at the first."""
+    first = np.array([scene.time[scene.block == b].min() for b in scene.block])
+    cold = np.exp(-(scene.time - first) / p["tau_s"])
+    return Change(along=-p["amplitude_um"] * cold * scene.part_normal[:, 2])
+
+
+def draw_beam(scene, rng):
+    warm = scene.temperature[scene.machine.chain[1]]
     return {
         "amplitude_um": rng.choice([-1.0, 1.0]),
-        "along": int(rng.integers(2)),
-        "side": rng.choice([-1.0, 1.0]),
-        "held_end": rng.choice([-1.0, 1.0]),
-        "built_at_C": float(np.mean(scene.temperature["part"]) + rng.uniform(-0.4, 0.4)),
-        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+        "straight_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
+        "held_at": rng.uniform(-0.5, 0.5),
     }
 
 
-def change_odd(scene, p):
-    """The balls of one side sit on a bar of another metal, which is held at one end and slides in the
-    frame at the other: it grows past the frame with every kelvin, along itself. Amplitude at the free
-    end, for 1 K."""
-    i, h = p["along"], p["half_size_mm"]
-    on_bar = p["side"] * scene.part_point[:, 1 - i] > 0.5 * h
-    share = (1 - p["held_end"] * scene.part_point[:, i] / h) / 2
-    warmer = scene.temperature["part"] - p["built_at_C"]
-    return Change(along=p["amplitude_um"] * on_bar * warmer * share * scene.part_normal[:, i])
+def change_beam(scene, p):
+    """The rail on the side of the beam is of another metal: with every kelvin the beam is twisted about itself, from
+    where it is held, and the carriage with it. Amplitude at 500 mm below the end of the beam, for 1 K."""
+    axis = scene.machine.chain[1]
+    i = "xyz".index(axis)
+    x = scene.reading[:, i]
+    turn = np.zeros((scene.size, 3))
+    away = (x - (x.min() + x.max()) / 2) / np.ptp(x) * 2 - p["held_at"]
+    turn[:, i] = p["amplitude_um"] / 0.5 * (scene.temperature[axis] - p["straight_at_C"]) * away
+    return Change({axis: (np.zeros((scene.size, 3)), turn)})
 
 
-def draw_whip(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "decay_s": rng.uniform(0.3, 1.0)}
+def draw_wiper(scene, rng):
+    turn = rng.uniform(0, 2 * np.pi)
+    return {"amplitude_um": 1.0, "side": [np.cos(turn), np.sin(turn), 0.0], "bearing": rng.uniform(0.1, 0.4)}
 
 
-def change_whip(scene, p):
-    """A stylus still swings from the acceleration, crosswise only, when it touches: the wider the longer
-    it is, the less the longer the approach takes. The tip radius has taken the mean. Amplitude from rest
-    to the hardest."""
-    swing = scene.acceleration * np.exp(-APPROACH / scene.speed / p["decay_s"])
-    across = 1 - np.sum(scene.travel * scene.shank, 1) ** 2
-    wide = across * (scene.length / scene.length.max()) ** 3
-    return Change(along=p["amplitude_um"] * wide * (swing - swing.mean()) / swing.max())
+def change_wiper(scene, p):
+    """A wiper runs dry on one side of the ram: it brakes, with the speed, when the ram goes up or down, and turns the
+    ram in its bearing. Amplitude at 8 mm/s straight down, at the longest reach."""
+    out = np.abs(scene.reading[:, 2])
+    reach = (out / out.max() + p["bearing"]) / (1 + p["bearing"])
+    return Change(tip=vector(p["side"], -p["amplitude_um"] * scene.travel[:, 2] * scene.speed / 8 * reach))
 
 
-def draw_skid(scene, rng):
-    return {"amplitude_um": 1.0}
-
-
-def change_skid(scene, p):
-    """A tip that comes obliquely skids along the surface before it trips. Friction drags it towards the
-    head or away from it: the seats are unloaded or loaded, and it trips early or late. Amplitude for a
-    skid along the shank."""
-    skid = scene.travel - scene.normal * np.sum(scene.travel * scene.normal, 1, keepdims=True)
-    upward = np.sum(skid * scene.shank, 1) / np.maximum(np.linalg.norm(skid, axis=1), 0.02)
-    _, beta = directions(scene)
-    return Change(along=p["amplitude_um"] * upward * np.cos(beta) ** 2 * scene.length / scene.length.max())
-
-
-unknown("wound_cable", draw_cable, change_cable, ["head", "sensor", "time"], "D")
-unknown("pushed_part", draw_pushed, change_pushed, ["time", "setup"])
-unknown("mistyped_entry", draw_entry, change_entry, ["position", "feature"])
-unknown("odd_bar", draw_odd, change_odd, ["temperature", "feature", "position"], "D")
-unknown(
-    "whipping_stylus", draw_whip, change_whip, ["acceleration", "speed", "direction", "sensor", "head"], "D"
-)
-unknown("skidding_tip", draw_skid, change_skid, ["direction", "sensor", "head"], "D")
+unknown("unloaded_map", draw_unloaded, change_unloaded, ["time", "position", "feature"])
+unknown("lazy_seats", draw_lazy, change_lazy, ["direction", "head", "sensor", "time"])
+unknown("snapped_vectors", draw_snapped, change_snapped, ["direction", "sensor", "setup"])
+unknown("cleaned_balls", draw_cleaned, change_cleaned, ["time", "feature", "direction"])
+unknown("twisting_beam", draw_beam, change_beam, ["temperature", "position", "feature", "setup"], "D")
+unknown("dry_wiper", draw_wiper, change_wiper, ["speed", "direction", "position"], "D")
