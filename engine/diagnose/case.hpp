@@ -1,9 +1,9 @@
 // The recording on the bench: everything that the steps of a diagnosis share.
 #pragma once
 
-#include "engine/diagnose/baseline.hpp"
+#include "engine/diagnose/baseline/baseline.hpp"
 #include "engine/diagnose/diagnosis.hpp"
-#include "engine/diagnose/evidence.hpp"
+#include "engine/diagnose/model/evidence.hpp"
 
 namespace abbe::diagnose {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/calibrated_part.hpp"
+#include "engine/diagnose/baseline/calibrated_part.hpp"
+#include "engine/diagnose/baseline/known_state.hpp"
+#include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/case.hpp"
-#include "engine/diagnose/empirical.hpp"
-#include "engine/diagnose/known_state.hpp"
-#include "engine/diagnose/machine_effects.hpp"
+#include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/words.hpp"
 
 namespace abbe {

@@ -1,7 +1,7 @@
 // Recordings of values on the command line: which programs they come from, read and compiled.
 #pragma once
 
-#include "engine/diagnose/value_diagnosis.hpp"
+#include "engine/diagnose/values/value_diagnosis.hpp"
 #include "programs/commands/commands.hpp"
 
 namespace abbe {

@@ -1,4 +1,4 @@
-#include "engine/diagnose/evidence.hpp"
+#include "engine/diagnose/model/evidence.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "engine/diagnose/linear.hpp"
+#include "engine/diagnose/model/linear.hpp"
 
 #include <Eigen/Dense>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numeric>
 
-#include "engine/diagnose/evidence.hpp"
+#include "engine/diagnose/model/evidence.hpp"
 #include "engine/lanes/random.hpp"
 
 using namespace abbe;

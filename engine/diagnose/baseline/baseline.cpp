@@ -1,0 +1,245 @@
+#include "engine/diagnose/baseline/baseline.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "engine/diagnose/baseline/rough_geometry.hpp"
+#include "engine/machine/geometry.hpp"
+#include "engine/machine/screening.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// Sensitivities of the touches to every coefficient: a block of perturbed machines, the k-th with coefficient k of 1.
+Matrix perturbed_machines(const RecordedTouches& t, const Machine& machine) {
+  const int size = kComponents * basis_size(machine.harmonics);
+  std::vector<GeometryCoefficients> perturbed(size, GeometryCoefficients(size, 0.0));
+  std::vector<const GeometryCoefficients*> lanes;
+  for (int k = 0; k < size; ++k) perturbed[k][k] = 1, lanes.push_back(&perturbed[k]);
+  const GeometryBlock block(machine, lanes);
+  std::vector<int> lane(size);
+  std::iota(lane.begin(), lane.end(), 0);
+  Matrix out(t.touches.size(), size);
+  std::vector<double> enc[3], tip[3], d[3];
+  for (std::size_t i = 0; i < t.touches.size(); ++i) {
+    const TouchScene& s = t.touches[i].scene;
+    for (int k = 0; k < 3; ++k) {
+      enc[k].assign(size, s.reading[k]);
+      tip[k].assign(size, s.stylus.tip_from_mount_mm[k]);
+      d[k].assign(size, 0.0);
+    }
+    const double* const encoders[3] = {enc[0].data(), enc[1].data(), enc[2].data()};
+    const double* const tips[3] = {tip[0].data(), tip[1].data(), tip[2].data()};
+    double* const errors[3] = {d[0].data(), d[1].data(), d[2].data()};
+    block.add_error(size, lane.data(), encoders, tips, errors);
+    for (int k = 0; k < size; ++k) out(i, k) = kUmPerMm * dot(s.normal, {d[0][k], d[1][k], d[2][k]});
+  }
+  return out;
+}
+
+/// Mean and covariance of the coefficients over screened machines. The 18 functions are drawn independently, so their covariances are
+/// taken apart; what the screening couples between them is small and would drown in the noise of the sample.
+KnownGeometry ensemble(const Machine& machine, std::uint64_t seed, int threads) {
+  const VirtualMachines sample = screened_machines(machine, seed, kEnsemble, threads);
+  const int basis = basis_size(machine.harmonics), size = kComponents * basis;
+  Matrix values(sample.size(), size);
+  for (int i = 0; i < sample.size(); ++i)
+    for (int k = 0; k < size; ++k) values(i, k) = sample.geometry[i][k];
+  KnownGeometry out{values.colwise().mean(), Matrix::Zero(size, size)};
+  values.rowwise() -= out.mean.transpose();
+  for (int c = 0; c < kComponents; ++c) {
+    const Matrix part = values.middleCols(c * basis, basis);
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(part.transpose() * part / double(sample.size() - 1));
+    out.factor.block(c * basis, c * basis, basis, basis) = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  }
+  return out;
+}
+
+/// Grows a matrix by columns.
+class Columns {
+ public:
+  explicit Columns(Eigen::Index rows) : rows_(rows) {}
+  Vector& add() { return list_.emplace_back(Vector::Zero(rows_)); }
+  void add(const Matrix& m) {
+    for (Eigen::Index k = 0; k < m.cols(); ++k) list_.emplace_back(m.col(k));
+  }
+  int count() const { return static_cast<int>(list_.size()); }
+  Matrix joined() const {
+    Matrix m(rows_, list_.size());
+    for (std::size_t k = 0; k < list_.size(); ++k) m.col(k) = list_[k];
+    return m;
+  }
+
+ private:
+  Eigen::Index rows_;
+  std::vector<Vector> list_;
+};
+
+/// The six unknowns of each placement of the part, about the middle of its touches.
+void add_poses(const RecordedTouches& t, Columns& free) {
+  std::map<int, std::vector<int>> setups;
+  for (std::size_t i = 0; i < t.touches.size(); ++i) setups[t.touches[i].scene.setup].push_back(static_cast<int>(i));
+  for (const auto& [setup, rows] : setups) {
+    Vec3 middle;
+    double extent = 1;
+    for (const int i : rows) middle += t.touches[i].scene.point / double(rows.size());
+    for (const int i : rows) extent = std::max(extent, norm(t.touches[i].scene.point - middle));
+    for (int k = 0; k < 3; ++k) {
+      Vector& shift = free.add();
+      for (const int i : rows) shift(i) = t.touches[i].scene.normal[k];
+      Vector& turn = free.add();
+      for (const int i : rows) {
+        const Vec3 arm = (t.touches[i].scene.point - middle) / extent;
+        turn(i) = cross(arm, t.touches[i].scene.normal)[k];
+      }
+    }
+  }
+}
+
+template <class Key>
+void add_unknown_offsets(const RecordedTouches& t, Key key, Columns& free) {
+  std::map<decltype(key(t.touches[0], 0)), std::vector<int>> groups;
+  for (std::size_t i = 0; i < t.touches.size(); ++i) groups[key(t.touches[i], int(i))].push_back(static_cast<int>(i));
+  for (const auto& [k, rows] : groups) {
+    Vector& offset = free.add();
+    for (const int i : rows) offset(i) = 1;
+  }
+}
+
+/// Errors of the head by indexing visit, and of the qualified tip by stylus and orientation.
+void add_head(const RecordedTouches& t, const Machine& machine, Columns& random) {
+  std::map<std::pair<int, int>, std::vector<int>> visits;
+  std::map<std::tuple<int, double, double, int>, std::vector<int>> qualified;
+  for (std::size_t i = 0; i < t.touches.size(); ++i) {
+    const TouchScene& s = t.touches[i].scene;
+    if (s.stylus.indexed) visits[{s.run, s.visit}].push_back(static_cast<int>(i));
+    qualified[{s.stylus.ordinal, s.stylus.head_a_rad, s.stylus.head_b_rad, s.qualification}].push_back(static_cast<int>(i));
+  }
+  const auto sensitivity = [&](const std::vector<int>& rows, double sd_rad, Vec3 RecordedTouch::* per_rad) {
+    if (sd_rad <= 0) return;
+    Vector& column = random.add();
+    for (const int i : rows) column(i) = kUmPerMm * sd_rad * dot(t.touches[i].scene.normal, t.touches[i].*per_rad);
+  };
+  for (const auto& [visit, rows] : visits) {
+    sensitivity(rows, machine.head.sd_a_rad, &RecordedTouch::per_rad_a_mm);
+    sensitivity(rows, machine.head.sd_b_rad, &RecordedTouch::per_rad_b_mm);
+  }
+  const double probe_um = kUmPerMm * norm(machine.probe.sd_mm) / std::sqrt(3.0);
+  for (const auto& [which, rows] : qualified) {
+    for (int k = 0; k < 3; ++k) {
+      Vector& column = random.add();
+      for (const int i : rows) column(i) = kQualificationShare * probe_um * t.touches[i].scene.normal[k];
+    }
+  }
+}
+
+/// Rows with one stylus have a common noise, where there are enough of them to estimate it.
+void group_noise(const RecordedTouches& t, const Machine& machine, Baseline& out) {
+  constexpr int kEnough = 40;
+  LinearModel& m = out.model;
+  std::map<std::pair<double, double>, std::vector<int>> styli;
+  for (std::size_t i = 0; i < t.touches.size(); ++i) {
+    const StylusScene& s = t.touches[i].scene.stylus;
+    styli[{std::round(s.length_mm), s.radius_mm}].push_back(static_cast<int>(i));
+  }
+  const bool apart = std::all_of(styli.begin(), styli.end(), [](const auto& s) { return int(s.second.size()) >= kEnough; });
+  m.noise_group.assign(t.touches.size(), 0);
+  m.noise_groups = 0;
+  for (const auto& [stylus, rows] : styli) {
+    if (apart || m.noise_groups == 0) {
+      ++m.noise_groups;
+      out.noise_names.push_back(apart ? std::string(t.touches[rows[0]].scene.stylus.name) : "");
+    }
+    for (const int i : rows) m.noise_group[i] = m.noise_groups - 1;
+  }
+  m.noise_um.resize(t.touches.size());
+  constexpr double kLeast_um = 0.01;
+  for (std::size_t i = 0; i < t.touches.size(); ++i) {
+    const Vec3 n = transpose(t.touches[i].scene.stylus.R_WR) * t.touches[i].scene.normal;
+    const Vec3 sd = machine.probe.sd_mm;
+    m.noise_um(i) = std::max(kLeast_um, kUmPerMm * norm(Vec3{n.x * sd.x, n.y * sd.y, n.z * sd.z}));
+  }
+}
+
+}  // namespace
+
+Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const BaselineOptions& options) {
+  const auto n = static_cast<Eigen::Index>(t.touches.size());
+  Baseline out;
+  LinearModel& m = out.model;
+  Columns free(n), random(n);
+  add_poses(t, free);
+  if (options.surfaces == Surfaces::unknown_size)
+    add_unknown_offsets(t, [](const RecordedTouch& touch, int) { return touch.scene.feature; }, free);
+  if (options.surfaces == Surfaces::unknown)
+    add_unknown_offsets(t, [](const RecordedTouch& touch, int) {
+      return std::tuple(touch.scene.feature, std::lround(1e3 * touch.scene.point.x), std::lround(1e3 * touch.scene.point.y), std::lround(1e3 * touch.scene.point.z));
+    }, free);
+  out.geometry_um = perturbed_machines(t, machine);
+  const KnownGeometry known = options.known ? *options.known : options.sampled ? *options.sampled : ensemble(machine, options.seed, options.threads);
+  out.mean = known.mean;
+  out.factor = known.factor;
+  out.surfaces = options.surfaces;
+  const Matrix geometry = out.geometry_um * known.factor;
+  random.add(geometry);
+  m.random_group.assign(random.count(), 0);
+  add_head(t, machine, random);
+  m.random_group.resize(random.count(), 1);
+  m.free = free.joined();
+  m.random = random.joined();
+  if (!options.known) {
+    constexpr double kLine = 2;
+    m.rough = rough_geometry(t, machine, kLine);
+    m.uneven = uneven_functions(t, machine);
+  } else {
+    m.scale_spread = 0.3;            // an earlier recording has found the scale
+    // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.
+    constexpr double kNotFollowed = 0.4;
+    const Matrix rough = rough_geometry(t, machine, 0);
+    m.rough.resize(n, geometry.cols() + rough.cols());
+    m.rough << geometry, kNotFollowed * rough;
+    for (const Matrix& function : uneven_functions(t, machine)) m.uneven.push_back(kNotFollowed * function);
+  }
+  m.y.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) m.y(i) = kUmPerMm * t.touches[i].residual_mm;
+  m.y -= out.geometry_um * out.mean;
+  group_noise(t, machine, out);
+  m.follows.assign(n, 0);
+  for (Eigen::Index i = 1; i < n; ++i) {
+    const TouchScene &a = t.touches[i - 1].scene, &b = t.touches[i].scene;
+    m.follows[i] = a.stylus.ordinal == b.stylus.ordinal && a.setup == b.setup && a.run == b.run && m.noise_group[i] == m.noise_group[i - 1];
+  }
+  return out;
+}
+
+KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, const std::vector<char>& dropped) {
+  const LinearModel m = without_rows(b.model, dropped);
+  Matrix w(m.y.size(), m.free.cols() + m.random.cols());
+  w << m.free, m.random;
+  for (Eigen::Index i = 0; i < w.rows(); ++i) w.row(i) /= m.noise_um(i) * h.noise(m.noise_group[i]);
+  Vector y = m.y;
+  for (Eigen::Index i = 0; i < y.size(); ++i) y(i) /= m.noise_um(i) * h.noise(m.noise_group[i]);
+  Matrix precision = w.transpose() * w;
+  const Eigen::Index free = m.free.cols();
+  // Unknowns without a prior may be undetermined; a variance of (1 m)^2 stands for nothing known.
+  constexpr double kNothingKnown = 1e-12;
+  for (Eigen::Index k = 0; k < precision.rows(); ++k) {
+    if (k < free) precision(k, k) += kNothingKnown;
+    else precision(k, k) += m.random_group[k - free] == 0 ? 1 / (h.scale * h.scale) : 1;
+  }
+  const Eigen::LLT<Matrix> llt(precision);
+  const Vector mean = llt.solve(w.transpose() * y);
+  const Matrix covariance = llt.solve(Matrix::Identity(precision.rows(), precision.cols()));
+  const Eigen::Index size = b.factor.cols();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.block(free, free, size, size));
+  const Matrix root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  return {b.mean + b.factor * mean.segment(free, size), b.factor * root};
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,58 @@
+// The baseline: what the simulated ensemble of virtual machines may do to a recording, as a linear-Gaussian model.
+//
+// The error functions of virtual machines are linear in their coefficients (engine/machine/geometry.hpp). So one run of perturbed
+// machines, each with one coefficient of 1, through the same kernel that simulates touches gives the sensitivities, and the covariance of
+// the coefficients comes from a sample of screened machines: no second physics. The head adds its indexing errors by visit, and every
+// qualified stylus the uncertainty of its qualification. Each setup has a free placement (six unknowns). Surfaces whose true place nobody
+// knows get an unknown each: by feature (its size) or by touch (then only differences between runs are judged).
+//
+// *Fresh*: the covariance follows from the specification alone. *Known machine*: mean and covariance of the coefficients are those that
+// an earlier diagnosis of the same machine left (known_state of the machine file).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/diagnose/model/linear.hpp"
+#include "engine/machine/machine.hpp"
+#include "engine/run/recorded_touch.hpp"
+
+namespace abbe::diagnose {
+
+/// What is known of the coefficients of the error functions beyond the specification; mm, rad.
+struct KnownGeometry {
+  Vector mean;
+  Matrix factor;                    ///< covariance = factor factor'
+};
+
+/// Whether the true places of surfaces are known.
+enum class Surfaces { calibrated, unknown_size, unknown };
+
+struct BaselineOptions {
+  Surfaces surfaces = Surfaces::calibrated;
+  const KnownGeometry* known = nullptr;
+  std::uint64_t seed = 1;
+  int threads = 1;
+  const KnownGeometry* sampled = nullptr;  ///< what the specification gives, when it was sampled before
+};
+
+struct Baseline {
+  LinearModel model;
+  Matrix geometry_um;               ///< rows x coefficients: um per unit coefficient
+  Matrix factor;                    ///< covariance of the coefficients = factor factor', before its scale is estimated
+  Vector mean;                      ///< of the coefficients
+  Surfaces surfaces = Surfaces::calibrated;
+  std::vector<std::string> noise_names;  ///< of the groups of rows with a common noise
+};
+
+Baseline baseline_of(const RecordedTouches&, const Machine&, const BaselineOptions&);
+
+/// Standard deviation of a qualified tip centre, over that of the probe: a sphere of eight touches (3 / 8 of the variance of one).
+inline constexpr double kQualificationShare = 0.6;
+/// Machines that the covariance of the coefficients is taken from.
+inline constexpr int kEnsemble = 800;
+
+/// Mean and covariance of the coefficients given the recording: what a later diagnosis may start from.
+KnownGeometry posterior(const Baseline&, const Hyperparameters&, const std::vector<char>& dropped);
+
+}  // namespace abbe::diagnose

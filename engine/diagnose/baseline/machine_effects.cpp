@@ -1,0 +1,44 @@
+#include "engine/diagnose/baseline/machine_effects.hpp"
+
+#include <cmath>
+#include <map>
+
+namespace abbe::diagnose {
+
+namespace {
+
+void append(LinearModel& m, const Vector& column) {
+  if (column.squaredNorm() == 0) return;
+  m.random.conservativeResize(Eigen::NoChange, m.random.cols() + 1);
+  m.random.rightCols(1) = column;
+  m.random_group.push_back(1);
+}
+
+}  // namespace
+
+void remove_estimates(const EffectSet& effects, RecordedTouches& t) {
+  for (RecordedTouch& touch : t.touches) touch.residual_mm -= dot(touch.scene.normal, effects.estimate(touch));
+}
+
+void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& baseline) {
+  LinearModel& m = baseline.model;
+  for (const EffectSet::Doubt& doubt : effects.doubts()) {
+    Vector column(m.y.size());
+    for (Eigen::Index i = 0; i < column.size(); ++i) {
+      const RecordedTouch& touch = t.touches[static_cast<std::size_t>(i)];
+      column(i) = kUmPerMm * dot(touch.scene.normal, effects.one_sd(doubt, touch));
+    }
+    if (doubt.per == DrawsPer::touch) {
+      m.noise_um = (m.noise_um.array().square() + column.array().square()).sqrt();
+    } else if (doubt.per == DrawsPer::visit) {
+      std::map<int, Vector> visits;
+      for (Eigen::Index i = 0; i < column.size(); ++i)
+        visits.try_emplace(t.touches[static_cast<std::size_t>(i)].scene.visit, Vector::Zero(column.size())).first->second(i) = column(i);
+      for (const auto& [visit, part] : visits) append(m, part);
+    } else {
+      append(m, column);
+    }
+  }
+}
+
+}  // namespace abbe::diagnose

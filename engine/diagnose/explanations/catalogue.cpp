@@ -1,0 +1,312 @@
+// From the registry of effects to explanations: no physics here, only the effects' own displacements on the recorded scenes.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/explanations/search_grid.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// Covariates that must not only be known but differ, or nothing of the effect can be told from a constant.
+constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::acceleration | Covariate::part_temperature |
+                               Covariate::scale_temperature | Covariate::air_temperature | Covariate::load;
+/// Covariates that a scene has by itself, whatever was logged.
+constexpr unsigned kImplied = Covariate::gradients | Covariate::qualification | Covariate::visit;
+
+unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
+  const unsigned absent = effect.needs & ~(t.known | kImplied);
+  const unsigned constant = effect.needs & kMustVary & t.known & ~t.varying;
+  return absent | constant;
+}
+
+/// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation, though one that cannot be
+/// judged: a deviation from 20 degrees C that nobody noted, a load that nobody weighed.
+TouchScene with_surrogates(TouchScene scene, unsigned known) {
+  const auto unknown = [known](Covariate c) { return (known & static_cast<unsigned>(c)) == 0; };
+  if (unknown(Covariate::part_temperature)) scene.temperature.part = 21;
+  if (unknown(Covariate::scale_temperature)) std::fill(scene.temperature.scale, scene.temperature.scale + 3, 21.0);
+  if (unknown(Covariate::load)) scene.load_kg = 100;
+  return scene;
+}
+
+/// The component along the normals of an effect's displacement, um.
+class Evaluation {
+ public:
+  Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
+    for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t.known));
+  }
+
+  Vector column(const std::vector<double>& theta, int from_run, const std::vector<double>& draws, int visit = -1) const {
+    Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes_.size()));
+    const std::vector<double> none(draws.size(), 0.0);
+    for (std::size_t i = 0; i < scenes_.size(); ++i) {
+      if (scenes_[i].run < from_run) continue;
+      const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
+      r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
+    }
+    return r;
+  }
+
+  /// Every run but that of the lowest number, with the moment between it and the touch before, s.
+  std::map<int, double> later_runs() const {
+    std::map<int, double> begin;
+    double before = scenes_.front().time_s;
+    for (const TouchScene& s : scenes_) begin.emplace(s.run, (std::exchange(before, s.time_s) + s.time_s) / 2);
+    begin.erase(begin.begin());
+    return begin;
+  }
+
+  std::set<int> visits() const {
+    std::set<int> list;
+    for (const TouchScene& s : scenes_) list.insert(s.visit);
+    return list;
+  }
+
+ private:
+  const Effect& effect_;
+  std::vector<TouchScene> scenes_;
+};
+
+/// Every combination of the values tried, with what each stands for.
+std::vector<Block> settings(const Effect& effect, const std::vector<Search>& search) {
+  std::vector<Block> list(1);
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+    const bool linear = effect.parameters[p].linear, varied = !linear && search[p].kind == Search::Kind::tried;
+    const std::vector<double> values = linear ? std::vector{0.0} : varied ? search[p].values : std::vector{search[p].values[0]};
+    const std::vector<Cell> cells = varied ? cells_of(search[p]) : std::vector<Cell>{{values[0], values[0]}};
+    std::vector<Block> longer;
+    for (const Block& prefix : list) {
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        longer.push_back(prefix);
+        longer.back().theta.push_back(values[k]);
+        longer.back().cells.push_back(cells[k]);
+      }
+    }
+    list = std::move(longer);
+  }
+  return list;
+}
+
+std::optional<std::size_t> moment_of(const Effect& effect) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].name == "t0_s") return p;
+  return std::nullopt;
+}
+
+/// The same from each run but the first on: what is new in a run, after a crash, a mend or a change of the weather. What happens at a moment
+/// happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by itself.
+std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::map<int, double>& later_runs) {
+  const std::optional<std::size_t> moment = moment_of(effect);
+  const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
+  if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
+  const std::vector<Block> in_all = list;
+  for (const auto& [run, begin_s] : later_runs) {
+    for (Block block : in_all) {
+      if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
+      if (moment) block.theta[*moment] = begin_s, block.cells[*moment] = {begin_s, begin_s};
+      block.from_run = run;
+      list.push_back(std::move(block));
+    }
+  }
+  return list;
+}
+
+/// The columns of one variant: each linear parameter by itself, along each direction and phase that is spanned.
+class VariantColumns {
+ public:
+  VariantColumns(const Effect& effect, const std::vector<Search>& search, const Evaluation& evaluate) : effect_(effect), evaluate_(evaluate) {
+    for (std::size_t p = 0; p < search.size(); ++p) {
+      if (search[p].kind == Search::Kind::direction) direction_ = static_cast<int>(p);
+      if (search[p].kind == Search::Kind::phase) phases_.push_back(static_cast<int>(p));
+    }
+  }
+
+  void fill(Block& block) const {
+    for (std::size_t p = 0; p < effect_.parameters.size(); ++p)
+      if (effect_.parameters[p].linear) add_parameter(static_cast<int>(p), block);
+    if (effect_.draws > 0) {
+      block.signature = compressed(block.signature);
+      block.joined = true;
+    }
+  }
+
+ private:
+  void add_parameter(int p, Block& block) const {
+    const double unit = effect_.parameters[p].typical;
+    for (int d = 0; d < (direction_ >= 0 ? 3 : 1); ++d) {
+      for (int phase = 0; phase < (phases_.empty() ? 1 : 2); ++phase) {
+        std::vector<double> theta = block.theta;
+        theta[p] = unit;
+        if (direction_ >= 0) theta[direction_] = d;
+        for (const int at : phases_) theta[at] = 90.0 * phase;
+        const Column column{p, d + 3 * phase, unit};
+        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, block.from_run, {}));
+        else add_draws(theta, column, block);
+      }
+    }
+  }
+
+  void add_draws(const std::vector<double>& theta, const Column& column, Block& block) const {
+    const std::set<int> visits = effect_.draws_per == DrawsPer::visit ? evaluate_.visits() : std::set<int>{-1};
+    for (int j = 0; j < effect_.draws; ++j) {
+      std::vector<double> z(effect_.draws, 0.0);
+      z[j] = 1;
+      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.from_run, z, visit));
+    }
+  }
+
+  static void append(Block& block, const Column& column, const Vector& values) {
+    constexpr double kNothing_um = 1e-6;
+    if (values.cwiseAbs().maxCoeff() < kNothing_um) return;
+    block.columns.push_back(column);
+    block.signature.conservativeResize(values.size(), block.signature.cols() + 1);
+    block.signature.col(block.signature.cols() - 1) = values;
+  }
+
+  const Effect& effect_;
+  const Evaluation& evaluate_;
+  int direction_ = -1;
+  std::vector<int> phases_;
+};
+
+/// Whether an earlier variant of the same explanation has the same columns: it turns on a parameter without influence here.
+bool repeats(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
+  for (const int k : of.blocks) {
+    const Matrix& other = blocks[k].signature;
+    if (other.cols() == block.signature.cols() && (other - block.signature).cwiseAbs().maxCoeff() < 1e-9) return true;
+  }
+  return false;
+}
+
+/// In what an effect shows first: what it needs, the rarest covariate first.
+Factor factor_of(const Effect& effect) {
+  const std::pair<unsigned, Factor> order[] = {
+      {Covariate::part_temperature | Covariate::scale_temperature | Covariate::air_temperature, Factor::temperature},
+      {0u | Covariate::speed, Factor::speed},
+      {Covariate::direction | Covariate::acceleration, Factor::direction},
+      {0u | Covariate::time, Factor::time},
+      {Covariate::head | Covariate::visit, Factor::head},
+      {0u | Covariate::sensor, Factor::sensor},
+      {0u | Covariate::part_frame, Factor::feature},
+      {Covariate::position | Covariate::raw_reading, Factor::position}};
+  for (const auto& [covariates, factor] : order)
+    if (effect.needs & covariates) return factor;
+  return Factor::direction;
+}
+
+/// Belief before the data that what is found is new in a later run, of what may be in all.
+constexpr double kPriorChange = 0.1;
+
+/// The names share their belief equally, and so do the patterns, but for those that only a change between runs makes.
+void share_priors(Explanations& all) {
+  const auto weight = [](const Explanation& e) { return !e.effect && e.factor == Factor::run ? kPriorChange : 1; };
+  double named = 0, patterns = 0;
+  for (const Explanation& e : all.list) (e.effect ? named : patterns) += weight(e);
+  for (Explanation& e : all.list) e.prior = weight(e) * (e.effect ? kPriorCatalogue / named : kPriorOther / patterns);
+}
+
+/// Effects of the noise change no mean: they are judged by the variance (noise_effects.hpp).
+bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
+
+std::vector<Search> searches(const Effect& effect, const RecordedTouches& t) {
+  std::vector<Search> list;
+  for (const EffectParameter& p : effect.parameters) list.push_back(search_of(p, t));
+  return list;
+}
+
+void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  Explanation explanation;
+  explanation.name = std::string(effect.name);
+  explanation.effect = &effect;
+  explanation.factor = factor_of(effect);
+  explanation.missing = missing_of(effect, t);
+  const std::vector<Search> search = searches(effect, t);
+  const Evaluation evaluation(effect, t, rows);
+  const VariantColumns variant(effect, search, evaluation);
+  for (Block& block : with_changes(settings(effect, search), effect, evaluation.later_runs())) {
+    block.explanation = static_cast<int>(out.list.size());
+    variant.fill(block);
+    if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
+    explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
+    out.blocks.push_back(std::move(block));
+  }
+  share_belief(explanation, out.blocks);
+  if (explanation.missing || explanation.blocks.empty()) out.unjudged.push_back({&effect, explanation.missing});
+  if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
+}
+
+void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out) {
+  for (const Effect* effect : effects())
+    if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings) add_effect(*effect, t, rows, out);
+}
+
+}  // namespace
+
+std::string_view name(Factor f) {
+  constexpr std::string_view names[] = {"time", "position", "direction", "head", "sensor", "setup", "feature", "run", "temperature", "speed"};
+  return names[static_cast<int>(f)];
+}
+
+Block variant_at(const Effect& effect, const std::vector<double>& theta, int from_run, const RecordedTouches& t, const std::vector<int>& rows) {
+  Block block;
+  block.theta = theta;
+  block.from_run = from_run;
+  VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
+  return block;
+}
+
+void share_belief(const Explanation& e, std::vector<Block>& blocks) {
+  const auto changes = [&](int b) { return blocks[static_cast<std::size_t>(b)].from_run > 0; };
+  const auto changing = static_cast<double>(std::count_if(e.blocks.begin(), e.blocks.end(), changes)), all = double(e.blocks.size());
+  const double share = changing == 0 ? 0 : changing == all ? 1 : kPriorChange;
+  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = changes(b) ? share / changing : (1 - share) / (all - changing);
+}
+
+Matrix compressed(const Matrix& m) {
+  if (m.cols() == 0) return m;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(m.transpose() * m);
+  const Vector& values = solver.eigenvalues();
+  const double least = 1e-6 * values(values.size() - 1);
+  Eigen::Index first = 0;
+  while (first < values.size() - 1 && values(first) < least) ++first;
+  return m * solver.eigenvectors().rightCols(values.size() - first);
+}
+
+Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows, const std::vector<std::string>& names) {
+  Explanations out;
+  for (const std::string& name : names) add_effect(*find_effect(name), t, rows, out);
+  for (Explanation& e : out.list) e.prior = 1.0 / double(out.list.size());
+  return out;
+}
+
+Explanations explanations_without_readings(const RecordedTouches& t, const std::vector<int>& rows) {
+  Explanations out;
+  add_catalogue(t, rows, false, out);
+  add_other(t, rows, out);
+  share_priors(out);
+  return out;
+}
+
+void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  add_catalogue(t, rows, true, out);
+  share_priors(out);
+}
+
+std::vector<CannotJudge> cannot_judge(const Explanations& all) {
+  std::vector<CannotJudge> out;
+  for (const Effect* effect : effects()) {
+    for (const Explanations::Unjudged& u : all.unjudged) {
+      if (u.effect == effect) out.push_back({std::string(effect->name), columns_of(u.missing)});
+    }
+  }
+  return out;
+}
+
+}  // namespace abbe::diagnose

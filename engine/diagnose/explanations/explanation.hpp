@@ -1,0 +1,96 @@
+// What may explain a mismatch: every effect of the registry, and OTHER, a flexible pattern in each factor for physics that the catalogue
+// does not have. An explanation is a list of blocks (its variants: which axis, which period, which moment); a block is a set of columns,
+// um per prior standard deviation, whose coefficients are drawn together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/model/linear.hpp"
+#include "engine/run/recorded_touch.hpp"
+
+namespace abbe::diagnose {
+
+/// Signal-to-noise at which a search over the whole catalogue detects, and names, with a power of 80 % at 1 % false alarms.
+inline constexpr double kDetects = 4.5, kNames = 5.5;
+/// Share of the information beyond which nothing is left to tell two effects apart.
+inline constexpr double kInseparable = 0.03;
+/// Share of the information that a rival takes from which on the two are called confounded.
+inline constexpr double kConfounded = 0.7;
+
+/// In what a mismatch lies (interfaces: "location").
+enum class Factor { time, position, direction, head, sensor, setup, feature, run, temperature, speed };
+std::string_view name(Factor);
+
+/// One column of a block before its columns are joined: which linear parameter (or draw) it belongs to.
+struct Column {
+  int parameter = -1;             ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
+  int part = 0;                   ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
+  double unit = 1;                ///< parameter value of one prior standard deviation
+};
+
+/// The values of a parameter that one value stands for.
+struct Cell {
+  double low = 0, high = 0;
+};
+
+struct Block {
+  int explanation = 0;
+  std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
+  std::vector<Cell> cells;        ///< by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is possible
+  int from_run = 0;               ///< acts from this run on: what changed between runs; 0: in all
+  double weight = 1;              ///< belief before the data in this variant, among those of its explanation
+  bool finest = false;            ///< no touch tells the values within its cells apart
+  std::vector<Column> columns;
+  Matrix signature;               ///< rows x columns, um per prior standard deviation
+  bool joined = false;            ///< columns are combinations of the original ones: no parameter can be read from them
+};
+
+struct Explanation {
+  std::string name;               ///< of the effect, or "OTHER time"
+  const Effect* effect = nullptr; ///< none: OTHER
+  Factor factor = Factor::position;
+  std::string shape;              ///< of OTHER: "smooth", "quick", ...
+  bool of_one_factor = false;     ///< of OTHER: a function of its factor alone, which an empirical effect can follow
+  double prior = 0;               ///< probability among all explanations
+  unsigned missing = 0;           ///< covariates that are absent or constant: it cannot be judged
+  std::vector<int> blocks;
+};
+
+struct Explanations {
+  std::vector<Explanation> list;
+  std::vector<Block> blocks;
+  struct Unjudged {
+    const Effect* effect;
+    unsigned missing;
+  };
+  std::vector<Unjudged> unjudged; ///< effects that this recording cannot judge
+};
+
+/// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
+inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
+/// Every explanation for these touches but those that look at raw readings, which are added once the readings are free of noise
+/// (own_noise.cpp); `rows`: which touches take part.
+Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
+void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+
+/// What cannot be judged, in the order of the catalogue, with the columns that are missing.
+std::vector<CannotJudge> cannot_judge(const Explanations&);
+
+/// The effects of these names only, in the order of the names.
+Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows, const std::vector<std::string>& names);
+
+/// Appends the blocks of OTHER (patterns/).
+void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+
+/// A variant of an effect at these parameters, from this run on (0: in all); no columns where the effect does nothing there.
+Block variant_at(const Effect&, const std::vector<double>& theta, int from_run, const RecordedTouches&, const std::vector<int>& rows);
+
+/// Belief in each variant of an explanation: the same, but for those that are new in a run, which hold a tenth together.
+void share_belief(const Explanation&, std::vector<Block>&);
+
+/// The same space with as few orthogonal columns as its rank needs.
+Matrix compressed(const Matrix&);
+
+}  // namespace abbe::diagnose

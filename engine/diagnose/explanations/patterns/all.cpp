@@ -1,0 +1,42 @@
+// Every family of patterns.
+#include "engine/diagnose/explanations/patterns/families.hpp"
+
+namespace abbe::diagnose {
+
+namespace patterns {
+
+void Family::append(std::string shape, const std::vector<Matrix>& variants, bool of_one_factor) {
+  Explanation e;
+  e.name = "OTHER " + std::string(name(factor_)) + ", " + shape;
+  e.factor = factor_;
+  e.shape = std::move(shape);
+  e.of_one_factor = of_one_factor;
+  for (const Matrix& columns : variants) {
+    Block block;
+    block.explanation = static_cast<int>(out_.list.size());
+    block.signature = compressed(columns);
+    block.columns.assign(static_cast<std::size_t>(block.signature.cols()), {});
+    block.joined = true;
+    e.blocks.push_back(static_cast<int>(out_.blocks.size()));
+    out_.blocks.push_back(std::move(block));
+  }
+  share_belief(e, out_.blocks);
+  out_.list.push_back(std::move(e));
+}
+
+}  // namespace patterns
+
+void add_other(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+  using namespace patterns;
+  constexpr std::pair<Factor, void (*)(const TouchFactors&, Family&)> families[] = {
+      {Factor::time, over_time},     {Factor::position, over_position}, {Factor::direction, over_direction}, {Factor::head, over_head},
+      {Factor::sensor, over_sensor}, {Factor::feature, over_feature},   {Factor::setup, over_setup},         {Factor::run, over_run},
+      {Factor::speed, over_speed},   {Factor::temperature, over_temperature}};
+  const TouchFactors factors(t, rows);
+  for (const auto& [factor, add] : families) {
+    Family family(factor, out);
+    add(factors, family);
+  }
+}
+
+}  // namespace abbe::diagnose

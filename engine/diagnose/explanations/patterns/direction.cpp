@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/explanations/patterns/families.hpp"
+
+namespace abbe::diagnose::patterns {
+
+namespace {
+
+/// Two to nine lobes about the axis of the probe, greatest on its equator: fixed to the probe.
+std::vector<Matrix> lobes(const TouchFactors& f) {
+  std::vector<Matrix> out;
+  for (int count = 2; count <= 9; ++count) {
+    Matrix m(f.normal_on_probe.size(), 2);
+    for (std::size_t i = 0; i < f.normal_on_probe.size(); ++i) {
+      const Vec3& n = f.normal_on_probe[i];
+      const double angle = count * std::atan2(n.y, n.x), equator = n.x * n.x + n.y * n.y;
+      m.row(static_cast<Eigen::Index>(i)) << equator * std::cos(angle), equator * std::sin(angle);
+    }
+    out.push_back(std::move(m));
+  }
+  return out;
+}
+
+/// What oblique approaches drag along the surface, in proportion or by its direction alone; of all styli alike, or of each by itself.
+std::vector<Matrix> skidding(const TouchFactors& f) {
+  constexpr double kNone = 0.02;
+  Directions way = f.skid;
+  for (Vec3& v : way) v = v / std::max(norm(v), kNone);
+  const Matrix over = side_by_side(constant(f.skid.size()), smooth(as_points(f.normal_on_probe), 0.9, 8));
+  std::vector<Matrix> out;
+  for (const Directions& dragged : {f.skid, way}) {
+    out.push_back(along(over, dragged));
+    if (several(f.sensor)) out.push_back(by_group(out.back(), f.sensor));
+  }
+  return out;
+}
+
+}  // namespace
+
+void over_direction(const TouchFactors& f, Family& family) {
+  const Points normal = as_points(f.normal);
+  family.add("smooth", smooth(normal, 0.6, 40));
+  family.add_joint("in time", products(smooth(normal, 0.9, 8), smooth(f.time, 0.2, 8)));
+  family.add_joint("over position", products(smooth(normal, 0.9, 8), linear(f.place)));
+  if (f.oblique) {
+    family.add_joint("of travel", smooth(as_points(f.travel), 0.6, 40));
+    family.add_joint("of skidding", skidding(f));
+  }
+  if (several(f.orientation)) {
+    family.add("on the probe", smooth(as_points(f.normal_on_probe), 0.6, 40));
+    family.add("lobes", lobes(f));
+  }
+}
+
+}  // namespace abbe::diagnose::patterns

@@ -1,0 +1,139 @@
+#include "engine/diagnose/explanations/patterns/functions.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace abbe::diagnose::patterns {
+
+namespace {
+
+double squared_distance(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+  return sum;
+}
+
+/// Functions of the points with a covariance of their squared distance.
+template <class Covariance>
+Matrix functions(const Points& points, const Points& at, Covariance covariance) {
+  const auto kernel = [&](const Points& a, const Points& b) {
+    Matrix k(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j) k(i, j) = covariance(squared_distance(a[i], b[j]));
+    return k;
+  };
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(kernel(at, at) + 1e-6 * Matrix::Identity(at.size(), at.size()));
+  return kernel(points, at) * solver.operatorInverseSqrt();
+}
+
+}  // namespace
+
+Matrix smooth(const Points& points, double length, int most) {
+  return functions(points, centres(points, length, most), [&](double d2) { return std::exp(-d2 / (2 * length * length)); });
+}
+
+Matrix rugged(const Points& points, double length, int most) {
+  return functions(points, centres(points, 4.0 / most, most), [&](double d2) { return std::exp(-std::sqrt(d2) / length); });
+}
+
+Points centres(const Points& points, double length, int most) {
+  Points chosen{points.front()};
+  std::vector<double> nearest(points.size(), 1e300);
+  while (static_cast<int>(chosen.size()) < most) {
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      nearest[i] = std::min(nearest[i], squared_distance(points[i], chosen.back()));
+      if (nearest[i] > nearest[far]) far = i;
+    }
+    if (nearest[far] < length * length / 4) break;
+    chosen.push_back(points[far]);
+  }
+  return chosen;
+}
+
+Matrix bump(const Points& points, const std::vector<double>& centre, double width) {
+  Matrix out(points.size(), 1);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out(static_cast<Eigen::Index>(i), 0) = std::exp(-squared_distance(points[i], centre) / (2 * width * width));
+  return out;
+}
+
+Matrix constant(std::size_t rows) { return Matrix::Ones(static_cast<Eigen::Index>(rows), 1); }
+
+Matrix linear(const Points& points) {
+  Matrix m(points.size(), 1 + points.front().size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    m(row, 0) = 1;
+    for (std::size_t k = 0; k < points[i].size(); ++k) m(row, static_cast<Eigen::Index>(k) + 1) = points[i][k];
+  }
+  return m;
+}
+
+Vector from_middle(const Points& line) {
+  Vector v(static_cast<Eigen::Index>(line.size()));
+  for (std::size_t i = 0; i < line.size(); ++i) v(static_cast<Eigen::Index>(i)) = 2 * line[i][0] - 1;
+  return v;
+}
+
+Vector component(const Directions& directions, int axis) {
+  Vector v(static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i) v(static_cast<Eigen::Index>(i)) = directions[i][axis];
+  return v;
+}
+
+Points as_points(const Directions& directions) {
+  Points out;
+  for (const Vec3& d : directions) out.push_back({d.x, d.y, d.z});
+  return out;
+}
+
+Matrix along(const Matrix& field, const Directions& directions) {
+  Matrix out(field.rows(), 3 * field.cols());
+  for (int k = 0; k < 3; ++k) out.middleCols(k * field.cols(), field.cols()) = component(directions, k).asDiagonal() * field;
+  return out;
+}
+
+std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions& directions) {
+  std::vector<Matrix> out{along(field, directions)};
+  for (int code = 14; code < 27; ++code) {   // the half of the 27 directions with components -1, 0, 1 that is after the middle
+    const Vec3 d{double(code / 9 - 1), double(code / 3 % 3 - 1), double(code % 3 - 1)};
+    Vector share(field.rows());
+    for (Eigen::Index i = 0; i < field.rows(); ++i) share(i) = dot(directions[static_cast<std::size_t>(i)], d) / norm(d);
+    out.push_back(share.asDiagonal() * field);
+  }
+  return out;
+}
+
+Matrix indicator(const std::vector<int>& group) {
+  std::map<int, int> index;
+  for (const int g : group) index.emplace(g, 0);
+  int next = 0;
+  for (auto& [g, i] : index) i = next++;
+  Matrix out = Matrix::Zero(group.size(), next);
+  for (std::size_t i = 0; i < group.size(); ++i) out(i, index[group[i]]) = 1;
+  return out;
+}
+
+Matrix by_group(const Matrix& columns, const std::vector<int>& group) {
+  const Matrix in = indicator(group);
+  Matrix out = Matrix::Zero(columns.rows(), columns.cols() * in.cols());
+  for (Eigen::Index g = 0; g < in.cols(); ++g) out.middleCols(g * columns.cols(), columns.cols()) = in.col(g).asDiagonal() * columns;
+  return out;
+}
+
+Matrix products(const Matrix& a, const Matrix& b) {
+  Matrix out(a.rows(), a.cols() * b.cols());
+  for (Eigen::Index k = 0; k < b.cols(); ++k) out.middleCols(k * a.cols(), a.cols()) = b.col(k).asDiagonal() * a;
+  return out;
+}
+
+Matrix side_by_side(const Matrix& a, const Matrix& b) {
+  Matrix out(a.rows(), a.cols() + b.cols());
+  out << a, b;
+  return out;
+}
+
+}  // namespace abbe::diagnose::patterns

@@ -1,0 +1,75 @@
+#include <cmath>
+
+#include "engine/diagnose/explanations/patterns/families.hpp"
+
+namespace abbe::diagnose::patterns {
+
+namespace {
+
+/// One axis shifts and stretches along itself.
+std::vector<Matrix> stretching(const TouchFactors& f) {
+  std::vector<Matrix> out;
+  const Matrix course = rugged(f.time, 0.2, 20);
+  for (int k = 0; k < 3; ++k)
+    out.push_back(component(f.normal, k).asDiagonal() * products(side_by_side(constant(f.time.size()), from_middle(f.reading[k])), course));
+  return out;
+}
+
+/// One axis is off by the distance along another.
+std::vector<Matrix> leaning(const TouchFactors& f) {
+  std::vector<Matrix> out;
+  const Matrix course = rugged(f.time, 0.2, 20);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      if (j != k) out.push_back(Vector(component(f.normal, k).array() * from_middle(f.reading[j]).array()).asDiagonal() * course);
+  return out;
+}
+
+/// The part turns about its middle, back and forth at one frequency.
+std::vector<Matrix> turning(const TouchFactors& f) {
+  constexpr int kMostHalfCycles = 24;
+  Vec3 middle;
+  for (const auto& p : f.place) middle += Vec3{p[0], p[1], p[2]} / double(f.place.size());
+  Directions turned;
+  for (std::size_t i = 0; i < f.place.size(); ++i) turned.push_back(cross(Vec3{f.place[i][0], f.place[i][1], f.place[i][2]} - middle, f.normal[i]));
+  std::vector<Matrix> out;
+  for (int half_cycles = 1; half_cycles <= kMostHalfCycles; ++half_cycles) {
+    Matrix wave(f.time.size(), 2);
+    for (std::size_t i = 0; i < f.time.size(); ++i) {
+      const double phase = kPi * half_cycles * f.time[i][0];
+      wave.row(static_cast<Eigen::Index>(i)) << std::cos(phase), std::sin(phase);
+    }
+    out.push_back(along(wave, turned));
+  }
+  return out;
+}
+
+/// The probe moves on the head, in every direction or along one of its axes.
+std::vector<Matrix> on_the_probe(const TouchFactors& f) {
+  const Matrix course = rugged(f.time, 0.2, 24);
+  std::vector<Matrix> out{along(course, f.normal_on_probe)};
+  for (int k = 0; k < 3; ++k) out.push_back(component(f.normal_on_probe, k).asDiagonal() * course);
+  return out;
+}
+
+/// What gathers on the tip, or wears off it, with every touch and not with the clock: on all styli alike, or on each by itself.
+std::vector<Matrix> sizes_along_the_sequence(const TouchFactors& f) {
+  std::vector<Matrix> out{rugged(f.touch, 0.2, 40)};
+  if (several(f.sensor)) out.push_back(by_group(rugged(f.touch, 0.2, 24), f.sensor));
+  return out;
+}
+
+}  // namespace
+
+void over_time(const TouchFactors& f, Family& family) {
+  family.add("slow", along(smooth(f.time, 0.3, 8), f.normal));
+  family.add("quick", along(smooth(f.time, 0.07, 22), f.normal));
+  family.add("rugged", along_all_or_one(rugged(f.time, 0.2, 40), f.normal));
+  family.add_joint("stretching", stretching(f));
+  family.add_joint("leaning", leaning(f));
+  family.add_joint("turning to and fro", turning(f));
+  family.add_joint("size along the sequence", sizes_along_the_sequence(f));
+  if (several(f.orientation)) family.add_joint("on the probe", on_the_probe(f));
+}
+
+}  // namespace abbe::diagnose::patterns

@@ -1,0 +1,98 @@
+#include "engine/diagnose/explanations/patterns/touch_factors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace abbe::diagnose::patterns {
+
+namespace {
+
+/// Cosine of the angle between an approach and the surface's normal beyond which the two differ: 1.8 degrees.
+constexpr double kStraight = 0.9995;
+constexpr double kLever_mm = 100;
+
+/// From 0 to 1 along the longest extent, the others in proportion.
+void onto_unit(Points& points) {
+  std::vector<double> low(points.front()), high(points.front());
+  for (const auto& p : points)
+    for (std::size_t k = 0; k < p.size(); ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  double extent = 1e-9;
+  for (std::size_t k = 0; k < low.size(); ++k) extent = std::max(extent, high[k] - low[k]);
+  for (auto& p : points)
+    for (std::size_t k = 0; k < p.size(); ++k) p[k] = (p[k] - low[k]) / extent;
+}
+
+/// The number of a key, in the order of their first use.
+template <class Key>
+int ordinal(std::map<Key, int>& known, const Key& key) {
+  return known.emplace(key, static_cast<int>(known.size())).first->second;
+}
+
+}  // namespace
+
+TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& rows)
+    : part_above_20(static_cast<Eigen::Index>(rows.size())) {
+  std::map<std::pair<double, double>, int> orientations, dynamics_used;
+  std::map<std::array<int, 3>, double> begun;
+  for (Vector& v : scale_above_20) v.resize(part_above_20.size());
+  const double first_s = t.touches.front().scene.time_s, last_s = t.touches.back().scene.time_s;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const TouchScene& s = t.touches[static_cast<std::size_t>(rows[i])].scene;
+    const auto on_probe = [&](const Vec3& v) { return transpose(s.stylus.R_WR) * v; };
+    time.push_back({(s.time_s - first_s) / std::max(1.0, last_s - first_s)});
+    touch.push_back({double(i)});
+    settled.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, s.visit}, s.time_s).first->second});
+    clamped.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, -1}, s.time_s).first->second});
+    for (int k = 0; k < 3; ++k) reading[k].push_back({s.reading[k]});
+    place.push_back({s.point.x, s.point.y, s.point.z});
+    normal.push_back(s.normal);
+    normal_on_part.push_back(s.normal_on_part);
+    normal_on_probe.push_back(on_probe(s.normal));
+    turned.push_back(cross(-s.stylus.length_mm / kLever_mm * s.stylus.to_head, s.normal));   // n . (w x l) = w . (l x n)
+    travel.push_back(s.travel);
+    travel_on_probe.push_back(on_probe(s.travel));
+    skid.push_back(on_probe(s.travel - dot(s.travel, s.normal) * s.normal));
+    oblique = oblique || dot(s.travel, s.normal) > -kStraight;
+    orientation.push_back(ordinal(orientations, {s.stylus.head_a_rad, s.stylus.head_b_rad}));
+    sensor.push_back(s.stylus.ordinal);
+    feature.push_back(s.feature);
+    setup.push_back(s.setup);
+    run.push_back(s.run);
+    speed.push_back(static_cast<int>(std::lround(1000 * s.speed_mm_s)));
+    dynamics.push_back(ordinal(dynamics_used, {s.speed_mm_s, s.acceleration_mm_s2}));
+    const auto row = static_cast<Eigen::Index>(i);
+    part_above_20(row) = s.temperature.part - 20;
+    for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - 20;
+  }
+  onto_unit(touch), onto_unit(settled), onto_unit(clamped), onto_unit(place);
+  for (Points& r : reading) onto_unit(r);
+}
+
+bool several(const std::vector<int>& group) {
+  return std::any_of(group.begin(), group.end(), [&](int g) { return g != group.front(); });
+}
+
+bool differ(const Vector& temperature) {
+  constexpr double kDiffers_K = 0.1;
+  return temperature.maxCoeff() - temperature.minCoeff() > kDiffers_K;
+}
+
+Matrix trend(const TouchFactors& f) {
+  Matrix m(f.time.size(), 2);
+  for (std::size_t i = 0; i < f.time.size(); ++i) {
+    const double t = f.time[i][0] - 0.5;
+    m.row(static_cast<Eigen::Index>(i)) << 2 * t, 2 * t * t;
+  }
+  return m;
+}
+
+Matrix settling(const Points& since) {
+  Matrix m(since.size(), 2);
+  for (std::size_t i = 0; i < since.size(); ++i) m.row(static_cast<Eigen::Index>(i)) << since[i][0], std::sqrt(since[i][0]);
+  return m;
+}
+
+}  // namespace abbe::diagnose::patterns

@@ -1,0 +1,108 @@
+#include "engine/diagnose/explanations/search_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr int kMoments = 32, kFrequencies = 28, kPlaces = 9;
+
+double duration(const RecordedTouches& t) { return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s); }
+
+/// Moments between touches, evenly over the sequence: a step cannot be placed better than between two touches.
+std::vector<double> moments(const RecordedTouches& t) {
+  std::vector<double> list;
+  const int n = static_cast<int>(t.touches.size());
+  const int count = std::min(kMoments, n - 1);
+  for (int k = 1; k <= count; ++k) {
+    const int i = std::clamp(static_cast<int>(std::lround(double(k) * n / (count + 1))), 1, n - 1);
+    list.push_back((t.touches[i - 1].scene.time_s + t.touches[i].scene.time_s) / 2);
+  }
+  return list;
+}
+
+/// Equally spaced frequencies from a quarter of a cycle up: the spectral resolution is one cycle per recording.
+std::vector<double> periods(const RecordedTouches& t) {
+  std::vector<double> list;
+  for (int k = 1; k <= kFrequencies; ++k) list.push_back(duration(t) / (0.5 * k));
+  return list;
+}
+
+std::vector<double> time_constants(const RecordedTouches& t) {
+  std::vector<double> list;
+  for (const double share : {0.05, 0.15, 0.5, 1.5}) list.push_back(share * duration(t));
+  return list;
+}
+
+std::vector<double> places(const RecordedTouches& t) {
+  std::set<double> readings;
+  for (const RecordedTouch& touch : t.touches)
+    for (int k = 0; k < 3; ++k) readings.insert(std::round(touch.scene.reading[k] / 10) * 10);
+  std::vector<double> all(readings.begin(), readings.end()), list;
+  for (int k = 1; k <= 3 * kPlaces; ++k) list.push_back(all[std::min(all.size() - 1, k * all.size() / (3 * kPlaces + 1))] + 5);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
+}
+
+std::vector<double> choices(const EffectParameter& p, const RecordedTouches& t) {
+  double high = p.high;
+  if (p.name == "sensor") high = t.styli.size() > 1 ? double(t.styli.size()) : 0;
+  if (p.name == "tip") high = t.tips > int(t.styli.size()) ? t.tips : 0;
+  std::vector<double> list;
+  for (double v = p.low; v <= high; ++v) list.push_back(v);
+  return list;
+}
+
+bool is_direction(const EffectParameter& p) { return p.name == "direction" && p.choices.size() == 4 && p.choices[3] == "oblique"; }
+
+}  // namespace
+
+Search search_of(const EffectParameter& p, const RecordedTouches& t) {
+  using Kind = Search::Kind;
+  static const std::map<std::string_view, std::vector<double>> tried = {
+      {"period_um", {4, 8, 10, 16, 20, 32, 40, 50, 100, 128, 200}},
+      {"spacing_mm", {20, 25, 40, 50, 100}},
+      {"node_mm", {0, 5, 10, 12.5, 25, 37.5}},
+      {"memory_mm", {0}},
+      {"frequency_Hz", {20}},
+      {"wavelength_mm", {50, 100, 200, 400}},
+      {"bearing_base_mm", {200, 300, 500}},
+      {"half_size_mm", {250}},
+      {"cross_share", {0, 1}},
+  };
+  if (is_direction(p)) return {Kind::direction, {0, 1, 2}};
+  if (!p.choices.empty() || p.name == "sensor" || p.name == "tip") return {Kind::tried, choices(p, t)};
+  if (p.name == "t0_s") return {Kind::tried, moments(t), true};
+  if (p.name == "period_s") return {Kind::tried, periods(t), true};
+  if (p.name == "tau_s") return {Kind::tried, time_constants(t), true};
+  if (p.name == "position_mm") return {Kind::tried, places(t), true};
+  if (p.name == "second_phase_deg" || (p.name == "phase_deg" && p.low < -180)) return {Kind::phase, {0, 90}};
+  if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}};  // a tripod: 120 degrees are all
+  const auto found = tried.find(p.name);
+  if (found != tried.end()) return {Kind::tried, found->second};
+  return {Kind::fixed, {p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))}};
+}
+
+std::vector<Cell> cells_of(const Search& search) {
+  std::vector<Cell> cells;
+  if (!search.between || search.values.size() < 2) {
+    for (const double v : search.values) cells.push_back({v, v});
+    return cells;
+  }
+  std::vector<double> sorted = search.values;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t last = sorted.size() - 1;
+  const auto half_above = [&](std::size_t k) { return (sorted[k + 1] - sorted[k]) / 2; };
+  for (const double v : search.values) {
+    const auto k = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), v) - sorted.begin());
+    const double below = k > 0 ? half_above(k - 1) : half_above(0), above = k < last ? half_above(k) : half_above(last - 1);
+    cells.push_back({v - below, v + above});
+  }
+  return cells;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,30 @@
+// Which values a diagnosis tries for the parameters of an effect in which its displacement is not linear. By name, because a name means
+// the same in every effect (interfaces, section 5): moments within the recording, periods and time constants in proportion to its
+// length, the common signal periods of scales, choices one by one. A parameter that is not named here stays at its standard value.
+#pragma once
+
+#include <vector>
+
+#include "engine/diagnose/explanations/explanation.hpp"
+
+namespace abbe::diagnose {
+
+/// How a parameter enters the search.
+struct Search {
+  enum class Kind {
+    fixed,      ///< one value
+    tried,      ///< each of `values` is a variant
+    direction,  ///< the three axes together span every direction: one column for each
+    phase,      ///< 0 and 90 degrees together span every phase
+  };
+  Kind kind = Kind::fixed;
+  std::vector<double> values;
+  bool between = false;   ///< of `tried`: values between these are possible too, and sought where the recording asks for them
+};
+
+/// What each value of a list stands for: up to halfway to its neighbours, and as far beyond the ends.
+std::vector<Cell> cells_of(const Search&);
+
+Search search_of(const EffectParameter&, const RecordedTouches&);
+
+}  // namespace abbe::diagnose

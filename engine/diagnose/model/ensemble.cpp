@@ -1,0 +1,187 @@
+#include "engine/diagnose/model/ensemble.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/model/evidence.hpp"
+#include "engine/lanes/random.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// Inverse gamma prior of the common factor on all variances: mean 1, as spread as a factor of 1.5 either way on the noise.
+constexpr double kPriorShape = 2, kPriorSquares = 2;
+/// Sizes above what is typical lose belief as a normal in the logarithm of this spread.
+constexpr double kLogImplausible = 1.6;
+
+Hyperparameters at_scale_one(Hyperparameters h) {
+  h.scale = 1;
+  return h;
+}
+
+/// Evenly in their logarithm: from the stated to the estimated scale, and a little beyond both. No machine that passed its acceptance test has
+/// errors many times those of its specification: whatever asks for them is a mismatch.
+std::vector<double> scales_between(double estimated) {
+  constexpr int kCount = 7;
+  constexpr double kBeyond = 1.25, kLargest = 3;
+  const double low = std::min(1.0, estimated) / kBeyond, high = std::min(kLargest, std::max(1.0, estimated) * kBeyond);
+  std::vector<double> out;
+  for (int k = 0; k < kCount; ++k) out.push_back(low * std::pow(high / low, double(k) / (kCount - 1)));
+  return out;
+}
+
+/// What one error function may have more than its share: as much again, or twice.
+std::vector<Size> larger(double scale) { return {{scale, std::log(0.5)}, {2 * scale, std::log(0.5)}}; }
+
+}  // namespace
+
+std::vector<Size> sizes_of(double information) {
+  std::vector<Size> out;
+  for (const double ratio : kRatios) {
+    const double factor = ratio / std::sqrt(std::max(information, 1e-12));
+    out.push_back({factor, -std::log(double(std::size(kRatios))) - 0.5 * std::pow(std::max(0.0, std::log(factor)) / kLogImplausible, 2)});
+  }
+  return out;
+}
+
+Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double log_prior)
+    : rotated_(model, at_scale_one(h)), scales_(scales_between(h.scale)) {
+  shape_ = kPriorShape + 0.5 * double(rotated_.rank() + rotated_.rest_dof());
+  precision_.resize(rotated_.rank(), static_cast<Eigen::Index>(scales_.size()));
+  std::vector<double> prior;
+  for (const double g : scales_) prior.push_back(-0.5 * std::pow(std::log(g) / model.scale_spread, 2));
+  for (std::size_t j = 0; j < prior.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    precision_.col(column) = precision(scales_[j]);
+    log_scale_.push_back(log_prior + rotated_.log_density() + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum());
+  }
+}
+
+void Ensemble::prepare(const std::vector<Matrix>& uneven) {
+  std::vector<const Matrix*> list;
+  for (const Matrix& function : uneven) list.push_back(&function);
+  functions_ = uneven.size();
+  prepare(list, true);
+}
+
+void Ensemble::add(const std::vector<Block>& blocks) {
+  std::vector<const Matrix*> list;
+  for (const Block& b : blocks) list.push_back(&b.signature);
+  prepare(list, false);
+}
+
+void Ensemble::keep(std::size_t count) {
+  blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(functions_ + count), blocks_.end());
+  const Eigen::Index columns = blocks_.empty() ? 0 : blocks_.back().first + blocks_.back().count;
+  coordinates_.conservativeResize(Eigen::NoChange, columns);
+  remainder_.conservativeResize(Eigen::NoChange, columns);
+}
+
+void Ensemble::prepare(const std::vector<const Matrix*>& signatures, bool of_machine) {
+  Eigen::Index first = coordinates_.cols(), columns = first;
+  for (const Matrix* m : signatures) columns += m->cols();
+  coordinates_.conservativeResize(rotated_.rank(), columns);
+  remainder_.conservativeResize(rotated_.rows(), columns);
+  for (const Matrix* m : signatures) {
+    const Matrix projected = rotated_.project_patterns(*m);
+    coordinates_.middleCols(first, m->cols()) = rotated_.coordinates(projected);
+    remainder_.middleCols(first, m->cols()) = rotated_.remainder(projected, coordinates_.middleCols(first, m->cols()));
+    blocks_.push_back(prepared(first, m->cols(), of_machine));
+    first += m->cols();
+  }
+}
+
+Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, bool of_machine) const {
+  Prepared b;
+  b.first = first;
+  b.count = count;
+  const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
+  const Matrix outside = rest.transpose() * rest;
+  b.sizes = sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
+  for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(a.transpose() * precision_.col(j).asDiagonal() * a + outside);
+    Axes axes{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0), of_machine ? larger(scales_[static_cast<std::size_t>(j)]) : b.sizes, {}};
+    for (const Size& s : axes.sizes) axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
+    b.axes.push_back(std::move(axes));
+  }
+  return b;
+}
+
+Ensemble::Verdicts Ensemble::judge(const Vector& recording) const {
+  const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+  const Matrix weighted = z.asDiagonal() * precision_;
+  Verdicts out;
+  out.squares = (weighted.transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
+  for (std::size_t j = 0; j < scales_.size(); ++j) out.alone.push_back(log_scale_[j] - shape_ * std::log(out.squares(static_cast<Eigen::Index>(j))));
+  const Matrix u = (coordinates_.transpose() * weighted).colwise() + Vector(remainder_.transpose() * rest);
+  for (const Prepared& b : blocks_) {
+    std::vector<double> with, squares_with;
+    for (std::size_t j = 0; j < scales_.size(); ++j) {
+      const auto column = static_cast<Eigen::Index>(j);
+      const Axes& axes = b.axes[j];
+      const Vector t = (axes.e.transpose() * u.col(column).segment(b.first, b.count)).array().square();
+      std::vector<double> sizes, left;
+      for (std::size_t s = 0; s < axes.sizes.size(); ++s) {
+        const double s2 = axes.sizes[s].factor * axes.sizes[s].factor;
+        left.push_back(out.squares(column) - (s2 * t.array() / (1 + s2 * axes.d.array())).sum());
+        sizes.push_back(axes.log_weight[s] - shape_ * std::log(left.back()));
+      }
+      with.push_back(log_scale_[j] + log_sum_exp(sizes));
+      squares_with.push_back(left[static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin())]);
+    }
+    out.with.push_back(std::move(with));
+    out.squares_with.push_back(std::move(squares_with));
+  }
+  return out;
+}
+
+Level Ensemble::level(const std::vector<double>& log_belief, const std::vector<double>& squares) const {
+  const double total = log_sum_exp(log_belief);
+  Level l{0, 0};
+  double log_g = 0;
+  for (std::size_t j = 0; j < scales_.size(); ++j) {
+    const double p = std::exp(log_belief[j] - total);
+    log_g += p * std::log(scales_[j]);
+    l.s2 += p * squares[j] / (2 * shape_);
+  }
+  l.g2 = l.s2 * std::exp(2 * log_g);
+  return l;
+}
+
+Vector Ensemble::simulated(const Level& level, std::uint64_t seed, int replicate) const {
+  constexpr std::uint32_t stream = stream_of("diagnose.bootstrap");
+  const auto normals = [&](Eigen::Index count, std::uint32_t site) {
+    Vector v(count);
+    for (Eigen::Index i = 0; i < v.size(); i += 2) {
+      const UniformPair p = uniform_pair({seed, static_cast<std::uint32_t>(replicate), stream, site + static_cast<std::uint32_t>(i), 0, 0});
+      v(i) = normal_quantile(p.a);
+      if (i + 1 < v.size()) v(i + 1) = normal_quantile(p.b);
+    }
+    return v;
+  };
+  const Vector z = (level.g2 * rotated_.lambda().array() + level.s2).sqrt() * normals(rotated_.rank(), 0).array();
+  return rotated_.recording(z, Vector(rotated_.off_model(normals(rotated_.rows(), 1u << 20)) * std::sqrt(level.s2)));
+}
+
+Matrix Ensemble::between(const Level& level, int a, int b) const {
+  const Prepared &i = of(a), &j = of(b);
+  return coordinates_.middleCols(i.first, i.count).transpose() * precision(level).asDiagonal() * coordinates_.middleCols(j.first, j.count) +
+         remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
+}
+
+Vector Ensemble::with_data(const Level& level, int block, const Vector& recording) const {
+  const Prepared& b = of(block);
+  const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+  return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
+         remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;
+}
+
+Vector Ensemble::against_all(const Level& level, int block, Eigen::Index column) const {
+  const Eigen::Index k = first_column(block) + column;
+  const Vector a = precision(level).array() * coordinates_.col(k).array();
+  return coordinates_.transpose() * a + remainder_.transpose() * remainder_.col(k) / level.s2;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,100 @@
+// One family of baselines: an ensemble of machines whose errors are scaled by g, and what every block of columns gains on it.
+//
+// With V_g the covariance of the recording and P_g its inverse with X projected out, a block with signature H whose coefficients are drawn at
+// size s has, with a common factor on all variances integrated out (inverse gamma prior), the marginal likelihood
+//
+//     L(g, s) ~ |V_g|^-1/2 |1 + s^2 G|^-1/2 (b + (y' P_g y - s^2 u' (1 + s^2 G)^-1 u) / 2)^-(a + n/2),      G = H' P_g H,  u = H' P_g y,
+//
+// and the family alone has L(g, 0). [O'Hagan & Forster 2004, ch. 11]
+// Scales are averaged over, because the scale must be judged anew with every explanation: an ensemble of larger errors would swallow what the
+// explanation is about. Sizes are spread over the signal-to-noise ratios at which a recording can tell anything; one above what is
+// typical of the effect loses belief.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/diagnose/explanations/explanation.hpp"
+
+namespace abbe::diagnose {
+
+/// Signal-to-noise ratios that an explanation of a certain size has on average.
+inline constexpr double kRatios[] = {3, 6, 12, 24, 96};
+
+/// The size of a block's coefficients, in standard deviations of their prior, at which it has a signal-to-noise ratio.
+struct Size {
+  double factor = 1;
+  double log_prior = 0;
+};
+/// `information`: the trace of G at a size of 1.
+std::vector<Size> sizes_of(double information);
+
+/// Factors on the variances of machine and noise.
+struct Level {
+  double g2 = 1, s2 = 1;
+};
+
+class Ensemble {
+ public:
+  /// `log_prior`: of this family among others.
+  Ensemble(const LinearModel&, const Hyperparameters&, double log_prior);
+  /// Makes it ready to judge error functions that are larger than the others. Before any block.
+  void prepare(const std::vector<Matrix>& uneven);
+  /// Makes it ready to judge blocks, after those before.
+  void add(const std::vector<Block>&);
+  /// Forgets the blocks after the first `count`.
+  void keep(std::size_t count);
+
+  /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
+  struct Verdicts {
+    std::vector<double> alone;                     ///< without any block
+    std::vector<std::vector<double>> with;         ///< by error function, then by block
+    Vector squares;                                ///< what is left of the sum of squares alone
+    std::vector<std::vector<double>> squares_with; ///< likewise, at its best size
+  };
+  /// `y`: of a recording, um.
+  Verdicts judge(const Vector& y) const;
+  /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
+  Level level(const std::vector<double>& log_belief, const std::vector<double>& squares) const;
+
+  /// A recording of such a machine, um, without what nothing is known of.
+  Vector simulated(const Level&, std::uint64_t seed, int replicate) const;
+
+  /// H_a' P H_b, H_a' P y, and H' P h of the columns of all blocks with one column of a block; at a level.
+  Matrix between(const Level&, int a, int b) const;
+  Vector with_data(const Level&, int block, const Vector& y) const;
+  Vector against_all(const Level&, int block, Eigen::Index column) const;
+
+  const std::vector<Size>& sizes(int block) const { return of(block).sizes; }
+  /// Where the columns of a block begin among those of all.
+  Eigen::Index first_column(int block) const { return of(block).first; }
+
+ private:
+  /// What a block asks of the family at one scale: H' P_g H = E diag(d) E'.
+  struct Axes {
+    Matrix e;
+    Vector d;
+    std::vector<Size> sizes;             ///< of an explanation the same at every scale, of an error function in proportion to it
+    std::vector<double> log_weight;      ///< by size: its prior and the determinant
+  };
+  struct Prepared {
+    Eigen::Index first = 0, count = 0;   ///< columns
+    std::vector<Size> sizes;
+    std::vector<Axes> axes;              ///< by scale
+  };
+  void prepare(const std::vector<const Matrix*>& signatures, bool of_machine);
+  Prepared prepared(Eigen::Index first, Eigen::Index count, bool of_machine) const;
+  const Prepared& of(int block) const { return blocks_[functions_ + static_cast<std::size_t>(block)]; }
+  Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
+  Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
+
+  Rotated rotated_;
+  double shape_ = 0;                     ///< a + n / 2
+  std::vector<double> scales_;           ///< g
+  Matrix precision_;                     ///< 1 / (g^2 lambda + 1), one column for each scale
+  std::vector<double> log_scale_;        ///< log prior of family and scale, and its determinant
+  Matrix coordinates_, remainder_;       ///< of all columns: U' h, h - U U' h
+  std::size_t functions_ = 0;            ///< of the machine; blocks follow them
+  std::vector<Prepared> blocks_;
+};
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,138 @@
+#include "engine/diagnose/model/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/ids.hpp"
+#include "engine/base/on_threads.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// Belief before the data that the machine's errors are rougher than the harmonics of the specification.
+constexpr double kPriorRough = 0.2;
+/// Belief before the data that one of the error functions is more uneven than the others.
+constexpr double kPriorUneven = 0.2;
+/// Belief before the data that neighbours scatter alike, where they do: what goes on slowly in the sequence looks the same.
+constexpr double kPriorCorrelated = 0.5;
+/// Nats below the better ensemble from which on the other makes no difference.
+constexpr double kOutOfQuestion = 8;
+
+template <class T>
+std::size_t index_of_largest(const std::vector<T>& v) {
+  return static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+}
+
+}  // namespace
+
+EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations) : explanations_(explanations.list) {
+  const bool plan = model.y.squaredNorm() == 0;
+  y_ = model.y;
+  const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
+  rough_ = add_machines(model, h, std::log(correlated));
+  if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
+  functions_ = model.uneven.size();
+  for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.blocks);
+  for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
+  // A plan has no values yet: what it can tell is judged at the level that was stated.
+  if (!plan) evidence_ = judge(y_, &alone_, &with_);
+}
+
+double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
+  ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
+  if (model.rough.cols() == 0 || y_.squaredNorm() == 0) return 0;
+  Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
+  const double harmonic = log_sum_exp(ensembles_.back().judge(y_).alone), other = log_sum_exp(rough.judge(y_).alone);
+  if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
+  return 1 / (1 + std::exp(harmonic - other));
+}
+
+void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {
+  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(same), explanations.blocks.end());
+  for (Ensemble& e : ensembles_) e.keep(same), e.add(more);
+  explanations_ = explanations.list;
+  log_weight_.clear();
+  for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
+  if (y_.squaredNorm() > 0) evidence_ = judge(y_, &alone_, &with_);
+}
+
+Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
+  std::vector<Ensemble::Verdicts> verdicts;
+  for (const Ensemble& e : ensembles_) verdicts.push_back(e.judge(y));
+  std::vector<double> nulls, explained;
+  for (const auto& v : verdicts) nulls.push_back(log_sum_exp(v.alone));
+  for (std::size_t k = 0; k < verdicts[0].with.size(); ++k) {
+    std::vector<double> logs;
+    for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[k]));
+    explained.push_back(log_sum_exp(logs));
+  }
+  std::vector<double> no_mismatch{log_sum_exp(nulls) + std::log(functions_ > 0 ? 1 - kPriorUneven : 1)};
+  for (std::size_t k = 0; k < functions_; ++k) no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions_)));
+  const double null = log_sum_exp(no_mismatch);
+  Evidence out;
+  for (std::size_t k = functions_; k < explained.size(); ++k) out.block_log_bayes.push_back(explained[k] - null);
+  std::vector<double> all;
+  for (const Explanation& x : explanations_) {
+    std::vector<double> variants;
+    for (const int k : x.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] + log_weight_[static_cast<std::size_t>(k)]);
+    out.log_bayes.push_back(log_sum_exp(variants));
+    all.push_back(std::log(x.prior) + out.log_bayes.back());
+  }
+  out.statistic = log_sum_exp(all);
+  ABBE_CHECK(std::isfinite(out.statistic));   // or a mistake would pass for a machine in order
+  if (!alone) return out;
+  const std::size_t e = index_of_largest(nulls), block = index_of_largest(out.block_log_bayes);
+  const Vector& squares = verdicts[e].squares;
+  *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, {squares.begin(), squares.end()})};
+  if (out.block_log_bayes[block] <= 0) return out;
+  std::vector<double> logs;
+  for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[functions_ + block]));
+  const std::size_t f = index_of_largest(logs);
+  *with = {f, ensembles_[f].level(verdicts[f].with[functions_ + block], verdicts[f].squares_with[functions_ + block])};
+  return out;
+}
+
+std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const {
+  constexpr int kBatch = 20, kEnough = 10;
+  std::vector<Evidence> out;
+  int extreme = 0;
+  while (static_cast<int>(out.size()) < replicates && extreme < kEnough) {
+    const int first = static_cast<int>(out.size()), count = std::min(kBatch, replicates - first);
+    out.resize(first + count);
+    on_threads(count, threads, [&](int k) {
+      out[first + k] = judge(ensembles_[alone_.ensemble].simulated(alone_.level, seed, first + k), nullptr, nullptr);
+    });
+    for (int r = first; r < first + count; ++r) extreme += out[r].statistic >= observed ? 1 : 0;
+  }
+  return out;
+}
+
+double tail_probability(double observed, std::vector<double> simulated) {
+  const double n = static_cast<double>(simulated.size());
+  std::sort(simulated.begin(), simulated.end());
+  const auto above = static_cast<double>(simulated.end() - std::lower_bound(simulated.begin(), simulated.end(), observed));
+  const std::size_t tail = simulated.size() / 10;
+  if (above >= 8 || tail < 10) return (above + 1) / (n + 1);
+  const double from = simulated[simulated.size() - tail - 1];
+  double mean = 0;
+  for (std::size_t k = simulated.size() - tail; k < simulated.size(); ++k) mean += (simulated[k] - from) / double(tail);
+  // The mean of so few values is uncertain itself: averaged over that (flat in its logarithm), the exponential law becomes that of Lomax.
+  const auto values = double(tail);
+  return std::max(1e-12, values / n * std::pow(1 + (observed - from) / (values * std::max(mean, 1e-9)), -values));
+}
+
+double most_believed(double p, double prior) {
+  const double least = std::max(p, 1e-300);
+  const double chance = least < std::exp(-1.0) ? -std::exp(1.0) * least * std::log(least) : 1;
+  return prior / (prior + (1 - prior) * chance);
+}
+
+double log_sum_exp(const std::vector<double>& v) {
+  const double top = *std::max_element(v.begin(), v.end());
+  double sum = 0;
+  for (const double x : v) sum += std::exp(x - top);
+  return top + std::log(sum);
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,317 @@
+#include "engine/diagnose/planning/next_measurement.hpp"
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "engine/base/on_threads.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr std::size_t kShown = 3, kMostRivals = 8;
+/// A round of measuring and judging takes this long beside the measurement itself, min.
+constexpr double kRound_min = 60;
+/// Expected probability of the truth from which on a measurement counts as deciding.
+constexpr double kDecides = 0.95;
+/// What it must be above chance, or the measurement is not worth a proposal.
+constexpr double kAboveChance = 0.05;
+/// Signal-to-noise that a plan without data reckons with.
+constexpr double kPlanned = 6;
+
+/// The effect that a plan confounds with most others, and these.
+std::vector<int> confounded(const Case& c, const std::vector<Detectable>& detectable) {
+  const auto most = std::max_element(detectable.begin(), detectable.end(),
+                                     [](const Detectable& a, const Detectable& b) { return a.confounded_with.size() < b.confounded_with.size(); });
+  std::vector<int> list;
+  if (most == detectable.end()) return list;
+  std::vector<std::string> names = most->confounded_with;
+  names.push_back(most->effect);
+  for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
+    if (std::find(names.begin(), names.end(), c.explanations.list[k].name) != names.end()) list.push_back(static_cast<int>(k));
+  return list;
+}
+
+/// What a measurement is to decide.
+struct Question {
+  std::vector<int> rivals;                 ///< explanations
+  std::vector<Finding> beside;             ///< effects that are there whichever of them it is
+};
+
+/// Those of the first finding that could not be told apart; without data, those that the plan could not tell apart.
+Question question_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  if (!result) return {confounded(c, detectable), {}};
+  for (std::size_t i = 0; i < result->findings.size(); ++i) {
+    const Finding& f = result->findings[i];
+    if (f.set.size() < 2) continue;
+    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))}, result->findings};
+    q.beside.erase(q.beside.begin() + static_cast<std::ptrdiff_t>(i));
+    return q;
+  }
+  return {};
+}
+
+using Seen = Precision::Seen;
+
+/// The variants of one rival, and what it would be as the truth.
+struct Contender {
+  std::vector<Seen> first, both;           ///< by variant: columns on the first recording, and on both
+  Seen shift_first, shift_both;            ///< as the truth
+};
+
+/// As the truth: the variant that explains the first recording best, of the size that it takes there; of a plan, the one that shows best.
+void suppose(const Seen& y, Contender& c) {
+  const bool planned = y.rows.squaredNorm() == 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < c.first.size(); ++k) {
+    const Seen& w = c.first[k];
+    const Matrix g = inner(w, w);
+    if (planned) {
+      Eigen::Index column = 0;
+      const double information = g.diagonal().maxCoeff(&column);
+      if (information <= std::max(most, 0.0)) continue;
+      most = information;
+      const Vector size = kPlanned / std::sqrt(information) * Vector::Unit(g.cols(), column);
+      c.shift_first = w * size, c.shift_both = c.both[k] * size;
+      continue;
+    }
+    const Vector u = inner(w, y);
+    for (const Size& size : sizes_of(g.trace())) {
+      const double s2 = size.factor * size.factor;
+      const Matrix posterior = g + Matrix::Identity(g.rows(), g.cols()) / s2;
+      const Eigen::LLT<Matrix> llt(posterior);
+      const Vector theta = llt.solve(u);
+      const double log_bayes = size.log_prior + 0.5 * u.dot(theta) - 0.5 * double(g.rows()) * std::log(s2) - Matrix(llt.matrixL()).diagonal().array().log().sum();
+      if (log_bayes <= most) continue;
+      most = log_bayes;
+      c.shift_first = w * theta, c.shift_both = c.both[k] * theta;
+    }
+  }
+}
+
+/// The effects beside a question, as both recordings see them.
+std::vector<Matrix> signatures_beside(const Case& c, const Question& question, const Longer& longer, const std::vector<int>& rows) {
+  std::vector<Matrix> out;
+  for (const Finding& f : question.beside) {
+    const Block& found = c.explanations.blocks[static_cast<std::size_t>(f.block)];
+    Block seen = variant_at(*c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, found.theta, found.from_run, longer.touches, rows);
+    if (seen.signature.cols() > 0) out.push_back(std::move(seen.signature));
+  }
+  return out;
+}
+
+std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const Question& question, const Longer& longer, const Precision& first) {
+  std::vector<char> masked(longer.touches.touches.size(), 0);
+  std::copy(c.masked.begin(), c.masked.end(), masked.begin());
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < masked.size(); ++i)
+    if (!masked[i]) rows.push_back(static_cast<int>(i));
+  const Baseline baseline = baseline_of(c, longer);
+  Hyperparameters hyper = fitted;
+  hyper.noise = Vector::Constant(baseline.model.noise_groups, fitted.noise.mean());
+  const std::vector<Matrix> beside = signatures_beside(c, question, longer, rows);
+  std::vector<const Matrix*> removed;
+  for (const Matrix& m : beside) removed.push_back(&m);
+  const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), hyper);
+  std::vector<Contender> out;
+  for (const int rival : question.rivals) {
+    const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
+    Contender contender;
+    for (const Block& b : own.blocks) {
+      contender.first.push_back(first.seen(b.signature.topRows(static_cast<Eigen::Index>(c.rows.size()))));
+      contender.both.push_back(both.seen(b.signature));
+    }
+    suppose(first.y(), contender);
+    if (contender.shift_both.rows.size() > 0) out.push_back(std::move(contender));
+  }
+  return out;
+}
+
+/// What the likeliest of some variants leaves of each truth, which is one column.
+Vector left_of(const Seen& truths, const std::vector<Seen>& variants) {
+  constexpr double kRidge = 1e-9;
+  const Vector squares = inner(truths, truths).diagonal();
+  Vector left = squares;
+  for (const Seen& w : variants) {
+    const Matrix g = inner(w, w), cross = inner(w, truths);
+    const Matrix fit = Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross);
+    left = left.cwiseMin(squares - cross.cwiseProduct(fit).colwise().sum().transpose());
+  }
+  return left.cwiseMax(0);
+}
+
+/// The columns side by side.
+Seen side_by_side(const std::vector<Contender>& list, Seen Contender::*column) {
+  const auto columns = static_cast<Eigen::Index>(list.size());
+  Seen out{Matrix((list.front().*column).rows.rows(), columns), Matrix((list.front().*column).taken.rows(), columns)};
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const Seen& s = list[static_cast<std::size_t>(k)].*column;
+    out.rows.col(k) = s.rows, out.taken.col(k) = s.taken;
+  }
+  return out;
+}
+
+/// The probability that the truth would have, on average over the rivals as truth.
+double expected_probability(const std::vector<Contender>& list) {
+  // Gauss-Hermite nodes and weights of a standard normal (Abramowitz & Stegun 25.10).
+  constexpr double kNodes[] = {-2.8569700, -1.3556262, 0, 1.3556262, 2.8569700}, kWeights[] = {0.0112574, 0.2220759, 0.5333333, 0.2220759, 0.0112574};
+  if (list.empty()) return 0;
+  const Seen first = side_by_side(list, &Contender::shift_first), both = side_by_side(list, &Contender::shift_both);
+  Matrix gain(list.size(), list.size());   // by truth and rival: what the second recording adds
+  for (std::size_t rival = 0; rival < list.size(); ++rival)
+    gain.col(static_cast<Eigen::Index>(rival)) = (left_of(both, list[rival].both) - left_of(first, list[rival].first)).cwiseMax(0);
+  double expected = 0;
+  for (Eigen::Index truth = 0; truth < gain.rows(); ++truth) {
+    for (int i = 0; i < 5; ++i) {
+      double against = 0;
+      for (Eigen::Index rival = 0; rival < gain.cols(); ++rival)
+        if (rival != truth) against += std::exp(-gain(truth, rival) / 2 - std::sqrt(gain(truth, rival)) * kNodes[i]);
+      expected += kWeights[i] / (1 + against) / double(list.size());
+    }
+  }
+  return expected;
+}
+
+/// Both changes at once.
+Change joined(const Change& a, const Change& b) {
+  constexpr std::string_view kRepeat = "repeat ";
+  const auto both = [](const std::string& x, const std::string& y, std::string_view between) { return x.empty() || y.empty() ? x + y : x + std::string(between) + y; };
+  return {.text = a.text + " and " + b.text.substr(kRepeat.size()), .instruction = both(a.instruction, b.instruction, "; "),
+          .statement = both(a.statement, b.statement, "\n"), .minutes = a.minutes + b.minutes,
+          .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); }, .reversed = a.reversed || b.reversed};
+}
+
+struct Scored {
+  NextMeasurement measurement;
+  double worth = 0;                        ///< gain in probability per minute
+  Change change;
+  Longer longer;
+};
+
+/// Judges changes for a case.
+class Judge {
+ public:
+  Judge(const Case& c, const Hyperparameters& hyper, const Question& question)
+      : case_(c), hyper_(hyper), question_(question), first_(with_free(likelier_ensemble(c, c.model), signatures_of(c, question.beside)), hyper) {}
+
+  void add(const std::vector<Change>& changes) {
+    std::vector<std::optional<Scored>> scored(changes.size());
+    on_threads(static_cast<int>(changes.size()), case_.options.threads,
+               [&](int k) { scored[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
+    for (std::optional<Scored>& s : scored)
+      if (s) list_.push_back(std::move(*s));
+    std::stable_sort(list_.begin(), list_.end(), [](const Scored& a, const Scored& b) { return a.worth > b.worth; });
+  }
+  const std::vector<Scored>& list() const { return list_; }
+
+ private:
+  std::optional<Scored> judged(const Change& change) const {
+    std::optional<Longer> longer = repeated(case_, change);
+    if (!longer) return std::nullopt;
+    NextMeasurement m;
+    m.change = change.text;
+    for (const int k : question_.rivals) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
+    m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *longer, first_));
+    m.minutes = change.minutes + minutes_of(*longer);
+    const double worth = (m.expected_probability - 1 / double(question_.rivals.size())) / (kRound_min + m.minutes);
+    return Scored{std::move(m), worth, change, std::move(*longer)};
+  }
+
+  const Case& case_;
+  const Hyperparameters& hyper_;
+  const Question& question_;
+  Precision first_;
+  std::vector<Scored> list_;               ///< the best first
+};
+
+/// What makes a pattern without a name is narrowed down by changing what it may belong to.
+std::string to_follow_a_pattern(Factor factor) {
+  switch (factor) {
+    case Factor::time: return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
+    case Factor::position: return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
+    case Factor::direction: return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
+    case Factor::head: return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
+    case Factor::sensor: return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
+    case Factor::setup:
+    case Factor::feature: return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
+    case Factor::run: return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
+    case Factor::temperature: return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
+    case Factor::speed: return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
+  }
+  return "";
+}
+
+/// What must be logged, and vary, before the names that were found can be judged.
+std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
+  std::map<unsigned, std::vector<std::string>> names;   // by what they miss
+  for (const Finding& f : result.findings) {
+    for (const int k : f.set) {
+      const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
+      if (e.missing) names[e.missing].push_back(e.name);
+    }
+  }
+  std::vector<std::string> out;
+  for (const auto& [missing, list] : names) {
+    const std::vector<std::string> columns = columns_of(missing);
+    if (!columns.empty()) out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "), fmt::join(list, " or ")));
+  }
+  return out;
+}
+
+/// What would show what it is that the names leave.
+std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
+  if (result.findings.empty() || result.other || result.adequacy >= kInadequate) return "";
+  unsigned missing = 0;
+  for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
+  const std::vector<std::string> columns = columns_of(missing);
+  if (columns.empty()) return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
+  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.", fmt::join(columns, ", "));
+}
+
+}  // namespace
+
+std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  const Question question = question_of(c, result, detectable);
+  if (question.rivals.size() < 2) return {};
+  Judge judge(c, result ? result->hyper : c.hyper, question);
+  const std::vector<Change> menu = changes_for(c);
+  judge.add(menu);
+  // Where one change does not decide, the best one together with each of the others.
+  if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) {
+    const Change best = judge.list().front().change;
+    std::vector<Change> pairs;
+    for (const Change& change : menu)
+      if (change.changes_touches && best.changes_touches && change.text != best.text) pairs.push_back(joined(best, change));
+    judge.add(pairs);
+  }
+  std::vector<NextMeasurement> out;
+  for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {
+    const Scored& s = judge.list()[k];
+    if (s.measurement.expected_probability < 1 / double(question.rivals.size()) + kAboveChance) break;
+    out.push_back(s.measurement);
+    if (k == 0) out.back().program = dmis_program(s.longer, s.change);
+  }
+  return out;
+}
+
+std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
+  if (!next.empty()) return to_follow_what_is_left(c, result);
+  if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
+  std::vector<std::string> sentences = to_log(c, result);
+  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
+  const std::vector<int> rivals = question_of(c, &result, {}).rivals;
+  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
+  for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
+    const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
+    sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
+}
+
+}  // namespace abbe::diagnose

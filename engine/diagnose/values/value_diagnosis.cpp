@@ -1,0 +1,304 @@
+#include "engine/diagnose/values/value_diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/values/value_search.hpp"
+#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/diagnose/words.hpp"
+#include "engine/lanes/random.hpp"
+
+namespace abbe {
+
+using namespace diagnose;
+
+namespace {
+
+constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
+constexpr double kLeast_um = 1e-3;   // what rounding leaves of a value that no error reaches
+
+/// The values on the bench.
+struct ValueCase {
+  const ValueRecording* recording = nullptr;
+  const std::vector<ValueProgram>* programs = nullptr;
+  ValueEnsemble ensemble;
+  Vector deviation;
+  Matrix calibration;                ///< one column for each artefact: a standard deviation of its calibration
+  Matrix judges;                     ///< machines of the first half: mean and covariance
+  Matrix judged;                     ///< of the second half, with errors of calibration: what the recording is compared with
+  Vector mean;
+  Matrix covariance;
+  std::optional<ValueSearch> search;
+};
+
+/// Simulated machines as they would be recorded: each with its own errors of calibration.
+Matrix with_calibration(Matrix m, const Matrix& calibration, std::uint64_t seed) {
+  constexpr std::uint32_t stream = stream_of("diagnose.values.calibration");
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    for (Eigen::Index k = 0; k < calibration.cols(); ++k)
+      m.row(i) += calibration.col(k).transpose() * normal_quantile(uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
+  return m;
+}
+
+ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
+  const int n = static_cast<int>(recording.rows.size());
+  if (n > kMostValues)
+    throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n), fmt::format("at most {} are judged together; split the file", kMostValues)));
+  ValueCase c{&recording, &programs, value_ensemble(recording, programs, machine, options, 2 * (kHalf + kPerValue * n)), {}, {}, {}, {}, {}, {}, {}};
+  c.deviation.resize(n), c.calibration.setZero(n, n);
+  for (int k = 0; k < n; ++k) {
+    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(k)];
+    c.deviation(k) = v.deviation, c.calibration(k, v.artefact) = v.calibration;
+  }
+  const Eigen::Index half = c.ensemble.simulated.rows() / 2;
+  if (half < n + 2)
+    throw UserError(diagnostic(Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()), "`abbe run` says where they stop"));
+  c.judges = c.ensemble.simulated.topRows(half);
+  c.judged = with_calibration(c.ensemble.simulated.bottomRows(c.ensemble.simulated.rows() - half), c.calibration, options.seed);
+  c.mean = c.judges.colwise().mean();
+  const Matrix centred = c.judges.rowwise() - c.mean.transpose();
+  c.covariance = centred.transpose() * centred / double(half - 1) + c.calibration * c.calibration.transpose();
+  c.covariance.diagonal().array() += kLeast_um * kLeast_um;
+  add_value_patterns(c.covariance, c.ensemble.explanations);
+  c.search.emplace(c.mean, c.covariance, c.ensemble.explanations);
+  return c;
+}
+
+/// Each value by itself: how far out it is among those of the virtual machines.
+std::vector<JudgedValue> judge_each(const ValueCase& c) {
+  std::vector<JudgedValue> out;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    const ValueRow& row = c.recording->rows[k];
+    const auto at = static_cast<Eigen::Index>(k);
+    std::vector<double> simulated(c.judged.col(at).begin(), c.judged.col(at).end());
+    std::sort(simulated.begin(), simulated.end());
+    const double n = double(simulated.size()), distance = std::abs(v.deviation - c.mean(at));
+    const auto beyond = std::count_if(simulated.begin(), simulated.end(), [&](double s) { return std::abs(s - c.mean(at)) >= distance; });
+    const double u = std::sqrt(c.covariance(at, at)), unit = v.reported();
+    const auto point = [&](double p) { return simulated[static_cast<std::size_t>(p * (n - 1) + 0.5)] * unit; };
+    out.push_back({row.characteristic, row.program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference, v.deviation * unit, u * unit,
+                   (v.deviation - c.mean(at)) / u, (double(beyond) + 1) / (n + 1), point(0.025), point(0.975)});
+  }
+  return out;
+}
+
+struct ValueFinding {
+  int explanation = -1, block = -1;
+  std::vector<int> set;
+  double probability = 0;
+  bool other = false;
+};
+
+ValueFinding find(const ValueCase& c, const Evidence& evidence) {
+  const Explanations& all = c.search->explanations();
+  std::vector<double> p(all.list.size());
+  std::vector<int> order;
+  double catalogue = 0, other = 0;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    p[k] = all.list[k].prior * std::exp(evidence.log_bayes[k] - evidence.statistic);
+    (all.list[k].effect ? catalogue : other) += p[k];
+  }
+  ValueFinding f;
+  f.other = other > catalogue;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if ((all.list[k].effect == nullptr) == f.other) order.push_back(static_cast<int>(k));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[static_cast<std::size_t>(a)] > p[static_cast<std::size_t>(b)]; });
+  for (const int k : order) {
+    if (f.probability >= kCredible * (f.other ? other : catalogue)) break;
+    f.set.push_back(k);
+    f.probability += p[static_cast<std::size_t>(k)];
+  }
+  f.explanation = order.front();
+  f.block = all.list[static_cast<std::size_t>(f.explanation)].blocks.front();
+  for (const int b : all.list[static_cast<std::size_t>(f.explanation)].blocks)
+    if (evidence.block_log_bayes[static_cast<std::size_t>(b)] > evidence.block_log_bayes[static_cast<std::size_t>(f.block)]) f.block = b;
+  return f;
+}
+
+/// Mean and covariance of the coefficients of a block, under a prior of three typical sizes.
+struct Sizes {
+  Vector mean;
+  Matrix covariance;
+};
+Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
+  const auto info = search.information(block, deviation);
+  constexpr double kWide = 9;
+  const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / kWide);
+  return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
+}
+
+std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const ValueFinding& f) {
+  const Block& b = c.search->explanations().blocks[static_cast<std::size_t>(f.block)];
+  const Effect& effect = *c.search->explanations().list[static_cast<std::size_t>(f.explanation)].effect;
+  const Sizes s = sizes_of(*c.search, f.block, c.deviation);
+  std::vector<DiagnosedParameter> out;
+  for (std::size_t k = 0; k < b.columns.size(); ++k) {
+    const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];
+    const auto at = static_cast<Eigen::Index>(k);
+    const double value = s.mean(at) * b.columns[k].unit, u = std::sqrt(s.covariance(at, at)) * b.columns[k].unit;
+    out.push_back({std::string(p.name), std::string(p.unit), value, u, value - 1.96 * u, value + 1.96 * u, {}, value >= p.low && value <= p.high});
+  }
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+    const EffectParameter& parameter = effect.parameters[p];
+    if (parameter.choices.empty()) continue;
+    DiagnosedParameter choice{.name = std::string(parameter.name), .unit = "code"};
+    choice.word = parameter.choices[static_cast<std::size_t>(std::lround(b.theta[p] - parameter.low))];
+    out.push_back(std::move(choice));
+  }
+  return out;
+}
+
+void tell(const ValueCase& c, const ValueFinding& f, Diagnosis& out) {
+  const Explanations& all = c.search->explanations();
+  if (f.other) {
+    const Explanation& e = all.list[static_cast<std::size_t>(f.explanation)];
+    const Sizes s = sizes_of(*c.search, f.block, c.deviation);
+    const Vector pattern = all.blocks[static_cast<std::size_t>(f.block)].signature * s.mean;
+    const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())), u = rms / std::sqrt(2.0 * double(pattern.size()));
+    out.unexplained = Unexplained{std::string(name(e.factor)), e.shape, rms, u, rms - 1.96 * u, rms + 1.96 * u,
+                                  e.shape == "single values" ? "No effect of the catalogue explains it: single values stray (the table says which)."
+                                                             : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
+    out.verdict = Verdict::unexplained;
+    return;
+  }
+  DiagnosedEffect e;
+  for (const int k : f.set) e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
+  e.probability = f.probability;
+  e.parameters = parameters_of(c, f);
+  std::vector<std::string_view> titles;
+  for (const int k : f.set) titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
+  e.sentence = explanation_sentence(titles, e.parameters, "a file of values");
+  EffectSetting setting{e.members.front(), {}};
+  for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
+  out.model_effects.push_back(std::move(setting));
+  out.verdict = f.set.size() > 1 ? Verdict::one_of : Verdict::named;
+  out.effects.push_back(std::move(e));
+}
+
+/// The groups that are left out in turn: programs, else single values.
+std::vector<int> groups_of(const ValueCase& c, std::string& scheme) {
+  std::vector<int> program;
+  for (const RecordedValue& v : c.ensemble.values) program.push_back(v.program);
+  scheme = "leave-one-program-out";
+  if (std::set<int>(program.begin(), program.end()).size() >= 3) return program;
+  scheme = "leave-one-value-out";
+  std::iota(program.begin(), program.end(), 0);
+  return program;
+}
+
+/// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula).
+void show_improvement(const ValueCase& c, const ValueFinding& f, Diagnosis& out) {
+  Improvement i;
+  const std::vector<int> group = groups_of(c, i.scheme);
+  const Explanations one = only(c.search->explanations(), {f.explanation});
+  const double complete = ValueSearch(c.mean, c.covariance, one).evidence(c.deviation).log_bayes[0];
+  std::vector<double> gain;
+  Vector predicted = Vector::Zero(c.deviation.size());
+  for (const int g : std::set<int>(group.begin(), group.end())) {
+    std::vector<char> dropped;
+    for (const int k : group) dropped.push_back(k == g);
+    std::vector<Eigen::Index> kept;
+    const ValueSearch search = search_without(c.mean, c.covariance, one, dropped, kept);
+    if (kept.empty()) return;
+    const Vector rest = c.deviation(kept);
+    const Evidence evidence = search.evidence(rest);
+    gain.push_back(complete - evidence.log_bayes[0]);
+    const auto best = static_cast<int>(std::max_element(evidence.block_log_bayes.begin(), evidence.block_log_bayes.end()) - evidence.block_log_bayes.begin());
+    const Vector all = one.blocks[static_cast<std::size_t>(best)].signature * sizes_of(search, best, rest).mean;
+    for (std::size_t k = 0; k < group.size(); ++k)
+      if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
+  }
+  const double n = double(gain.size()), k = double(c.deviation.size());
+  i.log_score_gain = std::accumulate(gain.begin(), gain.end(), 0.0);
+  double square = 0;
+  for (const double g : gain) square += std::pow(g - i.log_score_gain / n, 2);
+  i.se = n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
+  const Vector before = c.deviation - c.mean, after = before - predicted;
+  i.rms_before_um = std::sqrt(before.squaredNorm() / k), i.rms_after_um = std::sqrt(after.squaredNorm() / k);
+  const Vector sense = predicted.array().sign();
+  i.bias_before_um = before.dot(sense) / k, i.bias_after_um = after.dot(sense) / k;
+  i.chi2_per_dof_before = c.search->white(c.deviation).squaredNorm() / k;
+  i.chi2_per_dof_after = c.search->white(c.deviation - predicted).squaredNorm() / k;
+  out.improvement = i;
+}
+
+/// What is left of the information on one column once a rival takes what it can, as a share.
+double left(const ValueSearch& s, int block, Eigen::Index column, int rival) {
+  const Vector cross = s.between(rival, block).col(column);
+  const Matrix g = s.between(rival, rival);
+  const double own = s.between(block, block)(column, column);
+  return 1 - cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
+}
+
+std::vector<Detectable> smallest_detectable(const ValueCase& c) {
+  const ValueSearch& s = *c.search;
+  const Explanations& all = s.explanations();
+  std::vector<Detectable> out;
+  for (std::size_t k = 0; k < all.list.size(); ++k) {
+    if (!all.list[k].effect) continue;
+    int best = all.list[k].blocks.front();
+    Eigen::Index column = 0;
+    double most = 0;
+    for (const int b : all.list[k].blocks) {
+      Eigen::Index at = 0;
+      const double information = s.between(b, b).diagonal().maxCoeff(&at);
+      if (information > most) most = information, best = b, column = at;
+    }
+    if (most < 1e-12) continue;
+    const Block& block = all.blocks[static_cast<std::size_t>(best)];
+    const Column& of = block.columns[static_cast<std::size_t>(column)];
+    const EffectParameter& p = all.list[k].effect->parameters[static_cast<std::size_t>(of.parameter)];
+    const double largest = block.signature.col(column).cwiseAbs().maxCoeff(), size = kDetects / std::sqrt(most);
+    Detectable d{.effect = all.list[k].name, .parameter = std::string(p.name), .unit = std::string(p.unit), .name = {}, .name_um = {}, .confounded_with = {}};
+    d.detect = of.unit * size, d.detect_um = largest * size;
+    double least = 1;
+    for (std::size_t j = 0; j < all.list.size(); ++j) {
+      if (j == k || !all.list[j].effect) continue;
+      double share = 1;
+      for (const int b : all.list[j].blocks) share = std::min(share, left(s, best, column, b));
+      least = std::min(least, share);
+      if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4) d.confounded_with.push_back(all.list[j].name);
+    }
+    if (least > kInseparable) {
+      const double named = kNames / std::sqrt(most * least);
+      d.name = of.unit * named, d.name_um = largest * named;
+    }
+    out.push_back(std::move(d));
+  }
+  return out;
+}
+
+}  // namespace
+
+Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
+  const ValueCase c = on_the_bench(recording, programs, machine, options);
+  Diagnosis out;
+  out.judged = !options.design_only;
+  out.cannot_judge = cannot_judge(c.search->explanations());
+  out.smallest_detectable = smallest_detectable(c);
+  if (options.design_only) return out;
+  out.values = judge_each(c);
+  const Evidence evidence = c.search->evidence(c.deviation);
+  std::vector<double> simulated;
+  for (Eigen::Index i = 0; i < c.judged.rows(); ++i) simulated.push_back(c.search->evidence(c.judged.row(i).transpose()).statistic);
+  out.p_value = tail_probability(evidence.statistic, std::move(simulated));
+  if (out.p_value > kAlarm) return out;
+  const ValueFinding f = find(c, evidence);
+  tell(c, f, out);
+  show_improvement(c, f, out);
+  const auto worst = std::max_element(out.values.begin(), out.values.end(), [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
+  double squares = 0;
+  for (const JudgedValue& v : out.values) squares += v.z * v.z;
+  out.location.push_back({"feature", {{"characteristic", worst->characteristic}, {"program", worst->program}, {"run", std::to_string(worst->run)}},
+                          worst->z * worst->z / squares, std::min(1.0, worst->p * double(out.values.size()))});
+  return out;
+}
+
+}  // namespace abbe

@@ -1,0 +1,160 @@
+#include "engine/diagnose/values/value_ensemble.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/run/run.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+std::vector<std::string> labels_of(const plan::Plan& plan, plan::CharacteristicId id) {
+  std::vector<std::string> labels;
+  for (const plan::FeatureId f : plan[id].features) labels.push_back(upper(plan[f].label));
+  labels.push_back(upper(plan[plan[id].tolerance].label));
+  return labels;
+}
+
+/// Whether a row means this characteristic: the same tolerance, and the same features where it names any.
+bool means(const std::vector<std::string>& row, const std::vector<std::string>& of) {
+  return row.size() == 1 ? row.back() == of.back() : row == of;
+}
+
+/// The row's value among those that the error-free machine evaluated.
+const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, const plan::Plan& plan, const RunResult& result) {
+  const std::vector<std::string> labels = abbe::labels_of(row.characteristic);
+  std::vector<const Samples*> found;
+  std::set<std::string> names;
+  int met = 0;
+  for (const Samples& s : result.samples) {
+    const std::vector<std::string> of = labels_of(plan, s.characteristic);
+    names.insert(fmt::format("{}", fmt::join(of, " ")));
+    if (row.ordinal > 0 ? labels.back() == of.back() && ++met == row.ordinal : !labels.empty() && means(labels, of) && s.occurrence == row.occurrence)
+      found.push_back(&s);
+  }
+  if (found.size() == 1) return *found.front();
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  if (!found.empty())
+    throw UserError(diagnostic_at(recording.source, row.span, Code::E0550, fmt::format("the program evaluates '{}' of several features", row.characteristic),
+                                  fmt::format("name the features too: {}", fmt::join(known, ", "))));
+  const std::string near = nearest_word(fmt::format("{}", fmt::join(labels, " ")), known);
+  throw UserError(diagnostic_at(recording.source, row.span, Code::E0556,
+                                fmt::format("the program does not evaluate '{}'{}", row.characteristic, std::max(row.occurrence, row.ordinal) > 1 ? fmt::format(" {} times", std::max(row.occurrence, row.ordinal)) : ""),
+                                near.empty() ? fmt::format("it evaluates: {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", near)));
+}
+
+double engine_scale(bool angle) { return angle ? kUradPerRad : kUmPerMm; }
+
+/// One run of one program: which rows it fills.
+struct OneRun {
+  int program = 0, repeat = 0;
+  std::vector<int> rows;
+};
+
+std::vector<OneRun> runs_of(const ValueRecording& recording, const std::vector<ValueProgram>& programs) {
+  std::set<int> numbers;
+  for (const ValueRow& row : recording.rows) numbers.insert(row.run);
+  const std::vector<int> order(numbers.begin(), numbers.end());
+  std::map<std::pair<int, int>, OneRun> runs;
+  for (std::size_t r = 0; r < recording.rows.size(); ++r) {
+    const ValueRow& row = recording.rows[r];
+    const auto program = std::find_if(programs.begin(), programs.end(), [&](const ValueProgram& p) { return p.name == row.program; });
+    ABBE_CHECK(program != programs.end());
+    const int p = static_cast<int>(program - programs.begin());
+    const int number = static_cast<int>(std::lower_bound(order.begin(), order.end(), row.run) - order.begin());
+    OneRun& run = runs[{p, number}];
+    run.program = p;
+    run.repeat = p * static_cast<int>(order.size()) + number;
+    run.rows.push_back(static_cast<int>(r));
+  }
+  std::vector<OneRun> list;
+  for (auto& [key, run] : runs) list.push_back(std::move(run));
+  return list;
+}
+
+class EnsembleRuns {
+ public:
+  EnsembleRuns(const ValueRecording& recording, const Machine& machine, const DiagnoseOptions& options, const VirtualMachines& machines, ValueEnsemble& out)
+      : recording_(recording), machine_(machine), options_(options), machines_(machines), out_(out) {
+    out.values.resize(recording.rows.size());
+    out.simulated = Matrix::Constant(machines.size(), static_cast<Eigen::Index>(recording.rows.size()), std::nan(""));
+  }
+
+  void add(const OneRun& run, const ValueProgram& program) {
+    RunOptions options;
+    options.seed = options_.seed;
+    options.threads = options_.threads;
+    options.repeat = run.repeat;
+    options.placement_mm = program.placement_mm;
+    options.workpiece = options_.workpiece;
+    const RunResult result = run_plan(*program.plan, machine_, machines_, options, *program.source);
+    for (const int r : run.rows) add_row(r, run, program, result);
+  }
+
+ private:
+  void add_row(int r, const OneRun& run, const ValueProgram& program, const RunResult& result) {
+    const ValueRow& row = recording_.rows[static_cast<std::size_t>(r)];
+    const Samples& s = sample_of(recording_, row, *program.plan, result);
+    if (!met_.insert({run.repeat, s.characteristic.value, s.occurrence}).second)
+      throw UserError(diagnostic_at(recording_.source, row.span, Code::E0551, fmt::format("'{}' stands here for the second time in run {}", row.characteristic, row.run),
+                                    "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
+    const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
+    const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
+    RecordedValue v{r, run.program, run.repeat, s.characteristic, s.occurrence, angle};
+    v.reference = row.reference.value_or(s.reference * engine_scale(angle) * v.reported());
+    v.deviation = (row.value - v.reference) / v.reported();
+    v.calibration = row.expanded_uncertainty / 2 / v.reported();
+    const std::string artefact = !row.artefact.empty() ? row.artefact : fmt::format("{}\n{}\n{}", run.program, s.characteristic.value, s.occurrence);
+    v.artefact = artefact_.emplace(artefact, static_cast<int>(artefact_.size())).first->second;
+    out_.values[static_cast<std::size_t>(r)] = v;
+    for (std::size_t i = 0; i < s.value.size(); ++i)
+      out_.simulated(static_cast<Eigen::Index>(s.machine[i]), r) = engine_scale(angle) * (s.value[i] - s.reference);
+  }
+
+  const ValueRecording& recording_;
+  const Machine& machine_;
+  const DiagnoseOptions& options_;
+  const VirtualMachines& machines_;
+  ValueEnsemble& out_;
+  std::map<std::string, int> artefact_;
+  std::set<std::tuple<int, int, int>> met_;   ///< repeat, characteristic, occurrence
+};
+
+Matrix complete_rows(const Matrix& m) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    if (m.row(i).allFinite()) kept.push_back(i);
+  return Matrix(m(kept, Eigen::all));
+}
+
+}  // namespace
+
+double RecordedValue::reported() const { return angle ? 180 / std::numbers::pi / kUradPerRad : 1 / kUmPerMm; }
+
+ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options,
+                             int machines) {
+  ValueEnsemble out;
+  const VirtualMachines sample = screened_machines(machine, options.seed, machines, options.threads);
+  EnsembleRuns runs(recording, machine, options, sample, out);
+  for (const OneRun& run : runs_of(recording, programs)) runs.add(run, programs[static_cast<std::size_t>(run.program)]);
+  out.simulated = complete_rows(out.simulated);
+  out.explanations = value_explanations(out.values, programs, machine, sample, options);
+  return out;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,215 @@
+#include "engine/diagnose/values/value_signature.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "engine/base/on_threads.hpp"
+#include "engine/effects/effect.hpp"
+#include "engine/run/run.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr double kSame_um = 1e-6;
+
+/// What a file of values does not tell: when, at which readings and loads, and what is drawn anew each time.
+constexpr unsigned kNotInValues = Covariate::time | Covariate::raw_reading | Covariate::acceleration | Covariate::visit | Covariate::qualification;
+/// What a workpiece file may tell.
+unsigned unknown_of_part(const Workpiece* w) {
+  unsigned unknown = 0;
+  if (!w || !w->knows.part) unknown = unknown | Covariate::part_temperature;
+  if (!w || !w->knows.scale[0] || !w->knows.scale[1] || !w->knows.scale[2]) unknown = unknown | Covariate::scale_temperature;
+  if (!w || !w->knows.air) unknown = unknown | Covariate::air_temperature;
+  if (!w || !w->knows.load) unknown = unknown | Covariate::load;
+  return unknown;
+}
+
+/// One program run with one effect of one setting.
+struct Planting {
+  const Effect* effect = nullptr;
+  std::vector<double> theta;
+};
+
+class Plantation {
+ public:
+  Plantation(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs, const Machine& machine, const VirtualMachines& machines,
+             const DiagnoseOptions& options)
+      : values_(values), programs_(programs), machine_(machine), options_(options) {
+    one_.index = {machines.index.front()};
+    one_.geometry = {machines.geometry.front()};
+    one_.v = {machines.v.front()};
+  }
+
+  /// The deviations of all values; NaN where the planted machine does not get.
+  Vector signature(const Planting& planting) const {
+    Machine planted = machine_;
+    planted.effects = {setting(planting)};
+    Vector out = Vector::Constant(static_cast<Eigen::Index>(values_.size()), std::nan(""));
+    for (std::size_t p = 0; p < programs_.size(); ++p) {
+      RunOptions run;
+      run.contributors = {.geometry = false, .head = false, .probe = false, .only_component = {}, .part = false, .effects = true, .only_effect = {}};
+      run.placement_mm = programs_[p].placement_mm;
+      run.workpiece = options_.workpiece;
+      const RunResult result = run_plan(*programs_[p].plan, planted, one_, run, *programs_[p].source);
+      for (std::size_t k = 0; k < values_.size(); ++k) {
+        const RecordedValue& v = values_[k];
+        if (v.program != static_cast<int>(p)) continue;
+        for (const Samples& s : result.samples)
+          if (s.characteristic == v.characteristic && s.occurrence == v.occurrence && !s.value.empty())
+            out(static_cast<Eigen::Index>(k)) = (v.angle ? kUradPerRad : kUmPerMm) * (s.value[0] - s.reference);
+      }
+    }
+    return out;
+  }
+
+ private:
+  static EffectSetting setting(const Planting& planting) {
+    EffectSetting s{std::string(planting.effect->name), {}};
+    for (std::size_t p = 0; p < planting.theta.size(); ++p) {
+      const EffectParameter& parameter = planting.effect->parameters[p];
+      EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
+      value.value = planting.theta[p];
+      if (!parameter.choices.empty()) value.word = parameter.choices[static_cast<std::size_t>(std::lround(planting.theta[p] - parameter.low))];
+    }
+    return s;
+  }
+
+  const std::vector<RecordedValue>& values_;
+  const std::vector<ValueProgram>& programs_;
+  const Machine& machine_;
+  const DiagnoseOptions& options_;
+  VirtualMachines one_;
+};
+
+/// Every combination of the choices; sizes at zero, everything else at its usual value.
+std::vector<std::vector<double>> settings_of(const Effect& effect) {
+  std::vector<std::vector<double>> list{{}};
+  for (const EffectParameter& p : effect.parameters) {
+    std::vector<double> values{p.linear ? 0.0 : p.standard != 0 ? p.standard : p.typical};
+    if (!p.choices.empty() && p.name != "sensor") {
+      values.clear();
+      for (std::size_t k = 0; k < p.choices.size(); ++k)
+        if (p.choices[k] != "oblique") values.push_back(p.low + double(k));   // a direction is spanned by the axes
+    }
+    if (p.name == "sensor") values = {0};
+    std::vector<std::vector<double>> longer;
+    for (const std::vector<double>& prefix : list)
+      for (const double v : values) longer.push_back(prefix), longer.back().push_back(v);
+    list = std::move(longer);
+  }
+  return list;
+}
+
+/// A block without its columns and the plantings that give them.
+struct Draft {
+  Block block;
+  std::vector<Planting> plantings;
+  std::vector<int> parameter;
+};
+
+std::vector<Draft> drafts_of(const Effect& effect) {
+  std::vector<Draft> list;
+  for (const std::vector<double>& theta : settings_of(effect)) {
+    Draft d;
+    d.block.theta = theta;
+    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+      if (!effect.parameters[p].linear) continue;
+      Planting planting{&effect, theta};
+      planting.theta[p] = effect.parameters[p].typical;
+      d.plantings.push_back(std::move(planting));
+      d.parameter.push_back(static_cast<int>(p));
+    }
+    list.push_back(std::move(d));
+  }
+  return list;
+}
+
+/// The signatures of all plantings, on all threads.
+std::vector<Vector> grow(const Plantation& plantation, const std::vector<Planting>& plantings, int threads) {
+  std::vector<Vector> out(plantings.size());
+  on_threads(static_cast<int>(plantings.size()), threads, [&](int k) {
+    out[static_cast<std::size_t>(k)] = plantation.signature(plantings[static_cast<std::size_t>(k)]);
+  });
+  return out;
+}
+
+bool repeats_values(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
+  for (const int b : of.blocks) {
+    const Matrix& m = blocks[static_cast<std::size_t>(b)].signature;
+    if (m.cols() == block.signature.cols() && (m - block.signature).cwiseAbs().maxCoeff() < kSame_um) return true;
+  }
+  return false;
+}
+
+void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vector>& grown, std::size_t& at, unsigned unknown, Explanations& out) {
+  Explanation e;
+  e.name = std::string(effect.name);
+  e.effect = &effect;
+  for (Draft& d : drafts) {
+    for (const int p : d.parameter) {
+      const Vector& values = grown[at++];
+      if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kSame_um) continue;
+      d.block.columns.push_back({p, 0, effect.parameters[static_cast<std::size_t>(p)].typical});
+      d.block.signature.conservativeResize(values.size(), d.block.signature.cols() + 1);
+      d.block.signature.rightCols(1) = values;
+    }
+    if (d.block.columns.empty() || repeats_values(d.block, e, out.blocks)) continue;
+    d.block.explanation = static_cast<int>(out.list.size());
+    e.blocks.push_back(static_cast<int>(out.blocks.size()));
+    out.blocks.push_back(std::move(d.block));
+  }
+  share_belief(e, out.blocks);
+  if (e.blocks.empty()) out.unjudged.push_back({&effect, effect.needs & unknown});
+  else out.list.push_back(std::move(e));
+}
+
+void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix signature) {
+  Explanation e;
+  e.name = std::string("OTHER ") + shape;
+  e.factor = factor;
+  e.shape = shape;
+  Block b;
+  b.explanation = static_cast<int>(out.list.size());
+  b.columns.assign(static_cast<std::size_t>(signature.cols()), {});
+  b.signature = std::move(signature);
+  b.joined = true;
+  e.blocks = {static_cast<int>(out.blocks.size())};
+  out.blocks.push_back(std::move(b));
+  out.list.push_back(std::move(e));
+}
+
+}  // namespace
+
+Explanations value_explanations(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs, const Machine& machine,
+                                const VirtualMachines& machines, const DiagnoseOptions& options) {
+  const unsigned unknown = unknown_of_part(options.workpiece);
+  Explanations out;
+  std::vector<const Effect*> judged;
+  std::vector<std::vector<Draft>> drafts;
+  std::vector<Planting> plantings;
+  for (const Effect* effect : effects()) {
+    const unsigned missing = effect->needs & (kNotInValues | unknown);
+    if (missing != 0 || effect->draws > 0) {
+      out.unjudged.push_back({effect, missing != 0 ? missing : static_cast<unsigned>(Covariate::position)});
+      continue;
+    }
+    judged.push_back(effect);
+    drafts.push_back(drafts_of(*effect));
+    for (const Draft& d : drafts.back()) plantings.insert(plantings.end(), d.plantings.begin(), d.plantings.end());
+  }
+  const std::vector<Vector> grown = grow(Plantation(values, programs, machine, machines, options), plantings, options.threads);
+  std::size_t at = 0;
+  for (std::size_t k = 0; k < judged.size(); ++k) add(*judged[k], drafts[k], grown, at, unknown, out);
+  return out;
+}
+
+void add_value_patterns(const Matrix& covariance, Explanations& out) {
+  const std::size_t catalogue = out.list.size();
+  add_pattern(out, Factor::feature, "single values", Matrix(covariance.diagonal().cwiseSqrt().asDiagonal()));
+  add_pattern(out, Factor::position, "larger errors", Matrix(Eigen::LLT<Matrix>(covariance).matrixL()));
+  for (std::size_t k = 0; k < out.list.size(); ++k)
+    out.list[k].prior = k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(out.list.size() - catalogue);
+}
+
+}  // namespace abbe::diagnose
