@@ -112,7 +112,11 @@ class Planted(harness.Case):
         self.abbe("record", "frame.dmi", "--machine", MACHINE, "--workpiece", "part.json", "--seed", SEED, "-o", name, *planted)
 
     def diagnosis(self, recording):
-        return json.loads(self.abbe("diagnose", recording, "--machine", MACHINE, "--threads", 1, "--format", "json").stdout)
+        """What is said; the machine file with it in it can be used."""
+        improved = f"{recording}.json"
+        said = json.loads(self.abbe("diagnose", recording, "--machine", MACHINE, "--threads", 1, "--format", "json", "--model-out", improved).stdout)
+        self.abbe("record", "frame.dmi", "--machine", improved, "-o", f"again_{recording}")
+        return said
 
     def looked_for(self, effect):
         """What the diagnosis says of a recording in which this effect was planted."""

@@ -101,20 +101,24 @@ struct Unequal {
 std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
   constexpr double kLeastRatio = 1.1;
   constexpr int kEnough = 20;
-  struct Split {
-    const char* what;
-    const char* word;
-    Vector in;
-  };
   const auto rows = static_cast<Eigen::Index>(c.rows.size());
-  std::vector<Split> splits{{"long styli", "long stylus", Vector(rows)}, {"tilted head", "tilted head", Vector(rows)}, {"fast probing", "fast probing", Vector(rows)}};
   const auto scene = [&](Eigen::Index k) -> const TouchScene& { return c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)])].scene; };
   Vector length(rows), speed(rows);
   for (Eigen::Index k = 0; k < rows; ++k) length(k) = scene(k).stylus.length_mm, speed(k) = scene(k).speed_mm_s;
+  const double long_mm = (length.minCoeff() + length.maxCoeff()) / 2 + 1, fast_mm_s = (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
+  /// A group of the effect, by its name there, and the limit that parts it from the others.
+  struct Split {
+    const char* group;
+    std::optional<DiagnosedParameter> limit;
+    Vector in;
+  };
+  std::vector<Split> splits{{"long styli", figure("longer_than_mm", "mm", long_mm, 0), Vector(rows)},
+                            {"tilted head", std::nullopt, Vector(rows)},
+                            {"fast probing", figure("faster_than_mm_s", "mm/s", fast_mm_s, 0), Vector(rows)}};
   for (Eigen::Index k = 0; k < rows; ++k) {
-    splits[0].in(k) = length(k) > (length.minCoeff() + length.maxCoeff()) / 2 + 1;
+    splits[0].in(k) = length(k) > long_mm;
     splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > 0.02;
-    splits[2].in(k) = speed(k) > (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
+    splits[2].in(k) = speed(k) > fast_mm_s;
   }
   std::optional<Unequal> best;
   for (const Split& s : splits) {
@@ -124,9 +128,12 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
     const double ratio = std::sqrt(1 + e.size), u = ratio * std::sqrt(1 / (2 * in) + 1 / (2 * out));
     if (e.p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->finding.p < e.p)) continue;
     NoiseFinding f{find_effect("noise.unequal"), e.p, {figure("ratio", "1", ratio, u)}, {}};
-    f.parameters.push_back({.name = "group", .unit = "", .word = s.word});
+    const double others = std::sqrt((r.standardised.array().square() / (1 + e.size * s.in.array())).mean()) * r.noise_um;
+    f.parameters.push_back(figure("sd_um", "um", others, others / std::sqrt(2 * out)));
+    f.parameters.push_back({.name = "group", .unit = "", .word = s.group});
+    if (s.limit) f.parameters.push_back(*s.limit);
     f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
-    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.what, ratio);
+    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.group, ratio);
     best = Unequal{std::move(f), s.in};
   }
   return best;
