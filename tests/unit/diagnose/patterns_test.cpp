@@ -129,7 +129,15 @@ TEST_CASE("what dynamics, skidding and warmth do to some touches is found there"
   CHECK(likeliest(t, [](const TouchScene& s) {
           const Vec3 skid = transpose(s.stylus.R_WR) * (s.travel - dot(s.travel, s.normal) * s.normal);
           return (s.stylus.ordinal == 2 ? 2.5 : -1.5) * skid.z / norm(skid) * s.normal;
-        }) == "OTHER direction, of skidding");
+        }) == "OTHER direction, of oblique approaches");
   CHECK(likeliest(t, [](const TouchScene& s) { return (s.temperature.part - 20.5) * 3 * (s.feature == 1 ? 1 : s.feature == 4 ? -1 : 0) * s.normal; }) ==
         "OTHER temperature, of each feature");
+}
+
+TEST_CASE("a probe that does not come home from the touch before is seen by its direction") {
+  const RecordedTouches t = scattered(300);
+  CHECK(likeliest(t, [&](const TouchScene& s) {
+          const auto here = static_cast<std::size_t>((s.time_s - 60 * s.visit) / 10);
+          return here % 15 == 0 ? Vec3{} : 1.5 * (t.touches[here - 1].scene.normal - Vec3{0, 0, 1} * t.touches[here - 1].scene.normal.z);
+        }) == "OTHER direction, of the touch before");
 }

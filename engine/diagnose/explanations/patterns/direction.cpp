@@ -22,6 +22,15 @@ std::vector<Matrix> lobes(const TouchFactors& f) {
   return out;
 }
 
+/// A probe that does not come home: displaced on the head by the direction of the touch before, of all styli alike, or of each by itself.
+std::vector<Matrix> after_the_touch_before(const TouchFactors& f) {
+  Matrix before(f.before_on_probe.size(), 3);
+  for (int k = 0; k < 3; ++k) before.col(k) = component(f.before_on_probe, k);
+  std::vector<Matrix> out{along(before, f.normal_on_probe)};
+  if (several(f.sensor)) out.push_back(by_group(out.front(), f.sensor));
+  return out;
+}
+
 /// What oblique approaches drag along the surface, in proportion or by its direction alone; of all styli alike, or of each by itself.
 std::vector<Matrix> skidding(const TouchFactors& f) {
   constexpr double kNone = 0.02;
@@ -43,9 +52,10 @@ void over_direction(const TouchFactors& f, Family& family) {
   family.add("smooth", smooth(normal, 0.6, 40));
   family.add_joint("in time", products(smooth(normal, 0.9, 8), smooth(f.time, 0.2, 8)));
   family.add_joint("over position", products(smooth(normal, 0.9, 8), linear(f.place)));
+  family.add_joint("of the touch before", after_the_touch_before(f));
   if (f.oblique) {
     family.add_joint("of travel", smooth(as_points(f.travel), 0.6, 40));
-    family.add_joint("of skidding", skidding(f));
+    family.add_joint("of oblique approaches", skidding(f));
   }
   if (several(f.orientation)) {
     family.add("on the probe", smooth(as_points(f.normal_on_probe), 0.6, 40));

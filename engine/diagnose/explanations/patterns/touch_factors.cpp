@@ -25,6 +25,8 @@ void onto_unit(Points& points) {
     for (std::size_t k = 0; k < p.size(); ++k) p[k] = (p[k] - low[k]) / extent;
 }
 
+bool same_visit(const TouchScene& a, const TouchScene& b) { return a.run == b.run && a.setup == b.setup && a.visit == b.visit; }
+
 /// The number of a key, in the order of their first use.
 template <class Key>
 int ordinal(std::map<Key, int>& known, const Key& key) {
@@ -51,6 +53,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     normal.push_back(s.normal);
     normal_on_part.push_back(s.normal_on_part);
     normal_on_probe.push_back(on_probe(s.normal));
+    before_on_probe.push_back(i > 0 && rows[i - 1] + 1 == rows[i] && same_visit(s, t.touches[static_cast<std::size_t>(rows[i - 1])].scene) ? normal_on_probe[i - 1] : Vec3{});
     turned.push_back(cross(-s.stylus.length_mm / kLever_mm * s.stylus.to_head, s.normal));   // n . (w x l) = w . (l x n)
     travel.push_back(s.travel);
     travel_on_probe.push_back(on_probe(s.travel));

@@ -23,6 +23,7 @@ struct TouchFactors {
   Directions turned;                 ///< of a small rotation of the wrist about its centre; 100 mm of stylus is the unit
   Directions travel, travel_on_probe;
   Directions skid;                   ///< what of the travel is along the surface, on the probe
+  Directions before_on_probe;        ///< normal of the touch before, in the same visit of the head; zero where there is none
   bool oblique = false;              ///< some approaches are not along the normal
 
   // Groups.
