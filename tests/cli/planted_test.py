@@ -44,7 +44,7 @@ PLANTED = {
     "machine.straightness_angle_coupling": "amplitude_um=15",
     "machine.backlash": "backlash_um=8",
     "machine.scale_interpolation": "amplitude_um=4,period_um=20,axis=x",
-    "machine.dynamics": "rotation_urad_per_m_s2=80,about=z",
+    "machine.dynamics": "rotation_urad_per_m_s2=100,axis=y,about=x",
     "machine.ram_droop": "droop_um=40",
     "machine.map_scallops": "amplitude_um=8,spacing_mm=50,axis=x",
     "machine.step": "amplitude_um=12,t0_s=250,direction=x",
