@@ -24,8 +24,7 @@ std::vector<Matrix> lobes(const TouchFactors& f) {
 
 /// A probe that does not come home: displaced on the head by the direction of the touch before, of all styli alike, or of each by itself.
 std::vector<Matrix> after_the_touch_before(const TouchFactors& f) {
-  Matrix before(f.before_on_probe.size(), 3);
-  for (int k = 0; k < 3; ++k) before.col(k) = component(f.before_on_probe, k);
+  const Matrix before = along(constant(f.before_on_probe.size()), f.before_on_probe);
   std::vector<Matrix> out{along(before, f.normal_on_probe)};
   if (several(f.sensor)) out.push_back(by_group(out.front(), f.sensor));
   return out;
