@@ -50,12 +50,13 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
     : rotated_(model, at_scale_one(h)), scales_(scales_between(h.scale)) {
   shape_ = kPriorShape + 0.5 * double(rotated_.rank() + rotated_.rest_dof());
   precision_.resize(rotated_.rank(), static_cast<Eigen::Index>(scales_.size()));
+  const double density = log_density(model, at_scale_one(h));
   std::vector<double> prior;
   for (const double g : scales_) prior.push_back(-0.5 * std::pow(std::log(g) / model.scale_spread, 2));
   for (std::size_t j = 0; j < prior.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     precision_.col(column) = precision(scales_[j]);
-    log_scale_.push_back(log_prior + rotated_.log_density() + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum());
+    log_scale_.push_back(log_prior + density + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum());
   }
 }
 

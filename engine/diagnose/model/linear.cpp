@@ -168,9 +168,18 @@ Hyperparameters estimate_uncorrelated(const LinearModel& m) {
   return h;
 }
 
+double log_density(const LinearModel& m, const Hyperparameters& h) {
+  const Vector weight = weights(m, h);
+  const auto neighbours = static_cast<double>(std::count(m.follows.begin(), m.follows.end(), 1));
+  const Matrix x = whitened(independent(m.free), weight, h.correlation, m.follows);
+  const Eigen::LLT<Matrix> of_free(x.transpose() * x);
+  return weight.array().log().sum() - 0.5 * neighbours * std::log(1 - h.correlation * h.correlation) - of_free.matrixLLT().diagonal().array().log().sum();
+}
+
 Hyperparameters estimate(const LinearModel& m) {
-  Hyperparameters h = estimate_uncorrelated(m);
-  double best = Likelihood(m, 0).at(h);
+  Hyperparameters h;
+  h.noise = Vector::Ones(m.noise_groups);
+  double best = maximise(Likelihood(m, 0), h, 0.5);
   const double independent = best;
   for (const double phi : kCorrelations) {
     Hyperparameters trial = h;
@@ -261,13 +270,7 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
 }
 
 Projection::Projection(const LinearModel& m, const Hyperparameters& h)
-    : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation), q_(independent(whitened(m.free, weight_, correlation_, follows_))) {
-  const auto neighbours = static_cast<double>(std::count(follows_.begin(), follows_.end(), 1));
-  const Matrix x = whitened(independent(m.free), weight_, correlation_, follows_);
-  const Eigen::LLT<Matrix> of_free(x.transpose() * x);
-  log_density_ = weight_.array().log().sum() - 0.5 * neighbours * std::log(1 - correlation_ * correlation_) -
-                 of_free.matrixLLT().diagonal().array().log().sum();
-}
+    : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation), q_(independent(whitened(m.free, weight_, correlation_, follows_))) {}
 
 Matrix Projection::operator()(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);

@@ -51,6 +51,9 @@ Hyperparameters estimate(const LinearModel&);
 /// The same without a correlation of neighbours.
 Hyperparameters estimate_uncorrelated(const LinearModel&);
 
+/// Logarithm of what whitening with this noise and taking out X do to the density of a recording: what sets models of other noise apart.
+double log_density(const LinearModel&, const Hyperparameters&);
+
 /// Standardised residual of each row, predicted from all other rows.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);
 
@@ -81,15 +84,12 @@ class Projection {
   Vector unwhitened(const Vector& projected) const;
   /// Orthonormal basis of the whitened X.
   const Matrix& free() const { return q_; }
-  /// Logarithm of what whitening and taking out X do to a density of the rows.
-  double log_density() const { return log_density_; }
 
  private:
   std::vector<char> follows_;
   Vector weight_;                                    ///< 1 / sd by row
   double correlation_ = 0;
   Matrix q_;
-  double log_density_ = 0;
 };
 
 /// The precision of a recording, the inverse of its covariance with X projected out, as an inner product of columns. With the projected Z and
@@ -135,7 +135,6 @@ class Rotated {
   Matrix remainder(const Matrix& projected, const Matrix& coordinates) const { return projected - basis_ * coordinates; }
   /// A recording, um, that has these coordinates, and this outside of them.
   Vector recording(const Vector& coordinates, const Vector& rest) const { return project_.unwhitened(basis_ * coordinates + rest); }
-  double log_density() const { return project_.log_density(); }
   /// What of a whitened row vector neither X nor the ensemble reaches.
   Vector off_model(const Vector& white) const;
   const Vector& y() const { return y_; }             ///< projected

@@ -119,7 +119,7 @@ TEST_CASE("densities under two noises compare as by the dense formula") {
   const auto rotated = [&](const Hyperparameters& h) {
     const Rotated r(m, h);
     const Vector z = r.z(), variance = 1 + r.lambda().array();
-    return r.log_density() - 0.5 * (variance.array().log().sum() + (z.array().square() / variance.array()).sum() + r.remainder(r.y(), z).squaredNorm());
+    return log_density(m, h) - 0.5 * (variance.array().log().sum() + (z.array().square() / variance.array()).sum() + r.remainder(r.y(), z).squaredNorm());
   };
   Hyperparameters correlated, white;
   correlated.noise = Vector::Constant(1, 0.8), correlated.correlation = 0.45, correlated.scale = 1.2;
