@@ -41,7 +41,7 @@ struct DiagnosedEffect {
 struct Location {
   std::string factor;                          ///< "time", "position", ...
   std::vector<std::pair<std::string, std::string>> where;
-  double share = 0;                            ///< of the mismatch that a free pattern in this factor describes
+  double share = 0;                            ///< of what the best explanation of any factor describes that the best one of this factor does
   double p = 1;                                ///< that so much appears by chance, the whole search considered
 };
 

@@ -73,15 +73,7 @@ bool doubtful(const Diagnosis& d) { return d.adequacy_p && *d.adequacy_p < kInad
 std::string in_words(const Location& l) {
   std::vector<std::string> where;
   for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
-  return fmt::format("located in {}: {:.0f} % of it{}{}", l.factor, 100 * l.share, where.empty() ? "" : "; strongest at ", fmt::join(where, ", "));
-}
-
-std::vector<Location> main_locations(const Diagnosis& d) {
-  constexpr double kMain = 0.5;
-  std::vector<Location> out;
-  for (const Location& l : d.location)
-    if (out.empty() || l.share >= kMain * d.location.front().share) out.push_back(l);
-  return out;
+  return fmt::format("located in {}{}{}", l.factor, where.empty() ? "" : "; strongest at ", fmt::join(where, ", "));
 }
 
 }  // namespace abbe

@@ -27,9 +27,7 @@ std::string capitalised(std::string);
 /// Whether the names leave more than chance does, and no pattern says what.
 bool doubtful(const Diagnosis&);
 
-/// "located in time: 80 % of it; strongest at time_s 10 to 60 s"
+/// "located in time; strongest at time_s 10 to 60 s"
 std::string in_words(const Location&);
-/// The locations that people are told: the first, and those that hold at least half as much.
-std::vector<Location> main_locations(const Diagnosis&);
 
 }  // namespace abbe

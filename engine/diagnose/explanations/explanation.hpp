@@ -35,6 +35,12 @@ struct Cell {
   double low = 0, high = 0;
 };
 
+/// How large the coefficients of a block are, in standard deviations of their prior, and how much that is believed before the data.
+struct Size {
+  double factor = 1;
+  double log_prior = 0;
+};
+
 struct Block {
   int explanation = 0;
   std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
@@ -44,6 +50,7 @@ struct Block {
   bool finest = false;            ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
   Matrix signature;               ///< rows x columns, um per prior standard deviation
+  std::vector<Size> sizes;        ///< at which it is judged; none: where the recording that judges it has signal-to-noise ratios that can tell anything
   bool joined = false;            ///< columns are combinations of the original ones: no parameter can be read from them
 };
 

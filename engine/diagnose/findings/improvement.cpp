@@ -1,8 +1,11 @@
 // Whether the named model predicts data that it has not seen better than the baseline does: grouped leave-one-out.
 //
 // log p(y_g | rest, model) - log p(y_g | rest, baseline) = log B(all) - log B(all but g), B the Bayes factor of the explanation with all its
-// variants and sizes: so nothing of a held-out group enters the choice of a variant or of a size, and terms of improper priors cancel.
+// variants and sizes: so nothing of a held-out group enters the choice of a variant or of a size, and terms of improper priors cancel. Model
+// and baseline have each their own noise and size of the machine's errors: those of the whole recording with what was found and without.
 // The scheme is the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time.
+// The residuals that are shown are those of the same predictions: of each group from the others, by the machine as they show it, without and
+// with what was found.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -20,6 +23,19 @@ struct Scheme {
   std::vector<int> group;            ///< by row of the model
 };
 
+std::map<int, double> touches_of(const Scheme& s) {
+  std::map<int, double> count;
+  for (const int g : s.group) count[g] += 1;
+  return count;
+}
+
+/// Whether its groups can be predicted from one another: at least three, none of which is most of the recording.
+bool comparable(const Scheme& s) {
+  const std::map<int, double> count = touches_of(s);
+  const auto largest = std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return count.size() >= 3 && 2 * largest->second <= double(s.group.size());
+}
+
 Scheme scheme_of(const Case& c) {
   const auto by = [&](const char* name, auto key) {
     Scheme s{name, {}};
@@ -33,12 +49,18 @@ Scheme scheme_of(const Case& c) {
         return orientation.emplace(std::pair{s.stylus.head_a_rad, s.stylus.head_b_rad}, int(orientation.size())).first->second;
       })};
   for (const Scheme& s : candidates)
-    if (std::set<int>(s.group.begin(), s.group.end()).size() >= 3) return s;
-  // Every sixth stretch of the sequence, not one stretch: what happened once can be learnt from no other stretch.
+    if (comparable(s)) return s;
+  // Every fifth stretch of three touches, not one stretch: what happened once can be learnt from no other stretch.
   constexpr int kFolds = 5;
   Scheme s{"leave-one-fifth-out", {}};
   for (std::size_t k = 0; k < c.rows.size(); ++k) s.group.push_back(static_cast<int>(k / 3) % kFolds);
   return s;
+}
+
+std::vector<char> of_group(const Scheme& s, int group) {
+  std::vector<char> rows;
+  for (const int g : s.group) rows.push_back(g == group);
+  return rows;
 }
 
 std::vector<Eigen::Index> outside(const Scheme& s, int group) {
@@ -48,47 +70,58 @@ std::vector<Eigen::Index> outside(const Scheme& s, int group) {
   return rows;
 }
 
-/// What one explanation gains on every group, and what it predicts there.
+/// What one explanation gains on every group, and what it was taken for there.
 struct HeldOut {
   std::vector<double> gain;
-  Vector predicted_um;
+  std::vector<double> null;          ///< log likelihood of the group without it
+  std::vector<Matrix> columns;       ///< by group, over all rows, um per standard deviation
 };
 
-/// The likeliest prediction of an explanation from a search: its best block at its best size, as a pattern over all rows.
-Vector prediction(const EvidenceSearch& search, const Evidence& evidence, const Explanations& on_all_rows) {
-  const auto best = std::max_element(evidence.block_log_bayes.begin(), evidence.block_log_bayes.end()) - evidence.block_log_bayes.begin();
-  const auto info = search.information(static_cast<int>(best));
-  const Matrix precision = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / 9;
-  return on_all_rows.blocks[static_cast<std::size_t>(best)].signature * Eigen::LLT<Matrix>(precision).solve(info.u);
+/// The likeliest variant of the one explanation of a search at its likeliest size, over all rows.
+Matrix likeliest(const EvidenceSearch& search, const Explanations& on_all_rows) {
+  const int block = best_block(on_all_rows.list.front(), search.evidence());
+  const auto info = search.information(block);
+  double most = -std::numeric_limits<double>::infinity(), factor = 1;
+  for (const Size& s : search.sizes(block)) {
+    const Eigen::LLT<Matrix> llt(Matrix::Identity(info.g.rows(), info.g.cols()) + s.factor * s.factor * info.g);
+    const Vector explained = s.factor * llt.matrixL().solve(info.u);
+    const double belief = s.log_prior + 0.5 * explained.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum();
+    if (belief > most) most = belief, factor = s.factor;
+  }
+  return factor * on_all_rows.blocks[static_cast<std::size_t>(block)].signature;
 }
 
-HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model) {
-  const Explanations all = only(c.explanations, {explanation});
-  const double complete = EvidenceSearch(model, c.hyper, all).evidence().log_bayes[0];
-  HeldOut out{{}, Vector::Zero(model.y.size())};
+HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model, const Hyperparameters& h) {
+  Explanations all = only(c.explanations, {explanation});
+  const EvidenceSearch sizes(model, h, all);
+  for (std::size_t b = 0; b < all.blocks.size(); ++b) all.blocks[b].sizes = sizes.sizes(static_cast<int>(b));   // one prior for all groups
+  const Evidence complete = EvidenceSearch(model, h, all).evidence();
+  HeldOut out;
   for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end())) {
-    std::vector<char> dropped;
-    for (const int k : scheme.group) dropped.push_back(k == g);
-    const EvidenceSearch search(without_rows(model, dropped), c.hyper, rows_of(all, outside(scheme, g)));
-    out.gain.push_back(complete - search.evidence().log_bayes[0]);
-    const Vector predicted = prediction(search, search.evidence(), all);
-    for (std::size_t k = 0; k < scheme.group.size(); ++k)
-      if (scheme.group[k] == g) out.predicted_um(static_cast<Eigen::Index>(k)) = predicted(static_cast<Eigen::Index>(k));
+    const EvidenceSearch search(without_rows(model, of_group(scheme, g)), h, rows_of(all, outside(scheme, g)));
+    out.gain.push_back(complete.log_bayes[0] - search.evidence().log_bayes[0]);
+    out.null.push_back(complete.log_null - search.evidence().log_null);
+    out.columns.push_back(likeliest(search, all));
   }
   return out;
 }
 
-/// Residuals free of the placement of the part, um.
-Vector placed(const LinearModel& m, const Hyperparameters& h, const Vector& y) {
-  const Rotated rotated(m, h);
-  Vector r = rotated.project(y);
-  for (Eigen::Index i = 0; i < r.size(); ++i) r(i) *= m.noise_um(i) * h.noise(m.noise_group[i]);
-  return r;
+void append(Matrix& columns, const Matrix& more) {
+  columns.conservativeResize(Eigen::NoChange, columns.cols() + more.cols());
+  columns.rightCols(more.cols()) = more;
+}
+
+/// What columns, each with a coefficient of standard deviation 1, are expected to do to all rows, given those outside of a group.
+Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& scheme, int group, const Matrix& columns) {
+  const Precision precision(without_rows(m, of_group(scheme, group)), h);
+  const Precision::Seen seen = precision.seen(columns(outside(scheme, group), Eigen::all));
+  const Matrix g = inner(seen, seen) + Matrix::Identity(columns.cols(), columns.cols());
+  return columns * Eigen::LLT<Matrix>(g).solve(inner(seen, precision.y()));
 }
 
 double rms(const Vector& v) { return std::sqrt(v.squaredNorm() / double(v.size())); }
 
-/// Mean residual along the prediction, in the fifth of the touches where it is largest.
+/// Mean residual along what was found, in the fifth of the touches where that is largest.
 double bias(const Vector& residual, const Vector& predicted) {
   std::vector<double> size;
   for (const double p : predicted) size.push_back(std::abs(p));
@@ -109,11 +142,12 @@ double sum(const std::vector<double>& v) {
   return s;
 }
 
-/// Standard error of the sum over groups of different gains.
-double standard_error(const std::vector<double>& gain) {
-  const double n = double(gain.size()), mean = sum(gain) / n;
+/// Standard error of the sum over groups, of which the larger ones gain more: the ratio estimator of gain per touch (Cochran 1977, 6.3).
+double standard_error(const std::vector<double>& gain, const Scheme& scheme) {
+  const double n = double(gain.size()), per_touch = sum(gain) / double(scheme.group.size());
   double square = 0;
-  for (const double g : gain) square += (g - mean) * (g - mean);
+  std::size_t k = 0;
+  for (const auto& [group, touches] : touches_of(scheme)) square += std::pow(gain[k++] - per_touch * touches, 2);
   return n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
 }
 
@@ -129,40 +163,47 @@ void tell_residuals(const Case& c, const Vector& before, const Vector& after, Di
 }  // namespace
 
 void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out) {
+  const Scheme scheme = scheme_of(c);
+  const std::set<int> groups(scheme.group.begin(), scheme.group.end());
+  const LinearModel machine = likelier_ensemble(c, c.model);
+  Vector before = Vector::Zero(machine.y.size());
+  for (const int g : groups) before += beyond_prediction(machine, c.hyper, of_group(scheme, g));
   std::vector<int> named;
   std::vector<int> blocks;
   for (const Finding& f : result.findings) named.push_back(f.explanation), blocks.push_back(f.block);
   if (result.other) named.push_back(result.other->explanation), blocks.push_back(result.other->block);
-  if (named.empty()) {
-    const Vector as_recorded = placed(c.model, c.hyper, c.model.y);
-    return tell_residuals(c, as_recorded, as_recorded, out);
-  }
-  const Scheme scheme = scheme_of(c);
-  std::vector<double> gain;
-  Vector predicted = Vector::Zero(c.model.y.size());
+  if (named.empty()) return tell_residuals(c, before, before, out);
+  const std::vector<double> baseline = held_out(c, scheme, named.front(), c.model, c.hyper).null;
+  std::vector<double> gain(groups.size(), 0);
+  std::vector<Matrix> columns(groups.size(), Matrix(machine.y.size(), 0));
   for (std::size_t k = 0; k < named.size(); ++k) {
-    std::vector<const Matrix*> before;
-    for (std::size_t j = 0; j < k; ++j) before.push_back(&c.explanations.blocks[blocks[j]].signature);
-    const HeldOut h = held_out(c, scheme, named[k], with_free(c.model, before));
-    gain.resize(h.gain.size(), 0);
-    for (std::size_t g = 0; g < gain.size(); ++g) gain[g] += h.gain[g];
-    predicted += h.predicted_um;
+    std::vector<const Matrix*> found;
+    for (std::size_t j = 0; j < k; ++j) found.push_back(&c.explanations.blocks[blocks[j]].signature);
+    const HeldOut h = held_out(c, scheme, named[k], with_free(c.model, found), result.hyper);
+    for (std::size_t g = 0; g < gain.size(); ++g) gain[g] += h.gain[g] + (k == 0 ? h.null[g] - baseline[g] : 0), append(columns[g], h.columns[g]);
   }
-  const Vector before = placed(c.model, c.hyper, c.model.y), after = placed(c.model, c.hyper, c.model.y - predicted);
-  const Vector shape = placed(c.model, c.hyper, predicted);
+  Vector after = Vector::Zero(machine.y.size());
+  LinearModel without = c.model;   // what was found, as the other groups show it
+  std::size_t at = 0;
+  for (const int g : groups) {
+    const Vector predicted = expected(machine, result.hyper, scheme, g, columns[at++]);
+    LinearModel improved = machine;
+    improved.y -= predicted;
+    after += beyond_prediction(improved, result.hyper, of_group(scheme, g));
+    for (std::size_t k = 0; k < scheme.group.size(); ++k)
+      if (scheme.group[k] == g) without.y(static_cast<Eigen::Index>(k)) -= predicted(static_cast<Eigen::Index>(k));
+  }
   Improvement i;
   i.scheme = scheme.name;
   i.log_score_gain = sum(gain);
-  i.se = standard_error(gain);
+  i.se = standard_error(gain, scheme);
   i.rms_before_um = rms(before);
   i.rms_after_um = rms(after);
-  i.bias_before_um = bias(before, shape);
-  i.bias_after_um = bias(after, shape);
-  const Vector loo = leave_one_out(c.model, result.hyper);
-  LinearModel improved = c.model;
-  improved.y -= predicted;
-  i.chi2_per_dof_before = loo.squaredNorm() / double(loo.size());
-  i.chi2_per_dof_after = leave_one_out(improved, result.hyper).squaredNorm() / double(loo.size());
+  i.bias_before_um = bias(before, before - after);
+  i.bias_after_um = bias(after, before - after);
+  const auto chi2_per_dof = [&](const LinearModel& m) { return leave_one_out(m, result.hyper).squaredNorm() / double(m.y.size()); };
+  i.chi2_per_dof_before = chi2_per_dof(c.model);
+  i.chi2_per_dof_after = chi2_per_dof(without);
   out.improvement = i;
   tell_residuals(c, before, after, out);
   // The runner-up: the best explanation outside the named sets.
@@ -173,7 +214,11 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
     if (in_set || !c.explanations.list[k].effect || int(k) == named.front()) continue;
     if (second < 0 || result.first.log_bayes[k] > result.first.log_bayes[static_cast<std::size_t>(second)]) second = static_cast<int>(k);
   }
-  if (second >= 0) out.runner_up = RunnerUp{{c.explanations.list[static_cast<std::size_t>(second)].name}, sum(held_out(c, scheme, second, c.model).gain)};
+  if (second < 0) return;
+  const Explanation& e = c.explanations.list[static_cast<std::size_t>(second)];
+  const Matrix& signature = c.explanations.blocks[static_cast<std::size_t>(best_block(e, result.first))].signature;
+  const HeldOut h = held_out(c, scheme, second, c.model, estimate(with_free(c.model, {&signature})));
+  out.runner_up = RunnerUp{{e.name}, sum(h.gain) + sum(h.null) - sum(baseline)};
 }
 
 }  // namespace abbe::diagnose

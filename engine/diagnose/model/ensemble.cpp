@@ -64,13 +64,13 @@ void Ensemble::prepare(const std::vector<Matrix>& uneven) {
   std::vector<const Matrix*> list;
   for (const Matrix& function : uneven) list.push_back(&function);
   functions_ = uneven.size();
-  prepare(list, true);
+  prepare(list, nullptr);
 }
 
 void Ensemble::add(const std::vector<Block>& blocks) {
   std::vector<const Matrix*> list;
   for (const Block& b : blocks) list.push_back(&b.signature);
-  prepare(list, false);
+  prepare(list, &blocks);
 }
 
 void Ensemble::keep(std::size_t count) {
@@ -80,30 +80,31 @@ void Ensemble::keep(std::size_t count) {
   remainder_.conservativeResize(Eigen::NoChange, columns);
 }
 
-void Ensemble::prepare(const std::vector<const Matrix*>& signatures, bool of_machine) {
+void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::vector<Block>* blocks) {
   Eigen::Index first = coordinates_.cols(), columns = first;
   for (const Matrix* m : signatures) columns += m->cols();
   coordinates_.conservativeResize(rotated_.rank(), columns);
   remainder_.conservativeResize(rotated_.rows(), columns);
-  for (const Matrix* m : signatures) {
+  for (std::size_t k = 0; k < signatures.size(); ++k) {
+    const Matrix* m = signatures[k];
     const Matrix projected = rotated_.project_patterns(*m);
     coordinates_.middleCols(first, m->cols()) = rotated_.coordinates(projected);
     remainder_.middleCols(first, m->cols()) = rotated_.remainder(projected, coordinates_.middleCols(first, m->cols()));
-    blocks_.push_back(prepared(first, m->cols(), of_machine));
+    blocks_.push_back(prepared(first, m->cols(), blocks ? &(*blocks)[k] : nullptr));
     first += m->cols();
   }
 }
 
-Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, bool of_machine) const {
+Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, const Block* block) const {
   Prepared b;
   b.first = first;
   b.count = count;
   const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
   const Matrix outside = rest.transpose() * rest;
-  b.sizes = sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
+  b.sizes = block && !block->sizes.empty() ? block->sizes : sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(a.transpose() * precision_.col(j).asDiagonal() * a + outside);
-    Axes axes{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0), of_machine ? larger(scales_[static_cast<std::size_t>(j)]) : b.sizes, {}};
+    Axes axes{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0), block ? b.sizes : larger(scales_[static_cast<std::size_t>(j)]), {}};
     for (const Size& s : axes.sizes) axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
     b.axes.push_back(std::move(axes));
   }

@@ -20,12 +20,7 @@ namespace abbe::diagnose {
 /// Signal-to-noise ratios that an explanation of a certain size has on average.
 inline constexpr double kRatios[] = {3, 6, 12, 24, 96};
 
-/// The size of a block's coefficients, in standard deviations of their prior, at which it has a signal-to-noise ratio.
-struct Size {
-  double factor = 1;
-  double log_prior = 0;
-};
-/// `information`: the trace of G at a size of 1.
+/// The sizes at which a block has these ratios. `information`: the trace of G at a size of 1.
 std::vector<Size> sizes_of(double information);
 
 /// Factors on the variances of machine and noise.
@@ -81,8 +76,9 @@ class Ensemble {
     std::vector<Size> sizes;
     std::vector<Axes> axes;              ///< by scale
   };
-  void prepare(const std::vector<const Matrix*>& signatures, bool of_machine);
-  Prepared prepared(Eigen::Index first, Eigen::Index count, bool of_machine) const;
+  /// `blocks`: whose signatures they are; none: error functions of the machine.
+  void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Block>* blocks);
+  Prepared prepared(Eigen::Index first, Eigen::Index count, const Block*) const;
   const Prepared& of(int block) const { return blocks_[functions_ + static_cast<std::size_t>(block)]; }
   Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
   Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }

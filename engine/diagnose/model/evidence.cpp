@@ -71,6 +71,7 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
   for (std::size_t k = 0; k < functions_; ++k) no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions_)));
   const double null = log_sum_exp(no_mismatch);
   Evidence out;
+  out.log_null = null;
   for (std::size_t k = functions_; k < explained.size(); ++k) out.block_log_bayes.push_back(explained[k] - null);
   std::vector<double> all;
   for (const Explanation& x : explanations_) {

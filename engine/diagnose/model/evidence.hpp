@@ -15,6 +15,7 @@ struct Evidence {
   std::vector<double> log_bayes;        ///< by explanation
   std::vector<double> block_log_bayes;  ///< by block, sizes averaged
   double statistic = 0;                 ///< log of the average Bayes factor of all explanations
+  double log_null = 0;                  ///< log likelihood of the baseline, but for what recordings of as many rows share
 };
 
 class EvidenceSearch {

@@ -60,7 +60,7 @@ std::string explanations(const Diagnosis& d) {
     rows += row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
                 fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um)});
   std::string out = "<h2>Explanation</h2>\n" + table(rows);
-  for (const Location& l : main_locations(d)) out += "<p>" + escaped(capitalised(in_words(l))) + ".</p>\n";
+  if (!d.location.empty()) out += "<p>" + escaped(capitalised(in_words(d.location.front()))) + ".</p>\n";
   return out;
 }
 
@@ -71,7 +71,7 @@ std::string improvement(const Diagnosis& d) {
   std::string out = fmt::format("<h2>What the explanation improves</h2>\n<p>On touches that the model had not seen ({}), the log score gains {:.1f} ± {:.1f} nats", escaped(i.scheme),
                                 i.log_score_gain, i.se);
   if (d.runner_up) out += fmt::format("; with the runner-up, {}, {:.1f}", escaped(fmt::format("{}", fmt::join(d.runner_up->members, " or "))), d.runner_up->log_score_gain);
-  return out + ".</p>\n" + table(row({"there", "before", "after"}, "th") + line("rms of the residuals, um", i.rms_before_um, i.rms_after_um) +
+  return out + ".</p>\n" + table(row({"there", "before", "after"}, "th") + line("rms of what is left, um", i.rms_before_um, i.rms_after_um) +
                                   line("bias where it acts, um", i.bias_before_um, i.bias_after_um) +
                                   line("chi-squared per degree of freedom", i.chi2_per_dof_before, i.chi2_per_dof_after));
 }

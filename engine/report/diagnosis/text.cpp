@@ -48,9 +48,15 @@ std::string second_sentence(const Diagnosis& d) {
 std::string third_sentence(const Diagnosis& d) {
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
-  const bool better = i.log_score_gain > 2 * i.se && i.log_score_gain > 3;
-  return fmt::format("On {} that the model had not seen ({}) it predicts {}: gain {:.1f} ± {:.1f} nats, rms {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
-                     d.values.empty() ? "touches" : "values", i.scheme, better ? "better" : "not clearly better", i.log_score_gain, i.se, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um);
+  constexpr double kClear = 3;   // nats
+  const bool clear = std::abs(i.log_score_gain) > std::max(kClear, 2 * i.se), better = clear && i.log_score_gain > 0;
+  const std::string says = better && i.rms_after_um > i.rms_before_um ? "it is right that something is there, but its size does not carry over from the others"
+                           : better                                   ? "it predicts better"
+                           : clear                                    ? "it predicts worse"
+                           : i.rms_after_um < i.rms_before_um         ? "it predicts better, though not beyond doubt"
+                                                                      : "it does not predict better";
+  return fmt::format("On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} ± {:.1f} nats.",
+                     d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um, i.log_score_gain, i.se);
 }
 
 std::string mismatch_table(const Diagnosis& d) {
@@ -66,7 +72,7 @@ std::string mismatch_table(const Diagnosis& d) {
     }
   }
   if (d.unexplained) out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n", "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
-  for (const Location& l : main_locations(d)) out += "  " + in_words(l) + "\n";
+  if (!d.location.empty()) out += "  " + in_words(d.location.front()) + "\n";
   return out;
 }
 
