@@ -79,6 +79,7 @@ void free_readings_of_noise(Case&, const EvidenceSearch& first);
 
 /// Steps that fill parts of the answer.
 void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
 std::vector<DiagnosedParameter> estimate_parameters(const Case&, const SearchResult&, std::size_t finding);
 Unexplained describe_unexplained(const Case&, const SearchResult&);
@@ -88,6 +89,8 @@ struct NoiseFinding {
   std::vector<DiagnosedParameter> parameters;
   std::string sentence;
   bool certain = true;               ///< that it is noise: what scatters may else be a pattern too fine for this recording
+  Factor factor = Factor::direction; ///< in which it shows
+  std::vector<std::pair<std::string, std::string>> where = {};
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);

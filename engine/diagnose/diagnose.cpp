@@ -96,10 +96,12 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front(), e.probability <= kDoubted);
-    if (!plausible) e.sentence += " No such effect is so large: the name may be wrong.";
-    EffectSetting setting{c.explanations.list[f.explanation].name, {}};
-    for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
-    out.model_effects.push_back(std::move(setting));
+    if (!plausible) e.sentence += " No such effect is so large: the name may be wrong, and no machine file carries it.";
+    if (plausible) {
+      EffectSetting setting{c.explanations.list[f.explanation].name, {}};
+      for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+      out.model_effects.push_back(std::move(setting));
+    }
     out.effects.push_back(std::move(e));
   }
 }
@@ -125,6 +127,7 @@ constexpr double kPriorScatter = 0.01;
 
 void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
   for (const NoiseFinding& n : noise) {
+    if (out.effects.empty() && !out.unexplained) out.location.push_back({std::string(abbe::diagnose::name(n.factor)), n.where, 1, n.p});
     out.effects.push_back({{std::string(n.effect->name)}, believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain), n.parameters, n.sentence});
     if (!n.certain) out.effects.back().sentence += " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
     EffectSetting setting{std::string(n.effect->name), {}};
@@ -212,9 +215,9 @@ Diagnosis diagnose_recording(const Recording& recording, const Machine& machine,
   tell_findings(c, result, out);
   if (!result.findings.empty()) out.adequacy_p = result.adequacy;
   if (result.other) tell_unexplained(c, result, out);
+  out.location = locate(c, first, result);
   tell_noise(judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
-  if (out.verdict != Verdict::no_mismatch) out.location = locate(c, first, result);
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);

@@ -1,6 +1,7 @@
 """Every effect of the catalogue is planted in a recording, large, and looked for: the truth must be among what is named, or the diagnosis must
 say what is missing to judge it."""
 import concurrent.futures
+import csv
 import json
 import math
 import random
@@ -20,21 +21,21 @@ PLANTED = {
     "thermal.table_bending": "gradient_K=3",
     "thermal.bridge_bending": "gradient_K=4,legs_K=3",
     "thermal.drift": "amplitude_um=15,direction=x,tau_s=200",
-    "thermal.cycle": "amplitude_um=6,direction=y,period_s=150",
+    "thermal.cycle": "amplitude_um=6,direction=oblique,azimuth_deg=40,elevation_deg=30,period_s=150,phase_deg=120",
     "thermal.ram_growth": "rise_K=5,tau_s=300",
     "thermal.stylus_growth": "rise_K=20,tau_s=300",
     "thermal.part_soak": "start_K=6,tau_s=300",
     "thermal.part_expansion": "cte_error_ppm_per_K=8",
     "thermal.scale_expansion": "cte_error_ppm_per_K=8",
-    "probe.pretravel_lobing": "amplitude_um=6",
+    "probe.pretravel_lobing": "amplitude_um=6,phase_deg=37",
     "probe.stylus_bending": "force_change_N=0.2",
-    "probe.tip_radius": "amplitude_um=5",
+    "probe.tip_radius": "amplitude_um=5,sensor=2",
     "probe.tip_form": "amplitude_um=4",
     "probe.contact_flattening": "factor=10",
     "probe.trigger_delay": "delay_ms=1.5",
     "probe.cosine_error": "share=1",
     "probe.stylus_length": "length_error_um=15,sensor=1",
-    "probe.step": "amplitude_um=10,t0_s=200,direction=y",
+    "probe.step": "amplitude_um=10,t0_s=200,direction=oblique,azimuth_deg=200,elevation_deg=-20",
     "head.axis_errors": "translation_um=8,rotation_urad=60",
     "head.reindexing": "sd_urad=60",
     "head.sag": "bending_um=10",
@@ -43,7 +44,7 @@ PLANTED = {
     "machine.squareness": "squareness_urad=60,which=cwy",
     "machine.straightness_angle_coupling": "amplitude_um=15",
     "machine.backlash": "backlash_um=8",
-    "machine.scale_interpolation": "amplitude_um=4,period_um=20,axis=x",
+    "machine.scale_interpolation": "amplitude_um=4,second_um=1.5,period_um=20,axis=x,phase_deg=100,second_phase_deg=-50",
     "machine.dynamics": "rotation_urad_per_m_s2=100,axis=y,about=x",
     "machine.ram_droop": "droop_um=40",
     "machine.map_scallops": "amplitude_um=8,spacing_mm=50,axis=x",
@@ -65,6 +66,9 @@ CANNOT_JUDGE = {
 # Effects that stay below what the diagnosis says it can see in so few touches, at the largest plausible size.
 TOO_SMALL = {"probe.contact_flattening"}
 ROUNDED_MM = 0.005
+# Effects that a machine file need not follow touch by touch: two are drawn at random, and it says how large they are, not which; of one the offsets
+# of the thermometers stay open; of one half of the few touches after it, at the end, count as dirt.
+NOT_FOLLOWED = {"head.axis_errors", "head.reindexing", "thermal.scale_expansion", "part.shift"}
 
 
 def program():
@@ -118,6 +122,24 @@ class Planted(harness.Case):
         self.abbe("record", "frame.dmi", "--machine", improved, "-o", f"again_{recording}")
         return said
 
+    def displaced(self, recording):
+        """n . d in um of every touch, against the same machine without any effect."""
+        def along_normals(name):
+            lines = [line for line in (self.folder / name).read_text().splitlines() if not line.startswith("#")]
+            return [sum(1000 * float(r["n" + a]) * float(r[a]) for a in "xyz") for r in csv.DictReader(lines)]
+        return [a - b for a, b in zip(along_normals(recording), along_normals("clean.csv"))]
+
+    def left_by_its_model(self, recording):
+        """What the machine file that the diagnosis has written leaves of an effect, as a share of it, rms; its sizes as if they were certain."""
+        machine = json.loads((self.folder / f"{recording}.json").read_text())
+        for effect in machine["effects"]:
+            for name, value in effect["parameters"].items():
+                effect["parameters"][name] = value["value"] if isinstance(value, dict) else value
+        self.write("certain.json", json.dumps(machine))
+        self.abbe("record", "frame.dmi", "--machine", "certain.json", "--workpiece", "part.json", "--seed", SEED, "-o", "modelled.csv")
+        true, modelled = self.displaced(recording), self.displaced("modelled.csv")
+        return math.sqrt(sum((t - m) ** 2 for t, m in zip(true, modelled)) / sum(t * t for t in true))
+
     def looked_for(self, effect):
         """What the diagnosis says of a recording in which this effect was planted."""
         self.recorded(effect + ".csv", [effect])
@@ -151,6 +173,7 @@ class Planted(harness.Case):
             self.assertLess(abs(size["value"] - truth), 3 * size["u"], e)
 
     def test_every_effect_is_found_or_cannot_be_judged(self):
+        self.recorded("clean.csv", [])
         catalogue = set(re.findall(r"^\s*([a-z]+\.[a-z_]+)", self.abbe("explain").stdout, re.MULTILINE))
         self.assertEqual({e for e in catalogue if not e.startswith("empirical.")}, set(PLANTED), "every effect of the catalogue is planted")
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -168,6 +191,8 @@ class Planted(harness.Case):
                     continue
                 named = [e["members"] for e in said["effects"]]
                 self.assertTrue(any(effect in members for members in named), f"{said['verdict']}, p = {said['p_value']:.2g}: {named}, {said['unexplained']}")
+                if not effect.startswith("noise.") and effect not in NOT_FOLLOWED and named[0][0] == effect:
+                    self.assertLess(self.left_by_its_model(effect + ".csv"), 0.25, "what the machine file leaves of it")
 
 
 if __name__ == "__main__":

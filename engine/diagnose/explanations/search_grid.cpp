@@ -81,7 +81,7 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
   if (p.name == "tau_s") return {Kind::tried, time_constants(t), true};
   if (p.name == "position_mm") return {Kind::tried, places(t), true};
   if (p.name == "second_phase_deg" || (p.name == "phase_deg" && p.low < -180)) return {Kind::phase, {0, 90}};
-  if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}};  // a tripod: 120 degrees are all
+  if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}, true};  // a tripod: 120 degrees are all
   const auto found = tried.find(p.name);
   if (found != tried.end()) return {Kind::tried, found->second};
   return {Kind::fixed, {p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))}};

@@ -78,11 +78,16 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
   std::stable_sort(order.begin(), order.end());
   order.resize(std::max<std::size_t>(1, order.size() / 10));
   const auto scene = [&](int k) -> const TouchScene& { return c.touches.touches[c.rows[k]].scene; };
-  const auto range = [&](auto value, const char* unit) {
-    double low = 1e300, high = -1e300;
+  /// Between which values the strongest tenth lies, unless that is nearly everywhere.
+  using Places = std::vector<std::pair<std::string, std::string>>;
+  const auto add_range = [&](Places& out, const char* name, auto value, const char* unit) {
+    constexpr double kNearlyEverywhere = 2.0 / 3;
+    double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
     for (const auto& [weight, k] : order) low = std::min(low, value(scene(k))), high = std::max(high, value(scene(k)));
-    return fmt::format("{:.0f} to {:.0f} {}", low, high, unit);
+    for (std::size_t k = 0; k < c.rows.size(); ++k) first = std::min(first, value(scene(static_cast<int>(k)))), last = std::max(last, value(scene(static_cast<int>(k))));
+    if (high - low < kNearlyEverywhere * (last - first)) out.emplace_back(name, fmt::format("{:.0f} to {:.0f} {}", low, high, unit));
   };
+  Places out;
   const auto label = [&](auto value) {
     std::map<std::string, double> weight;
     for (Eigen::Index i = 0; i < pattern.size(); ++i) weight[value(scene(static_cast<int>(i)))] += pattern(i) * pattern(i);
@@ -95,11 +100,12 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     return best;
   };
   switch (factor) {
-    case Factor::time: return {{"time_s", range([](const TouchScene& s) { return s.time_s; }, "s")}};
+    case Factor::time: add_range(out, "time_s", [](const TouchScene& s) { return s.time_s; }, "s"); break;
     case Factor::position:
-      return {{"x", range([](const TouchScene& s) { return s.point.x; }, "mm")},
-              {"y", range([](const TouchScene& s) { return s.point.y; }, "mm")},
-              {"z", range([](const TouchScene& s) { return s.point.z; }, "mm")}};
+      add_range(out, "x", [](const TouchScene& s) { return s.point.x; }, "mm");
+      add_range(out, "y", [](const TouchScene& s) { return s.point.y; }, "mm");
+      add_range(out, "z", [](const TouchScene& s) { return s.point.z; }, "mm");
+      break;
     case Factor::direction: {
       const Vec3 n = scene(order.front().second).normal;
       return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
@@ -112,15 +118,12 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     case Factor::setup: return {{"setup", label([](const TouchScene& s) { return std::to_string(s.setup); })}};
     case Factor::run: return {{"run", label([](const TouchScene& s) { return std::to_string(s.run); })}};
     case Factor::feature: return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
-    case Factor::temperature: {
-      std::vector<std::pair<std::string, std::string>> out;
-      for (const Thermometer& t : kThermometers)
-        if (differs(c, t.of)) out.emplace_back(t.name, range(t.of, "C"));
-      return out;
-    }
+    case Factor::temperature:
+      for (const Thermometer& t : kThermometers) add_range(out, t.name, t.of, "C");
+      break;
     case Factor::speed: return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
   }
-  return {};
+  return out;
 }
 
 /// The explanations of one factor.
@@ -147,6 +150,7 @@ std::map<Factor, Located> by_factor(const Explanations& all, const Evidence& evi
 }  // namespace
 
 std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const SearchResult& result) {
+  if (result.findings.empty() && !result.other) return {};
   const Explanations& all = c.explanations;
   std::vector<double> simulated;
   for (const Evidence& null : result.null) simulated.push_back(*std::max_element(null.log_bayes.begin(), null.log_bayes.end()));

@@ -13,8 +13,10 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// The looks at the variance, six of them, may not cost more false alarms than a tenth of what the search allows itself.
-constexpr double kNoiseAlarm = 1.5e-4;
+/// The looks at the scatter: three groups, three axes, all touches, outliers.
+constexpr int kLooks = 8;
+/// Together they may not cost more false alarms than a tenth of what the search allows itself.
+constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
 
 /// The probability that a chi-squared variable of one degree of freedom exceeds x.
 double chi2_above_1(double x) { return std::erfc(std::sqrt(std::max(0.0, x) / 2)); }
@@ -109,12 +111,13 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
   /// A group of the effect, by its name there, and the limit that parts it from the others.
   struct Split {
     const char* group;
+    Factor factor;
     std::optional<DiagnosedParameter> limit;
     Vector in;
   };
-  std::vector<Split> splits{{"long styli", figure("longer_than_mm", "mm", long_mm, 0), Vector(rows)},
-                            {"tilted head", std::nullopt, Vector(rows)},
-                            {"fast probing", figure("faster_than_mm_s", "mm/s", fast_mm_s, 0), Vector(rows)}};
+  std::vector<Split> splits{{"long styli", Factor::sensor, figure("longer_than_mm", "mm", long_mm, 0), Vector(rows)},
+                            {"tilted head", Factor::head, std::nullopt, Vector(rows)},
+                            {"fast probing", Factor::speed, figure("faster_than_mm_s", "mm/s", fast_mm_s, 0), Vector(rows)}};
   for (Eigen::Index k = 0; k < rows; ++k) {
     splits[0].in(k) = length(k) > long_mm;
     splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > 0.02;
@@ -133,6 +136,7 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
     f.parameters.push_back({.name = "group", .unit = "", .word = s.group});
     if (s.limit) f.parameters.push_back(*s.limit);
     f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
+    f.factor = s.factor, f.where = {{"group", s.group}};
     f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.group, ratio);
     best = Unequal{std::move(f), s.in};
   }
@@ -172,15 +176,17 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
     NoiseFinding f{find_effect("noise.vibration"), e.p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
     f.certain = other_each_time(c, r, along, e.size / (1 + e.size));
+    f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
     f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.", "xyz"[axis], sd);
     best = std::move(f);
   }
   if (best) return best;
   const double n = quiet.sum(), noise = r.noise_um * std::sqrt(r.standardised.array().square().matrix().dot(quiet) / n);
-  const double spec = c.model.noise_um.mean(), excess = noise / spec, u = 1 / std::sqrt(2 * n);
-  if (excess - 3 * u < kLeastExcess) return std::nullopt;
-  const double sd = spec * std::sqrt(excess * excess - 1);
-  NoiseFinding f{find_effect("noise.vibration"), std::erfc((excess - kLeastExcess) / u), {figure("sd_um", "um", sd, sd * u)}, {}};
+  const double spec = c.model.noise_um.mean(), excess = noise / spec, u = excess / std::sqrt(2 * n);
+  const double p = std::erfc((excess - kLeastExcess) / u / std::sqrt(2.0)) / 2;
+  if (excess < kLeastExcess || p > kNoiseAlarm) return std::nullopt;
+  const double sd = spec * std::sqrt(excess * excess - 1), u_sd = spec * excess * u / std::sqrt(excess * excess - 1);
+  NoiseFinding f{find_effect("noise.vibration"), p, {figure("sd_um", "um", sd, u_sd)}, {}};
   f.certain = other_each_time(c, r, quiet, 1 - 1 / (excess * excess));
   f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says, in every direction.", excess);
   return f;
@@ -191,8 +197,10 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
 std::optional<NoiseFinding> outliers(const Case& c) {
   constexpr double kFar = 1.5;
   double n = 0, sum = 0, limit = 0;
+  std::map<int, int> by_feature;
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
     if (!c.masked[i]) continue;
+    ++by_feature[c.touches.touches[i].scene.feature];
     const auto row = static_cast<Eigen::Index>(i);
     n += 1, sum += std::abs(c.off_um(row));
     limit += kOutlier * c.baseline.model.noise_um(row) * c.hyper.noise(c.baseline.model.noise_group[i]);
@@ -201,6 +209,12 @@ std::optional<NoiseFinding> outliers(const Case& c) {
   const double p = std::exp(n * std::log(expected) - std::lgamma(n + 1));
   if (n < 2 || p > kNoiseAlarm || sum < kFar * limit) return std::nullopt;
   NoiseFinding f{find_effect("noise.outliers"), p, {figure("share", "1", share, std::sqrt(share / all)), figure("size_um", "um", sum / n, sum / n / std::sqrt(n))}, {}};
+  // Dirt lies anywhere in the sequence. What lies so close together by chance in one recording of twenty may be something that happened then.
+  constexpr double kByChance = 0.05;
+  const auto first = std::find(c.masked.begin(), c.masked.end(), 1) - c.masked.begin(), last = c.masked.rend() - std::find(c.masked.rbegin(), c.masked.rend(), 1);
+  f.certain = n * std::pow(double(last - first) / all, n - 1) > kByChance;
+  const auto most = std::max_element(by_feature.begin(), by_feature.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  f.factor = Factor::feature, f.where = {{"feature", c.touches.features[static_cast<std::size_t>(most->first)]}};
   f.sentence = fmt::format("{:.0f} of {} touches are outliers: dirt, burrs or early triggers.", n, c.masked.size());
   return f;
 }
@@ -219,6 +233,8 @@ std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result)
   std::vector<NoiseFinding> out;
   for (std::optional<NoiseFinding>& f : judged)
     if (f) out.push_back(std::move(*f));
+  constexpr double kLeastP = 1e-12;   // further out the laws of the tails are not known so well
+  for (NoiseFinding& f : out) f.p = std::clamp(kLooks * f.p, kLeastP, 1.0);
   std::stable_sort(out.begin(), out.end(), [](const NoiseFinding& a, const NoiseFinding& b) { return a.p < b.p; });
   return out;
 }

@@ -1,19 +1,18 @@
 // Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a linear-Gaussian posterior with a prior so
 // wide that it does not pull.
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <optional>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/explanations/search_grid.hpp"
+#include "engine/diagnose/findings/variant_estimate.hpp"
 
 namespace abbe::diagnose {
 
 namespace {
-
-constexpr double kWide = 30;     // prior standard deviations
 
 /// One variant's estimate of one figure.
 struct MixtureTerm {
@@ -35,7 +34,8 @@ double quantile(const std::vector<MixtureTerm>& mixture, double p) {
   return (low + high) / 2;
 }
 
-DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<MixtureTerm>& mixture) {
+/// `value`: the one that stands for the mixture; without, its mean.
+DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<MixtureTerm>& mixture, std::optional<double> value = {}) {
   DiagnosedParameter out{.name = std::string(parameter.name), .unit = std::string(parameter.unit)};
   double square = 0;
   for (const MixtureTerm& c : mixture) out.value += c.weight * c.value;
@@ -43,28 +43,13 @@ DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<M
   out.u = std::sqrt(square);
   out.low = quantile(mixture, 0.025);
   out.high = quantile(mixture, 0.975);
+  if (value) out.value = *value;
   out.plausible = out.value >= parameter.low && out.value <= parameter.high;
   return out;
 }
 
-/// Estimate of a linear parameter in one variant: its coefficient, or the length of the vector along several directions and phases.
-MixtureTerm linear_estimate(const Block& block, const Vector& mean, const Matrix& covariance, int parameter) {
-  std::vector<Eigen::Index> mine;
-  for (std::size_t k = 0; k < block.columns.size(); ++k)
-    if (block.columns[k].parameter == parameter) mine.push_back(static_cast<Eigen::Index>(k));
-  MixtureTerm out;
-  if (mine.empty()) return out;
-  const double unit = block.columns[mine.front()].unit;
-  if (mine.size() == 1) return {0, unit * mean(mine[0]), unit * std::sqrt(covariance(mine[0], mine[0]))};
-  const Vector v = mean(mine);
-  const Matrix s = covariance(mine, mine);
-  const double length = v.norm();
-  const Vector along = length > 0 ? Vector(v / length) : Vector::Unit(v.size(), 0);
-  // The length of an uncertain vector is biased upwards by what scatters across it.
-  const double variance = along.dot(s * along), across = s.trace() - variance;
-  const double corrected = std::sqrt(std::max(0.0, length * length - across));
-  return {0, unit * corrected, unit * std::sqrt(variance)};
-}
+/// One variant's figure, which no other variant shares.
+DiagnosedParameter told(const EffectParameter& parameter, const Estimate& e) { return summary(parameter, {{1, e.value, e.u}}); }
 
 /// The standard deviation of draws: what their likelihood says of it, beside what the machine file lets them do anyway.
 std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info, double unit) {
@@ -96,36 +81,28 @@ class Estimator {
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     const EvidenceSearch search(with_free(c.model, others), hyper, mine);
     const Evidence evidence = search.evidence();
-    // A size in all runs and a change from one run to the next are two figures: that of the likeliest variant is told.
-    const int from_run = c.explanations.blocks[result.findings[which].block].from_run;
+    const auto belief = [&](std::size_t b) { return evidence.block_log_bayes[b] + std::log(mine.blocks[b].weight); };
+    std::size_t likeliest = 0;
+    for (std::size_t b = 1; b < mine.blocks.size(); ++b)
+      if (belief(b) > belief(likeliest)) likeliest = b;
     std::vector<double> logs;
-    for (const Block& b : mine.blocks)
-      logs.push_back(b.from_run == from_run ? evidence.block_log_bayes[logs.size()] + std::log(b.weight) : -std::numeric_limits<double>::infinity());
+    for (std::size_t b = 0; b < mine.blocks.size(); ++b)
+      logs.push_back(alike(mine.blocks[b], mine.blocks[likeliest]) ? belief(b) : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
     for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
       const double weight = std::exp(logs[b] - total);
       if (weight < 1e-4) continue;
       const auto info = search.information(static_cast<int>(b));
-      const Matrix precision = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide);
-      const Eigen::LLT<Matrix> llt(precision);
-      variants_.push_back({weight, mine.blocks[b], llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols())), info});
+      if (b == likeliest) likeliest_ = variants_.size();
+      variants_.push_back({weight, mine.blocks[b], {}, info});
     }
+    for (Variant& v : variants_) v.estimate.emplace(*explanation_.effect, v.block, v.info);
+    for (const EffectParameter& p : explanation_.effect->parameters) search_.push_back(search_of(p, c.touches));
   }
 
   std::vector<DiagnosedParameter> all() const {
     std::vector<DiagnosedParameter> out;
-    const Effect& effect = *explanation_.effect;
-    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-      const EffectParameter& parameter = effect.parameters[p];
-      if (parameter.linear) {
-        const auto mixture = effect.draws > 0 ? spread(parameter) : linear(static_cast<int>(p));
-        if (!mixture.empty()) out.push_back(summary(parameter, mixture));
-      } else if (!parameter.choices.empty()) {
-        if (const auto word = chosen(p)) out.push_back({.name = std::string(parameter.name), .unit = "", .word = *word});
-      } else if (varies(p)) {
-        out.push_back(summary(parameter, searched(p)));
-      }
-    }
+    for (std::size_t p = 0; p < search_.size(); ++p) add(p, out);
     return out;
   }
 
@@ -133,20 +110,76 @@ class Estimator {
   struct Variant {
     double weight;
     Block block;
-    Vector mean;
-    Matrix covariance;
+    std::optional<VariantEstimate> estimate;
     EvidenceSearch::Information info;
   };
+
+  /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli or two axes: told is that of the
+  /// likeliest variant, over the values of what has a value between any two.
+  static bool alike(const Block& a, const Block& b) {
+    if (a.from_run != b.from_run) return false;
+    for (std::size_t p = 0; p < a.theta.size(); ++p)
+      if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high) return false;
+    return true;
+  }
+
+  void add(std::size_t p, std::vector<DiagnosedParameter>& out) const {
+    const EffectParameter& parameter = explanation_.effect->parameters[p];
+    const Variant& likeliest = variants_[likeliest_];
+    if (parameter.linear) {
+      const auto mixture = explanation_.effect->draws > 0 ? spread(parameter) : linear(static_cast<int>(p));
+      if (!mixture.empty()) out.push_back(summary(parameter, mixture));
+      return;
+    }
+    switch (search_[p].kind) {
+      case Search::Kind::direction: return add_direction(p, out);
+      case Search::Kind::phase:
+        if (const auto phase = likeliest.estimate->phase_deg(of_phase(parameter.name))) out.push_back(told(parameter, *phase));
+        return;
+      case Search::Kind::fixed: return;
+      case Search::Kind::tried: break;
+    }
+    const double value = likeliest.block.theta[p];
+    const bool standard = value == parameter.standard;
+    if (search_[p].between && !(standard && search_[p].values.size() < 2)) out.push_back(summary(parameter, searched(p), value));
+    else if (!parameter.choices.empty()) out.push_back({.name = std::string(parameter.name), .unit = "", .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
+    else if (!standard || (search_[p].values.size() > 1 && value != 0)) out.push_back(told(parameter, {value, 0}));   // 0 names no stylus, no tip, no place in particular
+  }
+
+  /// The linear parameter whose phase this is: that of the same harmonic.
+  int of_phase(std::string_view phase) const {
+    const std::string_view harmonic = phase.substr(0, phase.find("phase_deg"));
+    const auto parameters = explanation_.effect->parameters;
+    for (std::size_t p = 0; p < parameters.size(); ++p)
+      if (parameters[p].linear && parameters[p].name.starts_with(harmonic)) return static_cast<int>(p);
+    return -1;
+  }
+
+  /// The axis where it may be one, else azimuth and elevation, the two parameters after it.
+  void add_direction(std::size_t p, std::vector<DiagnosedParameter>& out) const {
+    const auto d = variants_[likeliest_].estimate->direction();
+    if (!d) return;
+    const auto parameters = explanation_.effect->parameters;
+    constexpr double kClearly = 2;   // standard uncertainties
+    const double components[] = {d->x, d->y, d->z};
+    std::size_t axis = 3;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (std::acos(std::min(1.0, components[k])) <= kClearly * d->u) axis = k;
+    out.push_back({.name = "direction", .unit = "", .word = std::string(parameters[p].choices[axis])});
+    if (axis < 3) return;
+    const double flat = std::hypot(d->x, d->y), degree = kPi / 180;
+    out.push_back(told(parameters[p + 1], {std::atan2(d->y, d->x) / degree, d->u / std::max(flat, d->u) / degree}));
+    out.push_back(told(parameters[p + 2], {std::atan2(d->z, flat) / degree, d->u / degree}));
+  }
 
   std::vector<MixtureTerm> linear(int p) const {
     std::vector<MixtureTerm> mixture;
     double total = 0;
     for (const Variant& v : variants_) {
-      MixtureTerm c = linear_estimate(v.block, v.mean, v.covariance, p);
-      if (c.u == 0) continue;
-      c.weight = v.weight;
+      const auto size = v.estimate->size(p);
+      if (!size) continue;
       total += v.weight;
-      mixture.push_back(c);
+      mixture.push_back({v.weight, size->value, size->u});
     }
     for (MixtureTerm& c : mixture) c.weight /= total;
     return mixture;
@@ -176,30 +209,10 @@ class Estimator {
     return mixture;
   }
 
-  bool varies(std::size_t p) const {
-    return std::any_of(variants_.begin(), variants_.end(), [&](const Variant& v) { return v.block.theta[p] != variants_.front().block.theta[p]; }) ||
-           explanation_.effect->parameters[p].name == "t0_s" || explanation_.effect->parameters[p].name == "period_s";
-  }
-
-  /// The word of a choice: the likeliest one, or of a spanned direction the axis that dominates.
-  std::optional<std::string> chosen(std::size_t p) const {
-    const EffectParameter& parameter = explanation_.effect->parameters[p];
-    const auto best = std::max_element(variants_.begin(), variants_.end(), [](const Variant& a, const Variant& b) { return a.weight < b.weight; });
-    const bool spanned = std::any_of(best->block.columns.begin(), best->block.columns.end(), [](const Column& c) { return c.part % 3 != 0; });
-    if (!spanned || parameter.name != "direction") {
-      const auto code = static_cast<std::size_t>(best->block.theta[p] - parameter.low + 0.5);
-      return code < parameter.choices.size() ? std::optional(std::string(parameter.choices[code])) : std::nullopt;
-    }
-    double energy[3] = {};
-    for (std::size_t k = 0; k < best->block.columns.size(); ++k) energy[best->block.columns[k].part % 3] += std::pow(best->mean(static_cast<Eigen::Index>(k)), 2);
-    const double all = energy[0] + energy[1] + energy[2];
-    for (int k = 0; k < 3; ++k)
-      if (energy[k] > 0.9 * all) return std::string(parameter.choices[static_cast<std::size_t>(k)]);
-    return std::string(parameter.choices[3]);
-  }
-
   const Explanation& explanation_;
   std::vector<Variant> variants_;
+  std::size_t likeliest_ = 0;        ///< of them
+  std::vector<Search> search_;       ///< by parameter
 };
 
 }  // namespace
