@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 #include "engine/diagnose/baseline/known_state.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
+#include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/words.hpp"
 
 namespace abbe {
@@ -78,6 +80,31 @@ bool judged(const Case& c, const Finding& f) {
 constexpr double kDoubted = 0.5;
 double believed(double probability, bool doubted) { return doubted ? std::min(probability, kDoubted) : probability; }
 
+/// Whether several runs share one placement of the part.
+bool stays_in_its_setup(const Case& c) {
+  std::map<int, int> run_of;
+  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const TouchScene& s = c.touches.touches[static_cast<std::size_t>(row)].scene;
+    return run_of.try_emplace(s.setup, s.run).first->second != s.run;
+  });
+}
+
+/// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides whether that is plausible, and says
+/// what is to be said.
+std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters, Diagnosis& out) {
+  EffectSetting setting{std::string(effect.name), {}};
+  for (const DiagnosedParameter& p : parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+  const std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
+  if (before) setting = before->now;
+  const bool gone = before && before->gone;
+  if (!gone && !plausible(effect, setting)) return " No such effect is so large: the name may be wrong, and no machine file carries it.";
+  for (DiagnosedParameter& p : parameters) p.plausible = true;
+  if (before) out.superseded.push_back(before->index);
+  if (!gone) out.model_effects.push_back(std::move(setting));
+  if (!before) return "";
+  return gone ? " The machine file has the opposite: it is not there any more." : " That is beside what the machine file has of it.";
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -91,17 +118,13 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
     e.parameters = estimate_parameters(c, result, k);
-    const bool plausible = std::all_of(e.parameters.begin(), e.parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
-    e.probability = believed(f.probability, something_else || !judged(c, f) || !plausible);
+    const std::string in_file = tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
+    const bool possible = std::all_of(e.parameters.begin(), e.parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
+    e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front(), e.probability <= kDoubted);
-    if (!plausible) e.sentence += " No such effect is so large: the name may be wrong, and no machine file carries it.";
-    if (plausible) {
-      EffectSetting setting{c.explanations.list[f.explanation].name, {}};
-      for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
-      out.model_effects.push_back(std::move(setting));
-    }
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front(), e.probability <= kDoubted) + in_file;
+    if (e.new_in_run.front() > 0 && stays_in_its_setup(c)) e.sentence += " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));
   }
 }

@@ -151,6 +151,7 @@ struct Diagnosis {
   std::vector<Diagnostic> messages;
   /// What --model-out adds to the machine file: effects, and the JSON text of known_state.
   std::vector<EffectSetting> model_effects;
+  std::vector<std::size_t> superseded;         ///< effects of the machine file, by index, that some of `model_effects` stand for or that are gone
   std::string known_state;
 };
 

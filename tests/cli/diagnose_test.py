@@ -46,6 +46,21 @@ class Diagnose(harness.Case):
         again = self.diagnosis(recording, "--known", "improved.json")
         self.assertEqual(again["baseline"]["mode"], "known")
 
+    def test_what_was_mended_leaves_the_machine_file(self):
+        first = self.record("--with", "probe.tip_radius:amplitude_um=3")
+        self.diagnosis(first, "--model-out", "worn.json")
+        worn = json.loads((self.folder / "worn.json").read_text())
+        self.assertEqual([e["name"] for e in worn["effects"]], ["probe.tip_radius"])
+        said = self.diagnosis(self.record("--run", 2), "--known", "worn.json", "--model-out", "mended.json")
+        self.assertEqual(said["effects"][0]["members"][0], "probe.tip_radius")
+        self.assertIn("not there any more", said["effects"][0]["sentence"])
+        self.assertEqual(json.loads((self.folder / "mended.json").read_text())["effects"], [])
+        # And what has grown is one effect, not two.
+        self.diagnosis(self.record("--run", 3, "--with", "probe.tip_radius:amplitude_um=6"), "--known", "worn.json", "--model-out", "grown.json")
+        grown = json.loads((self.folder / "grown.json").read_text())["effects"]
+        self.assertEqual([e["name"] for e in grown], ["probe.tip_radius"])
+        self.assertAlmostEqual(grown[0]["parameters"]["amplitude_um"]["value"], 6, delta=1)
+
     def test_the_answer_does_not_depend_on_threads(self):
         recording = self.record("--with", "probe.tip_radius:amplitude_um=2")
         answers = [self.abbe("diagnose", recording, "--machine", MACHINE, "--format", "json", "--threads", t).stdout for t in (1, 2)]

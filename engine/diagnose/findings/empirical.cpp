@@ -101,6 +101,9 @@ Basis basis_of(const Case& c, const std::vector<Piece>& pieces) {
   return b;
 }
 
+/// A pattern over these belongs to the part or to the day, not to the machine: in another program the same place is another feature.
+bool of_the_occasion(Factor f) { return f == Factor::setup || f == Factor::feature || f == Factor::run; }
+
 struct Fit {
   Vector value, u;
 };
@@ -132,8 +135,8 @@ EffectSetting setting_of(const Piece& piece) {
   return s;
 }
 
-/// The likeliest pattern that an effect can follow, which need not be the likeliest of all: a feature of this program is in no other, but its
-/// place and its directions are. None where nothing follows it that the recording speaks for.
+/// The likeliest pattern that an effect can follow, which need not be the likeliest of all. None where nothing follows it that the recording
+/// speaks for.
 const Explanation* carried(const Case& c, const Finding& f) {
   const Explanation* best = nullptr;
   double most = 0;
@@ -151,6 +154,7 @@ const Explanation* carried(const Case& c, const Finding& f) {
 std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& result) {
   if (!result.other) return {};
   const Explanation& found = c.explanations.list[static_cast<std::size_t>(result.other->explanation)];
+  if (of_the_occasion(found.factor)) return {};
   const Explanation* e = pieces_of(c, found).empty() ? carried(c, *result.other) : &found;
   if (!e) return {};
   const std::vector<Piece> pieces = pieces_of(c, *e);
@@ -161,7 +165,9 @@ std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& re
   one.list.back().prior = 1;
   one.blocks.emplace_back();
   one.blocks.back().signature = basis.columns;
-  const Fit fit = fitted(EvidenceSearch(with_free(c.model, signatures_of(c, result.findings)), result.hyper, one).information(0));
+  const EvidenceSearch search(with_free(c.model, signatures_of(c, result.findings)), result.hyper, one);
+  if (search.evidence().log_bayes[0] <= 0) return {};   // what follows the pattern so badly would spoil what was right
+  const Fit fit = fitted(search.information(0));
   std::vector<EffectSetting> settings;
   for (const Piece& p : pieces) settings.push_back(setting_of(p));
   for (std::size_t k = 0; k < basis.of.size(); ++k) {

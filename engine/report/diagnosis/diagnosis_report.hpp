@@ -15,7 +15,8 @@ std::string diagnosis_text(const Diagnosis&);
 std::vector<std::string> diagnosis_sentences(const Diagnosis&);
 /// `recording` and `machine`: what was compared, for the heading.
 std::string diagnosis_html(const Diagnosis&, const std::string& recording, const std::string& machine);
-/// The text of the machine file with what the diagnosis found in it: `effects` appended, `known_state` replaced.
+/// The text of the machine file with what the diagnosis found in it: `effects` appended, or in the place of those they stand for, and `known_state`
+/// replaced.
 std::string improved_machine(const std::string& machine_json, const Diagnosis&);
 
 }  // namespace abbe

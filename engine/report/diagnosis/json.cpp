@@ -1,3 +1,6 @@
+#include <functional>
+#include <set>
+
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 #include "engine/report/json_value.hpp"
 
@@ -131,6 +134,8 @@ std::string diagnosis_json(const Diagnosis& d) {
 
 std::string improved_machine(const std::string& machine_json, const Diagnosis& d) {
   Json machine = Json::parse(machine_json);
+  const std::set<std::size_t, std::greater<>> last_first(d.superseded.begin(), d.superseded.end());
+  for (const std::size_t k : last_first) machine["effects"].erase(k);
   for (const EffectSetting& e : d.model_effects) {
     Json values = Json::object();
     for (const auto& [key, v] : e.parameters) values[key] = v.word.empty() ? Json{{"value", number(v.value)}, {"u", number(v.u)}} : Json(v.word);

@@ -96,7 +96,9 @@ std::string next_steps(const Diagnosis& d) {
     out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability);
   if (!d.next_measurement.empty()) out += "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json.\n";
   if (!d.otherwise.empty()) out += "  " + d.otherwise + "\n";
-  if (!d.effects.empty() || (d.unexplained && !d.unexplained->model.empty()))
+  if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
+    out += "  No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.\n";
+  if (!d.model_effects.empty())
     out += "  To reckon with it until it is mended: --model-out writes the machine file with it, and 'abbe run' on that machine gives uncertainties with it.\n";
   return out.empty() ? "" : "what to do next:\n" + out;
 }
