@@ -19,6 +19,13 @@ void print_messages(const std::vector<Diagnostic>& messages) {
   for (const Diagnostic& d : messages) std::fputs(render(d).c_str(), stderr);
 }
 
+std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options) {
+  std::vector<std::string> files;
+  for (const std::optional<std::string>& file : options)
+    if (file) files.push_back(*file);
+  return files;
+}
+
 std::string counted(std::size_t number, std::string_view noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }

@@ -2,6 +2,8 @@
 // stdout.
 #pragma once
 
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +18,9 @@ void print_messages(const std::vector<Diagnostic>& messages);
 /// The result of a command, on stdout. Throws UserError when it cannot be written (a full disk, a
 /// closed pipe).
 void print_result(std::string_view text);
+
+/// The files among options, of which some were not given.
+std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options);
 
 /// "1 error", "3 errors".
 std::string counted(std::size_t number, std::string_view noun);

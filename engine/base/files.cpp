@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <map>
 
 #include "engine/base/diagnostic.hpp"
 
@@ -19,28 +21,88 @@ namespace {
                              "check that the folder exists, is writable and has room; the file is unchanged"));
 }
 
-}  // namespace
+/// Closes what it holds.
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
 
-void write_whole(const std::string& path, std::string_view content) {
+ private:
+  int number_;
+};
+
+bool write_all(int file, std::string_view content) {
+  for (std::size_t done = 0; done < content.size();) {
+    const ssize_t n = ::write(file, content.data() + done, content.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    done += static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+/// A terminal, a pipe, /dev/null: what is there takes the content, a file in its place would only hide it.
+bool takes_content(const std::string& path) {
+  struct stat there {};
+  return ::stat(path.c_str(), &there) == 0 && (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode) || S_ISFIFO(there.st_mode) || S_ISSOCK(there.st_mode));
+}
+
+void write_into(const std::string& path, std::string_view content) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail(path, "opening it");
+  const Descriptor closes(file);
+  if (!write_all(file, content)) fail(path, "writing");
+}
+
+void replace(const std::string& path, std::string_view content) {
   std::string temporary = path + ".XXXXXX";
   const int file = mkstemp(temporary.data());
   if (file < 0) fail(path, "creating a temporary file beside it");
-  std::size_t done = 0;
-  bool good = fchmod(file, 0644) == 0;
-  while (good && done < content.size()) {
-    const ssize_t n = ::write(file, content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    good = n >= 0;
-    if (good) done += static_cast<std::size_t>(n);
-  }
-  good = good && fsync(file) == 0;
-  const int cause = errno;
+  bool good = fchmod(file, 0644) == 0 && write_all(file, content) && fsync(file) == 0;
+  int cause = errno;
   close(file);
-  if (!good || std::rename(temporary.c_str(), path.c_str()) != 0) {
-    const int rename_cause = good ? errno : cause;
-    std::remove(temporary.c_str());
-    errno = rename_cause;
-    fail(path, "writing");
+  if (good) {
+    good = std::rename(temporary.c_str(), path.c_str()) == 0;
+    cause = errno;
+  }
+  if (good) return;
+  std::remove(temporary.c_str());
+  errno = cause;
+  fail(path, "writing");
+}
+
+/// The path without links, as far as it exists; two names of one file have the same.
+std::string where(const std::string& path) {
+  std::error_code unreadable;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unreadable);
+  return unreadable ? path : real.string();
+}
+
+/// What a link points to, even if that does not exist yet.
+std::string followed(std::string path) {
+  constexpr int kMostLinks = 40;
+  std::error_code none;
+  for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(path, none); ++k)
+    path = (std::filesystem::path(path).parent_path() / std::filesystem::read_symlink(path, none)).string();
+  return path;
+}
+
+}  // namespace
+
+void write_whole(const std::string& path, std::string_view content) {
+  takes_content(path) ? write_into(path, content) : replace(followed(path), content);
+}
+
+void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  std::map<std::string, std::string> taken;   // by place: the role of what stands there
+  for (const std::string& input : inputs) taken.emplace(where(followed(input)), "which it reads");
+  for (const std::string& output : outputs) {
+    if (takes_content(output)) continue;
+    const auto [at, fresh] = taken.emplace(where(followed(output)), "which it writes too");
+    if (!fresh)
+      throw UserError(diagnostic(Code::E0616, "the output '" + output + "' would destroy a file of this command, " + at->second, "choose another name for the output"));
   }
 }
 

@@ -1,13 +1,17 @@
-// Output files appear whole or not at all.
+// Output files appear whole or not at all, and destroy nothing that the same command reads or writes.
 #pragma once
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace abbe {
 
-/// Writes `content` to a temporary file beside `path` and renames it. Throws UserError when that fails; then `path` is
-/// what it was before.
+/// Writes `content` to a temporary file beside `path` and renames it. A link stays, and the file that it points to is replaced; into a device
+/// or a pipe the content is written. Throws UserError when that fails; then a file at `path` is what it was before.
 void write_whole(const std::string& path, std::string_view content);
+
+/// Throws UserError when an output is one of the inputs or stands there twice, whatever the paths are called. Call it before the work.
+void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace abbe

@@ -85,6 +85,13 @@ std::string machine_in(const Recording& recording) {
   return "";
 }
 
+/// Before the work: a diagnosis takes minutes.
+void protect_files(const DiagnoseCommandOptions& options, const std::string& machine) {
+  std::vector<std::string> inputs = files_given({options.program, options.workpiece, machine});
+  inputs.insert(inputs.end(), options.recordings.begin(), options.recordings.end());
+  refuse_overwriting(inputs, files_given({options.report, options.model_out}));
+}
+
 struct Answer {
   Diagnosis diagnosis;
   std::string machine;                ///< that it was compared with
@@ -93,6 +100,7 @@ struct Answer {
 Answer of_values(const DiagnoseCommandOptions& options, const DiagnoseOptions& how) {
   const RecordedValues values(options);
   const std::string name = machine_of(options, values.machine());
+  protect_files(options, name);
   return {values.diagnosis(read_machine(name), how), name};
 }
 
@@ -100,6 +108,7 @@ Answer of_touches(const DiagnoseCommandOptions& options, const DiagnoseOptions& 
   Recording recording = joined(options.recordings);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
   const std::string name = machine_of(options, machine_in(recording));
+  protect_files(options, name);
   Machine machine = read_machine(name);
   if (options.program) complete_from_program(recording, nominal_recording(*options.program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);

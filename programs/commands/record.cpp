@@ -71,6 +71,7 @@ std::string describe(const std::vector<std::string>& with) { return with.empty()
 }  // namespace
 
 int record_command(const RecordOptions& options) {
+  refuse_overwriting(files_given({options.program, options.machine, options.workpiece}), files_given({options.output, options.dmo}));
   const CompiledProgram program = compile_program(options.program, options.answers);
   print_messages(program.messages);
   if (program.has_errors) {

@@ -28,6 +28,8 @@ void refuse_errors(const CompiledProgram& program) {
 }  // namespace
 
 int run_command(const RunCommandOptions& options) {
+  const StudySettings& from = options.request.settings;
+  refuse_overwriting(files_given({options.request.program, from.machine, from.workpiece, from.recording}), files_given({options.csv, options.dmo}));
   const ReportWriter* writer = find_report_writer(options.format);
   const CompiledProgram program = compile_program(options.request.program, options.request.answers);
   print_messages(program.messages);

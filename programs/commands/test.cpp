@@ -113,9 +113,11 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
 }  // namespace
 
 int test_command(const TestOptions& options) {
+  const std::vector<std::string> programs = programs_of(options.paths);
+  if (options.junit) refuse_overwriting(programs, {*options.junit});
   std::vector<TestSuite> suites;
   int passed = 0, failed = 0;
-  for (const std::string& path : programs_of(options.paths)) {
+  for (const std::string& path : programs) {
     ProgressLine progress;
     TestSuite suite = test_program(path, options, progress);
     if (suite.cases.empty()) continue;

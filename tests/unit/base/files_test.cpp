@@ -2,8 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <thread>
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/base/source.hpp"
@@ -45,6 +49,48 @@ TEST_CASE("a file that cannot be read says why") {
     CHECK(error.diagnostics()[0].message.find("No such file or directory") != std::string::npos);
   }
   CHECK_THROWS_AS(read_source("."), UserError);
+}
+
+TEST_CASE("what is no file is written into, and a link stays") {
+  REQUIRE(mkfifo("files_test_pipe", 0600) == 0);
+  std::string came;
+  std::thread reader([&] {
+    std::ifstream pipe("files_test_pipe");
+    std::getline(pipe, came);
+  });
+  write_whole("files_test_pipe", "through\n");
+  reader.join();
+  CHECK(came == "through");
+  std::remove("files_test_pipe");
+  std::filesystem::create_symlink("files_test_end", "files_test_link");
+  for (const char* text : {"made", "replaced"}) {
+    write_whole("files_test_link", text);
+    CHECK(std::filesystem::is_symlink("files_test_link"));
+    CHECK(read_source("files_test_end").text() == text);
+  }
+  std::remove("files_test_link");
+  std::remove("files_test_end");
+}
+
+TEST_CASE("no output is an input or another output, whatever they are called") {
+  const auto refused = [](const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+    try {
+      refuse_overwriting(inputs, outputs);
+    } catch (const UserError& error) {
+      return error.diagnostics()[0].code == Code::E0616;
+    }
+    return false;
+  };
+  write_whole("files_test_in", "x");
+  std::filesystem::create_symlink("files_test_in", "files_test_link");
+  CHECK(refused({"files_test_in"}, {"./files_test_in"}));
+  CHECK(refused({"files_test_in"}, {"files_test_link"}));
+  CHECK(refused({}, {"files_test_out", "./files_test_out"}));
+  REQUIRE(mkfifo("files_test_pipe", 0600) == 0);
+  CHECK_FALSE(refused({"files_test_in"}, {"files_test_out", "files_test_pipe", "files_test_pipe"}));
+  std::remove("files_test_pipe");
+  std::remove("files_test_link");
+  std::remove("files_test_in");
 }
 
 }  // namespace abbe

@@ -1,0 +1,62 @@
+"""abbe diagnose: the forms that a recording may have, and what is wrong with one."""
+import json
+import math
+import os
+import threading
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/programs/prismatic_part.dmi"
+CORNER = {"x": 700, "y": 400, "z": -550}   # of the part of that program, machine coordinates
+RADIUS = 2.0                               # of its tip
+TARGET = ("tx", "ty", "tz", "nx", "ny", "nz")
+
+
+class Input(harness.Case):
+    def setUp(self):
+        super().setUp()
+        self.abbe("record", PROGRAM, "-o", "rec.csv", "--with", "probe.tip_radius:amplitude_um=4")
+        self.recording = self.folder / "rec.csv"
+
+    def said(self, *args, code=0):
+        return json.loads(self.abbe("diagnose", *args, "--format", "json", code=code).stdout)
+
+    def codes(self, said):
+        return [m["code"] for m in said["messages"]]
+
+    def without(self, row, *columns):
+        return {k: v for k, v in row.items() if k not in columns}
+
+    def moved(self, by, name="moved.csv"):
+        """The recording with every position passed through `by`, a function of (x, y, z)."""
+        def change(row):
+            place = by(*(float(row[a]) for a in "xyz"))
+            return row | {a: f"{v:.7f}" for a, v in zip("xyz", place)}
+        return self.changed(self.recording, change, name)
+
+
+class Outputs(Input):
+    def test_no_file_of_a_command_is_destroyed(self):
+        program = self.write("part.dmi", PROGRAM.read_text())
+        before = self.recording.read_text(), program.read_text()
+        (self.folder / "link.csv").symlink_to("rec.csv")
+        for args in (("diagnose", "rec.csv", "--report", "./rec.csv"), ("diagnose", "rec.csv", "--report", "link.csv"),
+                     ("diagnose", "rec.csv", "--report", "out", "--model-out", "out"), ("diagnose", "rec.csv", "--program", program, "--model-out", program),
+                     ("record", program, "-o", program), ("record", program, "-o", "out", "--dmo", "out"),
+                     ("run", program, "--csv", program), ("run", program, "--recording", "rec.csv", "--dmo", "rec.csv"), ("test", program, "--junit", program)):
+            self.refused("E0616", *args)
+        self.assertEqual((self.recording.read_text(), program.read_text()), before)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_a_pipe_stays_a_pipe(self):
+        os.mkfifo(self.folder / "pipe")
+        came = []
+        reader = threading.Thread(target=lambda: came.append((self.folder / "pipe").read_text()))
+        reader.start()
+        self.abbe("record", PROGRAM, "-o", "pipe", "--with", "probe.tip_radius:amplitude_um=4")
+        reader.join()
+        self.assertEqual(came, [self.recording.read_text()])
+
+
+if __name__ == "__main__":
+    harness.main()
