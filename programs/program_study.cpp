@@ -41,8 +41,8 @@ std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std:
 }
 
 CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers) {
-  SourceFile source = read_source(path);
   Sink sink;
+  SourceFile source = read_text(path, sink);
   lang::Compilation compilation = lang::compile(source, sink, {answers});
   return {std::move(source), std::move(compilation), sink.sorted(), sink.has_errors()};
 }
@@ -56,8 +56,9 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
 
   StudyOptions options;
   options.workpiece = workpiece ? &*workpiece : nullptr;
+  Sink sink;
   const std::optional<Recording> recorded =
-      settings.recording ? std::optional(read_recording(read_source(*settings.recording))) : std::nullopt;
+      settings.recording ? std::optional(read_recording(read_text(*settings.recording, sink))) : std::nullopt;
   options.recorded = recorded ? &*recorded : nullptr;
   options.seed = settings.seed.value_or(asked.seed.value_or(options.seed));
   options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
@@ -68,6 +69,7 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.threads = thread_count(settings.threads);
 
   std::vector<Diagnostic> messages = program.messages;
+  messages.insert(messages.end(), sink.list().begin(), sink.list().end());
   if (asked.place_mm) {
     options.placement_mm = *asked.place_mm;
   } else {

@@ -20,7 +20,7 @@ struct Checked {
 
 Checked check(const std::string& path, const std::map<std::string, std::string>& answers) {
   Sink sink;
-  lang::Compilation compilation = lang::compile(read_source(path), sink, {answers});
+  lang::Compilation compilation = lang::compile(read_text(path, sink), sink, {answers});
   return {sink.sorted(), std::move(compilation.plan)};
 }
 

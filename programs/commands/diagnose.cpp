@@ -57,7 +57,7 @@ void continue_clock(const Recording& before, Recording& next, const std::string&
 Recording joined(const std::vector<std::string>& files) {
   Recording all;
   for (std::size_t k = 0; k < files.size(); ++k) {
-    Recording one = read_recording(read_source(files[k]));
+    Recording one = read_recording(read_text_aloud(files[k]));
     if (k == 0) {
       all = std::move(one);
       continue;

@@ -63,8 +63,8 @@ bool are_values(const std::vector<std::string>& files) {
   return count > 0;
 }
 
-RecordedValues::RecordedValues(const DiagnoseCommandOptions& options) : recording_(is_result(options.recordings.front()) ? from_result(read_source(options.recordings.front()))
-                                                     : read_value_recording(read_source(options.recordings.front()))) {
+RecordedValues::RecordedValues(const DiagnoseCommandOptions& options) : recording_(is_result(options.recordings.front()) ? from_result(read_text_aloud(options.recordings.front()))
+                                                     : read_value_recording(read_text_aloud(options.recordings.front()))) {
   const std::filesystem::path folder = std::filesystem::path(options.recordings.front()).parent_path();
   for (const ValueRow& row : recording_.rows) {
     if (std::find(names_.begin(), names_.end(), row.program) != names_.end()) continue;

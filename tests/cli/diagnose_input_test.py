@@ -35,6 +35,30 @@ class Input(harness.Case):
         return self.changed(self.recording, change, name)
 
 
+class Encodings(Input):
+    def test_text_of_windows_is_read(self):
+        text = self.recording.read_text().replace("PLA", "FLÄCHE").replace("PROBE", "FÜHLER").replace("# seed: 1", "# Prüfer: Müller")
+        for encoding in ("utf-8", "cp1252"):
+            path = self.write("text.csv", text.encode(encoding))
+            done = self.abbe("diagnose", path, "--design-only", "--format", "json")
+            json.loads(done.stdout)
+            self.assertEqual("N0617" in done.stderr, encoding == "cp1252")
+        self.refused("E0618", "diagnose", self.write("text.csv", text.encode("utf-16")))
+
+    def test_labels_of_a_program_and_a_recording_are_the_same_letters(self):
+        program = self.write("part.dmi", PROGRAM.read_text().replace("(PLA)", "(FLÄ)").encode("cp1252"))
+        bare = self.changed(self.recording, lambda row: self.without(row, *TARGET), "bare.csv")
+        bare.write_bytes(bare.read_text().replace("PLA,", "FLÄ,").encode("cp1252"))
+        self.abbe("diagnose", bare, "--program", program, "--design-only", "--format", "json")
+
+    def test_a_result_file_of_windows_is_read(self):
+        self.abbe("record", PROGRAM, "-o", "x.csv", "--dmo", "part.dmo")
+        result = self.folder / "part.dmo"
+        result.write_bytes(result.read_text().replace("OUTPUT", "$$ Prüfer Müller\nOUTPUT", 1).replace("TA(DIA1)", "TA(DIÄ1)").encode("cp1252"))
+        program = self.write("part.dmi", PROGRAM.read_text().replace("(DIA1)", "(DIÄ1)").encode("cp1252"))
+        json.loads(self.abbe("diagnose", result, "--program", program, "--format", "json").stdout)
+
+
 class Outputs(Input):
     def test_no_file_of_a_command_is_destroyed(self):
         program = self.write("part.dmi", PROGRAM.read_text())

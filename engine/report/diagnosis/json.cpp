@@ -129,7 +129,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"baseline", baseline(d.baseline)},
       {"rivals", rivals(d.rivals)},
       {"messages", array(d.messages, [](const Diagnostic& m) { return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}}; })}};
-  return out.dump(2) + "\n";
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";   // file names need not be UTF-8
 }
 
 std::string improved_machine(const std::string& machine_json, const Diagnosis& d) {
