@@ -45,6 +45,7 @@ class Executor {
     std::vector<OutputRecord> outputs; ///< of lane 0, which is the reference when there are no machines
     std::vector<Stop> stops;           ///< of the reference: where the program asks the machine to go
     std::vector<RecordingRow> rows;    ///< of lane 0: what it reported; coordinates of the program's machine system
+    std::vector<TouchAim> aims;        ///< by row
   };
   /// Makes the fits of the reference known, so that not every block has to make them again. Changes no result.
   void know(std::vector<KnownFit> fits);

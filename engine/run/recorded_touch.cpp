@@ -335,18 +335,33 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   return out;
 }
 
-void complete_from_program(Recording& recording, const Recording& nominal, const std::string& file) {
-  std::map<std::pair<std::string, int>, const RecordingRow*> partner;
-  for (const RecordingRow& row : nominal.rows) partner[{row.feature, row.touch}] = &row;
-  for (const auto& line : nominal.metadata) recording.metadata.push_back(line);
+namespace {
+
+/// A row in part coordinates, in the machine coordinates of the program.
+void carry(const Rigid& X_MD, RecordingRow& row) {
+  row.position_mm = X_MD * row.position_mm;
+  if (row.target_mm) row.target_mm = X_MD * *row.target_mm;
+  for (std::optional<Vec3>* direction : {&row.normal, &row.travel})
+    if (*direction) *direction = X_MD.R * **direction;
+}
+
+}  // namespace
+
+void complete_from_program(Recording& recording, const MachineRecord& nominal, const std::string& file) {
+  std::map<std::pair<std::string, int>, std::size_t> partner;
+  for (std::size_t k = 0; k < nominal.recording.rows.size(); ++k) partner[{nominal.recording.rows[k].feature, nominal.recording.rows[k].touch}] = k;
+  for (const auto& line : nominal.recording.metadata) recording.metadata.push_back(line);
   std::vector<std::string> lost;
   for (RecordingRow& row : recording.rows) {
     const auto found = partner.find({row.feature, row.touch});
     if (found == partner.end()) {
-      if (!row.target_mm || !row.normal) lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
+      if (!row.target_mm || !row.normal || recording.in_part_frame) lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
       continue;
     }
-    const RecordingRow& from = *found->second;
+    RecordingRow from = nominal.recording.rows[found->second];
+    const TouchAim& aim = nominal.aims[found->second];
+    if (recording.in_part_frame) carry(aim.X_MD, row);
+    if (recording.point == RecordedPoint::surface) *from.target_mm -= aim.radius_mm * *from.normal;
     const auto fill = [&](auto member) {
       if (!(row.*member)) row.*member = from.*member;
     };
@@ -354,12 +369,13 @@ void complete_from_program(Recording& recording, const Recording& nominal, const
     fill(&RecordingRow::head_a_deg), fill(&RecordingRow::head_b_deg), fill(&RecordingRow::visit);
     fill(&RecordingRow::speed_mm_s), fill(&RecordingRow::accel_mm_s2), fill(&RecordingRow::travel);
   }
+  recording.in_part_frame = false;
   if (lost.empty()) return;
   const std::size_t all = lost.size();
   lost.resize(std::min<std::size_t>(all, 5));
   throw UserError(diagnostic(Code::E0544,
                              fmt::format("{}: {} rows are no touches of the program: {}{}", file, all, fmt::join(lost, ", "), all > lost.size() ? ", ..." : ""),
-                             fmt::format("the program has {} touches; rows are paired by feature and touch, counted from 1", nominal.rows.size())));
+                             fmt::format("the program has {} touches; rows are paired by feature and touch, counted from 1", nominal.recording.rows.size())));
 }
 
 std::vector<std::string> columns_of(unsigned covariates) {

@@ -16,6 +16,7 @@
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/recording/recording.hpp"
+#include "engine/run/run.hpp"
 
 namespace abbe {
 
@@ -41,9 +42,10 @@ struct RecordedTouches {
   std::vector<Diagnostic> messages;
 };
 
-/// Fills what rows lack (target, normal, sensor, times, ...) from the nominal recording of their program, pairing rows by feature and
-/// touch. Throws UserError when rows have no partner and no target of their own: which, and what the program has.
-void complete_from_program(Recording&, const Recording& nominal, const std::string& file);
+/// Fills what rows lack (target, normal, sensor, times, ...) from what an error-free machine makes of their program, pairing rows by feature
+/// and touch. Targets are of the point that the recording states. Part coordinates, those of the program at each touch, become machine
+/// coordinates: the program says where the part stands. Throws UserError when rows have no partner and need one: which, and what the program has.
+void complete_from_program(Recording&, const MachineRecord& nominal, const std::string& file);
 
 /// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that the machine does not know.
 RecordedTouches recorded_touches(const Recording&, const Machine&, const std::string& file);

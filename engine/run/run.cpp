@@ -173,6 +173,7 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   }
   MachineRecord record;
   record.recording.rows = std::move(observed.rows);
+  record.aims = std::move(observed.aims);
   for (const plan::SensorDef& def : plan.sensors) record.recording.metadata.push_back(sensor_line(resolve_sensor(def, machine, source), machine));
   record.outputs = std::move(observed.outputs);
   return record;

@@ -91,9 +91,16 @@ struct RunResult {
 /// sensor, degenerate fit): then no machine can.
 RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& machines, const RunOptions&, const SourceFile& source);
 
+/// What the program had in force at a touch.
+struct TouchAim {
+  Rigid X_MD;                           ///< its coordinate system, in its machine system
+  double radius_mm = 0;                 ///< of the tip
+};
+
 /// What one machine reports: at every touch, and at every OUTPUT statement.
 struct MachineRecord {
   Recording recording;                  ///< tip centres in the program's machine coordinates, targets, normals, motion, raw readings
+  std::vector<TouchAim> aims;           ///< by row of the recording
   std::vector<OutputRecord> outputs;
 };
 

@@ -114,7 +114,10 @@ void BlockRun::add_part(int machines) {
 void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   const int lane = touch_batch.lane[slot];
   if (lane == block.reference()) observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
-  if (lane == 0 && block.machines > 0) observed->rows.push_back(recording_row(touch, slot));
+  if (lane != 0 || block.machines == 0) return;
+  observed->rows.push_back(recording_row(touch, slot));
+  const Rigid X_MW{Mat3{}, -executor.options_.placement_mm};
+  observed->aims.push_back({X_MW * block.lanes[block.lanes[lane].twin].X_WD, touch_batch.radius[slot]});
 }
 
 RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {

@@ -18,7 +18,7 @@ namespace abbe {
 namespace {
 
 /// What an error-free machine would record of the program: targets, normals, sensors.
-Recording nominal_recording(const std::string& path, const Machine& machine) {
+MachineRecord nominal_record(const std::string& path, const Machine& machine) {
   const CompiledProgram program = compile_program(path);
   print_messages(program.messages);
   if (program.has_errors)
@@ -27,7 +27,7 @@ Recording nominal_recording(const std::string& path, const Machine& machine) {
   run.contributors = {.geometry = false, .head = false, .probe = false, .only_component = {}, .part = false, .effects = false, .only_effect = {}};
   const plan::Plan& plan = program.compilation.plan;
   run.placement_mm = program.compilation.directives.place_mm ? *program.compilation.directives.place_mm : find_placement(plan, machine, program.source).shift_mm;
-  return record_plan(plan, machine, screened_machines(machine, 1, 1, 1), run, program.source).recording;
+  return record_plan(plan, machine, screened_machines(machine, 1, 1, 1), run, program.source);
 }
 
 /// First and last time of a recording, if any.
@@ -110,7 +110,7 @@ Answer of_touches(const DiagnoseCommandOptions& options, const DiagnoseOptions& 
   const std::string name = machine_of(options, machine_in(recording));
   protect_files(options, name);
   Machine machine = read_machine(name);
-  if (options.program) complete_from_program(recording, nominal_recording(*options.program, machine), file);
+  if (options.program) complete_from_program(recording, nominal_record(*options.program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   add_recorded_sensors(recording, machine, file);
   return {diagnose_recording(recording, machine, how, file), name};

@@ -35,6 +35,28 @@ class Input(harness.Case):
         return self.changed(self.recording, change, name)
 
 
+class Frames(Input):
+    def test_targets_of_the_program_suit_every_frame_and_point(self):
+        expected = self.said(self.recording)
+        for frame in ("mcs", "part"):
+            for point in ("tip_centre", "surface"):
+                def change(row):
+                    for a in "xyz":
+                        v = float(row[a]) - (CORNER[a] if frame == "part" else 0) - (RADIUS * float(row["n" + a]) if point == "surface" else 0)
+                        row[a] = f"{v:.7f}"
+                    return self.without(row, *TARGET)
+                path = self.changed(self.recording, change, f"{frame}_{point}.csv")
+                path.write_text(path.read_text().replace("frame: mcs", f"frame: {frame}").replace("point: tip_centre", f"point: {point}"))
+                said = self.said(path, "--program", PROGRAM)
+                self.assertEqual(self.codes(said), [], (frame, point))   # the program says where the part stood
+                self.assertEqual((said["verdict"], said["effects"][0]["members"]), (expected["verdict"], expected["effects"][0]["members"]), (frame, point))
+
+    def test_part_coordinates_need_a_place_in_the_program(self):
+        self.recording.write_text(self.recording.read_text().replace("frame: mcs", "frame: part"))
+        other = self.changed(self.recording, lambda row: row | {"feature": "OTHER"})
+        self.refused("E0544", "diagnose", other, "--program", PROGRAM)
+
+
 class Encodings(Input):
     def test_text_of_windows_is_read(self):
         text = self.recording.read_text().replace("PLA", "FLÄCHE").replace("PROBE", "FÜHLER").replace("# seed: 1", "# Prüfer: Müller")

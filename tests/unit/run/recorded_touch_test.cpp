@@ -38,3 +38,28 @@ TEST_CASE("only effects within a signal period see what a touch itself adds to i
     CHECK(norm(scene_for(interpolation, t).reading - scene_for(interpolation, clean.touches[i]).reading - 0.004 * t.scene.normal) < 1e-9);
   }
 }
+
+TEST_CASE("targets of a program are of the point and in the frame that the recording states") {
+  // One touch of a part that stands turned by a right angle about z, 0.01 mm too far out.
+  MachineRecord program;
+  RecordingRow aimed;
+  aimed.feature = "FACE", aimed.normal = Vec3{0, 1, 0}, aimed.target_mm = Vec3{700, 402, -550}, aimed.travel = Vec3{0, -1, 0};
+  program.recording.rows = {aimed};
+  const Rigid X_MD{rotation({0, 0, 1}, kPi / 2), {700, 400, -550}};
+  program.aims = {{X_MD, 2.0}};
+  for (const RecordedPoint point : {RecordedPoint::tip_centre, RecordedPoint::surface}) {
+    for (const bool in_part : {false, true}) {
+      Recording r;
+      r.point = point, r.in_part_frame = in_part;
+      const Vec3 measured{700, (point == RecordedPoint::surface ? 400 : 402) + 0.01, -550};
+      RecordingRow row;
+      row.feature = "FACE", row.position_mm = in_part ? inverse(X_MD) * measured : measured;
+      r.rows = {row};
+      complete_from_program(r, program, "r");
+      CHECK_FALSE(r.in_part_frame);   // the program says where the part stands
+      CHECK(norm(r.rows[0].position_mm - measured) < 1e-9);
+      CHECK(norm(*r.rows[0].normal - Vec3{0, 1, 0}) < 1e-9);
+      CHECK(dot(*r.rows[0].normal, r.rows[0].position_mm - *r.rows[0].target_mm) == doctest::Approx(0.01));
+    }
+  }
+}
