@@ -7,6 +7,7 @@
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 #include "engine/diagnose/baseline/known_state.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
+#include "engine/diagnose/baseline/standing.hpp"
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
@@ -38,6 +39,19 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<D
                                             "Every surface point counts as unknown, and only what repeats differently is judged", file, middle),
                                 "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right"));
   return Surfaces::unknown;
+}
+
+/// Beyond this, what all touches are too far out is no effect but a wrong tip, unless sizes are unknown or given elsewhere.
+double most_out_mm(const Recording& r, const Machine& machine, const DiagnoseOptions& options) {
+  constexpr double kBeyondPretravel_mm = 0.05, kBeyondSizes_mm = 0.25;
+  const bool unknown = std::any_of(r.metadata.begin(), r.metadata.end(), [](const auto& line) { return line.first == "surfaces" && line.second.starts_with("unknown"); });
+  return unknown || options.workpiece || !machine.effects.empty() ? kBeyondSizes_mm : kBeyondPretravel_mm;
+}
+
+/// The recording without what its file does wrong, with every part on its targets.
+Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file, std::vector<Diagnostic>& messages) {
+  check_data(recorded, file, messages);
+  return put_on_targets(recorded, most_out_mm(recorded, machine, options), file, messages);
 }
 
 BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known) {
@@ -201,11 +215,11 @@ std::string_view name(Verdict v) {
   return names[static_cast<int>(v)];
 }
 
-Diagnosis diagnose_recording(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
+Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
   Diagnosis out;
-  out.touches = static_cast<int>(recording.rows.size());
   out.judged = !options.design_only;
-  if (!options.design_only) check_data(recording, file, out.messages);
+  const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
+  out.touches = static_cast<int>(recording.rows.size());
   Case c = on_the_bench(recording, machine, options, file, out);
   if (options.design_only) {
     c.masked.assign(c.touches.touches.size(), 0);

@@ -57,6 +57,17 @@ class Frames(Input):
         self.refused("E0544", "diagnose", other, "--program", PROGRAM)
 
 
+class Placement(Input):
+    def test_a_part_off_its_targets_is_no_other_part(self):
+        expected = self.said(self.recording)
+        turn = math.radians(1)
+        for by in (lambda x, y, z: (x + 0.3, y, z),
+                   lambda x, y, z: (780 + math.cos(turn) * (x - 780) - math.sin(turn) * (y - 450) + 2, 450 + math.sin(turn) * (x - 780) + math.cos(turn) * (y - 450), z - 1)):
+            said = self.said(self.moved(by))
+            self.assertEqual(self.codes(said), ["N0709"])
+            self.assertEqual((said["verdict"], said["effects"][0]["members"]), (expected["verdict"], expected["effects"][0]["members"]))
+
+
 class Encodings(Input):
     def test_text_of_windows_is_read(self):
         text = self.recording.read_text().replace("PLA", "FLÄCHE").replace("PROBE", "FÜHLER").replace("# seed: 1", "# Prüfer: Müller")

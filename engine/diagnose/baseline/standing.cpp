@@ -1,0 +1,148 @@
+#include "engine/diagnose/baseline/standing.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/diagnose/median.hpp"
+#include "engine/math/rigid_fit.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+using Rows = std::vector<const RecordingRow*>;
+constexpr int kUnknowns = 7;
+using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using Motion = Eigen::Matrix<double, kUnknowns, 1>;   // shift, turn, and what all touches are too far out
+
+/// What carries a setup to its targets.
+struct Back {
+  Rigid X;
+  double out_mm = 0;                      ///< that all touches lie too far out: a wrong tip
+};
+
+/// How far each touch lies beyond its target, once the part is carried back.
+std::vector<double> beyond(const Rows& rows, const Back& back) {
+  std::vector<double> r;
+  for (const RecordingRow* row : rows) r.push_back(dot(*row->normal, back.X * row->position_mm - *row->target_mm) - back.out_mm);
+  return r;
+}
+
+double middle_size(std::vector<double> r) {
+  for (double& x : r) x = std::abs(x);
+  return median(std::move(r));
+}
+
+/// The middle of the targets, and the largest distance from it.
+std::pair<Vec3, double> extent_of(const Rows& rows) {
+  Vec3 middle;
+  double extent = 1;
+  for (const RecordingRow* row : rows) middle += *row->target_mm / double(rows.size());
+  for (const RecordingRow* row : rows) extent = std::max(extent, norm(*row->target_mm - middle));
+  return {middle, extent};
+}
+
+/// The small motion that lessens the weighted sum of squares most: a shift, a turn about `middle` times `extent`, and with `tip` a length
+/// along all normals.
+Motion step(const Rows& rows, const Back& back, bool tip, const Vec3& middle, double extent, const std::vector<double>& r) {
+  constexpr double kLeast_mm = 1e-6, kShare = 0.01, kUnseen = 1e-6;
+  double floor = kLeast_mm;              // below this a residual counts by its square
+  for (const double x : r) floor += kShare * std::abs(x) / double(r.size());
+  Square a = Square::Zero();
+  Motion b = Motion::Zero();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Vec3 n = *rows[i]->normal, turn = cross((back.X * rows[i]->position_mm - middle) / extent, n);
+    const Motion s{{n.x, n.y, n.z, turn.x, turn.y, turn.z, tip ? -1.0 : 0.0}};
+    const double weight = 1 / std::max(floor, std::abs(r[i]));
+    a += weight * s * s.transpose();
+    b -= weight * r[i] * s;
+  }
+  const Eigen::SelfAdjointEigenSolver<Square> solver(a);
+  Motion motion = Motion::Zero();
+  for (int k = 0; k < kUnknowns; ++k) {
+    const double seen = solver.eigenvalues()(k);
+    if (seen > kUnseen * solver.eigenvalues()(kUnknowns - 1)) motion += solver.eigenvectors().col(k).dot(b) / seen * solver.eigenvectors().col(k);
+  }
+  return motion;
+}
+
+Back refined(const Rows& rows, Back back, bool tip) {
+  constexpr int kMostSteps = 50;
+  constexpr double kSettled_mm = 1e-7;
+  const auto [middle, extent] = extent_of(rows);
+  for (int k = 0; k < kMostSteps; ++k) {
+    const Motion m = step(rows, back, tip, middle, extent, beyond(rows, back));
+    const Vec3 shift{m(0), m(1), m(2)}, turn = Vec3{m(3), m(4), m(5)} / extent;
+    const Mat3 R = norm(turn) > 0 ? rotation(unit(turn), norm(turn)) : Mat3{};
+    back = {Rigid{R, middle + shift - R * middle} * back.X, back.out_mm + m(6)};
+    if (m.norm() < kSettled_mm) break;
+  }
+  return back;
+}
+
+/// From where the touches lie if they have strayed so far that small steps from their targets may not find the way.
+Back placement_of(const Rows& rows) {
+  constexpr double kStrayed_mm = 0.05;
+  const Back near = refined(rows, {}, false);
+  const double left = middle_size(beyond(rows, near));
+  if (left < kStrayed_mm) return near;
+  std::vector<Vec3> here, there;
+  for (const RecordingRow* row : rows) here.push_back(row->position_mm), there.push_back(*row->target_mm);
+  const std::optional<Rigid> start = rigid_fit(here, there);
+  if (!start) return near;
+  const Back far = refined(rows, {*start}, false);
+  return middle_size(beyond(rows, far)) < left / 2 ? far : near;
+}
+
+/// One length along all normals mends what no placement does: no physics of a touch is so large and so even.
+void refuse_wrong_tip(const Rows& rows, const Back& back, double most_out_mm, const std::string& file) {
+  constexpr double kMends = 0.2;
+  const Back with_tip = refined(rows, back, true);
+  const double out = with_tip.out_mm;
+  if (std::abs(out) < most_out_mm || middle_size(beyond(rows, with_tip)) > kMends * middle_size(beyond(rows, back))) return;
+  throw UserError(diagnostic(Code::E0701,
+                             fmt::format("{}: every touch is {:.3f} mm too far {} along its normal: a tip radius, or a tip diameter, that was {}, or another tip than the file says",
+                                         file, std::abs(out), out > 0 ? "out" : "in", out > 0 ? "added once too often" : "taken off once too often"),
+                             "check the line '# point: tip_centre|surface', the sign of the compensation, the tip, and whether targets are tip centres too; "
+                             "where it is the size of the features that is not known, say '# surfaces: unknown_size'"));
+}
+
+double angle_deg(const Mat3& R) {
+  const Vec3 twice_sine{R.cy.z - R.cz.y, R.cz.x - R.cx.z, R.cx.y - R.cy.x};
+  return std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1) * 180 / kPi;
+}
+
+}  // namespace
+
+Recording put_on_targets(const Recording& recorded, double most_out_mm, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kNoticeable_mm = 0.05;   // up to this the linear placement is good to 0.1 um
+  std::map<int, Rows> setups;
+  for (const RecordingRow& row : recorded.rows)
+    if (row.target_mm && row.normal) setups[row.setup].push_back(&row);
+  std::map<int, Rigid> back;
+  for (const auto& [setup, rows] : setups) {
+    const Back placement = placement_of(rows);
+    refuse_wrong_tip(rows, placement, most_out_mm, file);
+    const Rigid& X = placement.X;
+    const std::vector<double> before = beyond(rows, {}), after = beyond(rows, placement);
+    double change = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) change = std::max(change, std::abs(after[i] - before[i]));
+    if (change < kNoticeable_mm) continue;
+    const Vec3 middle = extent_of(rows).first;
+    back[setup] = X;
+    messages.push_back(diagnostic(Code::N0709,
+                                  fmt::format("{}: in setup {} the part stood {:.2f} mm beside its targets and turned by {:.3f} degrees; that is taken out", file, setup,
+                                              norm(inverse(X) * middle - middle), angle_deg(X.R)),
+                                  "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
+  }
+  Recording out = recorded;
+  for (RecordingRow& row : out.rows)
+    if (const auto X = back.find(row.setup); X != back.end()) row.position_mm = X->second * row.position_mm;
+  return out;
+}
+
+}  // namespace abbe::diagnose

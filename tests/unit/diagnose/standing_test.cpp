@@ -1,0 +1,95 @@
+#include "engine/diagnose/baseline/standing.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/math/vec.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+constexpr double kPlaced_mm = 2e-4;   // what is left of a placement is taken up by the linear model
+constexpr double kNoTip = 1e9;        // mm: the tip is not asked about
+constexpr double kError_mm = 0.004;   // of the sixth touch on each side of the box
+
+/// Nine touches on each of the six sides of a box, each with a small error, seen where the part stands with X.
+Recording box(const Rigid& X, int setup = 1) {
+  Recording r;
+  for (int side = 0; side < 6; ++side) {
+    for (int k = 0; k < 9; ++k) {
+      RecordingRow row;
+      row.feature = "SIDE", row.touch = 9 * side + k + 1, row.setup = setup;
+      Vec3 n, along;
+      const int axis = side / 2;
+      n[axis] = side % 2 ? 1 : -1;
+      along[(axis + 1) % 3] = 40.0 * (k % 3 - 1), along[(axis + 2) % 3] = 30.0 * (k / 3 - 1);
+      row.normal = n, row.target_mm = Vec3{400, 300, -200} + 60.0 * n + along;
+      row.position_mm = X * (*row.target_mm + (k == 5 ? kError_mm : 0) * n);
+      r.rows.push_back(row);
+    }
+  }
+  return r;
+}
+
+double off_mm(const RecordingRow& row) { return dot(*row.normal, row.position_mm - *row.target_mm); }
+
+}  // namespace
+
+TEST_CASE("a part that stood off its targets is carried back, and its errors stay") {
+  const Rigid placements[] = {{Mat3{}, {0.3, 0, 0}}, {rotation(unit({1, 2, 2}), 0.02), {1, -2, 0.5}}, {rotation({0, 0, 1}, 0.5), {120, 30, -80}}};
+  for (const Rigid& X : placements) {
+    Recording recorded = box(X);
+    recorded.rows[3].position_mm += 5.0 * (X.R * *recorded.rows[3].normal);   // a gross error turns nothing
+    std::vector<Diagnostic> messages;
+    const Recording back = put_on_targets(recorded, kNoTip, "box", messages);
+    REQUIRE(messages.size() == 1);
+    CHECK(messages[0].code == Code::N0709);
+    for (std::size_t i = 0; i < back.rows.size(); ++i) {
+      if (i == 3) continue;
+      CHECK(std::abs(off_mm(back.rows[i]) - (i % 9 == 5 ? kError_mm : 0)) < kPlaced_mm);
+    }
+  }
+}
+
+TEST_CASE("a part on its targets is left as it is, and so is a turn that nothing shows") {
+  std::vector<Diagnostic> messages;
+  const Recording recorded = box({Mat3{}, {0.02, 0, 0}}), same = put_on_targets(recorded, kNoTip, "box", messages);
+  CHECK(messages.empty());
+  for (std::size_t i = 0; i < recorded.rows.size(); ++i) CHECK(same.rows[i].position_mm == recorded.rows[i].position_mm);
+
+  Recording face;   // one plane: shifts in it and the turn about its normal are free
+  for (const RecordingRow& row : box({Mat3{}, {0, 0, 2}}).rows)
+    if (row.normal->z > 0.5) face.rows.push_back(row);
+  const Recording back = put_on_targets(face, kNoTip, "face", messages);
+  REQUIRE(messages.size() == 1);
+  for (std::size_t i = 0; i < face.rows.size(); ++i) {
+    CHECK(std::abs(off_mm(back.rows[i])) < 0.01);
+    CHECK(std::hypot(back.rows[i].position_mm.x - face.rows[i].position_mm.x, back.rows[i].position_mm.y - face.rows[i].position_mm.y) < 0.01);
+  }
+}
+
+TEST_CASE("each setup has its own placement") {
+  Recording both = box({Mat3{}, {1, 0, 0}}, 1);
+  const Recording second = box({Mat3{}, {0, -3, 0}}, 2);
+  both.rows.insert(both.rows.end(), second.rows.begin(), second.rows.end());
+  std::vector<Diagnostic> messages;
+  for (const RecordingRow& row : put_on_targets(both, kNoTip, "both", messages).rows) CHECK(std::abs(off_mm(row)) < 1.1 * kError_mm);
+  CHECK(messages.size() == 2);
+}
+
+TEST_CASE("a wrong tip is told from a part off its targets") {
+  Recording recorded = box({rotation({0, 0, 1}, 0.1), {5, 0, 0}});
+  for (RecordingRow& row : recorded.rows) row.position_mm += 0.1 * (rotation({0, 0, 1}, 0.1) * *row.normal);
+  std::vector<Diagnostic> messages;
+  try {
+    put_on_targets(recorded, 0.05, "box", messages);
+    FAIL("a wrong tip was taken for a placement");
+  } catch (const UserError& error) {
+    CHECK(error.diagnostics()[0].code == Code::E0701);
+    CHECK(error.diagnostics()[0].message.find("0.100 mm too far out") != std::string::npos);
+  }
+  CHECK_NOTHROW(put_on_targets(recorded, 0.2, "box", messages));
+}
