@@ -185,6 +185,18 @@ Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d
   return open ? Verdict::cannot_judge : several ? Verdict::one_of : Verdict::named;
 }
 
+/// The unknowns of the recording explain whatever it holds: no effect of any size would show.
+void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out) {
+  const bool surfaces = c.baseline.surfaces == Surfaces::unknown;
+  const std::string why = surfaces ? "every surface point is unknown, and none was touched in two ways" : "the unknown placements of the part take up all that the touches tell";
+  out.otherwise = surfaces ? "Touch the same points again in another run or setup, or give measured or calibrated targets and say '# surfaces: calibrated'."
+                           : "Touch more points in each setup, on surfaces that face several ways, or give one setup to touches of one placement.";
+  out.messages.push_back(diagnostic(Code::W0710, fmt::format("{}: nothing can be judged: {}", file, why), out.otherwise));
+  out.judgeable = false;
+  out.verdict = Verdict::cannot_judge;
+  out.baseline = summary(c, c.hyper, !c.machine->known_state.empty());
+}
+
 Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file, Diagnosis& out) {
   Case c;
   c.recording = &recording;
@@ -242,6 +254,10 @@ Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, 
   if (options.design_only) {
     out.baseline = summary(c, c.hyper, known);
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
+    return out;
+  }
+  if (out.smallest_detectable.empty()) {
+    tell_nothing_judged(c, file, out);
     return out;
   }
   c.rough = first.rough() > 0.5;

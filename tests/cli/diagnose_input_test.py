@@ -67,6 +67,19 @@ class Placement(Input):
             self.assertEqual(self.codes(said), ["N0709"])
             self.assertEqual((said["verdict"], said["effects"][0]["members"]), (expected["verdict"], expected["effects"][0]["members"]))
 
+    def test_what_nothing_can_be_judged_of_is_said(self):
+        alone = iter(range(1, 1000))
+        every_touch_a_setup = self.changed(self.recording, lambda row: row | {"setup": next(alone)}, "setups.csv")
+        unknown = self.write("unknown.csv", "# surfaces: unknown\n" + self.recording.read_text())
+        for path in (every_touch_a_setup, unknown):
+            said = self.said(path, "--fail-on-mismatch")   # no mismatch was found
+            self.assertEqual((said["verdict"], said["p_value"], said["effects"]), ("cannot_judge", None, []))
+            self.assertIn("W0710", self.codes(said))
+            self.assertTrue(said["otherwise"])
+            text = self.abbe("diagnose", path, "--report", "page.html").stdout
+            self.assertTrue(text.startswith("Nothing can be judged"), text)
+            self.assertIn("Nothing can be judged", (self.folder / "page.html").read_text())
+
 
 class Encodings(Input):
     def test_text_of_windows_is_read(self):

@@ -26,6 +26,7 @@ constexpr std::string_view kStyle =
 
 std::string_view title(const Diagnosis& d) {
   if (!d.judged) return "What such a recording can tell";
+  if (!d.judgeable) return "Nothing can be judged";
   switch (d.verdict) {
     case Verdict::no_mismatch: return "No mismatch found";
     case Verdict::named: return "A mismatch, and what makes it";
@@ -162,7 +163,7 @@ std::string messages(const Diagnosis& d) {
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
   std::string out = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
                                 "<title>Diagnosis of {0}</title><style>{1}</style></head><body>\n<h1>{2}</h1>\n<p class=\"note\">Recording {0}; machine {3}{4}</p>\n",
-                                escaped(recording), kStyle, title(d), escaped(machine), d.judged ? fmt::format("; p = {:.3g}", d.p_value) : "");
+                                escaped(recording), kStyle, title(d), escaped(machine), d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) out += "<p>" + escaped(sentence) + "</p>\n";
   out += explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) + detectable_effects(d) + open_questions(d) + messages(d);
   return out + "</body></html>\n";

@@ -112,7 +112,7 @@ std::string diagnosis_json(const Diagnosis& d) {
   const Json out = {
       {"schema", "abbe.diagnosis/1"},
       {"verdict", d.judged ? Json(name(d.verdict)) : Json()},
-      {"p_value", d.judged ? number(d.p_value) : Json()},
+      {"p_value", d.judged && d.judgeable ? number(d.p_value) : Json()},
       {"adequacy_p_value", number(d.adequacy_p)},
       {"touches", d.touches},
       {"values", array(d.values, value)},

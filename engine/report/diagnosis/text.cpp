@@ -22,6 +22,7 @@ std::string what(const Diagnosis& d) {
 std::string first_sentence(const Diagnosis& d) {
   const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
   if (!d.judged) return fmt::format("No value was looked at: this is what a recording of {} could tell.", d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
+  if (!d.judgeable) return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.", d.touches);
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format("The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d), machine, chance(d.p_value));
   return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d), machine, chance(d.p_value));
@@ -133,7 +134,7 @@ std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out;
   for (const std::string& sentence : diagnosis_sentences(d)) out += sentence + "\n";
-  out += "\n" + value_table(d) + (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
+  if (d.judgeable) out += "\n" + value_table(d) + (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
   out += next_steps(d);
   out += cannot_judge(d);
   return out + baseline_line(d);
