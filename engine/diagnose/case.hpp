@@ -78,7 +78,12 @@ void mask_outliers(Case&);
 void free_readings_of_noise(Case&, const EvidenceSearch& first);
 
 /// Steps that fill parts of the answer.
-void check_data(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// A recording without its exact copies of rows. Throws UserError: one touch with two values.
+Recording without_copies(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Throws UserError: another unit, axes or normals.
+void check_data(const Recording&, const Machine&, const std::string& file);
+/// Throws UserError when many touches lie beside their targets; a few are warned of.
+void check_pairing(const Recording&, const RecordedTouches&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
 std::vector<DiagnosedParameter> estimate_parameters(const Case&, const SearchResult&, std::size_t finding);

@@ -50,8 +50,9 @@ double most_out_mm(const Recording& r, const Machine& machine, const DiagnoseOpt
 
 /// The recording without what its file does wrong, with every part on its targets.
 Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file, std::vector<Diagnostic>& messages) {
-  check_data(recorded, file, messages);
-  return put_on_targets(recorded, most_out_mm(recorded, machine, options), file, messages);
+  const Recording once = without_copies(recorded, file, messages);
+  check_data(once, machine, file);
+  return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
 }
 
 BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known) {
@@ -208,6 +209,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
     throw UserError(diagnostic(Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
                                fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
+  if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
   const EffectSet effects(machine.effects, EffectUse::left_in, machine.name);
   remove_estimates(effects, c.touches);
   std::optional<RecordedPart> part;

@@ -61,9 +61,11 @@ Setter text(Member member) {
 
 Setter coordinate(std::string vector, int axis) {
   return [=](const CsvField& f, Draft& d) {
+    constexpr double kNoMachine_mm = 1e9;   // not even in micrometres
     const std::optional<double> v = csv_number(f);
-    if (v) d.vectors[vector].coordinate[axis] = *v;
-    return v.has_value();
+    if (!v || std::abs(*v) > kNoMachine_mm) return false;
+    d.vectors[vector].coordinate[axis] = *v;
+    return true;
   };
 }
 

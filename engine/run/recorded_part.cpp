@@ -9,25 +9,12 @@
 #include <map>
 #include <tuple>
 
+#include "engine/recording/units.hpp"
 #include "engine/run/sensor.hpp"
 
 namespace abbe {
 
-namespace {
-
-/// Whether the targets of the recording are those of this very part.
-bool targets_are_true(const Workpiece& w, const Recording& recording, const std::string& file) {
-  for (const auto& [key, value] : recording.metadata) {
-    if (key != "workpiece") continue;
-    if (value == w.name) return true;
-    throw UserError(diagnostic(Code::E0548, fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, value, w.name),
-                               "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
-  }
-  return false;
-}
-
-/// The nominal radius of a round feature from its targets, negative for a bore; nothing when the feature is not round.
-std::optional<double> radius_of(const RecordedTouches& t, const std::vector<int>& rows) {
+std::optional<double> round_radius(const RecordedTouches& t, const std::vector<int>& rows) {
   struct Mean {
     Vec3 point, normal;
     double n = 0;
@@ -56,6 +43,22 @@ std::optional<double> radius_of(const RecordedTouches& t, const std::vector<int>
   }
   return radius;
 }
+
+namespace {
+
+/// Whether the targets of the recording are those of this very part.
+bool targets_are_true(const Workpiece& w, const Recording& recording, const std::string& file) {
+  for (const auto& [key, value] : recording.metadata) {
+    if (key != "workpiece") continue;
+    if (value == w.name) return true;
+    throw UserError(diagnostic(Code::E0548, fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, value, w.name),
+                               "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
+  }
+  return false;
+}
+
+/// No part deviates by such a share of a diameter from its drawing.
+constexpr double kNoDeviation = 0.1;
 
 class PartReader {
  public:
@@ -101,7 +104,7 @@ class PartReader {
   /// How far the surface lies beyond its target, along the outward normal.
   std::optional<Uncertain> offset_of(const Surface& s, const std::vector<int>& rows) {
     if (!s.diameter_mm && !s.diameter_deviation_mm) return s.offset_mm;
-    const std::optional<double> radius = radius_of(t_, rows);
+    const std::optional<double> radius = round_radius(t_, rows);
     if (!radius) {
       errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0547, fmt::format("the targets of '{}' do not lie on a circle, cylinder or sphere", s.label),
                                       "a diameter belongs to a round feature with touches on several sides; give \"offset_um\" instead"));
@@ -111,7 +114,18 @@ class PartReader {
     if (s.diameter_deviation_mm) return per_diameter * *s.diameter_deviation_mm;
     Uncertain deviation = *s.diameter_mm;
     deviation.value -= 2 * std::abs(*radius);
+    if (std::abs(deviation.value) > kNoDeviation * 2 * std::abs(*radius)) return refuse_size(s, 2 * std::abs(*radius));
     return per_diameter * deviation;
+  }
+
+  std::optional<Uncertain> refuse_size(const Surface& s, double drawn_mm) {
+    const double given = s.diameter_mm->value;
+    const auto unit = foreign_unit(given, drawn_mm);
+    constexpr double kAgree = 0.02;
+    const std::string cause = unit ? fmt::format(": it is in {}", unit->name) : std::abs(2 * given / drawn_mm - 1) < kAgree ? ": that is its radius" : "";
+    errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0701, fmt::format("'{}' has a diameter of {:.6g} mm by its targets, not {:.6g}{}", s.label, drawn_mm, given, cause),
+                                    "diameter_mm is the calibrated diameter in millimetres"));
+    return std::nullopt;
   }
 
   std::vector<double>& add_doubt() { return out_.doubt_mm.emplace_back(t_.touches.size(), 0.0); }

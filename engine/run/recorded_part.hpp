@@ -8,6 +8,7 @@
 // placement is free.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct RecordedPart {
   std::vector<char> calibrated;              ///< by RecordedTouches::features: its place is known, within `doubt_mm`
   std::vector<Diagnostic> messages;
 };
+
+/// The nominal radius of a round feature from the targets of its touches, negative for a bore; nothing when the feature is not round.
+std::optional<double> round_radius(const RecordedTouches&, const std::vector<int>& touches);
 
 /// Temperatures and load of the workpiece file in rows that have none.
 void fill_from_workpiece(Recording&, const Workpiece&);

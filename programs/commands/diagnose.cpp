@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "engine/base/files.hpp"
@@ -53,6 +54,15 @@ void continue_clock(const Recording& before, Recording& next, const std::string&
                              "if it was measured at another time, write its true times into time_s")});
 }
 
+/// A file given twice is no repeat: nothing was measured again.
+void refuse_copy(const Recording& before, const std::string& name, const Recording& next, const std::string& copy) {
+  const auto same = [](const RecordingRow& a, const RecordingRow& b) {
+    return a.feature == b.feature && a.touch == b.touch && a.setup == b.setup && a.run == b.run && a.position_mm == b.position_mm && a.time_s == b.time_s;
+  };
+  if (std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), same) == before.rows.end()) return;
+  throw UserError(diagnostic(Code::E0713, fmt::format("'{}' holds the same touches as '{}'", copy, name), "give each recording once; a repeat has other values, and another 'run'"));
+}
+
 /// Several files are one recording; their frames must agree.
 Recording joined(const std::vector<std::string>& files) {
   Recording all;
@@ -65,6 +75,7 @@ Recording joined(const std::vector<std::string>& files) {
     if (one.in_part_frame != all.in_part_frame || one.point != all.point)
       throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0], files[k]),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
+    refuse_copy(all, files[0], one, files[k]);
     continue_clock(all, one, files[k]);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());   // new styli; of what is said twice the first counts

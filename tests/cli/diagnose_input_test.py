@@ -128,5 +128,65 @@ class Outputs(Input):
         self.assertEqual(came, [self.recording.read_text()])
 
 
+class Mistakes(Input):
+    """What is wrong with a file is said instead of being diagnosed."""
+    PLACE = ("x", "y", "z")
+
+    def told(self, code, change, *args):
+        return self.refused(code, "diagnose", self.changed(self.recording, change), *args)
+
+    def scaled(self, columns, by):
+        return lambda row: row | {c: repr(by * float(row[c])) for c in columns}
+
+    def test_units(self):
+        targets, readings = ("tx", "ty", "tz"), ("enc_x", "enc_y", "enc_z")
+        for columns, by, words in ((targets, 1 / 25.4, "targets are in inches"), (targets, 1e-3, "targets are in metres"), (targets, 1e3, "targets are in micrometres"),
+                                   (self.PLACE, 1 / 25.4, "positions are in inches"), (self.PLACE, 1e3, "positions are in micrometres"),
+                                   (readings, 1e3, "readings are in micrometres"), (readings, 1 / 25.4, "readings are in inches"),
+                                   (self.PLACE + targets + readings, 1e3, "are in micrometres"), (self.PLACE + targets + readings, 1e-3, "are in metres")):
+            self.assertIn(words, self.told("E0701", self.scaled(columns, by)))
+        elsewhere = self.scaled(self.PLACE, 1e-3)
+        self.assertIn("in metres", self.told("E0701", lambda row: elsewhere(row | {"x": repr(float(row["x"]) + 500)})))   # wherever the part stood
+        self.assertIn("line", self.told("E0530", lambda row: row | {"x": "1e300"}).replace("changed.csv:", "line "))
+
+    def test_a_wrong_tip(self):
+        def out(by):
+            return lambda row: row | {a: repr(float(row[a]) + by * float(row["n" + a])) for a in self.PLACE}
+        for by in (0.1, -0.1, 2, -4):
+            self.assertIn("tip radius", self.told("E0701", out(by)))
+        sizes = self.changed(self.recording, out(0.1))
+        sizes.write_text("# surfaces: unknown_size\n" + sizes.read_text())
+        self.abbe("diagnose", sizes)
+
+    def test_touches_beside_their_targets(self):
+        def lost(wrong):
+            return lambda row: row | ({"y": repr(float(row["y"]) + 40)} if (row["feature"], row["touch"]) in wrong else {})
+        few = self.abbe("diagnose", self.changed(self.recording, lost([("PLA", "3")])))
+        self.assertIn("W0712", few.stderr)
+        self.assertIn("touch 3 of 'PLA'", few.stderr)
+        turned = lambda row: row | ({"touch": str(int(row["touch"]) % 12 + 1)} if row["feature"] == "BORE2" else {})
+        bare = self.changed(self.recording, lambda row: self.without(turned(row), *TARGET), "bare.csv")
+        self.assertIn("of 'BORE2'", self.refused("E0711", "diagnose", bare, "--program", PROGRAM))
+
+    def test_a_touch_counts_once(self):
+        lines = self.recording.read_text().splitlines()
+        copied = self.write("copied.csv", "\n".join(lines + lines[-30:]) + "\n")
+        said = self.said(copied)
+        self.assertEqual((self.codes(said), said["touches"]), (["W0702"], 37))
+        first = lambda row: row | {"x": repr(float(row["x"]) + 0.003)}
+        other = self.changed(self.recording, first, "other.csv").read_text().splitlines()
+        self.refused("E0713", "diagnose", self.write("two.csv", "\n".join(lines + other[-30:]) + "\n"))
+        self.refused("E0713", "diagnose", self.recording, self.write("again.csv", self.recording.read_text()))
+
+
+class Values(Input):
+    def test_units_of_values(self):
+        for value, words in (("29999.1", "micrometres"), ("0.0299991", "metres"), ("1.18107", "inches")):
+            path = self.write("values.csv", f"characteristic,value\nDIA1,{value}\n")
+            self.assertIn(words, self.refused("E0701", "diagnose", path, "--program", PROGRAM))
+        path = self.write("values.csv", "characteristic,value,reference\nPITCH,80.0004,80000\n")
+        self.assertIn("micrometres", self.refused("E0701", "diagnose", path, "--program", PROGRAM))
+
+
 if __name__ == "__main__":
     harness.main()

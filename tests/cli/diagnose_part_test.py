@@ -76,9 +76,13 @@ class CalibratedPart(harness.Case):
         self.assertIn("did you mean 'BALL'", self.refused("E0546", "diagnose", recording, "--workpiece", wrong, "--machine", MACHINE))
         flat = recording.read_text().splitlines()
         head = [k for k, line in enumerate(flat) if not line.startswith("#")][0]
-        one_sided = self.write("one_sided.csv", "\n".join(flat[:head + 1] + [flat[head + 1]] * 14) + "\n")
+        label, number, rest = flat[head + 1].split(",", 2)
+        one_sided = self.write("one_sided.csv", "\n".join(flat[:head + 1] + [f"{label},{k},{rest}" for k in range(1, 15)]) + "\n")
         ball = self.write("ball.json", workpiece({"BALL": {"diameter_mm": 25}}))
         self.refused("E0547", "diagnose", one_sided, "--workpiece", ball, "--machine", MACHINE)
+        for diameter, cause in ((25000, "micrometres"), (0.025, "metres"), (12.5, "radius")):
+            wrong = self.write("wrong.json", workpiece({"BALL": {"diameter_mm": diameter}}))
+            self.assertIn(cause, self.refused("E0701", "diagnose", recording, "--workpiece", wrong, "--machine", MACHINE))
 
     def test_a_form_is_left_out_aloud(self):
         ring = (harness.ROOT / "examples/programs/ring_gauge.dmi")

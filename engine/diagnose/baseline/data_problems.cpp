@@ -1,5 +1,5 @@
-// Recordings that no physics explains: another unit, swapped axes, a tip radius that was added or forgotten, rows twice. Each is
-// recognised by what would mend it, and said instead of being diagnosed.
+// Recordings that no physics explains: another unit, swapped axes, normals the wrong way, rows twice. Each is recognised by what would mend
+// it, and said instead of being diagnosed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/median.hpp"
+#include "engine/recording/units.hpp"
 
 namespace abbe::diagnose {
 
@@ -29,12 +30,49 @@ double left_by(const Recording& r, Remedy remedy) {
   throw UserError(diagnostic(Code::E0701, fmt::format("{}: {}", file, what), std::move(help)));
 }
 
-void check_units(const Recording& r, const std::string& file, double gross) {
-  const std::pair<double, const char*> units[] = {{1000, "metres"}, {1e-3, "micrometres"}, {25.4, "inches"}};
-  for (const auto& [factor, word] : units)
-    if (left_by(r, [f = factor](const RecordingRow& row) { return f * row.position_mm; }) < kMends * gross)
-      refuse(file, fmt::format("the recorded positions are in {}, the targets in millimetres", word),
-             fmt::format("multiply x, y, z by {:g}", factor));
+/// How large the whole is, wherever it stands: half of the points lie no further from the middle. 0 for one point touched again and again.
+template <class Point>
+double size_of(const Recording& r, Point point) {
+  Vec3 middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> coordinates;
+    for (const RecordingRow& row : r.rows) coordinates.push_back(point(row)[axis]);
+    middle[axis] = median(std::move(coordinates));
+  }
+  std::vector<double> distance;
+  for (const RecordingRow& row : r.rows) distance.push_back(norm(point(row) - middle));
+  return median(std::move(distance));
+}
+
+/// How far out half of the targets lie, in travels of the machine's axes.
+double reach_of(const Recording& r, const Machine& machine) {
+  std::vector<double> reach;
+  for (const RecordingRow& row : r.rows) {
+    double most = 0;
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) most = std::max(most, std::abs((*row.target_mm)[static_cast<int>(axis)]) / machine[axis].travel_mm);
+    reach.push_back(most);
+  }
+  return median(std::move(reach));
+}
+
+/// Positions and targets in different units, both in one that this machine makes impossible, or readings in another than the positions.
+void check_units(const Recording& r, const Machine& machine, const std::string& file) {
+  constexpr double kLeast_mm = 1, kFar = 10, kNear = 2e-3;
+  const double recorded = size_of(r, [](const RecordingRow& row) { return row.position_mm; });
+  const double meant = size_of(r, [](const RecordingRow& row) { return *row.target_mm; });
+  const double largest = std::max({machine[Axis::x].travel_mm, machine[Axis::y].travel_mm, machine[Axis::z].travel_mm});
+  const bool targets_possible = meant > kLeast_mm && meant < largest;
+  if (const auto unit = foreign_unit(recorded, meant); unit && targets_possible)
+    refuse(file, fmt::format("the recorded positions are in {}, the targets in millimetres", unit->name), fmt::format("multiply x, y, z by {:g}", unit->mm));
+  if (const auto unit = foreign_unit(meant, recorded))
+    refuse(file, fmt::format("the targets are in {}, the recorded positions in millimetres", unit->name), fmt::format("multiply tx, ty, tz by {:g}", unit->mm));
+  if (meant > 0 && reach_of(r, machine) > kFar)
+    refuse(file, fmt::format("positions and targets reach more than {:g} times as far as machine '{}' travels: they are in micrometres", kFar, machine.name), "multiply x, y, z, tx, ty, tz by 0.001");
+  if (meant > 0 && meant < kLeast_mm && reach_of(r, machine) < kNear)
+    refuse(file, fmt::format("half of the touches lie within {:.2g} mm, close to the machine's zero: positions and targets are in metres", meant), "multiply x, y, z, tx, ty, tz by 1000");
+  if (!std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.reading_mm.has_value(); })) return;
+  if (const auto unit = foreign_unit(size_of(r, [](const RecordingRow& row) { return *row.reading_mm; }), recorded))
+    refuse(file, fmt::format("the scale readings are in {}, the recorded positions in millimetres", unit->name), fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
 }
 
 void check_axes(const Recording& r, const std::string& file, double gross) {
@@ -47,21 +85,6 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
       refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]), "correct the sign in the recording");
 }
 
-/// All touches are off by one length along their normals.
-void check_radius(const Recording& r, const std::string& file) {
-  std::vector<double> along, deviation;
-  for (const RecordingRow& row : r.rows) along.push_back(dot(*row.normal, row.position_mm - *row.target_mm));
-  const double middle = median(along);
-  for (const double a : along) deviation.push_back(std::abs(a - middle));
-  std::vector<double> normals;
-  for (const RecordingRow& row : r.rows) normals.push_back(dot(*row.normal, *r.rows.front().normal));
-  const bool one_way = *std::min_element(normals.begin(), normals.end()) > 0.9;   // then it may be the place of the part
-  if (std::abs(middle) < kGross_mm / 2 || median(deviation) > 0.02 * std::abs(middle) || one_way) return;
-  refuse(file, fmt::format("every touch is {:.3f} mm too far {} along its normal: a tip radius, or a tip diameter, that was {}", std::abs(middle),
-                           middle > 0 ? "out" : "in", middle > 0 ? "added once too often" : "taken off once too often"),
-         "check the line '# point: tip_centre|surface', the sign of the compensation, and whether targets are tip centres too");
-}
-
 /// A machine travels against the normal that it touches.
 void check_normals(const Recording& r, const std::string& file) {
   std::vector<double> along;
@@ -72,32 +95,38 @@ void check_normals(const Recording& r, const std::string& file) {
          "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
 }
 
-void find_duplicates(const Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
-  std::map<std::tuple<std::string, int, int, int, std::string>, const RecordingRow*> seen;
-  int twice = 0;
-  std::string first;
-  for (const RecordingRow& row : r.rows) {
-    const auto [at, fresh] = seen.emplace(std::tuple(row.feature, row.touch, row.setup, row.run, row.sensor.value_or("")), &row);
-    if (fresh || !(at->second->position_mm == row.position_mm) || at->second->time_s != row.time_s) continue;
-    if (twice++ == 0) first = fmt::format("'{}' touch {} (lines {} and {})", row.feature, row.touch, at->second->line, row.line);
-  }
-  if (twice > 0)
-    messages.push_back(diagnostic(Code::W0702, fmt::format("{}: {} rows stand there twice, the first is {}", file, twice, first),
-                                  "remove one of each pair"));
-}
-
 }  // namespace
 
-void check_data(const Recording& r, const std::string& file, std::vector<Diagnostic>& messages) {
-  find_duplicates(r, file, messages);
+Recording without_copies(const Recording& recorded, const std::string& file, std::vector<Diagnostic>& messages) {
+  std::map<std::tuple<std::string, int, int, int, std::string, std::optional<double>>, const RecordingRow*> seen;
+  Recording out = recorded;
+  out.rows.clear();
+  std::size_t copies = 0;
+  std::string first;
+  for (const RecordingRow& row : recorded.rows) {
+    const auto [at, fresh] = seen.emplace(std::tuple(row.feature, row.touch, row.setup, row.run, row.sensor.value_or(""), row.time_s), &row);
+    if (fresh) {
+      out.rows.push_back(row);
+      continue;
+    }
+    const std::string which = fmt::format("'{}' touch {} (lines {} and {})", row.feature, row.touch, at->second->line, row.line);
+    if (!(at->second->position_mm == row.position_mm))
+      throw UserError(diagnostic(Code::E0713, fmt::format("{}: {} has two values at one time, in one setup and run", file, which),
+                                 "give repeats another 'run', a part that was moved another 'setup'"));
+    if (copies++ == 0) first = which;
+  }
+  if (copies > 0)
+    messages.push_back(diagnostic(Code::W0702, fmt::format("{}: {} rows stand there twice, the first is {}; they count once", file, copies, first), "remove one of each pair"));
+  return out;
+}
+
+void check_data(const Recording& r, const Machine& machine, const std::string& file) {
   const bool complete = std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
   if (!complete) return;  // recorded_touches() says what is missing
   check_normals(r, file);
+  check_units(r, machine, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
-  if (gross < kGross_mm) return;
-  check_units(r, file, gross);
-  check_axes(r, file, gross);
-  check_radius(r, file);
+  if (gross > kGross_mm) check_axes(r, file, gross);
 }
 
 }  // namespace abbe::diagnose

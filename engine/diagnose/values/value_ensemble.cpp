@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "engine/diagnose/values/value_signature.hpp"
+#include "engine/recording/units.hpp"
 #include "engine/run/run.hpp"
 
 namespace abbe::diagnose {
@@ -107,6 +108,15 @@ class EnsembleRuns {
   }
 
  private:
+  /// A value, or a calibrated one, that is what the program measures in another unit.
+  void refuse_unit(const ValueRow& row, double measured_mm) const {
+    for (const std::optional<double>& written : {std::optional(row.value), row.reference})
+      if (const auto unit = written ? foreign_unit(*written, measured_mm) : std::nullopt)
+        throw UserError(diagnostic_at(recording_.source, row.span, Code::E0701,
+                                      fmt::format("'{}' is {:.6g} mm on an error-free machine, {:.6g} here: it is in {}", row.characteristic, measured_mm, *written, unit->name),
+                                      "value, reference and U are in millimetres or degrees"));
+  }
+
   void add_row(int r, const OneRun& run, const ValueProgram& program, const RunResult& result) {
     const ValueRow& row = recording_.rows[static_cast<std::size_t>(r)];
     const Samples& s = sample_of(recording_, row, *program.plan, result);
@@ -115,6 +125,7 @@ class EnsembleRuns {
                                     "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
+    if (!angle) refuse_unit(row, s.reference);
     RecordedValue v{r, run.program, run.repeat, s.characteristic, s.occurrence, angle};
     v.reference = row.reference.value_or(s.reference * engine_scale(angle) * v.reported());
     v.deviation = (row.value - v.reference) / v.reported();
