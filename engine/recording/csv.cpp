@@ -54,6 +54,15 @@ void read_metadata(std::string_view line, CsvTable& table) {
   table.metadata.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
 }
 
+/// Where Excel writes decimal commas it writes semicolons between the columns.
+void check_separator(const SourceFile& file, const std::vector<CsvField>& header) {
+  if (header.size() > 1) return;
+  for (const auto& [separator, word] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}})
+    if (header.front().text.find(separator) != std::string::npos)
+      throw UserError(diagnostic_at(file, header.front().span, Code::E0531, fmt::format("the columns are divided by {}", word),
+                                    "write commas between the columns and decimal points in the numbers (\"CSV UTF-8\" with English number formats)"));
+}
+
 void check_header(const SourceFile& file, const std::vector<CsvField>& header, Sink& sink) {
   std::set<std::string> seen;
   for (const CsvField& field : header)
@@ -79,6 +88,7 @@ CsvTable read_csv(const SourceFile& file) {
     }
     std::vector<CsvField> fields = split(file, line, begin, sink);
     if (table.header.empty()) {
+      check_separator(file, fields);
       table.header = std::move(fields);
       check_header(file, table.header, sink);
     } else if (fields.size() != table.header.size()) {

@@ -130,6 +130,7 @@ class Sensors {
     def.from_machine_file = !name.empty();
     if (name.empty()) assume(row, def, out);
     const SourceFile nowhere(file_, "");
+    if (def.from_machine_file) require_sensor(def.label, row);
     Sensor sensor = resolve_sensor(def, machine_, nowhere);
     if (!def.from_machine_file || !row.head_a_deg || !row.head_b_deg) return sensor;
     // The head may stand elsewhere than the machine file says of this stylus system.
@@ -140,6 +141,16 @@ class Sensors {
     s.head_a_rad = *row.head_a_deg * kPi / 180;
     s.head_b_rad = *row.head_b_deg * kPi / 180;
     return resolve_sensor(def, turned, nowhere);
+  }
+
+  void require_sensor(const std::string& label, const RecordingRow& row) const {
+    std::vector<std::string_view> names;
+    for (const auto& [name, sensor] : machine_.sensors) names.push_back(name);
+    if (std::any_of(names.begin(), names.end(), [&](std::string_view name) { return same_label(name, label); })) return;
+    const std::string near = nearest_word(label, names);
+    throw UserError(diagnostic(Code::E0301, fmt::format("{}:{}: neither the recording nor machine '{}' says what sensor '{}' is", file_, row.line, machine_.name, label),
+                               near.empty() ? fmt::format("add the line '# sensor {}: head_deg A B tip_in_r_mm x y z diameter_mm d', or the sensor to the machine file", label)
+                                            : fmt::format("did you mean '{}'?", near)));
   }
 
   std::string machine_name(const std::string& label) const {

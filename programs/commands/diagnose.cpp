@@ -54,6 +54,12 @@ void continue_clock(const Recording& before, Recording& next, const std::string&
                              "if it was measured at another time, write its true times into time_s")});
 }
 
+std::string machine_in(const Recording& recording) {
+  for (const auto& [key, value] : recording.metadata)
+    if (key == "machine") return value;
+  return "";
+}
+
 /// A file given twice is no repeat: nothing was measured again.
 void refuse_copy(const Recording& before, const std::string& name, const Recording& next, const std::string& copy) {
   const auto same = [](const RecordingRow& a, const RecordingRow& b) {
@@ -61,6 +67,13 @@ void refuse_copy(const Recording& before, const std::string& name, const Recordi
   };
   if (std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), same) == before.rows.end()) return;
   throw UserError(diagnostic(Code::E0713, fmt::format("'{}' holds the same touches as '{}'", copy, name), "give each recording once; a repeat has other values, and another 'run'"));
+}
+
+/// Recordings of one machine belong together.
+void doubt_machine(const Recording& first, const std::string& name, const Recording& next, const std::string& file) {
+  const std::string one = machine_in(first), other = machine_in(next);
+  if (!one.empty() && !other.empty() && one != other)
+    print_messages({diagnostic(Code::W0714, fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, one, file, other), "judge each machine by its own recordings")});
 }
 
 /// Several files are one recording; their frames must agree.
@@ -76,6 +89,7 @@ Recording joined(const std::vector<std::string>& files) {
       throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0], files[k]),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
     refuse_copy(all, files[0], one, files[k]);
+    doubt_machine(all, files[0], one, files[k]);
     continue_clock(all, one, files[k]);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());   // new styli; of what is said twice the first counts
@@ -88,12 +102,6 @@ std::string machine_of(const DiagnoseCommandOptions& options, const std::string&
   if (options.known) return *options.known;
   if (options.machine) return *options.machine;
   return recorded.empty() ? kDefaultMachine : recorded;
-}
-
-std::string machine_in(const Recording& recording) {
-  for (const auto& [key, value] : recording.metadata)
-    if (key == "machine") return value;
-  return "";
 }
 
 /// Before the work: a diagnosis takes minutes.
@@ -121,6 +129,8 @@ Answer of_touches(const DiagnoseCommandOptions& options, const DiagnoseOptions& 
   const std::string name = machine_of(options, machine_in(recording));
   protect_files(options, name);
   Machine machine = read_machine(name);
+  if (options.known && machine.known_state.empty())
+    print_messages({diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name), "`abbe diagnose --model-out` writes one; --machine takes a file without")});
   if (options.program) complete_from_program(recording, nominal_record(*options.program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   add_recorded_sensors(recording, machine, file);

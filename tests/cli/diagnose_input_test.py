@@ -178,6 +178,24 @@ class Mistakes(Input):
         self.refused("E0713", "diagnose", self.write("two.csv", "\n".join(lines + other[-30:]) + "\n"))
         self.refused("E0713", "diagnose", self.recording, self.write("again.csv", self.recording.read_text()))
 
+    def test_tables_of_another_kind(self):
+        text = self.recording.read_text()
+        self.assertIn("semicolons", self.refused("E0531", "diagnose", self.write("bad.csv", text.replace(",", ";"))))
+        self.assertIn("tabs", self.refused("E0531", "diagnose", self.write("bad.csv", text.replace(",", "\t"))))
+
+    def test_a_sensor_that_nobody_describes_is_named_at_its_row(self):
+        lines = self.recording.read_text().splitlines()
+        at = next(k for k, line in enumerate(lines) if line.startswith("BORE1,1,"))
+        lines[at] = lines[at].replace("PROBE", "FINGER")
+        self.assertIn(f"bad.csv:{at + 1}: ", self.refused("E0301", "diagnose", self.write("bad.csv", "\n".join(lines) + "\n")))
+
+    def test_machines_that_do_not_fit(self):
+        repeat = self.changed(self.recording, lambda row: row | {"run": "2", "z": repr(float(row["z"]) + 1e-4)}, "repeat.csv")
+        repeat.write_text(repeat.read_text().replace("# machine: coord3-mc16", "# machine: other"))
+        self.assertIn("W0714", self.abbe("diagnose", self.recording, repeat, "--design-only").stderr)
+        self.abbe("machine", "init", "mine.json")
+        self.assertIn("W0715", self.abbe("diagnose", self.recording, "--known", "mine.json", "--design-only").stderr)
+
 
 class Values(Input):
     def test_units_of_values(self):
