@@ -22,6 +22,19 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 250))
         self.assertGreater(said["p_value"], 0.01)
 
+    def test_the_noise_of_one_place_is_no_period_of_the_scale(self):
+        """One point touched 30 times: the readings differ by the noise of the touches and nothing else."""
+        head, point = harness.LENGTH.split("F(A)=", 1)
+        point = "F(A)=" + point.split("F(B)=")[0]
+        program = self.write("repeats.dmi", head + "".join(point.replace("(A)", f"(A{k})") for k in range(30)) + "ENDFIL\n")
+        accused = []
+        for seed in range(1, 7):
+            self.abbe("record", program, "--machine", "coord3-mc16", "--seed", seed, "-o", "repeats.csv")
+            said = json.loads(self.abbe("diagnose", "repeats.csv", "--format", "json").stdout)
+            accused += [e["members"] for e in said["effects"]]
+        self.assertNotIn("machine.scale_interpolation", sum(accused, []))
+        self.assertLessEqual(len(accused), 1)   # seed 3 looks like a step by chance: 0.3 %
+
     def test_what_is_new_in_a_run_is_named_as_new(self):
         """A step of the indexing head between the runs would fit this well too, if effects were the same in all runs."""
         recordings = self.record(1), self.record(2, "--with", "machine.squareness:squareness_urad=30,which=cwy")

@@ -22,12 +22,11 @@ void free_readings_of_noise(Case& c, const EvidenceSearch& first) {
     if (round == kMost) break;
     evidence = EvidenceSearch(model, hyper, c.explanations).evidence();
   }
-  const Vector loo = leave_one_out(model, hyper);
-  for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(k);
-    const double noise_mm = 1e-3 * loo(i) * model.noise_um(i) * hyper.noise(model.noise_group[k]);
-    c.touches.touches[static_cast<std::size_t>(c.rows[k])].beyond_target_mm -= noise_mm;
-  }
+  // Its expectation given the recording, no more: what is taken out beyond it comes back with the other sign, and where one place was touched
+  // again and again, nothing else would be left in the readings.
+  const Vector noise_um = expected_noise(model, hyper);
+  for (std::size_t k = 0; k < c.rows.size(); ++k)
+    c.touches.touches[static_cast<std::size_t>(c.rows[k])].beyond_target_mm -= noise_um(static_cast<Eigen::Index>(k)) / kUmPerMm;
 }
 
 }  // namespace abbe::diagnose

@@ -198,13 +198,16 @@ Hyperparameters estimate(const LinearModel& m) {
 
 Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
   const Rotated rotated(m, h);
-  // P = 1 - Q Q' - U diag(lambda / (1 + lambda)) U': (P y)_i / P_ii is row i minus its prediction from all others, 1 / P_ii the variance.
-  const Vector taken = rotated.lambda().array() / (1 + rotated.lambda().array());
-  const Vector py = rotated.remainder(rotated.y(), Vector(taken.array() * rotated.z().array()));
+  // With the inverse covariance K of the touches, X projected out, (K y)_i / K_ii is row i minus its prediction from all others, 1 / K_ii the variance.
+  const Vector ky = rotated.of_touches(rotated.noise_part()), diagonal = rotated.precision_diagonal();
   Vector out(m.y.size());
-  const Vector diagonal = rotated.precision_diagonal();
-  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = diagonal(i) > 1e-9 ? py(i) / std::sqrt(diagonal(i)) : 0;
+  for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = diagonal(i) > 1e-9 ? ky(i) / std::sqrt(diagonal(i)) : 0;
   return out;
+}
+
+Vector expected_noise(const LinearModel& m, const Hyperparameters& h) {
+  const Rotated rotated(m, h);
+  return rotated.recording_of(rotated.noise_part());
 }
 
 Vector beyond_prediction(LinearModel m, const Hyperparameters& h, const std::vector<char>& masked) {
@@ -287,6 +290,31 @@ Matrix Projection::of_patterns(const Matrix& columns) const {
   return w;
 }
 
+Matrix Projection::of_touches(const Matrix& whitened) const {
+  if (correlation_ == 0) return whitened;
+  const double rescale = 1 / std::sqrt(1 - correlation_ * correlation_);
+  const auto follows = [&](Eigen::Index i) { return i < whitened.rows() && follows_[static_cast<std::size_t>(i)]; };
+  Matrix out = whitened;
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    if (follows(i)) out.row(i) *= rescale;
+    if (follows(i + 1)) out.row(i) -= correlation_ * rescale * whitened.row(i + 1);
+  }
+  return out;
+}
+
+std::pair<Vector, Vector> Projection::noise_precision() const {
+  const double share = correlation_ * correlation_, rest = 1 - share;
+  const Eigen::Index n = weight_.size();
+  Vector own = Vector::Ones(n), with_next = Vector::Zero(n - 1);
+  for (Eigen::Index i = 1; i < n; ++i) {
+    if (!follows_[static_cast<std::size_t>(i)]) continue;
+    own(i) += share / rest;
+    own(i - 1) += share / rest;
+    with_next(i - 1) = -correlation_ / rest;
+  }
+  return {own, with_next};
+}
+
 Vector Projection::unwhitened(const Vector& projected) const {
   const double rescale = std::sqrt(1 - correlation_ * correlation_);
   Vector out = projected;
@@ -336,15 +364,27 @@ Vector Rotated::off_model(const Vector& white) const {
   return free - basis_ * (basis_.transpose() * free);
 }
 
-Vector Rotated::precision_diagonal() const {
-  Vector d = Vector::Ones(y_.size()) - project_.free().rowwise().squaredNorm();
-  const Vector taken = (lambda_.array() / (1 + lambda_.array())).sqrt();
-  return d - (basis_ * taken.asDiagonal()).rowwise().squaredNorm();
+Vector Rotated::noise_part() const {
+  const Vector taken = lambda_.array() / (1 + lambda_.array());
+  return remainder(y_, Vector(taken.array() * z().array()));
 }
 
+Matrix Rotated::taken_of_touches() const {
+  Matrix taken(rows(), project_.free().cols() + rank());
+  taken << project_.free(), basis_ * (lambda_.array() / (1 + lambda_.array())).sqrt().matrix().asDiagonal();
+  return project_.of_touches(taken);
+}
+
+Vector Rotated::precision_diagonal() const { return project_.noise_precision().first - taken_of_touches().rowwise().squaredNorm(); }
+
 Matrix Rotated::precision() const {
-  const Matrix &x = project_.free(), taken = basis_ * (lambda_.array() / (1 + lambda_.array())).sqrt().matrix().asDiagonal();
-  return Matrix::Identity(y_.size(), y_.size()) - x * x.transpose() - taken * taken.transpose();
+  const Matrix taken = taken_of_touches();
+  const auto [own, with_next] = project_.noise_precision();
+  Matrix out = -taken * taken.transpose();
+  out.diagonal() += own;
+  out.diagonal(1) += with_next;
+  out.diagonal(-1) += with_next;
+  return out;
 }
 
 }  // namespace abbe::diagnose

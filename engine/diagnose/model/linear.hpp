@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 namespace abbe::diagnose {
@@ -45,7 +46,7 @@ struct Hyperparameters {
   double correlation = 0;           ///< phi of neighbouring rows
 };
 
-/// Restricted maximum likelihood with log-normal priors about 1 (sd 0.7 for the scale, 0.5 for the noise).
+/// Restricted maximum likelihood with log-normal priors about 1 (sd scale_spread for the scale, 0.5 for the noise).
 Hyperparameters estimate(const LinearModel&);
 
 /// The same without a correlation of neighbours.
@@ -54,8 +55,12 @@ Hyperparameters estimate_uncorrelated(const LinearModel&);
 /// Logarithm of what whitening with this noise and taking out X do to the density of a recording: what sets models of other noise apart.
 double log_density(const LinearModel&, const Hyperparameters&);
 
-/// Standardised residual of each row, predicted from all other rows.
+/// Standardised residual of each row, predicted from all other rows: of the touch itself, where neighbours have noise in common too.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);
+
+/// The noise of each row as all rows tell it: its expectation given the recording, um. What is left of a row's noise beside it has nothing to do
+/// with the recording.
+Vector expected_noise(const LinearModel&, const Hyperparameters&);
 
 /// Squares of the correlations of these residuals, by pair of rows, when the model is right.
 Matrix squared_correlation(const LinearModel&, const Hyperparameters&);
@@ -82,6 +87,10 @@ class Projection {
   Matrix of_patterns(const Matrix& columns) const;
   /// A row vector whose projection is this one.
   Vector unwhitened(const Vector& projected) const;
+  /// From whitened rows back to the touches, whose noise is 1 but may have something in common: the transpose of taking neighbours' differences.
+  Matrix of_touches(const Matrix& whitened) const;
+  /// The inverse covariance of that noise: its diagonal, and what is beside it.
+  std::pair<Vector, Vector> noise_precision() const;
   /// Orthonormal basis of the whitened X.
   const Matrix& free() const { return q_; }
 
@@ -139,12 +148,19 @@ class Rotated {
   Vector off_model(const Vector& white) const;
   const Vector& y() const { return y_; }             ///< projected
   Vector z() const { return basis_.transpose() * y_; }
-  /// Diagonal of the inverse covariance of the whitened rows, X projected out.
+  /// What of the projected rows is noise, as far as they tell.
+  Vector noise_part() const;
+  /// Row vectors of the touches: Projection::of_touches, and um.
+  Vector of_touches(const Vector& white) const { return project_.of_touches(white); }
+  Vector recording_of(const Vector& white) const { return project_.unwhitened(white); }
+  /// Diagonal of the inverse covariance of the touches in units of their noise, X projected out.
   Vector precision_diagonal() const;
   /// The whole of it.
   Matrix precision() const;
 
  private:
+  Matrix taken_of_touches() const;                   ///< T: that inverse covariance is the noise's minus T T'
+
   Projection project_;
   Matrix basis_;                                     ///< U
   Vector lambda_, y_;

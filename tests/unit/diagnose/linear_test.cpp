@@ -42,12 +42,15 @@ LinearModel model_of(int rows, double scale, double noise, double phi, std::uint
 }
 
 /// The inverse covariance with the free columns projected out, dense and by definition.
-Matrix dense_precision(const LinearModel& m, const Hyperparameters& h) {
-  const Eigen::Index n = m.y.size();
-  Matrix v = h.scale * h.scale * m.random * m.random.transpose();
-  for (Eigen::Index i = 0; i < n; ++i) v(i, i) += std::pow(m.noise_um(i) * h.noise(m.noise_group[static_cast<std::size_t>(i)]), 2);
-  const Matrix inverse = v.inverse(), x = m.free;
+Matrix dense_precision(const LinearModel& m, const Hyperparameters& h, const Matrix& noise) {
+  const Matrix v = h.scale * h.scale * m.random * m.random.transpose() + noise, inverse = v.inverse(), x = m.free;
   return inverse - inverse * x * (x.transpose() * inverse * x).inverse() * x.transpose() * inverse;
+}
+
+Matrix dense_precision(const LinearModel& m, const Hyperparameters& h) {
+  Vector variance(m.y.size());
+  for (Eigen::Index i = 0; i < variance.size(); ++i) variance(i) = std::pow(m.noise_um(i) * h.noise(m.noise_group[static_cast<std::size_t>(i)]), 2);
+  return dense_precision(m, h, Matrix(variance.asDiagonal()));
 }
 
 }  // namespace
@@ -64,6 +67,35 @@ TEST_CASE("residuals predicted from all other rows are those of the dense formul
   const Matrix squared = squared_correlation(m, h);
   for (Eigen::Index i = 0; i < 60; ++i)
     for (Eigen::Index j = 0; j < 60; ++j) CHECK(squared(i, j) == doctest::Approx(p(i, j) * p(i, j) / (p(i, i) * p(j, j))).epsilon(1e-6));
+}
+
+TEST_CASE("a touch is left out itself, not its difference from the touch before") {
+  LinearModel m = model_of(60, 1, 1, 0.5, 21);
+  m.follows[30] = 0;
+  Hyperparameters h;
+  h.noise = Vector::Constant(1, 0.8), h.correlation = 0.6;
+  Matrix noise = Matrix::Zero(60, 60);
+  for (int i = 0; i < 60; ++i)
+    for (int j = 0; j < 60; ++j)
+      if ((i < 30) == (j < 30)) noise(i, j) = std::pow(0.5 * 0.8, 2) * std::pow(0.6, std::abs(i - j));
+  const Matrix p = dense_precision(m, h, noise);
+  const Vector py = p * m.y, loo = leave_one_out(m, h), expected = noise * py, own = expected_noise(m, h);
+  const Matrix squared = squared_correlation(m, h);
+  for (Eigen::Index i = 0; i < 60; ++i) {
+    CHECK(loo(i) == doctest::Approx(py(i) / std::sqrt(p(i, i))).epsilon(1e-6));
+    CHECK(own(i) == doctest::Approx(expected(i)).epsilon(1e-6));   // E(e | y) = cov(e, y) P y
+    for (Eigen::Index j = 0; j < 60; ++j) CHECK(std::sqrt(squared(i, j)) == doctest::Approx(std::abs(p(i, j)) / std::sqrt(p(i, i) * p(j, j))).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("of one place touched again and again, the noise is all that differs") {
+  LinearModel m = model_of(30, 1, 1, 0, 22);
+  m.free = Matrix::Ones(30, 1);
+  m.random = 3 * Matrix::Ones(30, 12);
+  Hyperparameters h;
+  h.noise = Vector::Constant(1, 1.3);
+  const Vector rest = m.y - expected_noise(m, h);
+  CHECK((rest.array() - rest.mean()).abs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("rows that are left out are as far off as they were moved, whatever their neighbours have in common") {
