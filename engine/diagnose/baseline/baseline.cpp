@@ -220,26 +220,17 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
 
 KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, const std::vector<char>& dropped) {
   const LinearModel m = without_rows(b.model, dropped);
-  Matrix w(m.y.size(), m.free.cols() + m.random.cols());
-  w << m.free, m.random;
-  for (Eigen::Index i = 0; i < w.rows(); ++i) w.row(i) /= m.noise_um(i) * h.noise(m.noise_group[i]);
-  Vector y = m.y;
-  for (Eigen::Index i = 0; i < y.size(); ++i) y(i) /= m.noise_um(i) * h.noise(m.noise_group[i]);
-  Matrix precision = w.transpose() * w;
-  const Eigen::Index free = m.free.cols();
-  // Unknowns without a prior may be undetermined; a variance of (1 m)^2 stands for nothing known.
-  constexpr double kNothingKnown = 1e-12;
-  for (Eigen::Index k = 0; k < precision.rows(); ++k) {
-    if (k < free) precision(k, k) += kNothingKnown;
-    else precision(k, k) += m.random_group[k - free] == 0 ? 1 / (h.scale * h.scale) : 1;
-  }
+  const Projection project(m, h);
+  const Matrix z = project(m.random);
+  Matrix precision = z.transpose() * z;
+  for (Eigen::Index k = 0; k < precision.rows(); ++k) precision(k, k) += m.random_group[static_cast<std::size_t>(k)] == 0 ? 1 / (h.scale * h.scale) : 1;
   const Eigen::LLT<Matrix> llt(precision);
-  const Vector mean = llt.solve(w.transpose() * y);
+  const Vector mean = llt.solve(z.transpose() * project(m.y));
   const Matrix covariance = llt.solve(Matrix::Identity(precision.rows(), precision.cols()));
   const Eigen::Index size = b.factor.cols();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.block(free, free, size, size));
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.topLeftCorner(size, size));
   const Matrix root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  return {b.mean + b.factor * mean.segment(free, size), b.factor * root};
+  return {b.mean + b.factor * mean.head(size), b.factor * root};
 }
 
 }  // namespace abbe::diagnose

@@ -1,0 +1,46 @@
+#include "engine/diagnose/baseline/baseline.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+TEST_CASE("what is left of the geometry is that of touches whose neighbours have noise in common") {
+  constexpr int kTouches = 40, kCoefficients = 3;
+  const auto wave = [](double k, int i) { return std::cos(0.37 * k * i + k * k); };
+  Baseline b;
+  b.factor = Vector{{2.0, 0.5, 1.5}}.asDiagonal();
+  b.mean = Vector{{1.0, -2.0, 0.5}};
+  LinearModel& m = b.model;
+  m.free = Matrix::Ones(kTouches, 1);
+  m.random.resize(kTouches, kCoefficients + 1);
+  m.y.resize(kTouches);
+  for (int i = 0; i < kTouches; ++i) {
+    m.y(i) = wave(11, i) + 0.1 * i;
+    for (int k = 0; k <= kCoefficients; ++k) m.random(i, k) = wave(1 + k, i);
+  }
+  m.random_group = {0, 0, 0, 1};
+  m.noise_um = Vector::Constant(kTouches, 0.5);
+  m.noise_group.assign(kTouches, 0);
+  m.follows.assign(kTouches, 1), m.follows[0] = m.follows[25] = 0;
+  Hyperparameters h;
+  h.noise = Vector::Constant(1, 1.2), h.correlation = 0.6, h.scale = 1.4;
+
+  Matrix noise = Matrix::Zero(kTouches, kTouches);
+  for (int i = 0; i < kTouches; ++i)
+    for (int j = 0; j < kTouches; ++j)
+      if ((i < 25) == (j < 25)) noise(i, j) = std::pow(0.5 * 1.2, 2) * std::pow(0.6, std::abs(i - j));
+  Matrix prior = Matrix::Identity(kCoefficients + 1, kCoefficients + 1);
+  prior.topLeftCorner(kCoefficients, kCoefficients) *= 1.4 * 1.4;
+  const Matrix v = m.random * prior * m.random.transpose() + noise, inverse = v.inverse(), x = m.free;
+  const Matrix p = inverse - inverse * x * (x.transpose() * inverse * x).inverse() * x.transpose() * inverse;
+  const Matrix gain = prior * m.random.transpose() * p;   // the law of what is known given the recording, X of no prior
+  const Vector mean = b.mean + b.factor * (gain * m.y).head(kCoefficients);
+  const Matrix covariance = b.factor * (prior - gain * m.random * prior).topLeftCorner(kCoefficients, kCoefficients) * b.factor.transpose();
+
+  const KnownGeometry known = posterior(b, h, std::vector<char>(kTouches, 0));
+  CHECK((known.mean - mean).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((known.factor * known.factor.transpose() - covariance).cwiseAbs().maxCoeff() < 1e-9);
+}
