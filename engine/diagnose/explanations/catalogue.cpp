@@ -212,7 +212,7 @@ void share_priors(Explanations& all) {
   for (Explanation& e : all.list) e.prior = weight(e) * (e.effect ? kPriorCatalogue / named : kPriorOther / patterns);
 }
 
-/// Effects of the noise change no mean: they are judged by the variance (noise_effects.hpp).
+/// Effects of the noise change no mean: they are judged by the variance (findings/noise_effects.cpp).
 bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
 
 std::vector<Search> searches(const Effect& effect, const RecordedTouches& t) {
