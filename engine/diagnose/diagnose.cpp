@@ -120,6 +120,12 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   return gone ? " The machine file has the opposite: it is not there any more." : " That is beside what the machine file has of it.";
 }
 
+/// The run from which on a variant acts. Where it stands for a stretch of runs that holds the one of the finding, it is that.
+int new_in_run(const Block& variant, const Block& found) {
+  const bool holds = found.from_run > 0 && variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
+  return holds ? found.from_run : variant.from_run;
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -129,7 +135,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
       const Explanation& member = c.explanations.list[m];
       e.members.push_back(member.name);
       const int likeliest = m == f.explanation ? f.block : best_block(member, result.first);
-      e.new_in_run.push_back(c.explanations.blocks[static_cast<std::size_t>(likeliest)].from_run);
+      e.new_in_run.push_back(new_in_run(c.explanations.blocks[static_cast<std::size_t>(likeliest)], c.explanations.blocks[static_cast<std::size_t>(f.block)]));
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
     e.parameters = estimate_parameters(c, result, k);
@@ -210,6 +216,10 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
     throw UserError(diagnostic(Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
                                fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
   if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
+  constexpr int kMostTouches = 4000;   // minutes, and less than 2 GB
+  if (static_cast<int>(c.touches.touches.size()) > kMostTouches)
+    throw UserError(diagnostic(Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, c.touches.touches.size()),
+                               fmt::format("at most {}: leave out repeats, or diagnose a part of the runs at a time", kMostTouches)));
   const EffectSet effects(machine.effects, EffectUse::left_in, machine.name);
   remove_estimates(effects, c.touches);
   std::optional<RecordedPart> part;

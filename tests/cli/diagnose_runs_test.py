@@ -53,6 +53,18 @@ class DiagnoseRuns(harness.Case):
         self.assertRegex(text, r"What is new in run 2 is explained by two axes not square: squareness \d+\.\d+ ± 0\.\d+ urad")
         self.assertIn("machine.squareness, new in run 2", text)
 
+    def test_of_many_runs_it_is_found_in_which_something_is_new(self):
+        """Nine later runs are judged in eight stretches first; the tenth run begins none of them."""
+        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
+        recordings = []
+        for run in range(1, 11):
+            worn = ("--with", "probe.tip_radius:amplitude_um=8") if run == 10 else ()
+            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *worn)
+            recordings.append(f"run{run}.csv")
+        said = self.diagnosis(*recordings)
+        self.assertIn("probe.tip_radius", said["effects"][0]["members"])
+        self.assertEqual(set(said["effects"][0]["new_in_run"]), {10})
+
     def test_scatter_is_noise_where_repeats_show_it(self):
         shaking = ("--with", "noise.unequal:ratio=5,group=1")
         first, second = self.record(1, *shaking), self.record(2, *shaking)

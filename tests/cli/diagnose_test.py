@@ -155,6 +155,8 @@ class Diagnose(harness.Case):
                            "E0530": head + "A,one,0,0,0,0,0,0,0,0,1\n", "E0705": head + row}.items():
             self.refused(code, "diagnose", self.write("bad.csv", text), "--machine", MACHINE)
 
+        many = head + "".join(f"A,{k},0,0,0,0,0,0,0,0,1\n" for k in range(1, 4002))
+        self.assertIn("leave out repeats", self.refused("E0719", "diagnose", self.write("many.csv", many), "--machine", MACHINE))
         sensor = self.record().read_text().replace("# sensor H1: head_deg", "# sensor H1: head_degrees")
         self.refused("E0545", "diagnose", self.write("bad.csv", sensor), "--machine", MACHINE)
 

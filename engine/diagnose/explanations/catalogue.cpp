@@ -54,15 +54,6 @@ class Evaluation {
     return r;
   }
 
-  /// Every run but that of the lowest number, with the moment between it and the touch before, s.
-  std::map<int, double> later_runs() const {
-    std::map<int, double> begin;
-    double before = scenes_.front().time_s;
-    for (const TouchScene& s : scenes_) begin.emplace(s.run, (std::exchange(before, s.time_s) + s.time_s) / 2);
-    begin.erase(begin.begin());
-    return begin;
-  }
-
   std::set<int> visits() const {
     std::set<int> list;
     for (const TouchScene& s : scenes_) list.insert(s.visit);
@@ -94,24 +85,19 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
   return list;
 }
 
-std::optional<std::size_t> moment_of(const Effect& effect) {
-  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-    if (effect.parameters[p].name == "t0_s") return p;
-  return std::nullopt;
-}
-
-/// The same from each run but the first on: what is new in a run, after a crash, a mend or a change of the weather. What happens at a moment
+/// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after a crash, a mend or a change of the weather. What happens at a moment
 /// happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by itself.
-std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::map<int, double>& later_runs) {
+std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::vector<LaterRun>& changes) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
   const std::vector<Block> in_all = list;
-  for (const auto& [run, begin_s] : later_runs) {
+  for (const LaterRun& change : changes) {
     for (Block block : in_all) {
       if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
-      if (moment) block.theta[*moment] = begin_s, block.cells[*moment] = {begin_s, begin_s};
-      block.from_run = run;
+      if (moment) block.theta[*moment] = change.between_s, block.cells[*moment] = {change.between_s, change.between_s};
+      block.from_run = change.from_run;
+      block.runs = change.runs;
       list.push_back(std::move(block));
     }
   }
@@ -203,6 +189,8 @@ Factor factor_of(const Effect& effect) {
 
 /// Belief before the data that what is found is new in a later run, of what may be in all.
 constexpr double kPriorChange = 0.1;
+/// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
+constexpr std::size_t kMostChanges = 8;
 
 /// The names share their belief equally, and so do the patterns, but for those that only a change between runs makes.
 void share_priors(Explanations& all) {
@@ -230,7 +218,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   const std::vector<Search> search = searches(effect, t);
   const Evaluation evaluation(effect, t, rows);
   const VariantColumns variant(effect, search, evaluation);
-  for (Block& block : with_changes(settings(effect, search), effect, evaluation.later_runs())) {
+  for (Block& block : with_changes(settings(effect, search), effect, in_stretches(later_runs(t, rows), kMostChanges))) {
     block.explanation = static_cast<int>(out.list.size());
     variant.fill(block);
     if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
@@ -252,6 +240,34 @@ void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool 
 std::string_view name(Factor f) {
   constexpr std::string_view names[] = {"time", "position", "direction", "head", "sensor", "setup", "feature", "run", "temperature", "speed"};
   return names[static_cast<int>(f)];
+}
+
+std::optional<std::size_t> moment_of(const Effect& effect) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].name == "t0_s") return p;
+  return std::nullopt;
+}
+
+std::vector<LaterRun> later_runs(const RecordedTouches& t, const std::vector<int>& rows) {
+  const auto scene = [&](int row) -> const TouchScene& { return t.touches[static_cast<std::size_t>(row)].scene; };
+  std::map<int, double> begin;
+  double before = scene(rows.front()).time_s;
+  for (const int i : rows) begin.emplace(scene(i).run, (std::exchange(before, scene(i).time_s) + scene(i).time_s) / 2);
+  begin.erase(begin.begin());
+  std::vector<LaterRun> out;
+  for (const auto& [run, between_s] : begin) out.push_back({run, {double(out.size()), double(out.size() + 1)}, between_s});
+  return out;
+}
+
+std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::size_t most) {
+  const std::size_t count = std::min(most, single.size());
+  std::vector<LaterRun> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t first = k * single.size() / count, last = (k + 1) * single.size() / count - 1;
+    out.push_back(single[(first + last) / 2]);
+    out.back().runs = {single[first].runs.low, single[last].runs.high};
+  }
+  return out;
 }
 
 Block variant_at(const Effect& effect, const std::vector<double>& theta, int from_run, const RecordedTouches& t, const std::vector<int>& rows) {

@@ -3,6 +3,7 @@
 // um per prior standard deviation, whose coefficients are drawn together.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct Block {
   std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
   std::vector<Cell> cells;        ///< by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is possible
   int from_run = 0;               ///< acts from this run on: what changed between runs; 0: in all
+  Cell runs;                      ///< of a change: the stretch of later runs that `from_run` stands for, as places in their order
   double weight = 1;              ///< belief before the data in this variant, among those of its explanation
   bool finest = false;            ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
@@ -90,6 +92,19 @@ Explanations named_explanations(const RecordedTouches&, const std::vector<int>& 
 
 /// Appends the blocks of OTHER (patterns/).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+
+/// Where something may have changed between runs: in front of one of a stretch of runs.
+struct LaterRun {
+  int from_run = 0;               ///< the middle one, which stands for all
+  Cell runs;                      ///< places in the order of the later runs: from low, up to high without it
+  double between_s = 0;           ///< a moment in front of it
+};
+/// Every run but that of the lowest number.
+std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);
+/// Those of some runs, one after the other, in at most so many stretches.
+std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::size_t most);
+/// The parameter that is the moment of an effect.
+std::optional<std::size_t> moment_of(const Effect&);
 
 /// A variant of an effect at these parameters, from this run on (0: in all); no columns where the effect does nothing there.
 Block variant_at(const Effect&, const std::vector<double>& theta, int from_run, const RecordedTouches&, const std::vector<int>& rows);

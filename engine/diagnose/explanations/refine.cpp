@@ -16,8 +16,11 @@ constexpr double kFarBelow = 3;
 /// Columns nearer than this to those of the cell before are the same: no touch lies between.
 constexpr double kSame_um = 1e-9;
 
+/// Whether a change between runs stands for several of them.
+bool of_several_runs(const Block& b) { return b.runs.high > b.runs.low + 1; }
+
 bool divisible(const Block& b) {
-  return !b.finest && std::any_of(b.cells.begin(), b.cells.end(), [](const Cell& cell) { return cell.high > cell.low; });
+  return !b.finest && (of_several_runs(b) || std::any_of(b.cells.begin(), b.cells.end(), [](const Cell& cell) { return cell.high > cell.low; }));
 }
 
 /// The effects that may be the name, likeliest first. How far they are below a pattern tells nothing yet: on the coarse grid it may be far.
@@ -32,14 +35,16 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
   return list;
 }
 
-/// Whether two variants differ in no choice and their cells touch.
-bool neighbours(const Block& a, const Block& b) {
-  if (a.from_run != b.from_run) return false;
-  for (std::size_t p = 0; p < a.theta.size(); ++p) {
-    const Cell &x = a.cells[p], &y = b.cells[p];
+/// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is that of the runs.
+bool neighbours(const Block& a, const Block& b, const Effect& effect) {
+  const auto touch = [](const Cell& x, const Cell& y) {
     const double rounding = 1e-9 * (std::abs(x.low) + std::abs(x.high));
-    if (x.low > y.high + rounding || y.low > x.high + rounding) return false;
-  }
+    return x.low <= y.high + rounding && y.low <= x.high + rounding;
+  };
+  const bool of_runs = of_several_runs(a) || of_several_runs(b);
+  if (a.from_run != b.from_run && !(of_runs && a.from_run > 0 && b.from_run > 0 && touch(a.runs, b.runs))) return false;
+  for (std::size_t p = 0; p < a.theta.size(); ++p)
+    if (!(of_runs && moment_of(effect) == p) && !touch(a.cells[p], b.cells[p])) return false;
   return true;
 }
 
@@ -51,7 +56,7 @@ std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, 
   std::sort(order.begin(), order.end(), [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool likely = k < kMostCells && belief(order[k]) > belief(order[0]) - kFarBelow;
-    if (divisible(block(order[k])) && (likely || neighbours(block(order[0]), block(order[k])))) list.push_back(order[k]);
+    if (divisible(block(order[k])) && (likely || neighbours(block(order[0]), block(order[k]), *e.effect))) list.push_back(order[k]);
   }
   return list;
 }
@@ -85,12 +90,33 @@ std::vector<Part> thirds_of_touches(const Cell& cell, const RecordedTouches& t) 
   return out;
 }
 
-/// The cell in thirds along every parameter that it has an extent in.
-std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t) {
-  std::vector<Block> list(1);
-  list[0].explanation = whole.explanation;
-  list[0].from_run = whole.from_run;
-  list[0].weight = whole.weight;
+/// A stretch of runs in thirds; else what stands for one run, or for none, as it is. No parameters yet.
+std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun>& changes) {
+  std::vector<LaterRun> stretch;
+  for (const LaterRun& c : changes)
+    if (c.runs.low >= whole.runs.low && c.runs.high <= whole.runs.high) stretch.push_back(c);
+  const std::vector<LaterRun> parts = of_several_runs(whole) ? in_stretches(stretch, kParts) : std::vector<LaterRun>{{whole.from_run, whole.runs, 0}};
+  std::vector<Block> list(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    list[k].explanation = whole.explanation;
+    list[k].from_run = parts[k].from_run;
+    list[k].runs = parts[k].runs;
+    list[k].weight = whole.weight / double(parts.size());
+  }
+  return list;
+}
+
+/// What happens between runs happens at the moment of the change that stands for them.
+void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& changes) {
+  const std::optional<std::size_t> moment = moment_of(effect);
+  if (!moment || part.from_run == 0) return;
+  for (const LaterRun& c : changes)
+    if (c.from_run == part.from_run) part.theta[*moment] = c.between_s, part.cells[*moment] = {c.between_s, c.between_s};
+}
+
+/// The cell in thirds along every parameter that it has an extent in, and along its runs.
+std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t, const std::vector<LaterRun>& changes) {
+  std::vector<Block> list = thirds_of_runs(whole, changes);
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
     const std::vector<Part> parts = cell.high <= cell.low                    ? std::vector<Part>{{cell, whole.theta[p]}}
@@ -108,6 +134,7 @@ std::vector<Block> parts_of(const Block& whole, const Effect& effect, const Reco
     }
     list = std::move(longer);
   }
+  for (Block& part : list) set_moment(part, effect, changes);
   return list;
 }
 
@@ -118,7 +145,7 @@ bool same(const Block& a, const Block& b) {
 /// Divides one variant of an explanation, unless its parts are all the same.
 void divide(const Case& c, Explanations& all, int explanation, int which) {
   Explanation& e = all.list[static_cast<std::size_t>(explanation)];
-  std::vector<Block> parts = parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches);
+  std::vector<Block> parts = parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
   for (Block& part : parts) {
     Block made = variant_at(*e.effect, part.theta, part.from_run, c.touches, c.rows);
     part.columns = std::move(made.columns);

@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 #include <functional>
 #include <numeric>
+#include <set>
 
 #include "engine/diagnose/model/evidence.hpp"
 #include "engine/lanes/random.hpp"
@@ -140,4 +141,36 @@ TEST_CASE("a probe that does not come home from the touch before is seen by its 
           const auto here = static_cast<std::size_t>((s.time_s - 60 * s.visit) / 10);
           return here % 15 == 0 ? Vec3{} : 1.5 * (t.touches[here - 1].scene.normal - Vec3{0, 0, 1} * t.touches[here - 1].scene.normal.z);
         }) == "OTHER direction, of the touch before");
+}
+
+TEST_CASE("many runs make no more variants than few") {
+  RecordedTouches t = scattered(400);
+  for (std::size_t i = 0; i < t.touches.size(); ++i) t.touches[i].scene.run = 1 + static_cast<int>(i) / 10, t.touches[i].scene.feature = static_cast<int>(i) / 2;
+  std::vector<int> rows(t.touches.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  const Explanations all = explanations_without_readings(t, rows);
+  std::set<int> tried;
+  for (const Block& b : all.blocks)
+    if (b.from_run > 0) tried.insert(b.from_run);
+  CHECK(tried.size() == 8);
+  for (const Explanation& e : all.list)
+    if (e.factor == Factor::run || e.factor == Factor::feature)
+      for (const int b : e.blocks) CHECK(all.blocks[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);
+}
+
+TEST_CASE("stretches of runs hold every run once, and few runs stand for themselves") {
+  std::vector<LaterRun> single;
+  for (int k = 0; k < 20; ++k) single.push_back({10 + k, {double(k), double(k + 1)}, 100.0 * k});
+  const std::vector<LaterRun> stretches = in_stretches(single, 8);
+  REQUIRE(stretches.size() == 8);
+  CHECK(stretches.front().runs.low == 0);
+  CHECK(stretches.back().runs.high == 20);
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    if (k > 0) CHECK(stretches[k].runs.low == stretches[k - 1].runs.high);
+    CHECK(stretches[k].from_run >= 10 + stretches[k].runs.low);
+    CHECK(stretches[k].from_run < 10 + stretches[k].runs.high);
+  }
+  const std::vector<LaterRun> few = in_stretches({single.begin(), single.begin() + 3}, 8);
+  REQUIRE(few.size() == 3);
+  for (std::size_t k = 0; k < 3; ++k) CHECK((few[k].from_run == single[k].from_run && few[k].runs.high == few[k].runs.low + 1));
 }

@@ -33,6 +33,17 @@ int ordinal(std::map<Key, int>& known, const Key& key) {
   return known.emplace(key, static_cast<int>(known.size())).first->second;
 }
 
+/// Groups by the order of their first use. Of more than a pattern may have columns for, those that follow one another are taken together.
+void in_few(std::vector<int>& group) {
+  constexpr int kMostGroups = 32;
+  std::map<int, int> known;
+  std::vector<int> order;
+  for (const int g : group) order.push_back(ordinal(known, g));
+  const auto count = static_cast<int>(known.size());
+  if (count <= kMostGroups) return;
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = order[i] * kMostGroups / count;
+}
+
 }  // namespace
 
 TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& rows)
@@ -72,6 +83,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
   }
   onto_unit(touch), onto_unit(settled), onto_unit(clamped), onto_unit(place);
   for (Points& r : reading) onto_unit(r);
+  for (std::vector<int>* group : {&orientation, &sensor, &feature, &setup, &run, &speed, &dynamics}) in_few(*group);
 }
 
 bool several(const std::vector<int>& group) {
