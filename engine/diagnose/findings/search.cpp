@@ -85,8 +85,8 @@ double log_belief(const Case& c, const Finding& f) {
 }
 
 /// The recording with what was found taken out. Its noise is fitted again: the first fit took the mismatch for noise.
-EvidenceSearch rest_of(const Case& c, const std::vector<Finding>& findings) {
-  const LinearModel model = with_free(c.model, signatures_of(c, findings));
+EvidenceSearch rest_of(const Case& c, const std::vector<const Matrix*>& found) {
+  const LinearModel model = with_free(c.model, found);
   return {model, estimate(model), c.explanations};
 }
 
@@ -107,22 +107,24 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
 
 /// Whether an effect and another one beside it say more than a pattern alone, though the effect by itself does not. `before` ends with it.
 bool better_with_partner(const Case& c, const std::vector<Finding>& before, const Finding& pattern, int number) {
-  const Round r = round(c, rest_of(c, before), number);
+  const Round r = round(c, rest_of(c, signatures_of(c, before)), number);
   if (r.p > kLaterAlarm) return false;
   const Finding partner = finding_of(c.explanations, r.evidence, true);
   return partner.probability >= finding_of(c.explanations, r.evidence, false).probability && log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
 }
 
-/// Names a finding again, given what was found after it, which may have taken over part of it. Where a pattern is likelier now than any name, it
-/// is that pattern.
+/// Names a finding again, given what was found after it, which may have taken over part of it: the other names, and the pattern beside them.
+/// Where a pattern is likelier now than any name, it is that pattern.
 struct Renamed {
   Finding finding;
   bool pattern = false;
 };
-Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which) {
-  std::vector<Finding> others = all;
-  others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
-  const Evidence evidence = rest_of(c, others).evidence();
+Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which, const std::optional<Finding>& beside) {
+  SearchResult others;
+  others.findings = all;
+  others.findings.erase(others.findings.begin() + static_cast<std::ptrdiff_t>(which));
+  others.other = beside;
+  const Evidence evidence = rest_of(c, signatures_of(c, others)).evidence();
   Finding name = finding_of(c.explanations, evidence, true), pattern = finding_of(c.explanations, evidence, false);
   name.p = pattern.p = all[which].p;
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
@@ -134,7 +136,7 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
   std::optional<Finding> instead;   // of the last name: the pattern without a name
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
-    if (number > 0) rest.emplace(rest_of(c, result.findings));
+    if (number > 0) rest.emplace(rest_of(c, signatures_of(c, result.findings)));
     EvidenceSearch& here = rest ? *rest : first;
     Round r = round(c, here, number);
     if (number == 0) {
@@ -190,7 +192,7 @@ void name_again(const Case& c, SearchResult& result) {
   if (result.findings.size() < 2) return;
   const std::vector<Finding> before = std::exchange(result.findings, {});
   for (std::size_t k = 0; k < before.size(); ++k) {
-    auto [f, pattern] = renamed(c, before, k);
+    auto [f, pattern] = renamed(c, before, k, result.other);
     const auto from_run = [&](const Finding& d) { return c.explanations.blocks[static_cast<std::size_t>(d.block)].from_run; };
     const bool known = std::any_of(result.findings.begin(), result.findings.end(),
                                    [&](const Finding& d) { return d.explanation == f.explanation && from_run(d) == from_run(f); });
