@@ -62,6 +62,12 @@ struct SearchResult {
   std::vector<Evidence> null;        ///< simulated, before any finding
   Hyperparameters hyper;             ///< of the recording beside all that was found: a mismatch passes for noise and for larger errors
 };
+/// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind; no explanation where there are none of it.
+Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
+/// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less flexible than a pattern.
+/// A name that leaves something of the mismatch must be far likelier: physics that the catalogue does not have looks like its nearest effect.
+inline constexpr double kNamed = 3, kNamedInDoubt = 100;
+bool likelier(const Explanations&, const Finding& name, const Finding& pattern, double times);
 /// The signatures of findings; of all that was found, a pattern without a name too.
 std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>&);
 std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);

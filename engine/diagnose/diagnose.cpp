@@ -9,6 +9,7 @@
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/words.hpp"
@@ -87,14 +88,6 @@ bool judged(const Case& c, const Finding& f) {
   return open < kMostly * total;
 }
 
-/// The most that is believed of a name that is doubted. Up to this it is told as what it looks like, not as what it is. A name is doubted
-/// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
-/// - on a covariate that was not logged or did not change: other functions of it would look the same;
-/// - with a size outside the catalogue's range: rather the name is wrong than the size;
-/// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.
-constexpr double kDoubted = 0.5;
-double believed(double probability, bool doubted) { return doubted ? std::min(probability, kDoubted) : probability; }
-
 /// Whether several runs share one placement of the part.
 bool stays_in_its_setup(const Case& c) {
   std::map<int, int> run_of;
@@ -107,12 +100,11 @@ bool stays_in_its_setup(const Case& c) {
 /// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides whether that is plausible, and says
 /// what is to be said.
 std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters, Diagnosis& out) {
-  EffectSetting setting{std::string(effect.name), {}};
-  for (const DiagnosedParameter& p : parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+  EffectSetting setting = setting_of(std::string(effect.name), parameters);
   const std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
   if (before) setting = before->now;
   const bool gone = before && before->gone;
-  if (!gone && !plausible(effect, setting)) return " No such effect is so large: the name may be wrong, and no machine file carries it.";
+  if (!gone && !plausible(effect, setting)) return kTooLarge;
   for (DiagnosedParameter& p : parameters) p.plausible = true;
   if (before) out.superseded.push_back(before->index);
   if (!gone) out.model_effects.push_back(std::move(setting));
@@ -140,7 +132,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const bool something_else = result.other || result.adequacy < kInadequate;
     e.parameters = estimate_parameters(c, result, k);
     const std::string in_file = tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
-    const bool possible = std::all_of(e.parameters.begin(), e.parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
+    const bool possible = plausible(e.parameters);
     e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);

@@ -1,19 +1,21 @@
 """abbe diagnose of values of characteristics: CSV tables and DMIS result files."""
+import itertools
 import json
 
 import harness
 
 BLOCKS = harness.ROOT / "examples/gauge_blocks"
+BOTH = {"S": 100.0, "L": 500.0}
 PLACES = ("x1", "x2", "y1", "y2", "z1", "d1", "d2")
 
 
 class Values(harness.Case):
-    def recorded(self, *options, name="values.csv", runs=1, reference=500.0):
-        """What one machine reports of the long block in seven placements, from the result files that `record` writes."""
+    def recorded(self, *options, name="values.csv", runs=1, lengths={"L": 500.0}):
+        """What one machine reports of the long block (and the short one) in seven placements, from the result files that `record` writes."""
         rows = ["# machine: coord3-mc16", "characteristic,program,run,value,reference"]
         for run in range(1, runs + 1):
-            for place in PLACES:
-                program = BLOCKS / f"{place}_L.dmi"
+            for place, (block, reference) in itertools.product(PLACES, lengths.items()):
+                program = BLOCKS / f"{place}_{block}.dmi"
                 self.abbe("record", program, "-o", "touches.csv", "--dmo", f"{place}.dmo", "--seed", 3, *options)
                 line = next(line for line in (self.folder / f"{place}.dmo").read_text().splitlines() if line.startswith("TA(LEN)"))
                 rows.append(f"LEN,{program},{run},{[f for f in line.split(',') if f.strip().replace('.', '').isdigit()][0].strip()},{reference}")
@@ -31,6 +33,8 @@ class Values(harness.Case):
         missing = {c["effect"]: c["missing"] for c in said["cannot_judge"]}
         self.assertEqual(missing["thermal.drift"], ["time_s"])
         self.assertEqual(missing["thermal.part_expansion"], ["temp_part_C"])
+        self.assertEqual(missing["probe.tip_form"], [])   # drawn by chance: no column would tell it from values
+        self.assertEqual((said["baseline"], said["rivals"]), (None, None))   # there are no touches to say it of
 
     def test_an_effect_on_lengths_is_found_and_modelled(self):
         values = self.recorded("--with", "probe.tip_radius:amplitude_um=15")
@@ -41,6 +45,28 @@ class Values(harness.Case):
         self.assertEqual(self.diagnosis(values, "--machine", "improved.json")["verdict"], "no_mismatch")
         self.assertIn("<svg", (self.folder / "report.html").read_text())
         self.assertIn("7 values are not what", self.abbe("diagnose", values).stdout)
+
+    def test_the_size_of_an_effect_is_not_pulled(self):
+        said = self.diagnosis(self.recorded("--with", "machine.scale:scale_um_per_m=800,axis=all", lengths=BOTH))
+        self.assertEqual(said["effects"][0]["members"], ["machine.scale"])
+        size = said["effects"][0]["parameters"]["scale_um_per_m"]
+        self.assertLess(abs(size["value"] - 800), 3 * size["u"])
+        self.assertGreater(said["adequacy_p_value"], 0.05)
+
+    def test_what_no_effect_is_so_large_as_to_make_is_doubted(self):
+        """All lengths too long by 2 parts in a thousand: no scale is so wrong."""
+        program = BLOCKS / "x1_L.dmi"
+        lines = self.recorded(lengths=BOTH).read_text().splitlines()
+        longer = [",".join(f[:3] + [str(1.002 * float(f[3]))] + f[4:]) for f in (line.split(",") for line in lines[2:])]
+        said = self.diagnosis(self.write("long.csv", "\n".join(lines[:2] + longer) + "\n"), "--model-out", "improved.json")
+        effect = said["effects"][0]
+        self.assertIn("machine.scale", effect["members"])
+        self.assertFalse(effect["parameters"]["scale_um_per_m"]["plausible"])
+        self.assertLessEqual(effect["probability"], 0.5)
+        self.assertNotIn("is explained by", effect["sentence"])
+        self.assertIn("no machine file carries it", effect["sentence"])
+        self.assertFalse(json.loads((self.folder / "improved.json").read_text()).get("effects"))
+        self.abbe("run", program, "--machine", "improved.json", "--machines", 20)
 
     def test_one_stray_value_is_no_effect(self):
         text = self.recorded().read_text().splitlines()

@@ -12,13 +12,6 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kRounds = 3;
-/// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less flexible than a pattern.
-/// A name that leaves something of the mismatch must be far likelier: physics that the catalogue does not have looks like its nearest effect.
-constexpr double kNamed = 3, kNamedInDoubt = 100;
-bool likelier(const Case& c, const Finding& name, const Finding& pattern, double times) {
-  const bool drawn = c.explanations.list[static_cast<std::size_t>(name.explanation)].effect->draws > 0;
-  return name.probability >= (drawn ? times / kNamed : times) * pattern.probability;
-}
 /// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second name needs more.
 constexpr double kLaterAlarm = 1e-3;
 
@@ -29,29 +22,6 @@ std::vector<double> probabilities(const Explanations& explanations, const Eviden
   const double total = log_sum_exp(log_p);
   for (double& p : log_p) p = std::exp(p - total);
   return log_p;
-}
-
-/// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind.
-Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
-  const std::vector<double> p = probabilities(all, evidence);
-  std::vector<int> order;
-  double total = 0;
-  for (std::size_t k = 0; k < p.size(); ++k) {
-    if ((all.list[k].effect != nullptr) != catalogue) continue;
-    order.push_back(static_cast<int>(k));
-    total += p[k];
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
-  Finding f;
-  f.evidence = evidence;
-  for (const int k : order) {
-    if (f.probability >= kCredible * total) break;
-    f.set.push_back(k);
-    f.probability += p[k];
-  }
-  f.explanation = order.front();
-  f.block = best_block(all.list[f.explanation], evidence);
-  return f;
 }
 
 struct Named {
@@ -149,14 +119,14 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     auto [named, other] = named_on_finer_grid(c, here);
     named.p = other.p = r.p;
     result.findings.push_back(named);
-    if (!likelier(c, named, other, kNamed) && (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
+    if (!likelier(c.explanations, named, other, kNamed) && (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
       result.findings.pop_back();
       result.other = std::move(other);
       return result;
     }
     instead = std::move(other);
   }
-  if (result.adequacy < kInadequate && !likelier(c, result.findings.back(), *instead, kNamedInDoubt)) {
+  if (result.adequacy < kInadequate && !likelier(c.explanations, result.findings.back(), *instead, kNamedInDoubt)) {
     result.nearest = std::move(result.findings.back());
     result.findings.pop_back();
     result.other = std::move(instead);
@@ -213,6 +183,35 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   name_again(c, result);
   result.hyper = result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
   return result;
+}
+
+Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
+  const std::vector<double> p = probabilities(all, evidence);
+  std::vector<int> order;
+  double total = 0;
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    if ((all.list[k].effect != nullptr) != catalogue) continue;
+    order.push_back(static_cast<int>(k));
+    total += p[k];
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
+  Finding f;
+  f.evidence = evidence;
+  if (order.empty()) return f;
+  for (const int k : order) {
+    if (f.probability >= kCredible * total) break;
+    f.set.push_back(k);
+    f.probability += p[k];
+  }
+  f.explanation = order.front();
+  f.block = best_block(all.list[f.explanation], evidence);
+  return f;
+}
+
+bool likelier(const Explanations& all, const Finding& name, const Finding& pattern, double times) {
+  if (name.explanation < 0) return false;
+  const bool drawn = all.list[static_cast<std::size_t>(name.explanation)].effect->draws > 0;
+  return name.probability >= (drawn ? times / kNamed : times) * pattern.probability;
 }
 
 std::vector<const Matrix*> signatures_of(const Case& c, const std::vector<Finding>& findings) {

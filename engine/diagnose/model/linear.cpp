@@ -21,14 +21,6 @@ constexpr double kNothingLeft = 1e-4;                    // of its length
 constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
 constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
 
-/// Columns that span the same space and are independent: touches of few directions leave parts of a placement open.
-Matrix independent(const Matrix& columns) {
-  const Vector length = columns.colwise().norm().cwiseMax(1e-300);   // an unknown that these rows do not have is no column
-  Eigen::ColPivHouseholderQR<Matrix> qr(columns * length.cwiseInverse().asDiagonal());
-  qr.setThreshold(kDependent);
-  return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
-}
-
 /// Rows divided by their standard deviation, then differenced so that neighbours are independent again.
 Matrix whitened(const Matrix& columns, const Vector& weight, double phi, const std::vector<char>& follows) {
   Matrix out = weight.asDiagonal() * columns;
@@ -160,6 +152,13 @@ Matrix scaled(const LinearModel& m, const Hyperparameters& h) {
 }
 
 }  // namespace
+
+Matrix independent(const Matrix& columns) {
+  const Vector length = columns.colwise().norm().cwiseMax(1e-300);   // an unknown that these rows do not have is no column
+  Eigen::ColPivHouseholderQR<Matrix> qr(columns * length.cwiseInverse().asDiagonal());
+  qr.setThreshold(kDependent);
+  return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
+}
 
 Hyperparameters estimate_uncorrelated(const LinearModel& m) {
   Hyperparameters h;

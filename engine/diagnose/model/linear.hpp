@@ -71,6 +71,9 @@ LinearModel compact(const LinearModel&);
 /// The model whose group 0 of Z is the other ensemble.
 LinearModel rougher(const LinearModel&);
 
+/// Orthonormal columns that span the same space: touches of few directions leave parts of a placement open.
+Matrix independent(const Matrix& columns);
+
 /// The model without some rows.
 LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);
 

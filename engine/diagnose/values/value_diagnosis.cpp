@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/values/value_search.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
@@ -89,52 +90,19 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
   return out;
 }
 
-struct ValueFinding {
-  int explanation = -1, block = -1;
-  std::vector<int> set;
-  double probability = 0;
-  bool other = false;
-};
-
-ValueFinding find(const ValueCase& c, const Evidence& evidence) {
-  const Explanations& all = c.search->explanations();
-  std::vector<double> p(all.list.size());
-  std::vector<int> order;
-  double catalogue = 0, other = 0;
-  for (std::size_t k = 0; k < p.size(); ++k) {
-    p[k] = all.list[k].prior * std::exp(evidence.log_bayes[k] - evidence.statistic);
-    (all.list[k].effect ? catalogue : other) += p[k];
-  }
-  ValueFinding f;
-  f.other = other > catalogue;
-  for (std::size_t k = 0; k < p.size(); ++k)
-    if ((all.list[k].effect == nullptr) == f.other) order.push_back(static_cast<int>(k));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[static_cast<std::size_t>(a)] > p[static_cast<std::size_t>(b)]; });
-  for (const int k : order) {
-    if (f.probability >= kCredible * (f.other ? other : catalogue)) break;
-    f.set.push_back(k);
-    f.probability += p[static_cast<std::size_t>(k)];
-  }
-  f.explanation = order.front();
-  f.block = all.list[static_cast<std::size_t>(f.explanation)].blocks.front();
-  for (const int b : all.list[static_cast<std::size_t>(f.explanation)].blocks)
-    if (evidence.block_log_bayes[static_cast<std::size_t>(b)] > evidence.block_log_bayes[static_cast<std::size_t>(f.block)]) f.block = b;
-  return f;
-}
-
-/// Mean and covariance of the coefficients of a block, under a prior of three typical sizes.
+/// Mean and covariance of the coefficients of a block, under a prior so wide that it does not pull.
 struct Sizes {
   Vector mean;
   Matrix covariance;
 };
 Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
   const auto info = search.information(block, deviation);
-  constexpr double kWide = 9;
-  const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / kWide);
+  constexpr double kWide = 30;   // typical sizes
+  const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide));
   return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
 }
 
-std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const ValueFinding& f) {
+std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Finding& f) {
   const Block& b = c.search->explanations().blocks[static_cast<std::size_t>(f.block)];
   const Effect& effect = *c.search->explanations().list[static_cast<std::size_t>(f.explanation)].effect;
   const Sizes s = sizes_of(*c.search, f.block, c.deviation);
@@ -148,36 +116,40 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const ValueFin
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const EffectParameter& parameter = effect.parameters[p];
     if (parameter.choices.empty()) continue;
-    DiagnosedParameter choice{.name = std::string(parameter.name), .unit = "code"};
+    DiagnosedParameter choice{.name = std::string(parameter.name), .unit = ""};
     choice.word = parameter.choices[static_cast<std::size_t>(std::lround(b.theta[p] - parameter.low))];
     out.push_back(std::move(choice));
   }
   return out;
 }
 
-void tell(const ValueCase& c, const ValueFinding& f, Diagnosis& out) {
+void tell_pattern(const ValueCase& c, const Finding& f, Diagnosis& out) {
   const Explanations& all = c.search->explanations();
-  if (f.other) {
-    const Explanation& e = all.list[static_cast<std::size_t>(f.explanation)];
-    const Sizes s = sizes_of(*c.search, f.block, c.deviation);
-    const Vector pattern = all.blocks[static_cast<std::size_t>(f.block)].signature * s.mean;
-    const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())), u = rms / std::sqrt(2.0 * double(pattern.size()));
-    out.unexplained = Unexplained{std::string(name(e.factor)), e.shape, rms, u, rms - 1.96 * u, rms + 1.96 * u,
-                                  e.shape == "single values" ? "No effect of the catalogue explains it: single values stray (the table says which)."
-                                                             : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
-    out.verdict = Verdict::unexplained;
-    return;
-  }
+  const Explanation& e = all.list[static_cast<std::size_t>(f.explanation)];
+  const Sizes s = sizes_of(*c.search, f.block, c.deviation);
+  const Vector pattern = all.blocks[static_cast<std::size_t>(f.block)].signature * s.mean;
+  const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())), u = rms / std::sqrt(2.0 * double(pattern.size()));
+  out.unexplained = Unexplained{std::string(name(e.factor)), e.shape, rms, u, rms - 1.96 * u, rms + 1.96 * u,
+                                e.shape == "single values" ? "No effect of the catalogue explains it: single values stray (the table says which)."
+                                                           : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
+  out.verdict = Verdict::unexplained;
+}
+
+void tell_name(const ValueCase& c, const Finding& f, double adequacy, Diagnosis& out) {
+  const Explanations& all = c.search->explanations();
   DiagnosedEffect e;
-  for (const int k : f.set) e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
-  e.probability = f.probability;
-  e.parameters = parameters_of(c, f);
   std::vector<std::string_view> titles;
-  for (const int k : f.set) titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
-  e.sentence = explanation_sentence(titles, e.parameters, "a file of values");
-  EffectSetting setting{e.members.front(), {}};
-  for (const DiagnosedParameter& p : e.parameters) setting.parameters[p.name] = {p.value, p.u, p.word};
-  out.model_effects.push_back(std::move(setting));
+  for (const int k : f.set) {
+    e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
+    titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
+  }
+  e.parameters = parameters_of(c, f);
+  const bool size = plausible(e.parameters);
+  e.probability = believed(f.probability, adequacy < kInadequate || !size);
+  e.sentence = explanation_sentence(titles, e.parameters, "a file of values", 0, e.probability <= kDoubted);
+  if (!size) e.sentence += kTooLarge;
+  else out.model_effects.push_back(setting_of(e.members.front(), e.parameters));
+  out.adequacy_p = adequacy;
   out.verdict = f.set.size() > 1 ? Verdict::one_of : Verdict::named;
   out.effects.push_back(std::move(e));
 }
@@ -194,7 +166,7 @@ std::vector<int> groups_of(const ValueCase& c, std::string& scheme) {
 }
 
 /// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula).
-void show_improvement(const ValueCase& c, const ValueFinding& f, Diagnosis& out) {
+void show_improvement(const ValueCase& c, const Finding& f, Diagnosis& out) {
   Improvement i;
   const std::vector<int> group = groups_of(c, i.scheme);
   const Explanations one = only(c.search->explanations(), {f.explanation});
@@ -275,6 +247,31 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
   return out;
 }
 
+/// How often virtual machines look as unusual to a search as the recording does.
+double chance_of(const ValueCase& c, const ValueSearch& search) {
+  std::vector<double> simulated;
+  for (Eigen::Index i = 0; i < c.judged.rows(); ++i) simulated.push_back(search.evidence(c.judged.row(i).transpose()).statistic);
+  return tail_probability(search.evidence(c.deviation).statistic, std::move(simulated));
+}
+
+/// How often chance leaves as much as a name does.
+double adequacy_of(const ValueCase& c, const Finding& name) {
+  const Explanations& all = c.search->explanations();
+  return name.explanation < 0 ? 1 : chance_of(c, ValueSearch(c.mean, c.covariance, all, all.blocks[static_cast<std::size_t>(name.block)].signature));
+}
+
+/// A name, or what stands for none; what is told is returned.
+Finding tell(const ValueCase& c, Diagnosis& out) {
+  const Explanations& all = c.search->explanations();
+  const Evidence evidence = c.search->evidence(c.deviation);
+  const Finding name = finding_of(all, evidence, true), pattern = finding_of(all, evidence, false);
+  const double adequacy = adequacy_of(c, name);
+  const bool named = likelier(all, name, pattern, adequacy < kInadequate ? kNamedInDoubt : kNamed);
+  if (named) tell_name(c, name, adequacy, out);
+  else tell_pattern(c, pattern, out);
+  return named ? name : pattern;
+}
+
 }  // namespace
 
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
@@ -285,14 +282,9 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   out.smallest_detectable = smallest_detectable(c);
   if (options.design_only) return out;
   out.values = judge_each(c);
-  const Evidence evidence = c.search->evidence(c.deviation);
-  std::vector<double> simulated;
-  for (Eigen::Index i = 0; i < c.judged.rows(); ++i) simulated.push_back(c.search->evidence(c.judged.row(i).transpose()).statistic);
-  out.p_value = tail_probability(evidence.statistic, std::move(simulated));
+  out.p_value = chance_of(c, *c.search);
   if (out.p_value > kAlarm) return out;
-  const ValueFinding f = find(c, evidence);
-  tell(c, f, out);
-  show_improvement(c, f, out);
+  show_improvement(c, tell(c, out), out);
   const auto worst = std::max_element(out.values.begin(), out.values.end(), [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
   double squares = 0;
   for (const JudgedValue& v : out.values) squares += v.z * v.z;

@@ -14,12 +14,18 @@ constexpr double kSizes[] = {0.3, 1, 3, 10};
 
 }  // namespace
 
-ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations explanations)
+ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations explanations, const Matrix& free)
     : explanations_(std::move(explanations)), mean_(std::move(mean)), root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
-  for (const Block& b : explanations_.blocks) white_.push_back(root_.triangularView<Eigen::Lower>().solve(b.signature));
+  if (free.cols() > 0) free_ = independent(root_.triangularView<Eigen::Lower>().solve(free));
+  for (const Block& b : explanations_.blocks) white_.push_back(whitened(b.signature));
 }
 
-Vector ValueSearch::white(const Vector& deviation) const { return root_.triangularView<Eigen::Lower>().solve(Vector(deviation - mean_)); }
+Matrix ValueSearch::whitened(const Matrix& columns) const {
+  const Matrix white = root_.triangularView<Eigen::Lower>().solve(columns);
+  return free_.cols() > 0 ? Matrix(white - free_ * (free_.transpose() * white)) : white;
+}
+
+Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
 
 ValueSearch::Information ValueSearch::information(int block, const Vector& deviation) const {
   const Matrix& h = white_[static_cast<std::size_t>(block)];

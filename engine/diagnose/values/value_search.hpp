@@ -10,8 +10,8 @@ namespace abbe::diagnose {
 
 class ValueSearch {
  public:
-  /// Values are normal about `mean` with `covariance`, beyond what an explanation adds.
-  ValueSearch(Vector mean, const Matrix& covariance, Explanations);
+  /// Values are normal about `mean` with `covariance`, beyond what an explanation adds. Of the columns `free` nothing is known.
+  ValueSearch(Vector mean, const Matrix& covariance, Explanations, const Matrix& free = {});
 
   Evidence evidence(const Vector& deviation) const;
   struct Information {
@@ -21,7 +21,7 @@ class ValueSearch {
   Information information(int block, const Vector& deviation) const;
   /// H_a' V^-1 H_b.
   Matrix between(int a, int b) const { return white_[static_cast<std::size_t>(a)].transpose() * white_[static_cast<std::size_t>(b)]; }
-  /// The deviation in units in which it is uncorrelated, each of variance 1.
+  /// The deviation in units in which it is uncorrelated, each of variance 1, without what the free columns can do.
   Vector white(const Vector& deviation) const;
   const Explanations& explanations() const { return explanations_; }
 
@@ -29,7 +29,9 @@ class ValueSearch {
   Explanations explanations_;
   Vector mean_;
   Matrix root_;                     ///< lower triangle L of V = L L'
-  std::vector<Matrix> white_;       ///< L^-1 H by block
+  Matrix free_;                     ///< orthonormal basis of L^-1 times the free columns
+  std::vector<Matrix> white_;       ///< L^-1 H by block, without them
+  Matrix whitened(const Matrix& columns) const;
 };
 
 /// Without the values of `dropped`.

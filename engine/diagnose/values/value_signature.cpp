@@ -191,7 +191,7 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
   for (const Effect* effect : effects()) {
     const unsigned missing = effect->needs & (kNotInValues | unknown);
     if (missing != 0 || effect->draws > 0) {
-      out.unjudged.push_back({effect, missing != 0 ? missing : static_cast<unsigned>(Covariate::position)});
+      out.unjudged.push_back({effect, missing});   // what is drawn by chance has no signature in values, whatever is told with them
       continue;
     }
     judged.push_back(effect);

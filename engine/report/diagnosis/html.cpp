@@ -147,7 +147,7 @@ std::string detectable_effects(const Diagnosis& d) {
 std::string open_questions(const Diagnosis& d) {
   if (d.cannot_judge.empty()) return "";
   std::string rows = row({"effect", "missing or constant"}, "th");
-  for (const CannotJudge& c : d.cannot_judge) rows += row({c.effect, c.missing.empty() ? "does nothing here" : fmt::format("{}", fmt::join(c.missing, ", "))});
+  for (const CannotJudge& c : d.cannot_judge) rows += row({c.effect, c.missing.empty() ? "nothing of it shows here" : fmt::format("{}", fmt::join(c.missing, ", "))});
   return "<h2>What cannot be judged</h2>\n" + table(rows);
 }
 

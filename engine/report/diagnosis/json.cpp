@@ -126,8 +126,8 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"smallest_detectable", array(d.smallest_detectable, detectable)},
       {"next_measurement", array(d.next_measurement, next)},
       {"otherwise", d.otherwise.empty() ? Json() : Json(d.otherwise)},
-      {"baseline", baseline(d.baseline)},
-      {"rivals", rivals(d.rivals)},
+      {"baseline", d.touches > 0 ? baseline(d.baseline) : Json()},
+      {"rivals", d.judged && d.touches > 0 ? rivals(d.rivals) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) { return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}}; })}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";   // file names need not be UTF-8
 }

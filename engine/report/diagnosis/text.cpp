@@ -87,7 +87,7 @@ std::string design_table(const Diagnosis& d) {
 std::string cannot_judge(const Diagnosis& d) {
   std::string out;
   for (const CannotJudge& c : d.cannot_judge)
-    out += fmt::format("  {:<36} {}\n", c.effect, c.missing.empty() ? "does nothing to these touches" : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
+    out += fmt::format("  {:<36} {}\n", c.effect, c.missing.empty() ? d.touches > 0 ? "does nothing to these touches" : "nothing of it shows in values" : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
 

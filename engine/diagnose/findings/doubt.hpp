@@ -1,0 +1,33 @@
+// What a diagnosis makes of a name that may be wrong: how far it is believed, and what a machine file gets of it.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+
+namespace abbe::diagnose {
+
+/// The most that is believed of a name that is doubted. Up to this it is told as what it looks like, not as what it is. A name is doubted
+/// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
+/// - on a covariate that was not logged or did not change: other functions of it would look the same;
+/// - with a size outside the catalogue's range: rather the name is wrong than the size;
+/// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.
+inline constexpr double kDoubted = 0.5;
+inline double believed(double probability, bool doubted) { return doubted ? std::min(probability, kDoubted) : probability; }
+
+/// Whether every size is inside the catalogue's range.
+inline bool plausible(const std::vector<DiagnosedParameter>& parameters) {
+  return std::all_of(parameters.begin(), parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
+}
+/// Of a size that is not, no machine file may have a setting either.
+inline constexpr const char* kTooLarge = " No such effect is so large: the name may be wrong, and no machine file carries it.";
+
+inline EffectSetting setting_of(const std::string& effect, const std::vector<DiagnosedParameter>& parameters) {
+  EffectSetting setting{effect, {}};
+  for (const DiagnosedParameter& p : parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+  return setting;
+}
+
+}  // namespace abbe::diagnose
