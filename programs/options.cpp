@@ -162,6 +162,8 @@ void add_record(CLI::App& app, Chosen& chosen) {
   command->add_option("--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S")->check(not_negative());
   command->add_option("--run", o->run, "which repeat: the same machine and part, other noise of probe and head")
       ->type_name("K")->check(CLI::Range(1, 1000000))->capture_default_str();
+  command->add_option("--setup", o->setup, "which placement of the part: a diagnosis takes those of other setups as placed anew")
+      ->type_name("N")->check(CLI::Range(1, 1000000))->capture_default_str();
   add_answers(command, o->answers);
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
   command->add_option("--dmo", o->dmo, "write the DMIS result file of the recorded machine")->type_name("D.dmo");

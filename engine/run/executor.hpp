@@ -4,6 +4,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <vector>
 
 #include "engine/plan/lifetimes.hpp"
@@ -46,6 +47,8 @@ class Executor {
     std::vector<Stop> stops;           ///< of the reference: where the program asks the machine to go
     std::vector<RecordingRow> rows;    ///< of lane 0: what it reported; coordinates of the program's machine system
     std::vector<TouchAim> aims;        ///< by row
+    std::set<double> approaches_mm, retracts_mm;  ///< of these touches: what SNSET said
+    std::set<bool> compensations;      ///< of these touches: whether temperatures were compensated
   };
   /// Makes the fits of the reference known, so that not every block has to make them again. Changes no result.
   void know(std::vector<KnownFit> fits);

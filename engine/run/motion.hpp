@@ -40,6 +40,7 @@ class Motion {
   Motion(const Vec3& start, const MotionSettings& settings) : settings_(settings), position_(start) {}
 
   MotionSettings& settings() { return settings_; }
+  const MotionSettings& settings() const { return settings_; }
   double time_s() const { return time_s_; }
   const Vec3& position() const { return position_; }
   void move_to(const Vec3& target);

@@ -175,6 +175,14 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   record.recording.rows = std::move(observed.rows);
   record.aims = std::move(observed.aims);
   for (const plan::SensorDef& def : plan.sensors) record.recording.metadata.push_back(sensor_line(resolve_sensor(def, machine, source), machine));
+  // What columns do not hold, where it was the same throughout.
+  const auto tell = [&](const char* key, const auto& values, auto text) {
+    if (values.size() == 1) record.recording.metadata.emplace_back(key, text(*values.begin()));
+  };
+  const auto length = [](double mm) { return fmt::format("{:.6g}", mm); };
+  tell("approach_mm", observed.approaches_mm, length);
+  tell("retract_mm", observed.retracts_mm, length);
+  if (options.workpiece) tell("temperature_compensation", observed.compensations, [](bool on) { return on ? "on" : "off"; });
   record.outputs = std::move(observed.outputs);
   return record;
 }

@@ -36,6 +36,7 @@ struct RunOptions {
   EffectUse effect_use = EffectUse::left_in;
   /// Which repeat of the measurement: the same machines and the same part, but other noise of probe, head and touch-wise effects.
   int repeat = 0;
+  int setup = 1;                  ///< placement of the part that a recording names
   std::uint64_t noise_seed() const { return seed + 0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(repeat); }
   Vec3 placement_mm;              ///< where the program's machine coordinate system lies in W (directive `place`)
   const Workpiece* workpiece = nullptr;  ///< the true part; none: exactly nominal, at 20 degrees C

@@ -118,6 +118,10 @@ void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   observed->rows.push_back(recording_row(touch, slot));
   const Rigid X_MW{Mat3{}, -executor.options_.placement_mm};
   observed->aims.push_back({X_MW * block.lanes[block.lanes[lane].twin].X_WD, touch_batch.radius[slot]});
+  const MotionSettings& motion = std::as_const(*block.lanes[block.lanes[lane].twin].motion).settings();
+  observed->approaches_mm.insert(motion.approach_mm);
+  observed->retracts_mm.insert(motion.retract_mm);
+  observed->compensations.insert(block.lanes[lane].temperature_compensation);
 }
 
 RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
@@ -129,6 +133,7 @@ RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
   RecordingRow row;
   row.feature = executor.plan_[touch.feature].label;
   row.touch = static_cast<int>(lane.points.size());
+  row.setup = executor.options_.setup;
   row.run = executor.options_.repeat + 1;
   row.position_mm = touch_batch.commanded.get(slot) + along - executor.options_.placement_mm;
   row.target_mm = touch_batch.surface.get(slot) + sensor.radius_mm * true_normal - executor.options_.placement_mm;

@@ -67,6 +67,7 @@ struct RecordOptions {
   std::optional<std::string> machine, workpiece;
   std::optional<std::uint64_t> seed;
   int run = 1;                              ///< which repeat: the same machine, other noise
+  int setup = 1;                            ///< which placement of the part
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
   std::vector<std::string> with;            ///< "EFFECT" or "EFFECT:parameter=value,..."
 };

@@ -88,6 +88,7 @@ int record_command(const RecordOptions& options) {
   run.workpiece = workpiece ? &*workpiece : nullptr;
   run.seed = options.seed.value_or(asked.seed.value_or(1));
   run.repeat = options.run - 1;
+  run.setup = options.setup;
   run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);

@@ -58,6 +58,20 @@ with tempfile.TemporaryDirectory() as folder:
     check(all(repeats) and max(map(abs, repeats)) < max(map(abs, elsewhere)) / 2, "it has other noise, but not another machine")
     check(record(folder, "--run", "0")[0].returncode == 2, "runs begin with 1")
 
+    run, out = record(folder, "--setup", "2")
+    placed = rows(out)
+    check({r["setup"] for r in plain} == {"1"} and {r["setup"] for r in placed} == {"2"}, "a placement of the part has its number")
+    check([r | {"setup": "1"} for r in placed] == plain, "and nothing else is changed by it")
+    check(record(folder, "--setup", "0")[0].returncode == 2, "setups begin with 1")
+    said = dict(line[2:].split(": ", 1) for line in out.read_text().splitlines() if line.startswith("# "))
+    check((said["approach_mm"], said["retract_mm"]) == ("3", "3"), "what SNSET said")
+    check("temperature_compensation" not in said, "without a workpiece nothing is compensated")
+    varied = pathlib.Path(folder) / "varied.dmi"
+    text = PROGRAM.read_text()
+    varied.write_text(text[:text.rindex("PTMEAS")] + "SNSET/APPRCH,2.5\n" + text[text.rindex("PTMEAS"):])
+    done = subprocess.run([ABBE, "record", str(varied), "-o", str(out)], capture_output=True, text=True)
+    check(done.returncode == 0 and "# approach_mm" not in out.read_text() and "# retract_mm: 3" in out.read_text(), "what changed is not said")
+
     run, out = record(folder, "--with", "machine.scale:axis=x,scale_um_per_m=10")
     check(run.returncode == 0, "a choice may be given by its word")
 
