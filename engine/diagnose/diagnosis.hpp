@@ -84,6 +84,7 @@ struct Detectable {
 
 struct NextMeasurement {
   std::string change;
+  std::string instruction;                     ///< what the operator does beside running the program
   std::vector<std::string> separates;
   double expected_probability = 0;             ///< of the truth, once it is made
   double minutes = 0;

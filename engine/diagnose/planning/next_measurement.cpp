@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -15,7 +16,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr std::size_t kShown = 3, kMostRivals = 8;
+constexpr std::size_t kShown = 3, kMostRivals = 8, kPaired = 6;
 /// A round of measuring and judging takes this long beside the measurement itself, min.
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
@@ -183,13 +184,15 @@ Change joined(const Change& a, const Change& b) {
   constexpr std::string_view kRepeat = "repeat ";
   const auto both = [](const std::string& x, const std::string& y, std::string_view between) { return x.empty() || y.empty() ? x + y : x + std::string(between) + y; };
   return {.text = a.text + " and " + b.text.substr(kRepeat.size()), .instruction = both(a.instruction, b.instruction, "; "),
-          .statement = both(a.statement, b.statement, "\n"), .minutes = a.minutes + b.minutes,
-          .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); }, .reversed = a.reversed || b.reversed};
+          .minutes = a.minutes + b.minutes,
+          .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); },
+          .move = a.move && b.move ? *b.move * *a.move : a.move ? a.move : b.move, .new_setup = a.new_setup || b.new_setup, .reversed = a.reversed || b.reversed};
 }
 
 struct Scored {
   NextMeasurement measurement;
-  double worth = 0;                        ///< gain in probability per minute
+  double gain = 0;                         ///< in probability
+  double worth = 0;                        ///< the same, per minute
   Change change;
   Longer longer;
 };
@@ -201,26 +204,62 @@ class Judge {
       : case_(c), hyper_(hyper), question_(question), first_(with_free(likelier_ensemble(c, c.model), signatures_of(c, question.beside)), hyper) {}
 
   void add(const std::vector<Change>& changes) {
-    std::vector<std::optional<Scored>> scored(changes.size());
-    on_threads(static_cast<int>(changes.size()), case_.options.threads,
-               [&](int k) { scored[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
-    for (std::optional<Scored>& s : scored)
-      if (s) list_.push_back(std::move(*s));
-    std::stable_sort(list_.begin(), list_.end(), [](const Scored& a, const Scored& b) { return a.worth > b.worth; });
+    list_ = scored(changes);
+    rank();
   }
   const std::vector<Scored>& list() const { return list_; }
 
+  /// Where one change does not decide: two of those that say most by themselves, if the two say more than the better one.
+  void add_pairs() {
+    std::vector<Scored> singles = list_;
+    std::erase_if(singles, [&](const Scored& s) { return !s.change.changes_touches || s.gain < kAboveChance / 2; });
+    std::stable_sort(singles.begin(), singles.end(), [](const Scored& a, const Scored& b) { return a.gain > b.gain; });
+    if (singles.size() > kPaired) singles.erase(singles.begin() + kPaired, singles.end());
+    std::vector<Change> pairs;
+    std::vector<double> better;
+    for (std::size_t b = 1; b < singles.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a) pairs.push_back(joined(singles[a].change, singles[b].change)), better.push_back(singles[a].gain);
+    std::vector<Scored> kept;
+    for (Scored& s : scored(pairs)) {
+      const auto k = static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Change& c) { return c.text == s.change.text; }) - pairs.begin());
+      if (s.gain > better[k] + kAboveChance) kept.push_back(std::move(s));
+    }
+    std::move(kept.begin(), kept.end(), std::back_inserter(list_));
+    rank();
+  }
+
  private:
+  std::vector<Scored> scored(const std::vector<Change>& changes) const {
+    std::vector<std::optional<Scored>> each(changes.size());
+    on_threads(static_cast<int>(changes.size()), case_.options.threads, [&](int k) { each[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
+    std::vector<Scored> out;
+    for (std::optional<Scored>& s : each)
+      if (s) out.push_back(std::move(*s));
+    return out;
+  }
+
+  /// By gain per minute; first those that gain at least half of what can be gained: a cheap measurement that decides nothing is only a round more.
+  void rank() {
+    double most = 0;
+    for (const Scored& s : list_) most = std::max(most, s.gain);
+    const auto key = [&](const Scored& s) { return std::pair{s.gain >= most / 2, s.worth}; };
+    std::stable_sort(list_.begin(), list_.end(), [&](const Scored& a, const Scored& b) { return key(a) > key(b); });
+  }
+
   std::optional<Scored> judged(const Change& change) const {
-    std::optional<Longer> longer = repeated(case_, change);
-    if (!longer) return std::nullopt;
+    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+    std::optional<Longer> whole = repeated(case_, change, kAll);
+    const std::optional<Longer> some = whole ? repeated(case_, change) : std::nullopt;
+    if (!whole || !some) return std::nullopt;
     NextMeasurement m;
     m.change = change.text;
+    m.instruction = change.instruction.empty() ? recording_sentence(*whole) : change.instruction + ". " + recording_sentence(*whole);
+    m.instruction[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(m.instruction[0])));
     for (const int k : question_.rivals) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
-    m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *longer, first_));
-    m.minutes = change.minutes + minutes_of(*longer);
-    const double worth = (m.expected_probability - 1 / double(question_.rivals.size())) / (kRound_min + m.minutes);
-    return Scored{std::move(m), worth, change, std::move(*longer)};
+    m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *some, first_));
+    m.minutes = change.minutes + minutes_of(*whole);
+    const double gain = m.expected_probability - 1 / double(question_.rivals.size()), worth = gain / (kRound_min + m.minutes);
+    return Scored{std::move(m), gain, worth, change, std::move(*whole)};
   }
 
   const Case& case_;
@@ -280,22 +319,14 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
   const Question question = question_of(c, result, detectable);
   if (question.rivals.size() < 2) return {};
   Judge judge(c, result ? result->hyper : c.hyper, question);
-  const std::vector<Change> menu = changes_for(c);
-  judge.add(menu);
-  // Where one change does not decide, the best one together with each of the others.
-  if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) {
-    const Change best = judge.list().front().change;
-    std::vector<Change> pairs;
-    for (const Change& change : menu)
-      if (change.changes_touches && best.changes_touches && change.text != best.text) pairs.push_back(joined(best, change));
-    judge.add(pairs);
-  }
+  judge.add(changes_for(c));
+  if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) judge.add_pairs();
   std::vector<NextMeasurement> out;
   for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {
     const Scored& s = judge.list()[k];
     if (s.measurement.expected_probability < 1 / double(question.rivals.size()) + kAboveChance) break;
     out.push_back(s.measurement);
-    if (k == 0) out.back().program = dmis_program(s.longer, s.change);
+    if (k == 0) out.back().program = dmis_program(c, s.longer, s.change);
   }
   return out;
 }

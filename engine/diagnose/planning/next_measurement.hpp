@@ -22,10 +22,11 @@ namespace abbe::diagnose {
 struct Change {
   std::string text;                 ///< "repeat with probing speed 3 mm/s"
   std::string instruction;          ///< for the operator, or empty when the program does it all
-  std::string statement;            ///< DMIS that sets it: "FEDRAT/MESVEL,MMPS,3"
   double minutes = 0;               ///< beyond the measuring itself
   /// What becomes of a row; a stylus that is new joins the sensors of the machine.
   std::function<void(RecordingRow&, Machine&)> apply = [](RecordingRow&, Machine&) {};
+  std::optional<Rigid> move{};      ///< of the part, in the coordinates of the recording
+  bool new_setup = false;           ///< the part is placed anew, or does not stay put to micrometres
   bool reversed = false;            ///< the sequence runs from its end to its beginning
   bool changes_touches = true;      ///< not only their order and time
 };
@@ -41,14 +42,18 @@ struct Longer {
   std::size_t first = 0;            ///< how many of them are of the recording
 };
 
-/// Nothing when the machine is too small for it.
-std::optional<Longer> repeated(const Case&, const Change&);
+/// What is judged of a long recording: an even selection of its touches.
+inline constexpr std::size_t kJudgedTouches = 240;
+/// With `most` touches at most. Nothing when the machine is too small for it.
+std::optional<Longer> repeated(const Case&, const Change&, std::size_t most = kJudgedTouches);
 /// The baseline of both together.
 Baseline baseline_of(const Case&, const Longer&);
 
 /// How long the machine takes for the new touches, min.
 double minutes_of(const Longer&);
+/// How the recording of the new touches is told from those before: "Give its recording run 2 and setup 2: ...".
+std::string recording_sentence(const Longer&);
 /// The new touches as a DMIS program.
-std::string dmis_program(const Longer&, const Change&);
+std::string dmis_program(const Case&, const Longer&, const Change&);
 
 }  // namespace abbe::diagnose

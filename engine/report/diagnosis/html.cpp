@@ -126,9 +126,9 @@ std::string values(const Diagnosis& d) {
 
 std::string next_measurements(const Diagnosis& d) {
   if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "<h2>What to do next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
-  std::string rows = row({"change", "tells apart", "probability of the truth after it", "minutes"}, "th");
+  std::string rows = row({"change", "what to do", "tells apart", "probability of the truth after it", "minutes"}, "th");
   for (const NextMeasurement& n : d.next_measurement)
-    rows += row({n.change, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
+    rows += row({n.change, n.instruction, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
   std::string out = "<h2>What to measure next</h2>\n" + table(rows);
   if (!d.otherwise.empty()) out += "<p>" + escaped(d.otherwise) + "</p>\n";
   if (!d.next_measurement.front().program.empty())

@@ -64,7 +64,7 @@ Json detectable(const Detectable& d) {
 }
 
 Json next(const NextMeasurement& n) {
-  return {{"change", n.change}, {"separates", n.separates}, {"expected_probability", number(n.expected_probability)}, {"minutes", number(n.minutes)}, {"program", n.program}};
+  return {{"change", n.change}, {"instruction", n.instruction}, {"separates", n.separates}, {"expected_probability", number(n.expected_probability)}, {"minutes", number(n.minutes)}, {"program", n.program}};
 }
 
 Json baseline(const BaselineSummary& b) {

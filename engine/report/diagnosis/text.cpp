@@ -94,8 +94,8 @@ std::string cannot_judge(const Diagnosis& d) {
 std::string next_steps(const Diagnosis& d) {
   std::string out;
   for (const NextMeasurement& n : d.next_measurement)
-    out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability);
-  if (!d.next_measurement.empty()) out += "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json.\n";
+    out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n    {}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability, n.instruction);
+  if (!d.next_measurement.empty()) out += "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json. Its paths are not checked for collision.\n";
   if (!d.otherwise.empty()) out += "  " + d.otherwise + "\n";
   if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
     out += "  No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.\n";

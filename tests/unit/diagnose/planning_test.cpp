@@ -1,0 +1,159 @@
+// What is proposed as the next measurement: where the tip goes, what a change leaves as it was, and how a part is found that was moved.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/planning/alignment.hpp"
+#include "engine/diagnose/planning/path.hpp"
+#include "engine/diagnose/planning/shape.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+constexpr double kTip_mm = 2;
+const Vec3 kBore{600, 450, -600};
+
+/// A block with its top at z = -600, two sides, a bore of 20 mm and a pin of 40 mm, touched from above.
+struct TouchedBlock {
+  Machine machine = read_machine("coord3-mc16");
+  Recording recording;
+  Case c;
+
+  explicit TouchedBlock(RecordedPoint point = RecordedPoint::tip_centre) {
+    machine.sensors["P"] = {.tip_in_r_mm = {0, 0, -100}, .radius_mm = kTip_mm, .material = "", .young_GPa = 600, .cte_ppm_per_K = 5};
+    recording.point = point;
+    for (const double x : {500.0, 800.0})
+      for (const double y : {400.0, 600.0}) touch("TOP", {x, y, -600}, {0, 0, 1});
+    for (const double x : {500.0, 800.0}) touch("FRONT", {x, 390, -620}, {0, -1, 0});
+    touch("LEFT", {490, 500, -620}, {-1, 0, 0});
+    for (const double z : {-605.0, -615.0}) round("BORE", kBore + Vec3{0, 0, z + 600}, -10);
+    round("PIN", {700, 500, -580}, 20);
+    c.recording = &recording, c.machine = &machine;
+    c.touches = recorded_touches(recording, machine, "");
+  }
+
+  void round(const std::string& feature, const Vec3& centre, double radius_mm) {
+    constexpr int kTouches = 4;
+    for (int k = 0; k < kTouches; ++k) {
+      const double a = 2 * kPi * k / kTouches;
+      const Vec3 out{std::cos(a), std::sin(a), 0};
+      touch(feature, centre + std::abs(radius_mm) * out, radius_mm < 0 ? -out : out);
+    }
+  }
+
+  void touch(const std::string& feature, const Vec3& surface, const Vec3& normal) {
+    RecordingRow row;
+    row.feature = feature;
+    row.touch = 1 + static_cast<int>(std::count_if(recording.rows.begin(), recording.rows.end(), [&](const RecordingRow& r) { return r.feature == feature; }));
+    row.normal = normal;
+    row.target_mm = row.position_mm = recording.point == RecordedPoint::surface ? surface : surface + kTip_mm * normal;
+    row.sensor = "P", row.head_a_deg = 0, row.head_b_deg = 0, row.visit = 1;
+    row.time_s = 10.0 * double(recording.rows.size()), row.speed_mm_s = 5;
+    recording.rows.push_back(row);
+  }
+
+  Change change(const std::string& words) const {
+    for (const Change& change : changes_for(c))
+      if (change.text.find(words) != std::string::npos) return change;
+    FAIL("no change " << words);
+    return {};
+  }
+};
+
+std::string feature_of(const Longer& l, std::size_t k) { return l.touches.features[static_cast<std::size_t>(l.touches.touches[k].scene.feature)]; }
+
+}  // namespace
+
+TEST_CASE("another ball touches the same surface, whatever the recording holds") {
+  for (const RecordedPoint point : {RecordedPoint::tip_centre, RecordedPoint::surface}) {
+    const TouchedBlock block(point);
+    const auto longer = repeated(block.c, block.change("stylus ball"));
+    REQUIRE(longer);
+    for (std::size_t k = 0; k < longer->first; ++k) {
+      const TouchScene &before = longer->touches.touches[k].scene, &after = longer->touches.touches[longer->first + k].scene;
+      CHECK(after.stylus.radius_mm == doctest::Approx(kTip_mm / 2));
+      CHECK(norm(after.point - before.point) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a part that is moved, or that was left for hours, is in another setup and all else in another run") {
+  TouchedBlock block;
+  for (RecordingRow& row : block.recording.rows) row.temp_part_C = 20;
+  block.c.touches = recorded_touches(block.recording, block.machine, "");
+  for (const Change& change : changes_for(block.c)) {
+    const auto longer = repeated(block.c, change);
+    if (!longer) continue;
+    INFO(change.text);
+    const bool placed = change.text.find("the part ") != std::string::npos || change.text.find("K higher") != std::string::npos;
+    CHECK(longer->recording.rows.back().setup == (placed ? 2 : 1));
+    CHECK(longer->recording.rows.back().run == 2);
+    CHECK((recording_sentence(*longer).find("setup 2") != std::string::npos) == placed);
+  }
+}
+
+TEST_CASE("the tip stays before the surfaces and changes features above them") {
+  const TouchedBlock block;
+  const auto longer = repeated(block.c, block.change("once more"));
+  REQUIRE(longer);
+  const Path path = path_of(*longer);
+  const auto& touches = longer->touches.touches;
+  Vec3 at = path.steps[1].to;
+  int above = 0;
+  for (const Step& step : path.steps) {
+    if (step.kind != Step::Kind::go) continue;
+    for (int i = 0; i <= 20; ++i) {
+      const Vec3 p = at + i / 20.0 * (step.to - at);
+      const double from_bore = std::hypot(p.x - kBore.x, p.y - kBore.y), from_pin = std::hypot(p.x - 700, p.y - 500);
+      const bool in_block = p.x > 490 - kTip_mm && p.y > 390 - kTip_mm && p.z < -600 + kTip_mm;
+      CHECK((!in_block || from_bore <= 10 - kTip_mm + 1e-6));       // below the top only beside the block and inside the bore
+      CHECK((p.z > -580 + kTip_mm || from_pin >= 20 + kTip_mm));    // and not through the pin
+    }
+    if (step.to.z > -580 + 25) ++above;
+    at = step.to;
+  }
+  CHECK(above >= 2 * 5);   // each of five features is entered from above and left upwards
+  for (std::size_t k = longer->first; k < touches.size(); ++k)
+    if (feature_of(*longer, k) == "BORE") CHECK(path.free_mm[k - longer->first] == doctest::Approx(10 - kTip_mm));   // to its middle
+}
+
+TEST_CASE("a moved part is found by its own touches") {
+  const TouchedBlock block;
+  for (const char* how : {"turned by 90", "tilted by 20 degrees about X", "tilted by 20 degrees about Y"}) {
+    INFO(how);
+    const auto longer = repeated(block.c, block.change(how));
+    REQUIRE(longer);
+    const auto alignment = alignment_of(*longer);
+    REQUIRE(alignment);
+    // 3-2-1: the top is z = 0, the front y = 0, the left side x = 0, wherever the part stands.
+    for (std::size_t k = longer->first; k < longer->touches.touches.size(); ++k) {
+      const Vec3 p = alignment->X_DR * surface_of(*longer, k);
+      if (feature_of(*longer, k) == "TOP") CHECK(std::abs(p.z) < 1e-9);
+      if (feature_of(*longer, k) == "FRONT") CHECK(std::abs(p.y) < 1e-9);
+      if (feature_of(*longer, k) == "LEFT") CHECK(std::abs(p.x) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("what was touched becomes a feature of its kind") {
+  const auto round = [](double radius_mm, std::initializer_list<double> heights) {
+    Touched t;
+    for (const double z : heights)
+      for (int k = 0; k < 6; ++k) {
+        const Vec3 out{0, std::cos(k * kPi / 3), std::sin(k * kPi / 3)};   // about X
+        t.points.push_back(std::abs(radius_mm) * out + Vec3{z, 7, 9}), t.normals.push_back(radius_mm < 0 ? -out : out);
+      }
+    return t;
+  };
+  CHECK(dmis_feature(round(-10, {5})).definition == "CIRCLE,INNER,CART,5.000000,7.000000,9.000000,1.000000000,0.000000000,0.000000000,20.0000000");
+  CHECK(dmis_feature(round(10, {0, 10})).definition == "CYLNDR,OUTER,CART,5.000000,7.000000,9.000000,1.000000000,0.000000000,0.000000000,20.0000000");
+  CHECK(dmis_feature({{{1, 2, 3}}, {{0, 0, 1}}}).kind == "POINT");
+  CHECK(dmis_feature({{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {3, {0, 0, 1}}}).kind == "PLANE");
+  CHECK(dmis_feature({{{0, 0, 0}, {9, 0, 0}, {5, 0, 0}}, {3, {0, 0, 1}}}).kind == "GSURF");   // on one line: no plane
+  Touched ball;
+  for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}) ball.points.push_back(Vec3{1, 2, 3} + 15 * n), ball.normals.push_back(n);
+  CHECK(dmis_feature(ball).definition == "SPHERE,OUTER,CART,1.000000,2.000000,3.000000,30.0000000");
+}
