@@ -6,7 +6,7 @@ one change; the same machine, with the same errors, is measured again with it, a
 comparison it also gets a change drawn at random from the same menu. DIR/follow.json: {"rows": [{case, truth, wish,
 before, wish, random}]}; each answer has a class: "truth alone", "truth in the set" or "other".
 
-What the part and the styli keep, keep their errors: placements unless the part is moved, qualifications unless a stylus
+What the part and the styli keep, keep their errors: placements unless the part is moved or heated, qualifications unless a stylus
 or an orientation is new. The clock goes on.
 """
 
@@ -53,6 +53,7 @@ AT_RANDOM |= {"temperature": 2.0, "load": 200.0, "again": 0.0, "reversed": 0.0}
 STYLUS = {"length", "head", "ball"}
 TURNS = {"turned": 2, "tilted_x": 0, "tilted_y": 1}  # about which axis
 LIFTS = {"raised": 1, "lowered": -1}
+PLACES_ANEW = TURNS.keys() | LIFTS.keys() | {"temperature"}  # for hours a part does not stay put to micrometres
 
 
 def understood(wish):
@@ -112,7 +113,7 @@ def second_scene(first, changes, rng):
     scene.time = scene.time + first.time[-1] + PAUSE
     scene.visit = scene.visit + first.visit.max()
     scene.run = scene.run + first.run.max()
-    scene.setup = scene.setup + (100 if changes.keys() & (TURNS.keys() | LIFTS.keys()) else 0)
+    scene.setup = scene.setup + (100 if changes.keys() & PLACES_ANEW else 0)
     warmer = changes.get("temperature", 0.0)
     scene.temperature = {k: np.full(scene.size, v[0] + warmer) for k, v in first.temperature.items()}
     scene.logged = {k: np.full(scene.size, v[0] + warmer) for k, v in first.logged.items()}
