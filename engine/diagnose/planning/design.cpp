@@ -1,8 +1,15 @@
 // What a recording can tell, from its plan alone: the smallest size of each effect that would be detected, and the smallest that would be
-// told from its nearest rival (minimal detectable and minimal identifiable bias: Baarda 1968; Zaminpardaz & Teunissen 2024).
+// named (minimal detectable and minimal identifiable bias: Baarda 1968; Zaminpardaz & Teunissen 2024).
+//
+// An effect has forms: its variants (which axis, which moment) and in each its columns. Each in turn counts as what is there, at a
+// signal-to-noise s, and goes through the evidence of all explanations as a recording does: with the complexity that a rival pays for, so
+// that a simple effect is named although a richer one could imitate it. What is told is the median form: half of them are seen, or named,
+// from that size on, with a power of 80 %; "never" where the median form is not named at any size.
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/diagnose/case.hpp"
 
@@ -12,83 +19,195 @@ namespace {
 
 /// An effect that would have to move a touch by more than this to be seen does, for these touches, nothing.
 constexpr double kNothing_um = 1e4;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
-int first_linear(const Block& b) { return b.columns.empty() ? -1 : b.columns.front().parameter; }
+/// One form of an effect: a column of a variant.
+struct Form {
+  int block = 0;
+  Eigen::Index column = 0;
+  double per_snr = 0, um_per_snr = 0;  ///< size and largest displacement of a touch at a signal-to-noise of 1
+  double named = kNever;               ///< signal-to-noise from which on it is named
+};
 
-/// The column of a block that stands for the effect: its strongest one.
-Eigen::Index strongest(const Matrix& g) {
-  Eigen::Index k = 0;
-  g.diagonal().maxCoeff(&k);
-  return k;
-}
+/// What a block makes of a shift: all that its evidence needs.
+struct Judged {
+  Matrix axes;
+  Vector information;                  ///< along them
+  std::vector<Size> sizes;
+  Eigen::Index first = 0;              ///< of its columns among those of all blocks
+  double log_weight = 0;
+};
 
 class Design {
  public:
   Design(const Case& c, const EvidenceSearch& search) : all_(c.explanations), search_(search) {
     for (int b = 0; b < static_cast<int>(all_.blocks.size()); ++b) {
       const Matrix g = search.between(b, b);
-      information_.emplace_back(g + 1e-9 * (g.trace() + 1e-300) * Matrix::Identity(g.rows(), g.cols()));
-      strongest_.push_back(strongest(g));
-      most_.push_back(g.diagonal().maxCoeff());
+      const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
+      blocks_.push_back({solver.eigenvectors(), solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)), search.sizes(b), search.first_column(b),
+                         std::log(std::max(all_.blocks[static_cast<std::size_t>(b)].weight, 1e-300))});
+      diagonal_.push_back(g.diagonal());
     }
   }
 
   std::optional<Detectable> of(std::size_t k) const {
     const Explanation& e = all_.list[k];
-    if (e.blocks.empty()) return std::nullopt;
-    const int best = *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return most_[a] < most_[b]; });
-    const double most = most_[static_cast<std::size_t>(best)];
-    if (most <= 1e-12) return std::nullopt;
-    const Block& block = all_.blocks[static_cast<std::size_t>(best)];
-    const Eigen::Index column = strongest_[static_cast<std::size_t>(best)];
-    const int p = block.joined ? first_parameter(*e.effect) : std::max(0, first_linear(block));
-    const int parameter = block.joined ? p : block.columns[static_cast<std::size_t>(column)].parameter;
-    const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(p)].typical : block.columns[static_cast<std::size_t>(column)].unit;
-    const double largest = block.signature.col(column).cwiseAbs().maxCoeff();
-    Detectable d{.effect = e.name, .parameter = std::string(e.effect->parameters[static_cast<std::size_t>(parameter)].name),
-                 .unit = std::string(e.effect->parameters[static_cast<std::size_t>(parameter)].unit), .name = {}, .name_um = {}, .confounded_with = {}};
-    d.detect = unit * kDetects / std::sqrt(most);
-    d.detect_um = largest * kDetects / std::sqrt(most);
-    if (d.detect_um > kNothing_um) return std::nullopt;
-    add_rivals(k, best, column, most, unit, largest, d);
+    std::vector<Form> forms = forms_of(e);
+    if (forms.empty()) return std::nullopt;
+    const EffectParameter& parameter = e.effect->parameters[static_cast<std::size_t>(parameter_of(e))];
+    std::vector<double> belief(all_.list.size(), 0.0);
+    for (Form& f : forms) {
+      const Shift shift = shift_of(f);
+      f.named = named_from(k, shift);
+      const std::vector<double> at = beliefs(k, shift, 2 * kDetects);
+      for (std::size_t j = 0; j < at.size(); ++j) belief[j] += at[j] / double(forms.size());
+    }
+    Detectable d{.effect = e.name, .parameter = std::string(parameter.name), .unit = std::string(parameter.unit), .name = {}, .name_um = {}, .confounded_with = {}};
+    const Form seen = median_form(forms, [](const Form& f) { return f.um_per_snr; }), named = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
+    d.detect = kDetects * seen.per_snr, d.detect_um = kDetects * seen.um_per_snr;
+    if (std::isfinite(named.named)) d.name = named.named * named.per_snr, d.name_um = named.named * named.um_per_snr;
+    d.confounded_with = likeliest(belief, k);
     return d;
   }
 
  private:
-  static int first_parameter(const Effect& effect) {
-    for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-      if (effect.parameters[p].linear) return static_cast<int>(p);
-    return 0;
+  /// What all blocks see of a form, at a signal-to-noise of 1.
+  struct Shift {
+    std::vector<Vector> squares;       ///< by block: of its inner products along the block's axes
+    std::vector<double> left;          ///< by explanation: the share of the information that it cannot imitate
+  };
+
+  static bool counts(const Explanation& e) { return !e.blocks.empty(); }
+
+  /// The size that is told: of the column that shows most.
+  int parameter_of(const Explanation& e) const {
+    const auto most = [&](int b) { return diagonal_[static_cast<std::size_t>(b)].maxCoeff(); };
+    const int strongest = *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return most(a) < most(b); });
+    const Block& block = all_.blocks[static_cast<std::size_t>(strongest)];
+    Eigen::Index column = 0;
+    diagonal_[static_cast<std::size_t>(strongest)].maxCoeff(&column);
+    if (!block.joined) return std::max(0, block.columns[static_cast<std::size_t>(column)].parameter);
+    const auto& p = e.effect->parameters;
+    const auto linear = std::find_if(p.begin(), p.end(), [](const EffectParameter& x) { return x.linear; });
+    return linear == p.end() ? 0 : static_cast<int>(linear - p.begin());
   }
 
-  void add_rivals(std::size_t k, int block, Eigen::Index column, double information, double unit, double largest, Detectable& d) const {
-    // What is left of the information on the column once a rival takes what it can.
-    const Vector cross = search_.against_all(block, column);
-    const auto left = [&](int rival) {
-      const Vector with = cross.segment(search_.first_column(rival), all_.blocks[static_cast<std::size_t>(rival)].signature.cols());
-      return information - with.dot(information_[static_cast<std::size_t>(rival)].solve(with));
-    };
-    std::vector<std::pair<double, std::string>> shares;
-    for (std::size_t j = 0; j < all_.list.size(); ++j) {
-      if (j == k || !all_.list[j].effect) continue;
-      double least = 1;
-      for (const int b : all_.list[j].blocks) least = std::min(least, left(b) / information);
-      shares.emplace_back(std::max(0.0, least), all_.list[j].name);
+  /// Some of its variants, from the one that shows most to the one that shows least, with the columns of the size that is told.
+  std::vector<Form> forms_of(const Explanation& e) const {
+    constexpr std::size_t kVariants = 7;
+    std::vector<int> blocks;
+    for (const int b : e.blocks)
+      if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12) blocks.push_back(b);
+    std::stable_sort(blocks.begin(), blocks.end(), [&](int a, int b) { return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff(); });
+    const std::size_t n = blocks.size(), m = std::min(n, kVariants);
+    std::vector<Form> out;
+    if (blocks.empty()) return out;
+    const int told = parameter_of(e);
+    for (std::size_t i = 0; i < m; ++i) {
+      const int b = blocks[m == 1 ? 0 : i * (n - 1) / (m - 1)];
+      const Block& block = all_.blocks[static_cast<std::size_t>(b)];
+      for (Eigen::Index j = 0; j < block.signature.cols(); ++j) {
+        const double information = diagonal_[static_cast<std::size_t>(b)](j);
+        const int p = block.joined ? told : block.columns[static_cast<std::size_t>(j)].parameter;
+        if (information <= 1e-12 || (p >= 0 && p != told)) continue;
+        const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical : block.columns[static_cast<std::size_t>(j)].unit;
+        const Form f{b, j, unit / std::sqrt(information), block.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
+        if (kDetects * f.um_per_snr <= kNothing_um) out.push_back(f);
+      }
     }
-    std::stable_sort(shares.begin(), shares.end());
-    for (const auto& [share, name] : shares)
-      if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4) d.confounded_with.push_back(name);
-    const double share = shares.empty() ? 1 : shares.front().first;
-    if (share < kInseparable) return;
-    d.name = unit * kNames / std::sqrt(information * share);
-    d.name_um = largest * kNames / std::sqrt(information * share);
+    return out;
+  }
+
+  Shift shift_of(const Form& f) const {
+    const Vector u = search_.against_all(f.block, f.column) / std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column));
+    Shift out;
+    for (const Judged& b : blocks_) out.squares.push_back((b.axes.transpose() * u.segment(b.first, b.axes.rows())).array().square());
+    for (const Explanation& e : all_.list) {
+      double left = 1;
+      for (const int b : e.blocks) {
+        const auto k = static_cast<std::size_t>(b);
+        left = std::min(left, 1 - (out.squares[k].array() / blocks_[k].information.array()).sum());
+      }
+      out.left.push_back(std::max(0.0, left));
+    }
+    return out;
+  }
+
+  /// The logarithm of prior and Bayes factor of an explanation, for the shift alone.
+  double log_belief(std::size_t k, const Shift& shift, double snr) const {
+    std::vector<double> terms;
+    for (const int index : all_.list[k].blocks) {
+      const auto b = static_cast<std::size_t>(index);
+      for (const Size& size : blocks_[b].sizes) {
+        const Eigen::ArrayXd wide = 1 + size.factor * size.factor * blocks_[b].information.array();
+        terms.push_back(blocks_[b].log_weight + size.log_prior - 0.5 * wide.log().sum() +
+                        0.5 * snr * snr * size.factor * size.factor * (shift.squares[b].array() / wide).sum());
+      }
+    }
+    return std::log(all_.list[k].prior) + log_sum_exp(terms);
+  }
+
+  /// Whether the set of names would be this one alone, and it be preferred to patterns without a name, with a power of 80 %.
+  bool named(std::size_t truth, const Shift& shift, double snr) const {
+    constexpr double kPower = 0.84;
+    const double own = log_belief(truth, shift, snr), over_patterns = std::log(3.0);
+    double against = 0;
+    for (std::size_t j = 0; j < all_.list.size(); ++j) {
+      if (j == truth || !counts(all_.list[j])) continue;
+      const double odds = own - log_belief(j, shift, snr) - kPower * snr * std::sqrt(shift.left[j]);
+      if (all_.list[j].effect) against += std::exp(-odds);
+      else if (odds < over_patterns) return false;
+    }
+    return 1 / (1 + against) >= kCredible;
+  }
+
+  double named_from(std::size_t truth, const Shift& shift) const {
+    constexpr double kMost = 100;      // what is larger is not told by evidence but seen by eye
+    constexpr int kHalvings = 7;
+    if (!named(truth, shift, kMost)) return kNever;
+    double low = kDetects, high = kMost;
+    if (named(truth, shift, low)) return low;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = std::sqrt(low * high);
+      (named(truth, shift, middle) ? high : low) = middle;
+    }
+    return high;
+  }
+
+  /// Of the effects, given the shift.
+  std::vector<double> beliefs(std::size_t truth, const Shift& shift, double snr) const {
+    const double own = log_belief(truth, shift, snr);
+    std::vector<double> out(all_.list.size(), 0.0);
+    double sum = 0;
+    for (std::size_t j = 0; j < out.size(); ++j)
+      if (all_.list[j].effect && counts(all_.list[j])) sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr) - own));
+    for (double& b : out) b /= sum;
+    return out;
+  }
+
+  std::vector<std::string> likeliest(const std::vector<double>& belief, std::size_t besides) const {
+    constexpr double kWorthNaming = 0.03;
+    constexpr std::size_t kMost = 4;
+    std::vector<std::size_t> order;
+    for (std::size_t j = 0; j < belief.size(); ++j)
+      if (j != besides && belief[j] > kWorthNaming) order.push_back(j);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return belief[a] > belief[b]; });
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < std::min(kMost, order.size()); ++i) out.push_back(all_.list[order[i]].name);
+    return out;
+  }
+
+  /// Of an even number the better one.
+  template <class By>
+  static Form median_form(std::vector<Form> forms, By by) {
+    std::stable_sort(forms.begin(), forms.end(), [&](const Form& a, const Form& b) { return by(a) < by(b); });
+    return forms[(forms.size() - 1) / 2];
   }
 
   const Explanations& all_;
   const EvidenceSearch& search_;
-  std::vector<Eigen::LDLT<Matrix>> information_;   ///< by block
-  std::vector<Eigen::Index> strongest_;            ///< by block: the column that stands for it
-  std::vector<double> most_;                       ///< by block: the information on that column
+  std::vector<Judged> blocks_;
+  std::vector<Vector> diagonal_;       ///< by block: the information on each column
 };
 
 /// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).

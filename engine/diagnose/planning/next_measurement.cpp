@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
@@ -26,32 +27,54 @@ constexpr double kAboveChance = 0.05;
 /// Signal-to-noise that a plan without data reckons with.
 constexpr double kPlanned = 6;
 
-/// The effect that a plan confounds with most others, and these.
-std::vector<int> confounded(const Case& c, const std::vector<Detectable>& detectable) {
-  const auto most = std::max_element(detectable.begin(), detectable.end(),
-                                     [](const Detectable& a, const Detectable& b) { return a.confounded_with.size() < b.confounded_with.size(); });
-  std::vector<int> list;
-  if (most == detectable.end()) return list;
-  std::vector<std::string> names = most->confounded_with;
-  names.push_back(most->effect);
-  for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
-    if (std::find(names.begin(), names.end(), c.explanations.list[k].name) != names.end()) list.push_back(static_cast<int>(k));
-  return list;
-}
-
 /// What a measurement is to decide.
 struct Question {
   std::vector<int> rivals;                 ///< explanations
   std::vector<Finding> beside;             ///< effects that are there whichever of them it is
 };
 
-/// Those of the first finding that could not be told apart; without data, those that the plan could not tell apart.
-Question question_of(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
-  if (!result) return {confounded(c, detectable), {}};
-  for (std::size_t i = 0; i < result->findings.size(); ++i) {
-    const Finding& f = result->findings[i];
+/// What a plan leaves open: effects that look alike, each with those that it looks like. First those of which most is to be expected, counted as the
+/// effects of typical size that would be seen; each effect is asked of once.
+std::vector<Question> questions_of(const Case& c, const std::vector<Detectable>& detectable) {
+  const auto index = [&](const std::string& name) {
+    for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
+      if (c.explanations.list[k].name == name) return static_cast<int>(k);
+    return -1;
+  };
+  const auto expected = [&](const std::string& name) {
+    const auto d = std::find_if(detectable.begin(), detectable.end(), [&](const Detectable& x) { return x.effect == name; });
+    if (d == detectable.end()) return 0.0;
+    const auto& parameters = c.explanations.list[static_cast<std::size_t>(index(name))].effect->parameters;
+    const auto p = std::find_if(parameters.begin(), parameters.end(), [&](const EffectParameter& x) { return x.name == d->parameter; });
+    return std::min(1.0, p->typical / d->detect);
+  };
+  std::vector<std::pair<double, std::vector<std::string>>> open;
+  for (const Detectable& d : detectable) {
+    if (d.confounded_with.empty()) continue;
+    std::vector<std::string> alike = d.confounded_with;
+    alike.insert(alike.begin(), d.effect);
+    double sum = 0;
+    for (const std::string& name : alike) sum += expected(name);
+    open.emplace_back(expected(d.effect) * sum, std::move(alike));
+  }
+  std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Question> out;
+  std::set<std::string> asked;
+  for (const auto& [worth, alike] : open) {
+    if (out.size() == kShown || asked.count(alike.front()) > 0) continue;
+    asked.insert(alike.begin(), alike.end());
+    out.emplace_back();
+    for (const std::string& name : alike) out.back().rivals.push_back(index(name));
+  }
+  return out;
+}
+
+/// Those of the first finding that could not be told apart.
+Question question_of(const SearchResult& result) {
+  for (std::size_t i = 0; i < result.findings.size(); ++i) {
+    const Finding& f = result.findings[i];
     if (f.set.size() < 2) continue;
-    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))}, result->findings};
+    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))}, result.findings};
     q.beside.erase(q.beside.begin() + static_cast<std::ptrdiff_t>(i));
     return q;
   }
@@ -315,19 +338,34 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
 
 }  // namespace
 
-std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
-  const Question question = question_of(c, result, detectable);
+namespace {
+
+/// The best changes for a question, the first as a program.
+std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& hyper, const Question& question, std::size_t most) {
   if (question.rivals.size() < 2) return {};
-  Judge judge(c, result ? result->hyper : c.hyper, question);
+  Judge judge(c, hyper, question);
   judge.add(changes_for(c));
   if (!judge.list().empty() && judge.list().front().measurement.expected_probability < kDecides) judge.add_pairs();
   std::vector<NextMeasurement> out;
-  for (std::size_t k = 0; k < std::min(kShown, judge.list().size()); ++k) {
+  for (std::size_t k = 0; k < std::min(most, judge.list().size()); ++k) {
     const Scored& s = judge.list()[k];
-    if (s.measurement.expected_probability < 1 / double(question.rivals.size()) + kAboveChance) break;
+    if (s.gain < kAboveChance) break;
     out.push_back(s.measurement);
     if (k == 0) out.back().program = dmis_program(c, s.longer, s.change);
   }
+  return out;
+}
+
+}  // namespace
+
+std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+  if (result) return best_changes(c, result->hyper, question_of(*result), kShown);
+  std::vector<NextMeasurement> out;
+  for (const Question& question : questions_of(c, detectable))
+    for (NextMeasurement& best : best_changes(c, c.hyper, question, 1)) {
+      if (!out.empty()) best.program.clear();   // one program at a time: the first
+      out.push_back(std::move(best));
+    }
   return out;
 }
 
@@ -336,7 +374,7 @@ std::string otherwise(const Case& c, const SearchResult& result, const std::vect
   if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
-  const std::vector<int> rivals = question_of(c, &result, {}).rivals;
+  const std::vector<int> rivals = question_of(result).rivals;
   if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
     const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];

@@ -1,0 +1,61 @@
+"""What a recording could tell, from its plan alone: it is held against recordings that have just that."""
+import json
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+
+class Plan(harness.Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.planned = None
+
+    def diagnosis(self, *options):
+        return json.loads(self.abbe("diagnose", *options, "--machine", MACHINE, "--format", "json").stdout)
+
+    def record(self, *options):
+        self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", "rec.csv", *options)
+        return self.folder / "rec.csv"
+
+    def plan(self):
+        if self.planned is None:
+            type(self).planned = self.diagnosis(self.record(), "--design-only")
+        return self.planned
+
+    def row(self, effect):
+        return next(d for d in self.plan()["smallest_detectable"] if d["effect"] == effect)
+
+    def test_what_can_be_named_is_named(self):
+        """Half as large again as what is told; the last one has richer rivals that could imitate it."""
+        for effect in ("machine.backlash", "probe.pretravel_lobing", "probe.stylus_bending"):
+            told = self.row(effect)
+            said = self.diagnosis(self.record("--seed", 81, "--with", f"{effect}:{told['parameter']}={1.5 * told['name']:.6g}"))
+            self.assertEqual([e["members"] for e in said["effects"]], [[effect]])
+
+    def test_what_looks_alike_is_not(self):
+        for effect, twin in (("probe.tip_radius", "probe.trigger_delay"), ("machine.step", "part.shift")):
+            told = self.row(effect)
+            self.assertIsNone(told["name"])
+            self.assertIn(twin, told["confounded_with"])
+        said = self.diagnosis(self.record("--with", "probe.tip_radius:amplitude_um=3"))
+        self.assertGreater(len(said["effects"][0]["members"]), 1)
+
+    def test_each_question_is_asked_once(self):
+        asked = self.plan()["next_measurement"]
+        self.assertGreaterEqual(len(asked), 2)
+        first = [n["separates"][0] for n in asked]
+        for k, n in enumerate(asked):
+            self.assertEqual(set(n["separates"]) - set(self.row(first[k])["confounded_with"]), {first[k]})
+            for before in asked[:k]:
+                self.assertNotIn(first[k], before["separates"])
+            self.assertGreater(n["expected_probability"], 1 / len(n["separates"]) + 0.05)
+            self.assertEqual(bool(n["program"]), k == 0)
+        # The smallest effects that are usual come into it, not those that a machine has to be broken for.
+        self.assertTrue({"probe.tip_radius", "probe.trigger_delay"} <= {e for n in asked for e in n["separates"]})
+        self.assertFalse({"thermal.table_bending", "part.load_bending"} & {e for n in asked for e in n["separates"]})
+
+
+if __name__ == "__main__":
+    harness.main()
