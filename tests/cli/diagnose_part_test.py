@@ -31,6 +31,12 @@ class CalibratedPart(harness.Case):
         self.assertNotEqual(said["verdict"], "no_mismatch")
         self.assertIn("probe.tip_radius", said["effects"][0]["members"])
 
+    def test_a_certificate_is_asked_for_before_a_measurement(self):
+        recording = self.record("--with", "probe.pretravel_lobing:amplitude_um=3", header="# surfaces: unknown_size\n")
+        ball = self.write("ball.json", workpiece({"BALL": {"diameter_mm": {"value": 25.0, "u": 0.0001}}}))
+        self.assertIn("give those of its certificate with --workpiece", self.diagnosis(recording)["otherwise"])
+        self.assertNotIn("certificate", self.diagnosis(recording, "--workpiece", ball)["otherwise"] or "")
+
     def test_an_uncertain_size_explains_as_much_as_its_uncertainty(self):
         recording = self.record("--with", "probe.tip_radius:amplitude_um=3", header="# surfaces: unknown_size\n")
         ball = self.write("ball.json", workpiece({"ball": {"diameter_mm": {"value": 25.0, "u": 0.01}}}))

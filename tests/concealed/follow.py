@@ -38,6 +38,8 @@ MENU = {
     "repeat with a stylus of ([\\d.]+) mm": "length",
     "repeat with a stylus ball of ([\\d.]+) mm": "ball",
     "repeat with the head turned by B \\+ ([\\d.]+) degrees": "head",
+    "repeat with the stylus qualified (anew)": "qualified",
+    "repeat with the part clamped (anew)": "clamped",
     "repeat with the part turned by ([\\d.]+) degrees about the vertical": "turned",
     "repeat with the part tilted by ([\\d.]+) degrees about X": "tilted_x",
     "repeat with the part tilted by ([\\d.]+) degrees about Y": "tilted_y",
@@ -49,11 +51,12 @@ MENU = {
     "repeat the whole sequence in reverse (order)": "reversed",
 }
 AT_RANDOM = {"acceleration": 130.0, "head": 60.0, "turned": 90.0, "tilted_x": 20.0, "tilted_y": 20.0, "raised": 200.0}
-AT_RANDOM |= {"temperature": 2.0, "load": 200.0, "again": 0.0, "reversed": 0.0}
+AT_RANDOM |= {"temperature": 2.0, "load": 200.0, "again": 0.0, "reversed": 0.0, "qualified": 0.0, "clamped": 0.0}
+WITHOUT_SIZE = {"again", "reversed", "qualified", "clamped"}
 STYLUS = {"length", "head", "ball"}
 TURNS = {"turned": 2, "tilted_x": 0, "tilted_y": 1}  # about which axis
 LIFTS = {"raised": 1, "lowered": -1}
-PLACES_ANEW = TURNS.keys() | LIFTS.keys() | {"temperature"}  # for hours a part does not stay put to micrometres
+PLACES_ANEW = TURNS.keys() | LIFTS.keys() | {"temperature", "clamped"}  # for hours a part does not stay put to micrometres
 
 
 def understood(wish):
@@ -63,7 +66,7 @@ def understood(wish):
         change = change if change.startswith("repeat") else "repeat with " + change
         for pattern, what in MENU.items():
             if found := re.fullmatch(pattern, change):
-                changes[what] = 0.0 if what in ("again", "reversed") else float(found.group(1))
+                changes[what] = 0.0 if what in WITHOUT_SIZE else float(found.group(1))
                 break
         else:
             return None
@@ -118,7 +121,7 @@ def second_scene(first, changes, rng):
     scene.temperature = {k: np.full(scene.size, v[0] + warmer) for k, v in first.temperature.items()}
     scene.logged = {k: np.full(scene.size, v[0] + warmer) for k, v in first.logged.items()}
     scene.load = first.load + changes.get("load", 0.0)
-    scene.qualification = np.full(scene.size, 2 if changes.keys() & STYLUS else 1)
+    scene.qualification = np.full(scene.size, 2 if changes.keys() & (STYLUS | {"qualified"}) else 1)
     return scene
 
 

@@ -57,7 +57,7 @@ class Baseline:
         self.geometric = along_normal(scene, self.carriages)
         self.noise = noise.probe_noise(scene, rng, kind, noise_scale)
         self.r = self.geometric + indexing(scene, rng)
-        same_styli = before is not None and before.scene.styli == scene.styli
+        same_styli = before is not None and before.scene.styli == scene.styli and before.scene.qualification[0] == scene.qualification[0]
         self.offsets = before.offsets if same_styli else rng.normal(0, scene.machine.qualification_sd, (len(scene.styli), 3))
         self.r = self.r + np.sum(scene.normal * self.offsets[scene.sensor], 1)
         self.poses = dict(before.poses) if before is not None else {}

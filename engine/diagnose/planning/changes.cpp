@@ -52,6 +52,8 @@ void mount(RecordingRow& row, Machine& machine, const std::string& suffix, Alter
 void add_styli(const Case& c, std::vector<Change>& list) {
   const std::vector<RecordingRow>& rows = c.recording->rows;
   if (!std::all_of(rows.begin(), rows.end(), [&](const RecordingRow& r) { return r.sensor && c.machine->sensors.count(*r.sensor) > 0; })) return;
+  list.push_back({.text = "repeat with the stylus qualified anew", .instruction = "qualify the stylus anew, in all orientations", .minutes = 5,
+                  .apply = [](RecordingRow& row, Machine&) { row.qualification = row.qualification.value_or(1) + 1; }});
   const double length = median_of(c, [](const TouchScene& s) { return s.stylus.length_mm; }), other = length > 60 ? length / 3 : 2 * length;
   list.push_back({.text = fmt::format("repeat with a stylus of {:.0f} mm", other), .instruction = fmt::format("mount a stylus of {:.0f} mm and qualify it", other),
                   .minutes = 5, .apply = [=](RecordingRow& row, Machine& machine) {
@@ -96,6 +98,7 @@ double room_above_or_below(const Case& c) {
 }
 
 void add_placements(const Case& c, std::vector<Change>& list) {
+  list.push_back({.text = "repeat with the part clamped anew", .instruction = "release the part and clamp it again in the same place", .minutes = 5, .new_setup = true});
   if (c.recording->in_part_frame) return;   // where the part stood was not recorded
   const auto turned = [&](const std::string& how, const Vec3& axis, double angle_rad) {
     list.push_back({.text = "repeat with the part " + how, .instruction = "place the part " + how + " and align it again", .minutes = 10,

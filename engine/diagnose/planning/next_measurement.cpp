@@ -336,9 +336,27 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
   return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.", fmt::join(columns, ", "));
 }
 
-}  // namespace
+/// What to do beside a measurement of the menu, or where there is none.
+std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
+  if (!next.empty()) return to_follow_what_is_left(c, result);
+  if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
+  std::vector<std::string> sentences = to_log(c, result);
+  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
+  const std::vector<int> rivals = question_of(result).rivals;
+  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
+  for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
+    const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
+    sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
+}
 
-namespace {
+/// Sizes that nobody gave hide the radius of the tip and all that acts like it. A certificate costs no measurement.
+std::string to_know_sizes(const Case& c, const SearchResult& result) {
+  const bool mismatch = !result.findings.empty() || result.other;
+  if (!mismatch || c.options.workpiece || c.baseline.surfaces == Surfaces::calibrated) return "";
+  return "The sizes of the part are not known: give those of its certificate with --workpiece, which costs no measurement.";
+}
 
 /// The best changes for a question, the first as a program.
 std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& hyper, const Question& question, std::size_t most) {
@@ -370,17 +388,8 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
 }
 
 std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (!next.empty()) return to_follow_what_is_left(c, result);
-  if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
-  std::vector<std::string> sentences = to_log(c, result);
-  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
-  const std::vector<int> rivals = question_of(result).rivals;
-  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
-  for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
-    const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
-    sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
-  }
-  return fmt::format("{}", fmt::join(sentences, " "));
+  const std::string sizes = to_know_sizes(c, result), others = besides_sizes(c, result, next);
+  return sizes + (sizes.empty() || others.empty() ? "" : " ") + others;
 }
 
 }  // namespace abbe::diagnose

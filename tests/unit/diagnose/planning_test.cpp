@@ -91,6 +91,8 @@ TEST_CASE("a part that is moved, or that was left for hours, is in another setup
     const bool placed = change.text.find("the part ") != std::string::npos || change.text.find("K higher") != std::string::npos;
     CHECK(longer->recording.rows.back().setup == (placed ? 2 : 1));
     CHECK(longer->recording.rows.back().run == 2);
+    const bool qualified = change.text.find("stylus") != std::string::npos || change.text.find("head") != std::string::npos;
+    CHECK(longer->recording.rows.back().qualification.value_or(1) == (qualified ? 2 : 1));
     CHECK((recording_sentence(*longer).find("setup 2") != std::string::npos) == placed);
   }
 }
