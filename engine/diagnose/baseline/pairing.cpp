@@ -50,7 +50,7 @@ std::vector<double> limits(const RecordedTouches& t) {
 
 void check_pairing(const Recording& r, const RecordedTouches& t, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kFew = 0.1;
-  constexpr std::size_t kNamed = 3;
+  constexpr std::size_t kTold = 3;
   const std::vector<double> beside = beside_targets(r), limit = limits(t);
   std::vector<std::string> astray;
   for (const RecordedTouch& touch : t.touches) {
@@ -61,8 +61,8 @@ void check_pairing(const Recording& r, const RecordedTouches& t, const std::stri
   }
   if (astray.empty()) return;
   const std::size_t all = astray.size();
-  astray.resize(std::min(all, kNamed));
-  const std::string text = fmt::format("{}: {}{}", file, fmt::join(astray, ", "), all > kNamed ? fmt::format(", and {} more do", all - kNamed) : "");
+  astray.resize(std::min(all, kTold));
+  const std::string text = fmt::format("{}: {}{}", file, fmt::join(astray, ", "), all > kTold ? fmt::format(", and {} more do", all - kTold) : "");
   const std::string help = "rows are paired with targets by feature and touch, counted from 1: check labels and numbers";
   if (double(all) > kFew * double(t.touches.size())) throw UserError(diagnostic(Code::E0711, text, help));
   messages.push_back(diagnostic(Code::W0712, text, help));

@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// Inverse gamma prior of the common factor on all variances: mean 1, as spread as a factor of 1.5 either way on the noise.
+/// Inverse gamma prior of the common factor on all variances: its inverse has mean 1, as spread as a factor of 1.5 either way on the noise.
 constexpr double kPriorShape = 2, kPriorSquares = 2;
 /// Sizes above what is typical lose belief as a normal in the logarithm of this spread.
 constexpr double kLogImplausible = 1.6;
