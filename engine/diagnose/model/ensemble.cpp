@@ -180,10 +180,9 @@ Vector Ensemble::with_data(const Level& level, int block, const Vector& recordin
          remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;
 }
 
-Vector Ensemble::against_all(const Level& level, int block, Eigen::Index column) const {
-  const Eigen::Index k = first_column(block) + column;
-  const Vector a = precision(level).array() * coordinates_.col(k).array();
-  return coordinates_.transpose() * a + remainder_.transpose() * remainder_.col(k) / level.s2;
+Matrix Ensemble::against_all(const Level& level, const std::vector<Eigen::Index>& columns) const {
+  const Matrix weighted = precision(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
+  return coordinates_.transpose() * weighted + remainder_.transpose() * Matrix(remainder_(Eigen::all, columns)) / level.s2;
 }
 
 }  // namespace abbe::diagnose

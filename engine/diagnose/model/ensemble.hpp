@@ -54,10 +54,10 @@ class Ensemble {
   /// A recording of such a machine, um, without what nothing is known of.
   Vector simulated(const Level&, std::uint64_t seed, int replicate) const;
 
-  /// H_a' P H_b, H_a' P y, and H' P h of the columns of all blocks with one column of a block; at a level.
+  /// H_a' P H_b, H_a' P y, and H' P h of the columns of all blocks with some of them; at a level.
   Matrix between(const Level&, int a, int b) const;
   Vector with_data(const Level&, int block, const Vector& y) const;
-  Vector against_all(const Level&, int block, Eigen::Index column) const;
+  Matrix against_all(const Level&, const std::vector<Eigen::Index>& columns) const;
 
   const std::vector<Size>& sizes(int block) const { return of(block).sizes; }
   /// Where the columns of a block begin among those of all.

@@ -42,8 +42,8 @@ class EvidenceSearch {
   Information information(int block) const { return {between(block, block), likely().with_data(with_.level, block, y_)}; }
   /// H_a' P H_b at the level of the recording.
   Matrix between(int a, int b) const { return likely().between(with_.level, a, b); }
-  /// H' P h of the columns of all blocks, one after the other, with one column of a block.
-  Vector against_all(int block, Eigen::Index column) const { return likely().against_all(with_.level, block, column); }
+  /// H' P h of the columns of all blocks, one after the other, with some of them.
+  Matrix against_all(const std::vector<Eigen::Index>& columns) const { return likely().against_all(with_.level, columns); }
   Eigen::Index first_column(int block) const { return likely().first_column(block); }
   /// The sizes at which a block was judged.
   const std::vector<Size>& sizes(int block) const { return likely().sizes(block); }

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "engine/base/on_threads.hpp"
 #include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
@@ -35,7 +37,7 @@ struct Judged {
   Vector information;                  ///< along them
   std::vector<Size> sizes;
   Eigen::Index first = 0;              ///< of its columns among those of all blocks
-  double log_weight = 0;
+  std::vector<double> log_belief;      ///< by size: before the shift, with the determinant
 };
 
 class Design {
@@ -44,8 +46,11 @@ class Design {
     for (int b = 0; b < static_cast<int>(all_.blocks.size()); ++b) {
       const Matrix g = search.between(b, b);
       const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
-      blocks_.push_back({solver.eigenvectors(), solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)), search.sizes(b), search.first_column(b),
-                         std::log(std::max(all_.blocks[static_cast<std::size_t>(b)].weight, 1e-300))});
+      Judged judged{solver.eigenvectors(), solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)), search.sizes(b), search.first_column(b), {}};
+      const double log_weight = std::log(std::max(all_.blocks[static_cast<std::size_t>(b)].weight, 1e-300));
+      for (const Size& size : judged.sizes)
+        judged.log_belief.push_back(log_weight + size.log_prior - 0.5 * (1 + size.factor * size.factor * judged.information.array()).log().sum());
+      blocks_.push_back(std::move(judged));
       diagonal_.push_back(g.diagonal());
     }
   }
@@ -56,15 +61,19 @@ class Design {
     if (forms.empty()) return std::nullopt;
     const EffectParameter& parameter = e.effect->parameters[static_cast<std::size_t>(parameter_of(e))];
     std::vector<double> belief(all_.list.size(), 0.0);
-    for (Form& f : forms) {
-      const Shift shift = shift_of(f);
+    std::vector<Eigen::Index> columns;
+    for (const Form& f : forms) columns.push_back(blocks_[static_cast<std::size_t>(f.block)].first + f.column);
+    const Matrix seen = search_.against_all(columns);
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      Form& f = forms[i];
+      const Shift shift = shift_of(seen.col(static_cast<Eigen::Index>(i)) / std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column)));
       f.named = named_from(k, shift);
       const std::vector<double> at = beliefs(k, shift, 2 * kDetects);
       for (std::size_t j = 0; j < at.size(); ++j) belief[j] += at[j] / double(forms.size());
     }
     Detectable d{.effect = e.name, .parameter = std::string(parameter.name), .unit = std::string(parameter.unit), .name = {}, .name_um = {}, .confounded_with = {}};
-    const Form seen = median_form(forms, [](const Form& f) { return f.um_per_snr; }), named = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
-    d.detect = kDetects * seen.per_snr, d.detect_um = kDetects * seen.um_per_snr;
+    const Form detected = median_form(forms, [](const Form& f) { return f.um_per_snr; }), named = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
+    d.detect = kDetects * detected.per_snr, d.detect_um = kDetects * detected.um_per_snr;
     if (std::isfinite(named.named)) d.name = named.named * named.per_snr, d.name_um = named.named * named.um_per_snr;
     d.confounded_with = likeliest(belief, k);
     return d;
@@ -73,7 +82,7 @@ class Design {
  private:
   /// What all blocks see of a form, at a signal-to-noise of 1.
   struct Shift {
-    std::vector<Vector> squares;       ///< by block: of its inner products along the block's axes
+    std::vector<std::vector<double>> gain;  ///< by block and size: nats
     std::vector<double> left;          ///< by explanation: the share of the information that it cannot imitate
   };
 
@@ -118,16 +127,22 @@ class Design {
     return out;
   }
 
-  Shift shift_of(const Form& f) const {
-    const Vector u = search_.against_all(f.block, f.column) / std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column));
+  /// `u`: H' P h of a form h at a signal-to-noise of 1.
+  Shift shift_of(const Vector& u) const {
     Shift out;
-    for (const Judged& b : blocks_) out.squares.push_back((b.axes.transpose() * u.segment(b.first, b.axes.rows())).array().square());
+    std::vector<double> imitated;
+    for (const Judged& b : blocks_) {
+      const Eigen::ArrayXd squares = (b.axes.transpose() * u.segment(b.first, b.axes.rows())).array().square();
+      imitated.push_back((squares / b.information.array()).sum());
+      std::vector<double>& gain = out.gain.emplace_back();
+      for (const Size& size : b.sizes) {
+        const double s2 = size.factor * size.factor;
+        gain.push_back(0.5 * s2 * (squares / (1 + s2 * b.information.array())).sum());
+      }
+    }
     for (const Explanation& e : all_.list) {
       double left = 1;
-      for (const int b : e.blocks) {
-        const auto k = static_cast<std::size_t>(b);
-        left = std::min(left, 1 - (out.squares[k].array() / blocks_[k].information.array()).sum());
-      }
+      for (const int b : e.blocks) left = std::min(left, 1 - imitated[static_cast<std::size_t>(b)]);
       out.left.push_back(std::max(0.0, left));
     }
     return out;
@@ -138,11 +153,7 @@ class Design {
     std::vector<double> terms;
     for (const int index : all_.list[k].blocks) {
       const auto b = static_cast<std::size_t>(index);
-      for (const Size& size : blocks_[b].sizes) {
-        const Eigen::ArrayXd wide = 1 + size.factor * size.factor * blocks_[b].information.array();
-        terms.push_back(blocks_[b].log_weight + size.log_prior - 0.5 * wide.log().sum() +
-                        0.5 * snr * snr * size.factor * size.factor * (shift.squares[b].array() / wide).sum());
-      }
+      for (std::size_t i = 0; i < blocks_[b].sizes.size(); ++i) terms.push_back(blocks_[b].log_belief[i] + snr * snr * shift.gain[b][i]);
     }
     return std::log(all_.list[k].prior) + log_sum_exp(terms);
   }
@@ -220,11 +231,14 @@ double chi2_above(double x, double n) {
 
 std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch& search) {
   const Design design(c, search);
+  std::vector<std::optional<Detectable>> of(c.explanations.list.size());
+  on_threads(static_cast<int>(of.size()), c.options.threads, [&](int k) {
+    const auto index = static_cast<std::size_t>(k);
+    if (c.explanations.list[index].effect && !c.explanations.list[index].missing) of[index] = design.of(index);
+  });
   std::vector<Detectable> out;
-  for (std::size_t k = 0; k < c.explanations.list.size(); ++k) {
-    if (!c.explanations.list[k].effect || c.explanations.list[k].missing) continue;
-    if (auto d = design.of(k)) out.push_back(std::move(*d));
-  }
+  for (std::optional<Detectable>& d : of)
+    if (d) out.push_back(std::move(*d));
   return out;
 }
 
