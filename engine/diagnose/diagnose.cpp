@@ -12,6 +12,7 @@
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
+#include "engine/diagnose/median.hpp"
 #include "engine/diagnose/words.hpp"
 
 namespace abbe {
@@ -21,7 +22,8 @@ using namespace diagnose;
 namespace {
 
 /// A real part is not where its drawing says: residuals far beyond what machines do, and runs to compare, mean that only the runs can be compared.
-Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<Diagnostic>& messages, const std::string& file) {
+/// `of_workpiece`: its file says what the part is; a warm one has been carried back as if it were rigid.
+Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, bool of_workpiece, std::vector<Diagnostic>& messages, const std::string& file) {
   for (const auto& [key, value] : r.metadata) {
     if (key != "surfaces") continue;
     if (value == "calibrated") return Surfaces::calibrated;
@@ -29,15 +31,13 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, std::vector<D
     if (value == "unknown") return Surfaces::unknown;
     throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, value), "write calibrated, unknown_size or unknown"));
   }
-  constexpr double kBeyondMachines_mm = 0.1;
   std::vector<double> size;
   for (const RecordedTouch& touch : t.touches) size.push_back(std::abs(touch.residual_mm));
-  std::nth_element(size.begin(), size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2), size.end());
-  const double middle = size[size.size() / 2];
-  if (middle < kBeyondMachines_mm) return Surfaces::calibrated;
+  const double off = of_workpiece ? median(std::move(size)) : nine_tenths(std::move(size));
+  if (off < kBeyondMachines_mm) return Surfaces::calibrated;
   messages.push_back(diagnostic(Code::W0704,
-                                fmt::format("{}: half of the touches lie more than {:.2g} mm from their targets: the part is not what the targets say. "
-                                            "Every surface point counts as unknown, and only what repeats differently is judged", file, middle),
+                                fmt::format("{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
+                                            "Every surface point counts as unknown, and only what repeats differently is judged", file, of_workpiece ? "half" : "a tenth", off),
                                 "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right"));
   return Surfaces::unknown;
 }
@@ -218,7 +218,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (options.workpiece) part = recorded_part(*options.workpiece, recording, c.touches, file);
   if (part) remove_expected(*part, c.touches), out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
   const std::optional<KnownGeometry> known = read_known_state(machine);
-  c.baseline = baseline_of(c.touches, machine, {surfaces_of(recording, c.touches, out.messages, file), known ? &*known : nullptr, options.seed, options.threads});
+  c.baseline = baseline_of(c.touches, machine, {surfaces_of(recording, c.touches, part.has_value(), out.messages, file), known ? &*known : nullptr, options.seed, options.threads});
   add_doubts(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);
   return c;

@@ -14,4 +14,14 @@ inline double median(std::vector<double> v) {
   return *middle;
 }
 
+/// How far nine touches in ten lie from their targets at most. `off_mm`: of every touch; not empty.
+inline double nine_tenths(std::vector<double> off_mm) {
+  const auto at = off_mm.begin() + static_cast<std::ptrdiff_t>(0.9 * double(off_mm.size()));
+  std::nth_element(off_mm.begin(), at, off_mm.end());
+  return *at;
+}
+/// Where that is more, the targets are not those of the part: a machine and its probe err less, and dirt is rarer. Not half of the touches: a
+/// placement is found where most of them lie well, and the faces of a part may, and its bores not.
+inline constexpr double kBeyondMachines_mm = 0.1;
+
 }  // namespace abbe::diagnose

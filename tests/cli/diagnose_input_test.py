@@ -67,6 +67,19 @@ class Placement(Input):
             self.assertEqual(self.codes(said), ["N0709"])
             self.assertEqual((said["verdict"], said["effects"][0]["members"]), (expected["verdict"], expected["effects"][0]["members"]))
 
+    def test_a_part_that_is_not_its_drawing_is_compared_with_itself(self):
+        """One bore is a millimetre too large: the faces fit to their targets, and yet only what repeats differently can be judged."""
+        def change(row):
+            off = 0.5 if row["feature"] == "BORE1" else 0
+            return row | {a: f"{float(row[a]) + off * float(row['n' + a]):.7f}" for a in "xyz"}
+        runs = []
+        for run in (1, 2):
+            self.abbe("record", PROGRAM, "--run", run, "-o", f"run{run}.csv")
+            runs.append(self.changed(self.folder / f"run{run}.csv", change, f"off{run}.csv"))
+        said = self.said(*runs)
+        self.assertIn("W0704", self.codes(said))
+        self.assertEqual(said["verdict"], "no_mismatch")
+
     def test_what_nothing_can_be_judged_of_is_said(self):
         alone = iter(range(1, 1000))
         every_touch_a_setup = self.changed(self.recording, lambda row: row | {"setup": next(alone)}, "setups.csv")
