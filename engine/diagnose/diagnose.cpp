@@ -33,11 +33,11 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, bool of_workp
   }
   std::vector<double> size;
   for (const RecordedTouch& touch : t.touches) size.push_back(std::abs(touch.residual_mm));
-  const double off = of_workpiece ? median(std::move(size)) : nine_tenths(std::move(size));
-  if (off < kBeyondMachines_mm) return Surfaces::calibrated;
+  const double half = median(size), most = nine_tenths(std::move(size)), off = std::max(half, of_workpiece ? 0 : most);
+  if (half < kBeyondMachines_mm && (of_workpiece || most < kBeyondEffects_mm)) return Surfaces::calibrated;
   messages.push_back(diagnostic(Code::W0704,
                                 fmt::format("{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
-                                            "Every surface point counts as unknown, and only what repeats differently is judged", file, of_workpiece ? "half" : "a tenth", off),
+                                            "Every surface point counts as unknown, and only what repeats differently is judged", file, off > half ? "a tenth" : "half", off),
                                 "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right"));
   return Surfaces::unknown;
 }

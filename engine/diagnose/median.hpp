@@ -20,8 +20,8 @@ inline double nine_tenths(std::vector<double> off_mm) {
   std::nth_element(off_mm.begin(), at, off_mm.end());
   return *at;
 }
-/// Where that is more, the targets are not those of the part: a machine and its probe err less, and dirt is rarer. Not half of the touches: a
-/// placement is found where most of them lie well, and the faces of a part may, and its bores not.
-inline constexpr double kBeyondMachines_mm = 0.1;
+/// Where half of the touches, or a tenth, lie further out, the targets are not those of the part: no machine, and no effect, does so much.
+/// A tenth too, because a placement is found where most of them lie well: the faces of a part may, and its bores not.
+inline constexpr double kBeyondMachines_mm = 0.1, kBeyondEffects_mm = 1.25;
 
 }  // namespace abbe::diagnose

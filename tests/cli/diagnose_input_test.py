@@ -68,9 +68,9 @@ class Placement(Input):
             self.assertEqual((said["verdict"], said["effects"][0]["members"]), (expected["verdict"], expected["effects"][0]["members"]))
 
     def test_a_part_that_is_not_its_drawing_is_compared_with_itself(self):
-        """One bore is a millimetre too large: the faces fit to their targets, and yet only what repeats differently can be judged."""
+        """One bore is three millimetres too large: the faces fit to their targets, and yet only what repeats differently can be judged."""
         def change(row):
-            off = 0.5 if row["feature"] == "BORE1" else 0
+            off = 1.5 if row["feature"] == "BORE1" else 0
             return row | {a: f"{float(row[a]) + off * float(row['n' + a]):.7f}" for a in "xyz"}
         runs = []
         for run in (1, 2):
