@@ -21,9 +21,8 @@ using namespace diagnose;
 
 namespace {
 
-/// A real part is not where its drawing says: residuals far beyond what machines do, and runs to compare, mean that only the runs can be compared.
-/// `of_workpiece`: its file says what the part is; a warm one has been carried back as if it were rigid.
-Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, bool of_workpiece, std::vector<Diagnostic>& messages, const std::string& file) {
+/// What the file says of the surfaces.
+std::optional<Surfaces> stated_surfaces(const Recording& r, const std::string& file) {
   for (const auto& [key, value] : r.metadata) {
     if (key != "surfaces") continue;
     if (value == "calibrated") return Surfaces::calibrated;
@@ -31,15 +30,24 @@ Surfaces surfaces_of(const Recording& r, const RecordedTouches& t, bool of_workp
     if (value == "unknown") return Surfaces::unknown;
     throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, value), "write calibrated, unknown_size or unknown"));
   }
+  return std::nullopt;
+}
+
+/// How far from their targets that share of the touches lies at most.
+double within_mm(const RecordedTouches& t, double share) {
   std::vector<double> size;
   for (const RecordedTouch& touch : t.touches) size.push_back(std::abs(touch.residual_mm));
-  const double half = median(size), most = nine_tenths(std::move(size)), off = std::max(half, of_workpiece ? 0 : most);
-  if (half < kBeyondMachines_mm && (of_workpiece || most < kBeyondEffects_mm)) return Surfaces::calibrated;
-  messages.push_back(diagnostic(Code::W0704,
-                                fmt::format("{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
-                                            "Every surface point counts as unknown, and only what repeats differently is judged", file, off > half ? "a tenth" : "half", off),
-                                "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right"));
-  return Surfaces::unknown;
+  return quantile(std::move(size), share);
+}
+
+/// Where so many touches lie further out than this, and no effect explains it, the targets are not those of the part: no machine does so much.
+constexpr double kBeyondMachines_mm = 0.1, kHalf = 0.5, kNineTenths = 0.9;
+
+Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::string& file) {
+  return diagnostic(Code::W0704,
+                    fmt::format("{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
+                                "Every surface point counts as unknown, and only what repeats differently is judged", file, share == kHalf ? "half" : "a tenth", within_mm(t, share)),
+                    "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right");
 }
 
 /// Beyond this, what all touches are too far out is no effect but a wrong tip, unless sizes are unknown or given elsewhere.
@@ -196,7 +204,18 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
   out.baseline = summary(c, c.hyper, !c.machine->known_state.empty());
 }
 
-Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, const std::string& file, Diagnosis& out) {
+/// A placement is found where most touches lie well: the faces of a part may, and its bores not. Whether those are an effect of the catalogue
+/// or another part than the targets say shows when all that can be found has been: what is then left is no machine's.
+bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d) {
+  constexpr double kMostDirt = 0.1, kMostNoise_um = 10;
+  if (c.options.workpiece || within_mm(c.touches, kNineTenths) < kBeyondMachines_mm) return false;
+  const auto dirt = double(std::count(c.masked.begin(), c.masked.end(), 1));
+  return result.other || dirt > kMostDirt * double(c.masked.size()) || d.baseline.noise_um > kMostNoise_um ||
+         std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
+}
+
+/// `surfaces`: what they count as; without, they are what the targets say unless half of them is not.
+Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
   Case c;
   c.recording = &recording;
   c.machine = &machine;
@@ -218,25 +237,20 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (options.workpiece) part = recorded_part(*options.workpiece, recording, c.touches, file);
   if (part) remove_expected(*part, c.touches), out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
   const std::optional<KnownGeometry> known = read_known_state(machine);
-  c.baseline = baseline_of(c.touches, machine, {surfaces_of(recording, c.touches, part.has_value(), out.messages, file), known ? &*known : nullptr, options.seed, options.threads});
+  if (!surfaces && within_mm(c.touches, kHalf) > kBeyondMachines_mm) {
+    surfaces = Surfaces::unknown;
+    out.messages.push_back(not_its_targets(c.touches, kHalf, file));
+  }
+  c.baseline = baseline_of(c.touches, machine, {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
   add_doubts(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);
   return c;
 }
 
-}  // namespace
-
-std::string_view name(Verdict v) {
-  constexpr std::string_view names[] = {"no_mismatch", "named", "one_of", "unexplained", "cannot_judge"};
-  return names[static_cast<int>(v)];
-}
-
-Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
-  Diagnosis out;
-  out.judged = !options.design_only;
-  const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
-  out.touches = static_cast<int>(recording.rows.size());
-  Case c = on_the_bench(recording, machine, options, file, out);
+/// `out`: what has been said of the recording so far.
+Diagnosis diagnosed(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
+  const Diagnosis before = out;
+  Case c = on_the_bench(recording, machine, options, surfaces, file, out);
   if (options.design_only) {
     c.masked.assign(c.touches.touches.size(), 0);
     c.model = compact(c.baseline.model);
@@ -270,6 +284,11 @@ Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, 
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
   tell_findings(c, result, out);
+  if (!surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out)) {
+    Diagnosis again = before;
+    again.messages.push_back(not_its_targets(c.touches, kNineTenths, file));
+    return diagnosed(recording, machine, options, Surfaces::unknown, file, std::move(again));
+  }
   if (!result.findings.empty()) out.adequacy_p = result.adequacy;
   if (result.other) tell_unexplained(c, result, out);
   out.location = locate(c, first, result);
@@ -280,6 +299,21 @@ Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, 
   out.otherwise = otherwise(c, result, out.next_measurement);
   if (options.keep_state) out.known_state = known_state_beside(c, result);
   return out;
+}
+
+}  // namespace
+
+std::string_view name(Verdict v) {
+  constexpr std::string_view names[] = {"no_mismatch", "named", "one_of", "unexplained", "cannot_judge"};
+  return names[static_cast<int>(v)];
+}
+
+Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
+  Diagnosis out;
+  out.judged = !options.design_only;
+  const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
+  out.touches = static_cast<int>(recording.rows.size());
+  return diagnosed(recording, machine, options, stated_surfaces(recording, file), file, std::move(out));
 }
 
 }  // namespace abbe

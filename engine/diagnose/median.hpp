@@ -14,14 +14,11 @@ inline double median(std::vector<double> v) {
   return *middle;
 }
 
-/// How far nine touches in ten lie from their targets at most. `off_mm`: of every touch; not empty.
-inline double nine_tenths(std::vector<double> off_mm) {
-  const auto at = off_mm.begin() + static_cast<std::ptrdiff_t>(0.9 * double(off_mm.size()));
-  std::nth_element(off_mm.begin(), at, off_mm.end());
+/// The value that this share of a list lies below. The list is not empty; 0 <= share < 1.
+inline double quantile(std::vector<double> v, double share) {
+  const auto at = v.begin() + static_cast<std::ptrdiff_t>(share * double(v.size()));
+  std::nth_element(v.begin(), at, v.end());
   return *at;
 }
-/// Where half of the touches, or a tenth, lie further out, the targets are not those of the part: no machine, and no effect, does so much.
-/// A tenth too, because a placement is found where most of them lie well: the faces of a part may, and its bores not.
-inline constexpr double kBeyondMachines_mm = 0.1, kBeyondEffects_mm = 1.25;
 
 }  // namespace abbe::diagnose
