@@ -31,6 +31,11 @@ int decimals_for(double uncertainty, double value) {
   return least > 0 ? std::clamp(static_cast<int>(-std::floor(std::log10(least) + 1e-9)), 0, kMost) : 0;
 }
 
+std::string without_uncertainty(const DiagnosedParameter& p, int decimals) {
+  if (!p.called.empty()) return plain_name(p) + " " + p.called;
+  return fmt::format("{} {:.{}f}{}", plain_name(p), p.value, p.unit == "code" ? 0 : decimals, unit_after(p));
+}
+
 }  // namespace
 
 std::string capitalised(std::string text) {
@@ -41,13 +46,14 @@ std::string capitalised(std::string text) {
 std::string with_uncertainty(const DiagnosedParameter& p) {
   if (!p.word.empty()) return plain_name(p) + " " + p.word;
   const int decimals = decimals_for(2 * p.u, p.value);
-  if (p.u == 0) return fmt::format("{} {:.{}f}{}", plain_name(p), p.value, decimals, unit_after(p));
+  if (p.u == 0) return without_uncertainty(p, decimals);
   return fmt::format("{} {:.{}f} ± {:.{}f}{}", plain_name(p), p.value, decimals, 2 * p.u, decimals, unit_after(p));
 }
 
 std::string with_interval(const DiagnosedParameter& p) {
   if (!p.word.empty()) return plain_name(p) + " " + p.word;
   const int decimals = decimals_for(2 * p.u, p.value);
+  if (p.u == 0 && p.low == p.high) return without_uncertainty(p, decimals);
   return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low, decimals, p.high, decimals, p.plausible ? "" : ", implausible");
 }
 

@@ -70,7 +70,7 @@ std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info
 
 class Estimator {
  public:
-  Estimator(const Case& c, const SearchResult& result, std::size_t which) : explanation_(c.explanations.list[result.findings[which].explanation]) {
+  Estimator(const Case& c, const SearchResult& result, std::size_t which) : touches_(c.touches), explanation_(c.explanations.list[result.findings[which].explanation]) {
     std::vector<const Matrix*> others;
     for (std::size_t k = 0; k < result.findings.size(); ++k)
       if (k != which) others.push_back(&c.explanations.blocks[result.findings[k].block].signature);
@@ -143,7 +143,22 @@ class Estimator {
     const bool standard = value == parameter.standard;
     if (search_[p].between && !(standard && search_[p].values.size() < 2)) out.push_back(summary(parameter, searched(p), value));
     else if (!parameter.choices.empty()) out.push_back({.name = std::string(parameter.name), .unit = "", .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
-    else if (!standard || (search_[p].values.size() > 1 && value != 0)) out.push_back(told(parameter, {value, 0}));   // 0 names no stylus, no tip, no place in particular
+    else if (!standard || (search_[p].values.size() > 1 && value != 0)) {   // 0 names no stylus, no tip, no place in particular
+      out.push_back(told(parameter, {value, 0}));
+      out.back().called = called(parameter, static_cast<int>(value));
+    }
+  }
+
+  /// The stylus of that number, or the tip in its orientation; "" of any other number.
+  std::string called(const EffectParameter& parameter, int number) const {
+    const bool tip = parameter.name == "tip";
+    if (!tip && parameter.name != "sensor") return "";
+    for (const RecordedTouch& touch : touches_.touches) {
+      const StylusScene& s = touch.scene.stylus;
+      if (tip && s.tip_ordinal == number) return fmt::format("{} at A {:.1f} B {:.1f}", s.name, s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi);
+      if (!tip && s.ordinal == number) return touches_.styli[static_cast<std::size_t>(number - 1)];
+    }
+    return "";
   }
 
   /// The linear parameter whose phase this is: that of the same harmonic.
@@ -209,6 +224,7 @@ class Estimator {
     return mixture;
   }
 
+  const RecordedTouches& touches_;
   const Explanation& explanation_;
   std::vector<Variant> variants_;
   std::size_t likeliest_ = 0;        ///< of them

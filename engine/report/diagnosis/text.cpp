@@ -56,8 +56,9 @@ std::string third_sentence(const Diagnosis& d) {
                            : clear                                    ? "it predicts worse"
                            : i.rms_after_um < i.rms_before_um         ? "it predicts better, though not beyond doubt"
                                                                       : "it does not predict better";
-  return fmt::format("On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} ± {:.1f} nats.",
-                     d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um, i.log_score_gain, i.se);
+  const std::string beside = d.runner_up ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "), d.runner_up->log_score_gain) : "";
+  return fmt::format("On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} ± {:.1f} nats{}.",
+                     d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um, i.log_score_gain, i.se, beside);
 }
 
 std::string mismatch_table(const Diagnosis& d) {

@@ -20,6 +20,11 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
   CHECK(with_uncertainty(size("second_tau_s", "s", 12, 1)) == "second tau 12.0 ± 2.0 s");
   CHECK(with_uncertainty(size("share", "1", 0.02, 0)) == "share 0.0200");
   CHECK(with_uncertainty({.name = "axis", .unit = "code", .word = "x"}) == "axis x");
+  DiagnosedParameter which{.name = "sensor", .unit = "code", .value = 2, .u = 0, .low = 2, .high = 2};
+  CHECK(with_interval(which) == "sensor 2");
+  which.called = "STAR_LEFT";
+  CHECK(with_interval(which) == "sensor STAR_LEFT");
+  CHECK(with_uncertainty(which) == "sensor STAR_LEFT");
   DiagnosedParameter far = size("squareness_urad", "urad", 46, 6);
   far.plausible = false;
   CHECK(with_interval(far) == "squareness 46 urad (34 to 58), implausible");
