@@ -82,6 +82,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   std::vector<std::string> formats;
   for (const ReportWriter* writer : report_writers()) formats.emplace_back(writer->name);
   add_format(command, o->format, formats);
+  command->add_option("--report", o->report, "write a page with the distributions to this file")->type_name("R.html");
   command->add_option("--csv", o->csv, "write every value of every machine to this file")->type_name("C.csv");
   command->add_option("--dmo", o->dmo, "write the DMIS result file of the error-free machine")->type_name("D.dmo");
 }

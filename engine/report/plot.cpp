@@ -101,4 +101,26 @@ std::string svg(const Intervals& s) {
   return out + "</svg>";
 }
 
+std::string svg(const HistogramPlot& d) {
+  constexpr double kHigh = 150;
+  const Histogram& h = d.histogram;
+  const double reach = h.high - h.low;
+  double low = std::min({0.0, h.low, d.interval.first}), high = std::max({0.0, h.high, d.interval.second});
+  std::vector<double> limits;
+  for (const double limit : d.limits)
+    if (limit >= h.low - reach && limit <= h.high + reach) limits.push_back(limit), low = std::min(low, limit), high = std::max(high, limit);
+  const double margin = 0.03 * (high - low), bottom = kHigh - kBottom, most = *std::max_element(h.counts.begin(), h.counts.end());
+  const Scale x{opened({low - margin, high + margin}), kRight, kWidth - kRight}, y{{0, most}, bottom, kTop};
+  std::string out = opening(kWidth, kHigh) + text(kRight, 14, "start", d.title, "font-weight=\"bold\"") + x_axis(x, kTop, bottom, d.x_title);
+  const double width = reach > 0 ? reach / double(h.counts.size()) : (x.range.second - x.range.first) / 20;
+  for (std::size_t k = 0; k < h.counts.size(); ++k) {
+    const double middle = reach > 0 ? h.low + (double(k) + 0.5) * width : h.low, from = x.at(middle - width / 2);
+    const bool inside = middle >= d.interval.first && middle <= d.interval.second;
+    out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\" fill-opacity=\"{}\"/>", from, y.at(h.counts[k]),
+                       x.at(middle + width / 2) - from, bottom - y.at(h.counts[k]), kBlue, inside ? "0.75" : "0.3");
+  }
+  for (const double limit : limits) out += line(x.at(limit), kTop, x.at(limit), bottom, "stroke=\"#D55E00\" stroke-width=\"1.5\" stroke-dasharray=\"5 3\"");
+  return out + "</svg>";
+}
+
 }  // namespace abbe

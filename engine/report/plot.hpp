@@ -1,10 +1,12 @@
 // Small plots for reports in one file: inline SVG, no script and no network. Points with axes whose ticks are 1, 2 or 5 times a power of
-// ten, and intervals by name. Colours are Okabe & Ito's, which colour-blind readers can tell apart; text takes the colour of the page.
+// ten, intervals by name, and distributions. Colours are Okabe & Ito's, which colour-blind readers can tell apart; text takes the colour of the page.
 #pragma once
 
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "engine/stats/histogram.hpp"
 
 namespace abbe {
 
@@ -29,5 +31,14 @@ struct Intervals {
   std::vector<Line> lines;                     ///< at least one
 };
 std::string svg(const Intervals&);
+
+/// How often which value occurs: bars, those inside the interval darker, zero as a line.
+struct HistogramPlot {
+  std::string title, x_title;
+  Histogram histogram;
+  std::pair<double, double> interval;
+  std::vector<double> limits;                  ///< drawn as dashed lines, but for those further from the bars than these are wide
+};
+std::string svg(const HistogramPlot&);
 
 }  // namespace abbe

@@ -58,6 +58,7 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   std::vector<double> values = samples.value;
   for (double& v : values) v *= factor;
   report.summary = summarize(values);
+  report.histogram = histogram(values);
   report.lcl = report.summary.symmetric.low - report.reference;
   report.ucl = report.summary.symmetric.high - report.reference;
   report.lower = scaled(samples.limits.lower, factor);

@@ -15,6 +15,7 @@
 #include "engine/base/diagnostic.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/run/run.hpp"
+#include "engine/stats/histogram.hpp"
 #include "engine/stats/summary.hpp"
 
 namespace abbe {
@@ -26,6 +27,7 @@ struct CharacteristicReport {
   int line = 0, occurrence = 1;
   double nominal = 0, reference = 0;
   Summary summary;                     ///< of the values
+  Histogram histogram;                 ///< of the values
   double lcl = 0, ucl = 0;             ///< limits of the 95 % interval minus reference
   /// The interval of another coverage probability, of the values; none: not asked for.
   struct CoverageInterval {

@@ -11,7 +11,7 @@
 namespace abbe {
 
 struct ReportWriter {
-  std::string_view name;  ///< what --format takes: "text", "json"
+  std::string_view name;  ///< what --format takes: "text", "json", "html"
   std::string_view help;
   std::string (*write)(const RunReport&);
 };

@@ -25,6 +25,7 @@ struct RunCommandOptions {
   std::string format = "text";     ///< a name of report_writers()
   std::optional<std::string> csv;  ///< where every sample goes
   std::optional<std::string> dmo;  ///< where the result file of the error-free machine goes
+  std::optional<std::string> report;  ///< where the page goes
 };
 int run_command(const RunCommandOptions&);
 

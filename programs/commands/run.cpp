@@ -29,7 +29,7 @@ void refuse_errors(const CompiledProgram& program) {
 
 int run_command(const RunCommandOptions& options) {
   const StudySettings& from = options.request.settings;
-  refuse_overwriting(files_given({options.request.program, from.machine, from.workpiece, from.recording}), files_given({options.csv, options.dmo}));
+  refuse_overwriting(files_given({options.request.program, from.machine, from.workpiece, from.recording}), files_given({options.report, options.csv, options.dmo}));
   const ReportWriter* writer = find_report_writer(options.format);
   const CompiledProgram program = compile_program(options.request.program, options.request.answers);
   print_messages(program.messages);
@@ -40,6 +40,7 @@ int run_command(const RunCommandOptions& options) {
                                     [&](std::string_view step) { line.show(step); });
   if (options.csv) write_whole(*options.csv, samples_csv(program.compilation.plan, study));
   if (options.dmo) write_whole(*options.dmo, dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
+  if (options.report) write_whole(*options.report, find_report_writer("html")->write(study.report));
   print_result(writer->write(study.report));
   return kDone;
 }

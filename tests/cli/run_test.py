@@ -79,6 +79,15 @@ class Figures(harness.Case):
         self.assertIn("W0416", done.stdout)   # the paper's machine: fewer than half pass
         self.assertNotIn("\x1b", done.stdout + done.stderr)
 
+    def test_a_page_beside_the_table(self):
+        done = self.abbe("run", "length.dmi", "--machines", 200, "--report", "page.html")
+        self.assertEqual(done.stdout, self.abbe("run", "length.dmi", "--machines", 200).stdout)
+        page = (self.folder / "page.html").read_text()
+        self.assertTrue(page.startswith("<!DOCTYPE html>") and page.endswith("</html>\n"))
+        for told in ("A, B: LEN (DISTB)", "<svg", "200 virtual machines used of", "not modelled"):
+            self.assertIn(told, page)
+        self.assertEqual(page, self.abbe("run", "length.dmi", "--machines", 200, "--format", "html").stdout)
+        self.refused("E0616", "run", "length.dmi", "--report", "length.dmi")
 
     def test_a_longer_program_takes_longer(self):
         self.write("long.dmi", LENGTH.replace("F(B)=FEAT", "GOTO/0,0,300\nGOTO/-5,0,0\nF(B)=FEAT"))

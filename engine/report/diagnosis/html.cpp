@@ -6,23 +6,12 @@
 
 #include "engine/diagnose/words.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
+#include "engine/report/html_page.hpp"
 #include "engine/report/plot.hpp"
 
 namespace abbe {
 
 namespace {
-
-constexpr std::string_view kStyle =
-    "body{font:15px/1.45 sans-serif;max-width:820px;margin:2em auto;padding:0 1em;color:#222;background:#fff;overflow-wrap:break-word}"
-    "h1{font-size:1.5em}h2{font-size:1.15em;margin-top:1.8em;border-bottom:1px solid #ccc}"
-    ".wide{overflow-x:auto}table{border-collapse:collapse;margin:.6em 0;font-size:.92em}"
-    "td,th{padding:.25em .7em .25em 0;text-align:left;border-bottom:1px solid #8885;vertical-align:top}"
-    "td.n{font-variant-numeric:tabular-nums;white-space:nowrap}pre{overflow:auto;background:#f5f5f5;padding:.8em;font-size:.85em}"
-    "svg{max-width:100%;height:auto}.pair{display:flex;flex-wrap:wrap}.note{color:#555;font-size:.9em}"
-    "@media(prefers-color-scheme:dark){body{color:#ddd;background:#181818}pre{background:#222}.note{color:#aaa}}"
-    "@media(max-width:500px){body{margin:1em auto;font-size:14px}table{font-size:.85em}}"
-    "@media print{body{max-width:none;margin:0;color:#000;background:#fff;font-size:10pt}h2{break-after:avoid}tr,svg{break-inside:avoid}"
-    ".pair svg{width:49%}.note{color:#333}details{display:none}}";
 
 std::string_view title(const Diagnosis& d) {
   if (!d.judged) return "What such a recording can tell";
@@ -37,30 +26,18 @@ std::string_view title(const Diagnosis& d) {
   return "";
 }
 
-std::string row(std::initializer_list<std::string> cells, const char* tag = "td") {
-  std::string out = "<tr>";
-  for (const std::string& c : cells) {
-    const bool number = !c.empty() && (std::isdigit(static_cast<unsigned char>(c[0])) || (c[0] == '-' && c.size() > 1));
-    out += fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"n\"" : "", escaped(c), tag);
-  }
-  return out + "</tr>\n";
-}
-
-/// A table that scrolls by itself where the page is too narrow for it.
-std::string table(const std::string& rows) { return "<div class=\"wide\"><table>" + rows + "</table></div>\n"; }
-
 std::string explanations(const Diagnosis& d) {
   if (d.effects.empty() && !d.unexplained) return "";
-  std::string rows = row({"effect", "probability", "size (95 % interval)"}, "th");
+  std::string rows = html_row({"effect", "probability", "size (95 % interval)"}, "th");
   for (const DiagnosedEffect& e : d.effects) {
     std::vector<std::string> sizes;
     for (const DiagnosedParameter& p : e.parameters) sizes.push_back(with_interval(p));
-    rows += row({fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
+    rows += html_row({fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
   }
   if (d.unexplained)
-    rows += row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
+    rows += html_row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
                 fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um)});
-  std::string out = "<h2>Explanation</h2>\n" + table(rows);
+  std::string out = "<h2>Explanation</h2>\n" + html_table(rows);
   if (!d.location.empty()) out += "<p>" + escaped(capitalised(in_words(d.location.front()))) + ".</p>\n";
   return out;
 }
@@ -68,11 +45,11 @@ std::string explanations(const Diagnosis& d) {
 std::string improvement(const Diagnosis& d) {
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
-  const auto line = [](const char* what, double before, double after) { return row({what, fmt::format("{:.3g}", before), fmt::format("{:.3g}", after)}); };
+  const auto line = [](const char* what, double before, double after) { return html_row({what, fmt::format("{:.3g}", before), fmt::format("{:.3g}", after)}); };
   std::string out = fmt::format("<h2>What the explanation improves</h2>\n<p>On touches that the model had not seen ({}), the log score gains {:.1f} ± {:.1f} nats", escaped(i.scheme),
                                 i.log_score_gain, i.se);
   if (d.runner_up) out += fmt::format("; with the runner-up, {}, {:.1f}", escaped(fmt::format("{}", fmt::join(d.runner_up->members, " or "))), d.runner_up->log_score_gain);
-  return out + ".</p>\n" + table(row({"there", "before", "after"}, "th") + line("rms of what is left, um", i.rms_before_um, i.rms_after_um) +
+  return out + ".</p>\n" + html_table(html_row({"there", "before", "after"}, "th") + line("rms of what is left, um", i.rms_before_um, i.rms_after_um) +
                                   line("bias where it acts, um", i.bias_before_um, i.bias_after_um) +
                                   line("chi-squared per degree of freedom", i.chi2_per_dof_before, i.chi2_per_dof_after));
 }
@@ -117,19 +94,19 @@ std::string values(const Diagnosis& d) {
       if (v.unit == unit) plot.lines.push_back({fmt::format("{} {}{}", v.characteristic, v.program, v.run > 1 ? fmt::format(" run {}", v.run) : ""), factor * v.low, factor * v.high, factor * v.deviation});
     if (!plot.lines.empty()) out += svg(plot) + "\n";
   }
-  std::string rows = row({"characteristic", "program", "run", "value", "deviation", "u", "z", "p"}, "th");
+  std::string rows = html_row({"characteristic", "program", "run", "value", "deviation", "u", "z", "p"}, "th");
   for (const JudgedValue& v : d.values)
-    rows += row({v.characteristic, v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit), fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u),
+    rows += html_row({v.characteristic, v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit), fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u),
                 fmt::format("{:.2f}", v.z), fmt::format("{:.3f}", v.p)});
-  return out + table(rows);
+  return out + html_table(rows);
 }
 
 std::string next_measurements(const Diagnosis& d) {
   if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "<h2>What to do next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
-  std::string rows = row({"change", "what to do", "tells apart", "probability of the truth after it", "minutes"}, "th");
+  std::string rows = html_row({"change", "what to do", "tells apart", "probability of the truth after it", "minutes"}, "th");
   for (const NextMeasurement& n : d.next_measurement)
-    rows += row({n.change, n.instruction, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
-  std::string out = "<h2>What to measure next</h2>\n" + table(rows);
+    rows += html_row({n.change, n.instruction, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
+  std::string out = "<h2>What to measure next</h2>\n" + html_table(rows);
   if (!d.otherwise.empty()) out += "<p>" + escaped(d.otherwise) + "</p>\n";
   if (!d.next_measurement.front().program.empty())
     out += "<details><summary>DMIS program of the first</summary><pre>" + escaped(d.next_measurement.front().program) + "</pre></details>\n";
@@ -138,17 +115,17 @@ std::string next_measurements(const Diagnosis& d) {
 
 std::string detectable_effects(const Diagnosis& d) {
   if (d.smallest_detectable.empty()) return "";
-  std::string rows = row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
+  std::string rows = html_row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
-    rows += row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::format("{}", fmt::join(s.confounded_with, ", "))});
-  return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" + table(rows);
+    rows += html_row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::format("{}", fmt::join(s.confounded_with, ", "))});
+  return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" + html_table(rows);
 }
 
 std::string open_questions(const Diagnosis& d) {
   if (d.cannot_judge.empty()) return "";
-  std::string rows = row({"effect", "missing or constant"}, "th");
-  for (const CannotJudge& c : d.cannot_judge) rows += row({c.effect, c.missing.empty() ? "nothing of it shows here" : fmt::format("{}", fmt::join(c.missing, ", "))});
-  return "<h2>What cannot be judged</h2>\n" + table(rows);
+  std::string rows = html_row({"effect", "missing or constant"}, "th");
+  for (const CannotJudge& c : d.cannot_judge) rows += html_row({c.effect, c.missing.empty() ? "nothing of it shows here" : fmt::format("{}", fmt::join(c.missing, ", "))});
+  return "<h2>What cannot be judged</h2>\n" + html_table(rows);
 }
 
 std::string messages(const Diagnosis& d) {
@@ -161,12 +138,11 @@ std::string messages(const Diagnosis& d) {
 }  // namespace
 
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
-  std::string out = fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
-                                "<title>Diagnosis of {0}</title><style>{1}</style></head><body>\n<h1>{2}</h1>\n<p class=\"note\">Recording {0}; machine {3}{4}</p>\n",
-                                escaped(recording), kStyle, title(d), escaped(machine), d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
-  for (const std::string& sentence : diagnosis_sentences(d)) out += "<p>" + escaped(sentence) + "</p>\n";
-  out += explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) + detectable_effects(d) + open_questions(d) + messages(d);
-  return out + "</body></html>\n";
+  std::string body = fmt::format("<h1>{}</h1>\n<p class=\"note\">Recording {}; machine {}{}</p>\n", title(d), escaped(recording), escaped(machine),
+                                 d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
+  for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
+  return html_page("Diagnosis of " + recording, body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) + detectable_effects(d) +
+                                               open_questions(d) + messages(d));
 }
 
 }  // namespace abbe

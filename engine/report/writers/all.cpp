@@ -4,11 +4,13 @@ namespace abbe {
 
 extern const ReportWriter text_writer;
 extern const ReportWriter json_writer;
+extern const ReportWriter html_writer;
 
 std::span<const ReportWriter* const> report_writers() {
   static const ReportWriter* const all[] = {
       &text_writer,
       &json_writer,
+      &html_writer,
   };
   return all;
 }

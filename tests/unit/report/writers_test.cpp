@@ -24,6 +24,7 @@ CharacteristicReport length() {
   c.summary.symmetric = {499.996, 500.0042}, c.summary.shortest = {499.9961, 500.0041};
   c.summary.mean_error = 6.4e-5, c.summary.u_error = 4.5e-5, c.summary.low_error = 1.7e-4,
   c.summary.high_error = 1.8e-4;
+  c.histogram = {499.994, 500.006, {20, 230, 500, 230, 20}};
   c.lcl = -0.0040, c.ucl = 0.0042;
   c.lower = 499.99, c.upper = 500.01;
   c.conformance_probability = 0.998;
@@ -180,6 +181,34 @@ TEST_CASE("an interval of another coverage is shown when it was asked for") {
   CHECK(text.find("symmetric 99 %") != std::string::npos);
   CHECK(text.find("-0.0100 to +0.0120") != std::string::npos);
   CHECK(text.find("-0.0090 to +0.0100") != std::string::npos);
+}
+
+TEST_CASE("a page shows the table and the distribution of each characteristic") {
+  RunReport r = report();
+  r.program = "<block> & co.dmi";
+  const std::string page = written("html", r);
+  const auto count = [&](std::string_view what) {
+    int n = 0;
+    for (std::size_t at = page.find(what); at != std::string::npos; at = page.find(what, at + 1)) ++n;
+    return n;
+  };
+  CHECK(page.starts_with("<!DOCTYPE html>"));
+  CHECK(page.find("&lt;block&gt; &amp; co.dmi") != std::string::npos);
+  CHECK(page.find("<block>") == std::string::npos);
+  CHECK(page.find("END1, END2: LEN (DISTB)") != std::string::npos);
+  CHECK(page.find("99.8 %") != std::string::npos);
+  CHECK(count("<svg") == 1);
+  CHECK(count("fill-opacity=\"0.75\"") == 3);   // bars whose middle is between LCL and UCL
+  CHECK(count("fill-opacity=\"0.3\"") == 2);
+  CHECK(count("stroke-dasharray") == 2);         // both tolerance limits, 10 um away
+  CHECK(page.find("lost: line 77: BORE") != std::string::npos);
+  CHECK(page.find("part temperature") != std::string::npos);
+  CHECK(page.find("<script") == std::string::npos);
+  r.characteristics[0].lower = 490;              // too far away to be drawn
+  const std::string far = written("html", r);
+  CHECK(far.find("stroke-dasharray") == far.rfind("stroke-dasharray"));
+  r.characteristics.clear();
+  CHECK(written("html", r).find("No characteristic was evaluated.") != std::string::npos);
 }
 
 TEST_CASE("how effects are used is told when there are any") {

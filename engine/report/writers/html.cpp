@@ -1,0 +1,113 @@
+// The report as a page to file and to send: the table, and how the values of each characteristic are distributed.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/report/html_page.hpp"
+#include "engine/report/plot.hpp"
+#include "engine/report/writer.hpp"
+#include "engine/report/writers/sentences.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// Pages with more characteristics than this would be slow to open: the first ones have a plot.
+constexpr std::size_t kMostPlots = 200;
+
+std::string name_of(const CharacteristicReport& c) {
+  return fmt::format("{}: {} ({}){}", joined(c.features), c.tolerance, c.kind, c.occurrence > 1 ? fmt::format(" #{}", c.occurrence) : "");
+}
+
+std::string decimal(std::optional<double> value, int decimals) { return value ? fmt::format("{:.{}f}", *value, decimals) : "-"; }
+
+std::string characteristics(const RunReport& r) {
+  if (r.characteristics.empty()) return html_paragraphs("No characteristic was evaluated.");
+  std::vector<std::string> titles{"line", "characteristic", "unit", "value", "u", "LCL", "UCL", "lower", "upper", "conforms"};
+  const std::vector<std::string> contributors = contributor_names(r);
+  titles.insert(titles.end(), contributors.begin(), contributors.end());
+  std::string rows = html_row(titles, "th");
+  for (const CharacteristicReport& c : r.characteristics) {
+    const int decimals = decimals_for(c.summary.u);
+    std::vector<std::string> cells{std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals), decimal(c.summary.u, decimals),
+                                   fmt::format("{:+.{}f}", c.lcl, decimals), fmt::format("{:+.{}f}", c.ucl, decimals), decimal(c.lower, kFewestDecimals),
+                                   decimal(c.upper, kFewestDecimals), c.conformance_probability ? fmt::format("{:.1f} %", 100 * *c.conformance_probability) : "-"};
+    for (std::size_t k = 0; k < contributors.size(); ++k)
+      cells.push_back(k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-");
+    rows += html_row(cells);
+  }
+  return html_table(rows) + fmt::format("<p class=\"note\">{}</p>\n", escaped(report_legend(r)));
+}
+
+/// Deviations from the value of the error-free machine, in um or seconds of arc.
+std::string distribution(const CharacteristicReport& c) {
+  const bool length = c.unit == "mm";
+  const double factor = length ? 1e3 : 3600;
+  const auto deviation = [&](double value) { return factor * (value - c.reference); };
+  HistogramPlot d{name_of(c), length ? "value on a machine minus value, um" : "value on a machine minus value, arcsec", c.histogram, {factor * c.lcl, factor * c.ucl}, {}};
+  d.histogram.low = deviation(c.histogram.low), d.histogram.high = deviation(c.histogram.high);
+  for (const std::optional<double>& limit : {c.lower, c.upper})
+    if (limit) d.limits.push_back(deviation(*limit));
+  return svg(d);
+}
+
+std::string distributions(const RunReport& r) {
+  const std::size_t count = std::min(r.characteristics.size(), kMostPlots);
+  if (count == 0) return "";
+  std::string out = fmt::format("<h2>Distributions</h2>\n<p class=\"note\">What {} machines of this specification report. Dark: the 95 % between LCL and UCL; dashed: tolerance limits, "
+                                "where they are near.{}</p>\n<div class=\"pair\">",
+                                r.machines.used, count < r.characteristics.size() ? fmt::format(" Only the first {} are drawn.", count) : "");
+  for (std::size_t k = 0; k < count; ++k)
+    if (!r.characteristics[k].histogram.counts.empty()) out += distribution(r.characteristics[k]);
+  return out + "</div>\n";
+}
+
+/// The sources of one characteristic, the largest first.
+std::string budget(const CharacteristicReport& c) {
+  std::vector<CharacteristicReport::BudgetLine> lines = c.budget;
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+  std::erase_if(lines, [](const auto& line) { return line.share < kSmallestShare; });
+  lines.insert(lines.end(), c.alignment_split.begin(), c.alignment_split.end());
+  std::string rows = html_row({"source", "u, " + c.unit, "share"}, "th");
+  for (const auto& line : lines) rows += html_row({line.name, decimal(line.u, decimals_for(line.u)), fmt::format("{:.1f} %", 100 * line.share)});
+  return "<h3>" + escaped(name_of(c)) + "</h3>\n" + html_table(rows);
+}
+
+std::string budgets(const RunReport& r) {
+  std::string out;
+  for (const CharacteristicReport& c : r.characteristics)
+    if (!c.budget.empty()) out += budget(c);
+  return out.empty() ? "" : "<h2>Budget</h2>\n<p class=\"note\">" + escaped(budget_legend()) + "</p>\n" + out;
+}
+
+std::string intervals(const RunReport& r) {
+  if (r.characteristics.empty() || !r.characteristics.front().interval) return "";
+  std::string rows = html_row({"characteristic", "unit", "symmetric", "shortest"}, "th");
+  for (const CharacteristicReport& c : r.characteristics) {
+    const int decimals = decimals_for(c.summary.u);
+    const auto from_value = [&](const Interval& i) { return fmt::format("{:+.{}f} to {:+.{}f}", i.low - c.reference, decimals, i.high - c.reference, decimals); };
+    rows += html_row({name_of(c), c.unit, from_value(c.interval->symmetric), from_value(c.interval->shortest)});
+  }
+  return fmt::format("<h2>{:g} % intervals</h2>\n<p class=\"note\">Limits minus value.</p>\n", 100 * r.characteristics.front().interval->coverage) + html_table(rows);
+}
+
+std::string influences(const RunReport& r) {
+  std::string rows = html_row({"influence", "status"}, "th");
+  for (const Influence& i : r.influences)
+    rows += html_row({i.name, i.status == "bounded" ? fmt::format("bounded, not in u: at most {:g} um at a touch ({})", i.at_most_um, i.source) : i.status});
+  return "<h2>Influences</h2>\n" + html_table(rows);
+}
+
+std::string write_html(const RunReport& r) {
+  const std::string remarks = report_remarks(r);
+  return html_page("Uncertainty of " + r.program,
+                   "<h1>Measurement uncertainty</h1>\n" + html_paragraphs(report_header(r)) + "<h2>Characteristics</h2>\n" + characteristics(r) + distributions(r) +
+                       intervals(r) + budgets(r) + (remarks.empty() ? "" : "<h2>Remarks</h2>\n" + html_paragraphs(remarks)) + influences(r) +
+                       fmt::format("<p class=\"note\">abbe {}; GUM, JCGM 101 and 106.</p>\n", escaped(r.version)));
+}
+
+}  // namespace
+
+extern const ReportWriter html_writer{"html", "a page to file", write_html};
+
+}  // namespace abbe

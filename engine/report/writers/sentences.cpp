@@ -1,0 +1,122 @@
+#include "engine/report/writers/sentences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace abbe {
+
+namespace {
+
+/// "37 of 1000 machines stopped at line 84: reason", one line per place and reason.
+std::string trapped_machines(const RunReport& r) {
+  std::map<std::pair<int, std::string>, int> stopped;
+  for (const Trap& trap : r.traps) ++stopped[{trap.line, trap.reason}];
+  std::string out;
+  for (const auto& [where, count] : stopped)
+    out += fmt::format("{} of {} machines stopped at line {}: {}\n", count, r.machines.used,
+                       where.first, where.second);
+  return out;
+}
+
+std::string lost_characteristics(const RunReport& r) {
+  std::string out;
+  for (const LostCharacteristic& l : r.lost)
+    out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
+  return out;
+}
+
+/// Messages without a place in a file; those with one are shown when the program is read.
+std::string general_messages(const RunReport& r) {
+  std::string out;
+  for (const Diagnostic& d : r.messages)
+    if (!d.span) out += render(d);
+  return out;
+}
+
+std::string not_modelled(const RunReport& r) {
+  std::vector<std::string> names;
+  for (const Influence& influence : r.influences)
+    if (influence.status == "not modelled") names.push_back(influence.name);
+  return names.empty() ? "" : "Not modelled: " + joined(names) + ".\n";
+}
+
+/// What is in no figure of the report, but known to be small.
+std::string bounded(const RunReport& r) {
+  std::string out;
+  for (const Influence& i : r.influences)
+    if (i.status == "bounded")
+      out += fmt::format("Bounded, not in u: {}, at most {:g} um at a touch ({}).\n", i.name,
+                         i.at_most_um, i.source);
+  return out;
+}
+
+/// "3 min 12 s", "12 s".
+std::string duration(double seconds) {
+  const long whole = std::lround(seconds);
+  return whole < 60 ? fmt::format("{} s", whole)
+                    : fmt::format("{} min {} s", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+int decimals_for(double u) {
+  if (!(u > 0)) return kFewestDecimals;
+  const std::string scientific = fmt::format("{:.1e}", u);  // rounds first: 0.0996 is 1.0e-01
+  const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));
+  return std::clamp(1 - exponent, kFewestDecimals, kMostDecimals);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+std::vector<std::string> contributor_names(const RunReport& r) {
+  std::vector<std::string> names;
+  for (const auto& c : r.characteristics) {
+    for (const auto& contribution : c.contributions) names.push_back(contribution.name);
+    if (!names.empty()) break;
+  }
+  return names;
+}
+
+std::string report_header(const RunReport& r) {
+  const ScreeningCounts& m = r.machines;
+  std::string out = fmt::format(
+      "{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n",
+      r.program, r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
+  if (r.workpiece) out += fmt::format("workpiece {}\n", *r.workpiece);
+  if (r.recorded_points) out += "errors added to recorded points\n";
+  if (r.effect_use) out += fmt::format("effects {}\n", name(*r.effect_use));
+  return out + fmt::format("estimated cycle time {}\n", duration(r.cycle_time_s));
+}
+
+std::string report_legend(const RunReport& r) {
+  double worst = 0;
+  for (const auto& c : r.characteristics)
+    if (c.summary.u > 0) worst = std::max(worst, c.summary.u_error / c.summary.u);
+  return fmt::format(
+      "\nvalue: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
+      "and 97.5 %) minus value;\n"
+      "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the "
+      "variance.\n"
+      "Monte Carlo error of u: {:.1f} % (standard error, the largest of the table).\n",
+      100 * worst);
+}
+
+std::string budget_legend() {
+  return "source: acting alone, shares below 0.1 % left out; then the touches of features that coordinate systems are built from\n"
+         "(alignment) against the others (feature).";
+}
+
+std::string report_remarks(const RunReport& r) {
+  return trapped_machines(r) + lost_characteristics(r) + general_messages(r);
+}
+
+std::string report_bounds(const RunReport& r) { return bounded(r) + not_modelled(r); }
+
+}  // namespace abbe
