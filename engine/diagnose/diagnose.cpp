@@ -120,10 +120,10 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   return gone ? " The machine file has the opposite: it is not there any more." : " That is beside what the machine file has of it.";
 }
 
-/// The run from which on a variant acts. Where it stands for a stretch of runs that holds the one of the finding, it is that.
-int new_in_run(const Block& variant, const Block& found) {
-  const bool holds = found.from_run > 0 && variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
-  return holds ? found.from_run : variant.from_run;
+/// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the finding, it is that.
+RunChange change_of(const Block& variant, const Block& found) {
+  const bool holds = found.change.run > 0 && variant.change.gone == found.change.gone && variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
+  return holds ? found.change : variant.change;
 }
 
 /// Findings as effects of the answer and as settings of a machine file.
@@ -135,17 +135,18 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
       const Explanation& member = c.explanations.list[m];
       e.members.push_back(member.name);
       const int likeliest = m == f.explanation ? f.block : best_block(member, result.first);
-      e.new_in_run.push_back(new_in_run(c.explanations.blocks[static_cast<std::size_t>(likeliest)], c.explanations.blocks[static_cast<std::size_t>(f.block)]));
+      e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(likeliest)], c.explanations.blocks[static_cast<std::size_t>(f.block)]));
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
     e.parameters = estimate_parameters(c, result, k);
-    const std::string in_file = tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
+    const RunChange change = e.change.front();
+    const std::string in_file = change.gone ? " It is gone: the machine file needs nothing of it." : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording", e.new_in_run.front(), e.probability <= kDoubted) + in_file;
-    if (e.new_in_run.front() > 0 && stays_in_its_setup(c)) e.sentence += " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability <= kDoubted) + in_file;
+    if (change.run > 0 && stays_in_its_setup(c)) e.sentence += " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));
   }
 }

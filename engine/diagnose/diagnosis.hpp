@@ -36,7 +36,7 @@ struct DiagnosedEffect {
   double probability = 0;                      ///< that it is one of these
   std::vector<DiagnosedParameter> parameters;  ///< of the first member
   std::string sentence;
-  std::vector<int> new_in_run = {};            ///< by member: the run in which it is new; 0, or none: it is in all
+  std::vector<RunChange> change = {};          ///< by member; none: in all runs
 };
 
 struct Location {

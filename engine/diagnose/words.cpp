@@ -57,20 +57,20 @@ std::string with_interval(const DiagnosedParameter& p) {
   return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low, decimals, p.high, decimals, p.plausible ? "" : ", implausible");
 }
 
-std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, int new_in_run,
+std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, RunChange change,
                                  bool doubted) {
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
   const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
-  const std::string it = new_in_run > 0 ? fmt::format("what is new in run {}", new_in_run) : "it";
+  const std::string it = change.run == 0 ? "it" : fmt::format("what is {} in run {}", change.gone ? "gone" : "new", change.run);
   if (titles.size() == 1) return fmt::format("{} {} {}{}{}.", capitalised(it), doubted ? "looks like" : "is explained by", titles.front(), told.empty() ? "" : ": ", told);
   return fmt::format("One of these {} {}, and {} cannot tell which: {}.{}{}{}", doubted ? "may explain" : "explains", it, data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
 }
 
 std::vector<std::string> in_words(const DiagnosedEffect& e) {
   std::vector<std::string> names = e.members;
-  for (std::size_t m = 0; m < e.new_in_run.size(); ++m)
-    if (e.new_in_run[m] > 0) names[m] += fmt::format(", new in run {}", e.new_in_run[m]);
+  for (std::size_t m = 0; m < e.change.size(); ++m)
+    if (e.change[m].run > 0) names[m] += fmt::format(", {} in run {}", e.change[m].gone ? "gone" : "new", e.change[m].run);
   return names;
 }
 

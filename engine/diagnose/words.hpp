@@ -16,7 +16,7 @@ std::string with_interval(const DiagnosedParameter&);
 
 /// What makes the mismatch, or what is new in a run: one title, or several that `data` ("this recording") cannot tell apart;
 /// `parameters` are those of the first. `doubted`: it may be something else.
-std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, int new_in_run = 0,
+std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, RunChange change = {},
                                  bool doubted = false);
 /// The names of an effect in a table: "machine.squareness, new in run 2"
 std::vector<std::string> in_words(const DiagnosedEffect&);

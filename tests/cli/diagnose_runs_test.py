@@ -53,6 +53,22 @@ class DiagnoseRuns(harness.Case):
         self.assertRegex(text, r"What is new in run 2 is explained by two axes not square: squareness \d+\.\d+ ± 0\.\d+ urad")
         self.assertIn("machine.squareness, new in run 2", text)
 
+    def test_what_is_gone_after_a_run_is_told(self):
+        """A tip that was dirty until it was cleaned: no machine file needs it."""
+        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
+        recordings = []
+        for run in (1, 2, 3, 4):
+            dirty = ["--with", "probe.tip_radius:amplitude_um=4"] if run == 1 else []
+            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *dirty)
+            recordings.append(f"run{run}.csv")
+        said = self.diagnosis(*recordings, "--model-out", "now.json")
+        self.assertEqual(len(said["effects"]), 1, said["effects"])
+        found = said["effects"][0]
+        self.assertIn("probe.tip_radius", found["members"])
+        self.assertEqual(found["gone_in_run"][found["members"].index("probe.tip_radius")], 2)
+        self.assertIn("What is gone in run 2", found["sentence"])
+        self.assertEqual(json.loads((self.folder / "now.json").read_text())["effects"], [])
+
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):
         """Nine later runs are judged in eight stretches first; the tenth run begins none of them."""
         program = harness.ROOT / "examples/programs/sphere_25_points.dmi"

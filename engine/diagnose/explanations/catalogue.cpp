@@ -43,11 +43,11 @@ class Evaluation {
     for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t.known));
   }
 
-  Vector column(const std::vector<double>& theta, int from_run, const std::vector<double>& draws, int visit = -1) const {
+  Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws, int visit = -1) const {
     Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes_.size()));
     const std::vector<double> none(draws.size(), 0.0);
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      if (scenes_[i].run < from_run) continue;
+      if ((scenes_[i].run >= change.run) == change.gone) continue;
       const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
       r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
     }
@@ -85,19 +85,31 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
   return list;
 }
 
-/// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after a crash, a mend or a change of the weather. What happens at a moment
-/// happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by itself.
-std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::vector<LaterRun>& changes) {
+/// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
+constexpr std::size_t kMostChanges = 8, kMostGone = 4;
+
+/// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after a crash, a mend or a change of the
+/// weather, and what is gone, a dirty tip that was cleaned. What happens at a moment happens between the runs then; what goes on in time, or is
+/// drawn anew in every visit, is new by itself.
+std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::vector<LaterRun>& later) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
   const std::vector<Block> in_all = list;
-  for (const LaterRun& change : changes) {
+  for (const LaterRun& at : in_stretches(later, kMostChanges)) {
     for (Block block : in_all) {
       if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
-      if (moment) block.theta[*moment] = change.between_s, block.cells[*moment] = {change.between_s, change.between_s};
-      block.from_run = change.from_run;
-      block.runs = change.runs;
+      if (moment) block.theta[*moment] = at.between_s, block.cells[*moment] = {at.between_s, at.between_s};
+      block.change = {at.from_run, false};
+      block.runs = at.runs;
+      list.push_back(std::move(block));
+    }
+  }
+  if (moment) return list;
+  for (const LaterRun& at : in_stretches(later, kMostGone)) {
+    for (Block block : in_all) {
+      block.change = {at.from_run, true};
+      block.runs = at.runs;
       list.push_back(std::move(block));
     }
   }
@@ -133,7 +145,7 @@ class VariantColumns {
         if (direction_ >= 0) theta[direction_] = d;
         for (const int at : phases_) theta[at] = 90.0 * phase;
         const Column column{p, d + 3 * phase, unit};
-        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, block.from_run, {}));
+        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, block.change, {}));
         else add_draws(theta, column, block);
       }
     }
@@ -144,7 +156,7 @@ class VariantColumns {
     for (int j = 0; j < effect_.draws; ++j) {
       std::vector<double> z(effect_.draws, 0.0);
       z[j] = 1;
-      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.from_run, z, visit));
+      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.change, z, visit));
     }
   }
 
@@ -189,9 +201,6 @@ Factor factor_of(const Effect& effect) {
 
 /// Belief before the data that what is found is new in a later run, of what may be in all.
 constexpr double kPriorChange = 0.1;
-/// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
-constexpr std::size_t kMostChanges = 8;
-
 /// The names share their belief equally, and so do the patterns, but for those that only a change between runs makes.
 void share_priors(Explanations& all) {
   const auto weight = [](const Explanation& e) { return !e.effect && e.factor == Factor::run ? kPriorChange : 1; };
@@ -218,7 +227,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   const std::vector<Search> search = searches(effect, t);
   const Evaluation evaluation(effect, t, rows);
   const VariantColumns variant(effect, search, evaluation);
-  for (Block& block : with_changes(settings(effect, search), effect, in_stretches(later_runs(t, rows), kMostChanges))) {
+  for (Block& block : with_changes(settings(effect, search), effect, later_runs(t, rows))) {
     block.explanation = static_cast<int>(out.list.size());
     variant.fill(block);
     if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
@@ -270,19 +279,26 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
   return out;
 }
 
-Block variant_at(const Effect& effect, const std::vector<double>& theta, int from_run, const RecordedTouches& t, const std::vector<int>& rows) {
+Block variant_at(const Effect& effect, const std::vector<double>& theta, RunChange change, const RecordedTouches& t, const std::vector<int>& rows) {
   Block block;
   block.theta = theta;
-  block.from_run = from_run;
+  block.change = change;
   VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
   return block;
 }
 
 void share_belief(const Explanation& e, std::vector<Block>& blocks) {
-  const auto changes = [&](int b) { return blocks[static_cast<std::size_t>(b)].from_run > 0; };
-  const auto changing = static_cast<double>(std::count_if(e.blocks.begin(), e.blocks.end(), changes)), all = double(e.blocks.size());
-  const double share = changing == 0 ? 0 : changing == all ? 1 : kPriorChange;
-  for (const int b : e.blocks) blocks[static_cast<std::size_t>(b)].weight = changes(b) ? share / changing : (1 - share) / (all - changing);
+  double constant = 0, changing = 0;
+  const auto weight = [](const Block& b) { return b.change.gone ? 0.5 : 1; };
+  for (const int k : e.blocks) {
+    const Block& b = blocks[static_cast<std::size_t>(k)];
+    (b.change.run > 0 ? changing : constant) += weight(b);
+  }
+  const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
+  for (const int k : e.blocks) {
+    Block& b = blocks[static_cast<std::size_t>(k)];
+    b.weight = weight(b) * (b.change.run > 0 ? share / changing : (1 - share) / constant);
+  }
 }
 
 Matrix compressed(const Matrix& m) {

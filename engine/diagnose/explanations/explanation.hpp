@@ -46,8 +46,8 @@ struct Block {
   int explanation = 0;
   std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
   std::vector<Cell> cells;        ///< by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is possible
-  int from_run = 0;               ///< acts from this run on: what changed between runs; 0: in all
-  Cell runs;                      ///< of a change: the stretch of later runs that `from_run` stands for, as places in their order
+  RunChange change;               ///< what changed between runs
+  Cell runs;                      ///< of a change: the stretch of later runs that its run stands for, as places in their order
   double weight = 1;              ///< belief before the data in this variant, among those of its explanation
   bool finest = false;            ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
@@ -106,10 +106,11 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
 /// The parameter that is the moment of an effect.
 std::optional<std::size_t> moment_of(const Effect&);
 
-/// A variant of an effect at these parameters, from this run on (0: in all); no columns where the effect does nothing there.
-Block variant_at(const Effect&, const std::vector<double>& theta, int from_run, const RecordedTouches&, const std::vector<int>& rows);
+/// A variant of an effect at these parameters, with this change; no columns where the effect does nothing there.
+Block variant_at(const Effect&, const std::vector<double>& theta, RunChange, const RecordedTouches&, const std::vector<int>& rows);
 
-/// Belief in each variant of an explanation: the same, but for those that are new in a run, which hold a tenth together.
+/// Belief in each variant of an explanation: the same, but for those that change between runs, which hold a tenth together. What is gone counts
+/// half of what is new: where only differences between runs are seen, the two are the same.
 void share_belief(const Explanation&, std::vector<Block>&);
 
 /// The same space with as few orthogonal columns as its rank needs.

@@ -42,7 +42,7 @@ bool neighbours(const Block& a, const Block& b, const Effect& effect) {
     return x.low <= y.high + rounding && y.low <= x.high + rounding;
   };
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
-  if (a.from_run != b.from_run && !(of_runs && a.from_run > 0 && b.from_run > 0 && touch(a.runs, b.runs))) return false;
+  if (a.change != b.change && !(of_runs && a.change.run > 0 && b.change.run > 0 && a.change.gone == b.change.gone && touch(a.runs, b.runs))) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
     if (!(of_runs && moment_of(effect) == p) && !touch(a.cells[p], b.cells[p])) return false;
   return true;
@@ -95,11 +95,11 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
   std::vector<LaterRun> stretch;
   for (const LaterRun& c : changes)
     if (c.runs.low >= whole.runs.low && c.runs.high <= whole.runs.high) stretch.push_back(c);
-  const std::vector<LaterRun> parts = of_several_runs(whole) ? in_stretches(stretch, kParts) : std::vector<LaterRun>{{whole.from_run, whole.runs, 0}};
+  const std::vector<LaterRun> parts = of_several_runs(whole) ? in_stretches(stretch, kParts) : std::vector<LaterRun>{{whole.change.run, whole.runs, 0}};
   std::vector<Block> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
-    list[k].from_run = parts[k].from_run;
+    list[k].change = {parts[k].from_run, whole.change.gone};
     list[k].runs = parts[k].runs;
     list[k].weight = whole.weight / double(parts.size());
   }
@@ -109,9 +109,9 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
 /// What happens between runs happens at the moment of the change that stands for them.
 void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& changes) {
   const std::optional<std::size_t> moment = moment_of(effect);
-  if (!moment || part.from_run == 0) return;
+  if (!moment || part.change.run == 0) return;
   for (const LaterRun& c : changes)
-    if (c.from_run == part.from_run) part.theta[*moment] = c.between_s, part.cells[*moment] = {c.between_s, c.between_s};
+    if (c.from_run == part.change.run) part.theta[*moment] = c.between_s, part.cells[*moment] = {c.between_s, c.between_s};
 }
 
 /// The cell in thirds along every parameter that it has an extent in, and along its runs.
@@ -147,7 +147,7 @@ void divide(const Case& c, Explanations& all, int explanation, int which) {
   Explanation& e = all.list[static_cast<std::size_t>(explanation)];
   std::vector<Block> parts = parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
   for (Block& part : parts) {
-    Block made = variant_at(*e.effect, part.theta, part.from_run, c.touches, c.rows);
+    Block made = variant_at(*e.effect, part.theta, part.change, c.touches, c.rows);
     part.columns = std::move(made.columns);
     part.signature = std::move(made.signature);
     part.joined = made.joined;

@@ -141,7 +141,7 @@ std::map<Factor, Located> by_factor(const Explanations& all, const Evidence& evi
   std::map<Factor, Located> out;
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
-    const bool changes = all.blocks[static_cast<std::size_t>(best_block(e, evidence))].from_run > 0;
+    const bool changes = all.blocks[static_cast<std::size_t>(best_block(e, evidence))].change.run > 0;
     out[changes ? Factor::run : e.factor].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k], evidence);
   }
   return out;

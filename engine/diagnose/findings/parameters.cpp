@@ -117,7 +117,7 @@ class Estimator {
   /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli or two axes: told is that of the
   /// likeliest variant, over the values of what has a value between any two.
   static bool alike(const Block& a, const Block& b) {
-    if (a.from_run != b.from_run) return false;
+    if (a.change != b.change) return false;
     for (std::size_t p = 0; p < a.theta.size(); ++p)
       if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high) return false;
     return true;

@@ -163,9 +163,9 @@ void name_again(const Case& c, SearchResult& result) {
   const std::vector<Finding> before = std::exchange(result.findings, {});
   for (std::size_t k = 0; k < before.size(); ++k) {
     auto [f, pattern] = renamed(c, before, k, result.other);
-    const auto from_run = [&](const Finding& d) { return c.explanations.blocks[static_cast<std::size_t>(d.block)].from_run; };
+    const auto change = [&](const Finding& d) { return c.explanations.blocks[static_cast<std::size_t>(d.block)].change; };
     const bool known = std::any_of(result.findings.begin(), result.findings.end(),
-                                   [&](const Finding& d) { return d.explanation == f.explanation && from_run(d) == from_run(f); });
+                                   [&](const Finding& d) { return d.explanation == f.explanation && change(d) == change(f); });
     if (!pattern && !known) result.findings.push_back(std::move(f));
     else if (pattern && !result.other) result.other = std::move(f);
   }

@@ -25,10 +25,14 @@ Json parameters(const std::vector<DiagnosedParameter>& list) {
 }
 
 Json effect(const DiagnosedEffect& e) {
-  Json new_in_run = Json::array();
-  for (std::size_t m = 0; m < e.members.size(); ++m) new_in_run.push_back(m < e.new_in_run.size() && e.new_in_run[m] > 0 ? Json(e.new_in_run[m]) : Json());
+  const auto in_run = [&](bool gone) {
+    Json list = Json::array();
+    for (std::size_t m = 0; m < e.members.size(); ++m)
+      list.push_back(m < e.change.size() && e.change[m].run > 0 && e.change[m].gone == gone ? Json(e.change[m].run) : Json());
+    return list;
+  };
   return {{"members", e.members}, {"probability", number(e.probability)}, {"parameters", parameters(e.parameters)}, {"sentence", e.sentence},
-          {"new_in_run", new_in_run}};
+          {"new_in_run", in_run(false)}, {"gone_in_run", in_run(true)}};
 }
 
 Json location(const Location& l) {

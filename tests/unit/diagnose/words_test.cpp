@@ -36,20 +36,23 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
   CHECK(explanation_sentence({"outliers"}, {}, "this recording") == "It is explained by outliers.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
         "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", 0, true) == "It looks like trigger delay: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", 0, true) ==
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {}, true) == "It looks like trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {}, true) ==
         "One of these may explain it, and this recording cannot tell which: trigger delay; tip radius.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", 2) == "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", 3) ==
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, false}) == "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, true}) == "What is gone in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {3, false}) ==
         "One of these explains what is new in run 3, and this recording cannot tell which: trigger delay; tip radius.");
 }
 
 TEST_CASE("a name says in which run it is new") {
   DiagnosedEffect e;
   e.members = {"probe.tip_radius", "machine.step"};
-  e.new_in_run = {2, 0};
+  e.change = {{2, false}, {}};
   CHECK(in_words(e) == std::vector<std::string>{"probe.tip_radius, new in run 2", "machine.step"});
-  e.new_in_run.clear();
+  e.change = {{3, true}, {2, false}};
+  CHECK(in_words(e) == std::vector<std::string>{"probe.tip_radius, gone in run 3", "machine.step, new in run 2"});
+  e.change.clear();
   CHECK(in_words(e) == e.members);
 }
 
