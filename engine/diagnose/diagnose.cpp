@@ -215,6 +215,13 @@ bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d)
          std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
 }
 
+Diagnostic beyond_its_specification(const LengthError& e, const std::string& file) {
+  return diagnostic(Code::W0716,
+                    fmt::format("{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um", file, e.length_mm,
+                                kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
+                    "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
+}
+
 /// `surfaces`: what they count as; without, they are what the targets say unless half of them is not.
 Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
   Case c;
@@ -243,6 +250,8 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
     out.messages.push_back(not_its_targets(c.touches, kHalf, file));
   }
   c.baseline = baseline_of(c.touches, machine, {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
+  out.beyond = c.baseline.beyond;
+  if (out.beyond) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   add_doubts(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);
   return c;

@@ -31,6 +31,18 @@ struct DiagnosedParameter {
   std::string called = {};                     ///< what a number stands for, where that has a name: the stylus
 };
 
+/// A length between two touches, and how wrong it is.
+struct LengthError {
+  double length_mm = 0, error_mm = 0, mpe_mm = 0;
+};
+
+/// How something differs between runs: it acts from this run on, or is gone from it on. Run 0: it is the same in all.
+struct RunChange {
+  int run = 0;
+  bool gone = false;
+  bool operator==(const RunChange&) const = default;
+};
+
 struct DiagnosedEffect {
   std::vector<std::string> members;            ///< several: cannot be told apart by this recording; the likeliest first
   double probability = 0;                      ///< that it is one of these
@@ -148,6 +160,7 @@ struct Diagnosis {
   std::vector<NextMeasurement> next_measurement;
   std::string otherwise;                       ///< what to do next where no measurement of the menu helps; else empty
   BaselineSummary baseline;
+  std::optional<LengthError> beyond;           ///< a length that no machine of the specification makes so wrong
   Rivals rivals;
   std::vector<ResidualRow> residuals;
   std::vector<JudgedValue> values;             ///< of a recording of values, in its order; then there are no touches

@@ -7,6 +7,18 @@ import harness
 PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"   # one sphere, five orientations of the head, 125 touches
 MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
 
+# Nine touches on either end of a bar of 500 mm along x.
+BAR = """DMISMN/'a bar',4.0
+UNITS/MM,ANGDEC
+S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,100.0,4.0
+SNSLCT/S(P)
+D(M)=DATSET/MCS
+D(R)=TRANS/XORIG,500,YORIG,500,ZORIG,-400
+F(A)=FEAT/PLANE,CART,0,0,0,-1,0,0
+F(B)=FEAT/PLANE,CART,500,0,0,1,0,0
+""" + "".join(f"MEAS/PLANE,F({label}),9\n" + "".join(f"PTMEAS/CART,{x},{y},{z},{n},0,0\n" for y in (-20, 0, 20) for z in (-20, 0, 20)) + "ENDMES\n"
+              for label, x, n in (("A", 0, -1), ("B", 500, 1))) + "ENDFIL\n"
+
 
 class Diagnose(harness.Case):
     def record(self, *options, name="rec.csv"):
@@ -60,6 +72,16 @@ class Diagnose(harness.Case):
         grown = json.loads((self.folder / "grown.json").read_text())["effects"]
         self.assertEqual([e["name"] for e in grown], ["probe.tip_radius"])
         self.assertAlmostEqual(grown[0]["parameters"]["amplitude_um"]["value"], 6, delta=1)
+
+    def test_lengths_beyond_the_specification_are_told(self):
+        """A scale that is 60 um/m wrong on a machine of 9 um + 3 um/m, and a bar of 500 mm in one place: nothing to name it by."""
+        program = self.write("bar.dmi", BAR)
+        self.abbe("record", program, "--machine", MACHINE, "-o", "bar.csv", "--with", "machine.scale:scale_um_per_m=60,axis=x")
+        said = self.diagnosis("bar.csv", "--fail-on-mismatch", code=1)
+        self.assertIn("W0716", [m["code"] for m in said["messages"]])
+        self.assertAlmostEqual(said["length_beyond_mpe"]["error_um"], 30, delta=6)
+        self.abbe("record", program, "--machine", MACHINE, "-o", "bar.csv")
+        self.assertIsNone(self.diagnosis("bar.csv", "--fail-on-mismatch")["length_beyond_mpe"])
 
     def test_the_answer_does_not_depend_on_threads(self):
         recording = self.record("--with", "probe.tip_radius:amplitude_um=2")

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/screening.hpp"
@@ -197,6 +198,13 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     constexpr double kLine = 2;
     m.rough = rough_geometry(t, machine, kLine);
     m.uneven = uneven_functions(t, machine);
+    if (options.surfaces == Surfaces::calibrated) out.beyond = beyond_specification(t, machine);
+    if (out.beyond) {
+      // Larger errors of the machine are no explanation then.
+      constexpr double kAsSpecified = 0.1;
+      m.scale_spread = kAsSpecified;
+      m.uneven.clear();
+    }
   } else {
     m.scale_spread = 0.3;            // an earlier recording has found the scale
     // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.

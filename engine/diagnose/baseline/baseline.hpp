@@ -42,6 +42,7 @@ struct Baseline {
   Matrix factor;                    ///< covariance of the coefficients = factor factor', before its scale is estimated
   Vector mean;                      ///< of the coefficients
   Surfaces surfaces = Surfaces::calibrated;
+  std::optional<LengthError> beyond;     ///< a length that is worse than the specification allows
   std::vector<std::string> noise_names;  ///< of the groups of rows with a common noise
 };
 

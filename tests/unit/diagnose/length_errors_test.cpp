@@ -1,0 +1,68 @@
+#include "engine/diagnose/baseline/length_errors.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+Machine machine() {
+  Machine m;
+  m.specification.mpe = {0.002, 0.004e-3};   // 2 um + 4 um/m
+  m.probe.sd_mm = {0.0005, 0.0005, 0.0005};
+  return m;
+}
+
+RecordedTouch touch(double x_mm, double normal_x, double residual_mm) {
+  RecordedTouch t;
+  t.scene.point = {x_mm, 0, 0};
+  t.scene.normal = {normal_x, 0, 0};
+  t.scene.stylus.tip_ordinal = 1;
+  t.residual_mm = residual_mm;
+  return t;
+}
+
+/// Three bars of 500 mm, too long by this.
+RecordedTouches bars(double error_mm) {
+  RecordedTouches t;
+  for (int k = 0; k < 3; ++k) {
+    t.touches.push_back(touch(0, -1, error_mm / 2));
+    t.touches.push_back(touch(500, 1, error_mm / 2));
+    for (std::size_t i = t.touches.size() - 2; i < t.touches.size(); ++i) t.touches[i].scene.run = k + 1;
+  }
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("a length is wrong by what its ends are too far out along it") {
+  const LengthError outside = worst_length(bars(0.010), machine().specification);
+  CHECK(outside.length_mm == doctest::Approx(500));
+  CHECK(outside.error_mm == doctest::Approx(0.010));
+  CHECK(outside.mpe_mm == doctest::Approx(0.004));
+  RecordedTouches steps = bars(0.010);   // faces that look the same way: what both have in common is no error of the length
+  for (RecordedTouch& t : steps.touches) t.scene.normal = {1, 0, 0};
+  CHECK(worst_length(steps, machine().specification).error_mm == doctest::Approx(0));
+}
+
+TEST_CASE("lengths of two runs, two setups or across the normals are none") {
+  RecordedTouches t = bars(0.010);
+  for (std::size_t i = 0; i < t.touches.size(); ++i) t.touches[i].scene.setup = static_cast<int>(i);
+  CHECK(worst_length(t, machine().specification).mpe_mm == 0);
+  t = bars(0.010);
+  for (RecordedTouch& touch : t.touches) touch.scene.normal = {0, 1, 0};
+  CHECK(worst_length(t, machine().specification).mpe_mm == 0);
+}
+
+TEST_CASE("one and a half MPE and four deviations of two touches are within the specification") {
+  const double limit_mm = 1.5 * 0.004 + 4 * 0.0005 * std::sqrt(2.0);
+  CHECK(!beyond_specification(bars(0.99 * limit_mm), machine()));
+  CHECK(beyond_specification(bars(1.01 * limit_mm), machine()));
+  CHECK(beyond_specification(bars(-1.01 * limit_mm), machine()));
+  RecordedTouches dirty = bars(0);       // one bad touch spoils one length
+  dirty.touches[0].residual_mm = 1;
+  CHECK(!beyond_specification(dirty, machine()));
+}
