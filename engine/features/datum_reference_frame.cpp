@@ -15,6 +15,7 @@
 #include "engine/base/ids.hpp"
 #include "engine/features/alignment.hpp"
 #include "engine/features/datum_rules.hpp"
+#include "engine/features/shape_traits.hpp"
 
 namespace abbe {
 namespace {
@@ -70,9 +71,7 @@ class Frame {
       const Vec3 u = across(datum.direction);
       locate_across(u, datum.point);
       locate_across(cross(datum.direction, u), datum.point);
-      if (shape == Shape::cone)
-        locate_across(datum.direction,
-                      datum.point - datum.size / std::tan(datum.angle) * datum.direction);
+      if (shape == Shape::cone) locate_across(datum.direction, apex(datum));
     }
   }
 

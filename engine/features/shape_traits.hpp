@@ -1,6 +1,8 @@
 // Which parts of an Element mean something for which shape.
 #pragma once
 
+#include <cmath>
+
 #include "engine/features/element.hpp"
 
 namespace abbe {
@@ -28,6 +30,11 @@ constexpr bool has_axis(Shape s) {
 }
 constexpr bool has_centre(Shape s) {
   return s == Shape::point || s == Shape::circle || s == Shape::sphere || s == Shape::torus || is_outline(s);
+}
+
+/// Where the radius of a cone is zero; a constructed cone without angle keeps its point.
+inline Vec3 apex(const Element& cone) {
+  return cone.angle > 0 ? cone.point - cone.size / std::tan(cone.angle) * cone.direction : cone.point;
 }
 
 }  // namespace abbe

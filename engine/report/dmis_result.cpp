@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "engine/features/shape_traits.hpp"
+
 namespace abbe {
 
 namespace {
@@ -31,9 +33,6 @@ std::string cylinder_arguments(const Element& e) {
   const Vec3 end = e.end > e.begin ? e.point + e.begin * e.direction : e.point;  // with a length the point is one end of the axis
   return numbers(end) + ", " + numbers(e.direction) + ", " + decimal(2 * e.size) + length;
 }
-
-/// The apex, as FEAT has it; a constructed cone without angle keeps its point.
-Vec3 apex(const Element& e) { return e.angle > 0 ? e.point - e.size / std::tan(e.angle) * e.direction : e.point; }
 
 std::string rectangle_arguments(const Element& e) {
   return numbers(e.point) + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " + numbers(cross(e.direction, e.second)) + ", " +

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/features/displacement.hpp"
+#include "engine/features/shape_traits.hpp"
 #include "engine/run/block_run.hpp"
 
 namespace abbe {
@@ -28,7 +29,7 @@ Vec3 vector_of(const Element& e, int which) {
     case 3: return e.point + e.end * e.direction;
     case 4: return e.second;
     case 5: return cross(e.direction, e.second);
-    case 6: return e.angle > 0 ? e.point - e.size / std::tan(e.angle) * e.direction : e.point;
+    case 6: return apex(e);
     case 7:
     case 8: return e.point + (which == 7 ? -1 : 1) * std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
     case 9:
