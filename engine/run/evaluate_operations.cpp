@@ -175,16 +175,19 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
       datum_actuals[k] = X_DW * *element;
       true_datums[k] = X_DW_true * state(twin, datums[k]).actual;
     }
-    std::vector<TouchedPoint> touches;
-    if (tolerance.kind->needs_touches) touches = touches_of(lane, features.front());
+    std::vector<TouchedPoint> touches, second_touches;
+    if (needs_touches(*tolerance.kind, tolerance.arguments)) {
+      touches = touches_of(lane, features.front());
+      if (features.size() > 1) second_touches = touches_of(lane, features[1]);
+    }
     const Arguments arguments = filled(lane, tolerance.arguments, tolerance.varying);
     const Outcome<double> made = tolerance.kind->evaluate(
-        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums, touches});
+        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums, touches, second_touches});
     if (!made) return made.failure;
     const auto limits = widened(i, def, tolerance.kind->limits(arguments, nominals));
     if (!limits) return "";
     lane.values.push_back({evaluate.characteristic, visit(lane), made.value,
-                           tolerance.kind->nominal(arguments, nominals), *limits});
+                           tolerance.kind->nominal(arguments, shapes, nominals), *limits});
     return "";
   });
 }

@@ -12,8 +12,12 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
     : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name),
       part_(options.workpiece ? Part(*options.workpiece, plan) : Part()), aligns_(alignment_features(plan)),
       keeps_touches_(plan.features.size(), 0), slots_(feature_slots(plan)), visits_(visit_counters(plan)) {
-  for (const plan::CharacteristicDef& c : plan.characteristics)
-    if (plan[c.tolerance].kind->needs_touches) keeps_touches_[c.features.front().value] = 1;
+  for (const plan::CharacteristicDef& c : plan.characteristics) {
+    const plan::ToleranceDef& tolerance = plan[c.tolerance];
+    if (!needs_touches(*tolerance.kind, tolerance.arguments)) continue;
+    for (const plan::FeatureId f : c.features) keeps_touches_[f.value] = 1;
+    for (const int f : tolerance.arguments.features("reference")) keeps_touches_[f] = 1;
+  }
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = stylus_ordinal(sensors_.back(), {sensors_.begin(), sensors_.end() - 1});

@@ -14,7 +14,7 @@ const char* cone_only(const Arguments&, Shapes s) {
   return s[0] == Shape::cone ? nullptr : "the angle tolerance of one feature is for cones";
 }
 
-double nominal_cone(const Arguments&, Elements nominal) { return 2 * nominal[0].angle; }
+double nominal_cone(const Arguments&, Shapes, Elements nominal) { return 2 * nominal[0].angle; }
 
 ToleranceLimits cone_limits(const Arguments& arguments, Elements nominal) {
   const double angle = 2 * nominal[0].angle;
@@ -36,7 +36,7 @@ double expected(const Arguments& arguments) {
   return 0.5 * (arguments.number("lower") + arguments.number("upper"));
 }
 
-double nominal_angle(const Arguments& arguments, Elements) { return expected(arguments); }
+double nominal_angle(const Arguments& arguments, Shapes, Elements) { return expected(arguments); }
 
 ToleranceLimits angle_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
 

@@ -23,7 +23,10 @@ using Shapes = std::span<const Shape>;
 
 inline Outcome<double> no_value(const char* reason) { return Outcome<double>::failed(reason); }
 
-inline double no_deviation(const Arguments&, Elements) { return 0; }
+inline double no_deviation(const Arguments&, Shapes, Elements) { return 0; }
+
+/// ToleranceKind::wants_touches of what is evaluated of the touches themselves.
+inline bool always(const Arguments&) { return true; }
 
 inline ToleranceLimits zone_limits(const Arguments& arguments, Elements) {
   const double zone = arguments.number("zone");

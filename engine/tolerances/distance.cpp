@@ -109,11 +109,11 @@ const char* any_features(const Arguments&, Shapes) { return nullptr; }
 
 ToleranceLimits distance_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
 
-double nominal_between(const Arguments& arguments, Elements nominal) {
+double nominal_between(const Arguments& arguments, Shapes, Elements nominal) {
   return nominal_distance(arguments, nominal[0], nominal[1]);
 }
 
-double nominal_from(const Arguments& arguments, Elements nominal) {
+double nominal_from(const Arguments& arguments, Shapes, Elements nominal) {
   return nominal_distance(arguments, nominal[1], nominal[0]);
 }
 

@@ -101,7 +101,7 @@ extern const ToleranceKind perpendicularity_tolerance{
     .nominal = no_deviation,
     .limits = zone_limits,
     .evaluate = zone_width<perpendicular>,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 extern const ToleranceKind parallelism_tolerance{
@@ -116,7 +116,7 @@ extern const ToleranceKind parallelism_tolerance{
     .nominal = no_deviation,
     .limits = zone_limits,
     .evaluate = zone_width<parallel>,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 extern const ToleranceKind angularity_tolerance{
@@ -132,7 +132,7 @@ extern const ToleranceKind angularity_tolerance{
     .nominal = no_deviation,
     .limits = zone_limits,
     .evaluate = zone_width<angular>,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 }  // namespace abbe

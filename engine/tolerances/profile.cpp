@@ -61,7 +61,7 @@ extern const ToleranceKind surface_profile_tolerance{
     .nominal = no_deviation,
     .limits = profile_limits,
     .evaluate = profile,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 extern const ToleranceKind line_profile_tolerance{
@@ -76,7 +76,7 @@ extern const ToleranceKind line_profile_tolerance{
     .nominal = no_deviation,
     .limits = profile_limits,
     .evaluate = profile,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 }  // namespace abbe

@@ -93,7 +93,7 @@ extern const ToleranceKind circular_runout_tolerance{
     .nominal = no_deviation,
     .limits = zone_limits,
     .evaluate = circular,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 extern const ToleranceKind total_runout_tolerance{
@@ -108,7 +108,7 @@ extern const ToleranceKind total_runout_tolerance{
     .nominal = no_deviation,
     .limits = zone_limits,
     .evaluate = total,
-    .needs_touches = true,
+    .wants_touches = always,
 };
 
 }  // namespace abbe

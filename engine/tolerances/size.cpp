@@ -13,7 +13,7 @@ const char* round(const Arguments&, Shapes shapes) {
 }
 
 template <int Factor>
-double nominal_size(const Arguments&, Elements nominal) {
+double nominal_size(const Arguments&, Shapes, Elements nominal) {
   return Factor * nominal[0].size;
 }
 

@@ -30,6 +30,7 @@ struct EvaluationInput {
   std::span<const Element> datums;        ///< as this machine measured them, in its own D
   std::span<const Element> true_datums;   ///< as the error-free machine measured them, in the error-free D
   std::span<const TouchedPoint> touches = {};  ///< of the first feature, for kinds that ask for them; none of a constructed feature
+  std::span<const TouchedPoint> second_touches = {};  ///< of the second feature, or of the reference
 };
 
 struct ToleranceLimits {
@@ -47,16 +48,20 @@ struct ToleranceKind {
   /// nullptr when these shapes can carry the tolerance, else why not.
   const char* (*applies)(const Arguments&, std::span<const Shape>);
   /// The nominal value (0 for form, position, orientation zones; the nominal diameter for DIAM; ...).
-  double (*nominal)(const Arguments&, std::span<const Element> nominal_features);
+  double (*nominal)(const Arguments&, std::span<const Shape>, std::span<const Element> nominal_features);
   ToleranceLimits (*limits)(const Arguments&, std::span<const Element> nominal_features);
   Outcome<double> (*evaluate)(const Arguments&, const EvaluationInput&);
   Unit (*unit_for)(const Arguments&) = nullptr;   ///< where the arguments decide: CORTOL of a coordinate or of an angle
-  bool needs_touches = false;   ///< evaluate() wants EvaluationInput::touches
+  bool (*wants_touches)(const Arguments&) = nullptr;   ///< whether evaluate() looks at touches; nullptr: never
   double size_factor = 0;       ///< of a tolerance of size: the size across the feature is the value times this; 0 for others
 };
 
 inline Unit unit_of(const ToleranceKind& kind, const Arguments& arguments) {
   return kind.unit_for ? kind.unit_for(arguments) : kind.unit;
+}
+
+inline bool needs_touches(const ToleranceKind& kind, const Arguments& arguments) {
+  return kind.wants_touches && kind.wants_touches(arguments);
 }
 
 std::span<const ToleranceKind* const> tolerance_kinds();

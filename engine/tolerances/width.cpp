@@ -20,7 +20,7 @@ double width(const Arguments& arguments, const Element& e) {
   return 2 * (one ? e.size : e.minor_size);
 }
 
-double nominal_width(const Arguments& arguments, Elements nominal) { return width(arguments, nominal[0]); }
+double nominal_width(const Arguments& arguments, Shapes, Elements nominal) { return width(arguments, nominal[0]); }
 
 ToleranceLimits width_limits(const Arguments& arguments, Elements nominal) {
   const double w = width(arguments, nominal[0]);

@@ -16,7 +16,7 @@ struct Evaluation {
   Arguments arguments;
   std::vector<Shape> shapes, datum_shapes;
   std::vector<Element> actual, nominal, datums, true_datums;
-  std::vector<TouchedPoint> touches;
+  std::vector<TouchedPoint> touches, second_touches;
 
   explicit Evaluation(const char* word) : kind(find_tolerance_kind(word)) { REQUIRE(kind); }
 
@@ -39,7 +39,7 @@ struct Evaluation {
   Evaluation& datum(Shape shape, const Element& both) { return datum(shape, both, both); }
 
   Outcome<double> outcome() const {
-    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, true_datums, touches});
+    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, true_datums, touches, second_touches});
   }
   double value() const {
     const Outcome<double> made = outcome();
@@ -51,7 +51,7 @@ struct Evaluation {
     const Outcome<double> made = outcome();
     return made ? "" : made.failure;
   }
-  double nominal_value() const { return kind->nominal(arguments, nominal); }
+  double nominal_value() const { return kind->nominal(arguments, shapes, nominal); }
   ToleranceLimits limits() const { return kind->limits(arguments, nominal); }
   std::string refusal() const {
     const char* reason = kind->applies(arguments, shapes);
