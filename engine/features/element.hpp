@@ -46,7 +46,8 @@ struct Element {
   Vec3 second{1, 0, 0};
   double angle = 0;       ///< cone: half angle, rad
   /// Signed residuals of the fit, out of the material positive: form = high - low. For a 3-D line low = -high, where high
-  /// is the largest distance, so that form is the diameter of the enclosing cylinder. Zero for what was not fitted.
+  /// is the largest distance, so that form is the diameter of the enclosing cylinder (of a line of a surface it is less:
+  /// engine/tolerances/form.hpp). Zero for what was not fitted.
   double low = 0, high = 0;
   /// Where along `direction` the data lie, as signed distances from `point`: the ends of a line or of an axis. For a plane
   /// -begin = end is the largest distance of the data from `point`, within the plane. Zero where no data say.

@@ -1,7 +1,12 @@
 // FLAT, STRGHT, CIRLTY, CYLCTY: the spread high - low of the residuals about the fitted element: the
 // least-squares one (reference element LS of ISO 12781, 12780, 12181 and 12180) unless GEOALG chose
-// another; then the minimum zone, or the spread about the inscribed or circumscribed element. For a
-// line in space it is the diameter of the enclosing cylinder about it.
+// another; then the minimum zone, or the spread about the inscribed or circumscribed element. Of a
+// line see form.hpp.
+#include "engine/tolerances/form.hpp"
+
+#include <algorithm>
+#include <cmath>
+
 #include "engine/tolerances/common.hpp"
 
 namespace abbe {
@@ -25,7 +30,43 @@ Outcome<double> spread(const Arguments&, const EvaluationInput& in) {
   return {in.actual[0].high - in.actual[0].low};
 }
 
+Outcome<double> straightness_value(const Arguments&, const EvaluationInput& in) { return {straightness(in)}; }
+
+/// The sine up to which vectors of touches count as one normal: written with few decimals, or taken from
+/// a surface that is nearly flat.
+constexpr double kOneNormal = 0.02;
+
+bool have_one_normal(std::span<const TouchedPoint> touches) {
+  return !touches.empty() && std::all_of(touches.begin(), touches.end(), [&](const TouchedPoint& touch) {
+    return norm(touch.normal - touches[0].normal) < kOneNormal;
+  });
+}
+
 }  // namespace
+
+bool are_of_one_face(std::span<const TouchedPoint> touches) {
+  return !touches.empty() && std::all_of(touches.begin(), touches.end(), [&](const TouchedPoint& touch) {
+    return dot(touch.normal, touches[0].normal) > 0;
+  });
+}
+
+double range_along(const Vec3& w, std::span<const TouchedPoint> touches) {
+  double low = dot(w, touches[0].actual), high = low;
+  for (const TouchedPoint& touch : touches) {
+    const double height = dot(w, touch.actual);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  return high - low;
+}
+
+double straightness(const EvaluationInput& in) {
+  const Element& line = in.actual[0];
+  const double diameter = line.high - line.low;
+  if (!have_one_normal(in.touches)) return diameter;
+  const Vec3 across = perpendicular_part(in.touches[0].normal, line.direction);
+  if (norm(across) < kOneNormal) return diameter;  // touched along itself: no section
+  return range_along(unit(across), in.touches);
+}
 
 extern const ToleranceKind flatness_tolerance{
     .word = "FLAT",
@@ -45,8 +86,8 @@ extern const ToleranceKind straightness_tolerance{
     .word = "STRGHT",
     .signature = "zone:length",
     .help =
-        "straightness: diameter of the cylinder about the fitted line that holds the "
-        "touches",
+        "straightness: width of the zone about the fitted line that holds the touches: in the section "
+        "of a surface two parallel lines, of an axis a cylinder",
     .example = "T(S1)=TOL/STRGHT,0.02",
     .source = "ISO 1101:2017, clause 17; ISO 12780-1 (LSLI)",
     .unit = Unit::mm,
@@ -54,7 +95,8 @@ extern const ToleranceKind straightness_tolerance{
     .applies = line_only,
     .nominal = no_deviation,
     .limits = zone_limits,
-    .evaluate = spread,
+    .evaluate = straightness_value,
+    .wants_touches = always,
 };
 
 extern const ToleranceKind circularity_tolerance{

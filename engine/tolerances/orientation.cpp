@@ -9,17 +9,19 @@
 // Their normal is w = cos a v + sin a p with p the part of u across v; the value is the range of
 // the touches along w. Where the zone may turn about v (sin a > 0) it follows the fitted plane.
 //
-// Everything else: with L the extent (length of an axis, diameter of the area of a constructed
-// plane) and f the spread of the residuals of a plane or line, the value is L s + f, where
-// s = |cos a |u x v| - sin a |u v|| is the sine of what the direction is off. For an axis that shall
-// stand on a plane or run along an axis the zone is a cylinder, else it is two parallel planes. An
-// axis is straight by construction: f = 0 for cylinders and cones.
+// Everything else: with L the extent (length of an axis, diameter of the area of a constructed plane,
+// or of a median plane, whose touches lie on two faces) and f the spread of the residuals of a plane
+// or the straightness of a line, the value is L s + f, where s = |cos a |u x v| - sin a |u v|| is the
+// sine of what the direction is off. For an axis that shall stand on a plane or run along an axis the
+// zone is a cylinder, else it is two parallel planes. An axis is straight by construction: f = 0 for
+// cylinders and cones.
 //
 // MMC and LMC leave the value and widen the zone: material.hpp.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/tolerances/common.hpp"
+#include "engine/tolerances/form.hpp"
 
 namespace abbe {
 namespace {
@@ -60,15 +62,6 @@ Vec3 zone_normal(const Vec3& u, const Vec3& datum, Inclination wanted) {
   return length > 0 ? wanted.cosine * v + (wanted.sine / length) * across : u;
 }
 
-double range_along(const Vec3& w, std::span<const TouchedPoint> touches) {
-  double low = dot(w, touches[0].actual), high = low;
-  for (const TouchedPoint& touch : touches) {
-    const double height = dot(w, touch.actual);
-    low = std::min(low, height), high = std::max(high, height);
-  }
-  return high - low;
-}
-
 template <Wanted wanted_for>
 Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in) {
   const Element& feature = in.actual[0];
@@ -77,13 +70,13 @@ Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in
   const bool plane = in.shapes[0] == Shape::plane, line = in.shapes[0] == Shape::line;
   const Inclination wanted = wanted_for(arguments, plane == (in.datum_shapes[0] == Shape::plane));
   const Vec3 u = feature.direction, v = in.datums[0].direction;
-  if (plane && !in.touches.empty()) return {range_along(zone_normal(u, v, wanted), in.touches)};
+  if (plane && are_of_one_face(in.touches)) return {range_along(zone_normal(u, v, wanted), in.touches)};
   const double extent = feature.end - feature.begin;
   if (!(extent > 0))
     return no_value("the extent of the feature is not known, so that its orientation has no zone");
   const double slope =
       std::fabs(wanted.cosine * norm(cross(u, v)) - wanted.sine * std::fabs(dot(u, v)));
-  const double form = plane || line ? feature.high - feature.low : 0;
+  const double form = plane ? feature.high - feature.low : line ? straightness(in) : 0;
   return {extent * slope + form};
 }
 

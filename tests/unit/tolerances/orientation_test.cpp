@@ -150,3 +150,17 @@ TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
   CHECK(Evaluation("ANGLB").feature(Shape::line, kUp).feature(Shape::sphere, kUp).refusal() ==
         "a point or a sphere has no direction to make an angle with");
 }
+
+TEST_CASE("The touches of two faces are not those of their median plane") {
+  Evaluation e("PARLEL");
+  e.feature(Shape::plane, spanning(at({}), -30, 30)).datum(Shape::plane, kUp);
+  for (const double side : {5.0, -5.0}) e.touches.push_back({{0, 0, side}, {0, 0, side}, {0, 0, -side / 5}});
+  CHECK(e.value() == Approx(0).scale(1));
+}
+
+TEST_CASE("A line of a surface adds the straightness of its section") {
+  Evaluation e("PARLEL");
+  e.feature(Shape::line, spread(spanning(at({}, {1, 0, 0}), -10, 10), -0.007, 0.007)).datum(Shape::plane, kUp);
+  for (const double y : {-0.006, 0.004}) e.touches.push_back({{0, 0, y}, {}, {0, 0, 1}});
+  CHECK(e.value() == Approx(0.01));
+}

@@ -66,6 +66,26 @@ TEST_CASE("Form is the spread of the residuals") {
     CHECK(Evaluation(word).feature(shape, e).refusal().empty());
 }
 
+TEST_CASE("The straightness of a line of a surface is a zone in its section") {
+  // Eleven touches, the middle one 0.01 high: the line lies 0.01/11 high, the farthest touch 0.1/11 from it.
+  const Vec3 n{0, -1, 0};
+  Evaluation e("STRGHT");
+  e.feature(Shape::line, spread(at({50, -0.01 / 11, 0}, {1, 0, 0}), -0.1 / 11, 0.1 / 11));
+  const Evaluation constructed = e;
+  for (int k = 0; k <= 10; ++k) e.touches.push_back({{10.0 * k, k == 5 ? -0.01 : 0.0, 0}, {10.0 * k, 0, 0}, n});
+  CHECK(e.value() == Approx(0.01));
+  CHECK(constructed.value() == Approx(0.2 / 11));
+  // Touches aside of each other, in the face, are no error of the section.
+  e.touches[3].actual.z = 0.5;
+  CHECK(e.value() == Approx(0.01));
+  // Touched from two sides, or along itself, a line is an axis.
+  Evaluation about = e;
+  about.touches[2].normal = {0, 0, 1};
+  CHECK(about.value() == Approx(0.2 / 11));
+  for (TouchedPoint& touch : e.touches) touch.normal = {1, 0, 0};
+  CHECK(e.value() == Approx(0.2 / 11));
+}
+
 TEST_CASE("A zone is an upper limit, and a zone of zero sets none") {
   const ToleranceLimits limits =
       Evaluation("FLAT").number("zone", 0.05).feature(Shape::plane, at({})).limits();
