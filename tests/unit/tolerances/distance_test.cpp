@@ -119,3 +119,109 @@ TEST_CASE("DISTWRT measures from its reference") {
   CHECK(limit.value() == Approx(-5));
   CHECK(limit.nominal_value() == Approx(-5));
 }
+
+namespace {
+
+/// PT2PT of two features that are as their nominals but for what is given.
+Evaluation apart(Shape s, const Element& a, Shape t, const Element& b) {
+  Evaluation e("DISTB");
+  e.number("lower", -1).number("upper", 1).word("axis", "PT2PT").feature(s, a).feature(t, b);
+  return e;
+}
+
+const Element kFloor = at({50, 50, 0}), kCeiling = at({30, 50, 30}, {0, 0, -1});
+
+/// Turned about y by this angle: z goes to (sin, 0, cos).
+Vec3 leaning(double angle) { return {std::sin(angle), 0, std::cos(angle)}; }
+
+}  // namespace
+
+TEST_CASE("A straight distance leaves out what a plane does not determine") {
+  CHECK(apart(Shape::plane, kFloor, Shape::plane, kCeiling).value() == Approx(30));
+  CHECK(apart(Shape::plane, kFloor, Shape::plane, kCeiling).nominal_value() == Approx(30));
+  CHECK(apart(Shape::point, at({0, 0, 30}), Shape::plane, kFloor).value() == Approx(30));
+  CHECK(apart(Shape::plane, kFloor, Shape::sphere, at({0, 0, -30})).value() == Approx(30));
+  // Of a tilted plane at the point itself: 100 mm beside its centroid a tilt of 0.001 is 0.1 mm.
+  CHECK(apart(Shape::plane, at({}, leaning(1e-3)), Shape::point, at({100, 7, 30})).value() == Approx(30.1).epsilon(1e-6));
+  // Two planes: midway between their centroids, where one has risen by 10e-3 and the other fallen by as much.
+  CHECK(apart(Shape::plane, at({0, 0, 0}, leaning(-1e-3)), Shape::plane, at({20, 0, 30}, leaning(1e-3))).value() ==
+        Approx(30).epsilon(1e-6));
+  CHECK(apart(Shape::plane, at({0, 0, 0}), Shape::plane, at({20, 0, 30}, leaning(1e-3))).value() ==
+        Approx(30 + 10e-3).epsilon(1e-6));
+}
+
+TEST_CASE("A straight distance leaves out places along a line or an axis") {
+  const Element axis = sized(at({0, 0, -10}), 10), other = sized(at({30, 40, -30}, {0, 0, -1}), 10);
+  CHECK(apart(Shape::cylinder, axis, Shape::cylinder, other).value() == Approx(50));
+  CHECK(apart(Shape::circle, at({3, 4, 88}), Shape::line, axis).value() == Approx(5));
+  CHECK(apart(Shape::plane, at({-5, 70, 3}, {1, 0, 0}), Shape::cylinder, axis).value() == Approx(5));
+  // Midway, at z = -20, the leaning axis has come 10 tan a nearer.
+  CHECK(apart(Shape::cylinder, axis, Shape::cylinder, at({100, 0, -30}, leaning(-1e-3))).value() ==
+        Approx(100 - 10e-3).epsilon(1e-6));
+  // Lines that cross: their common perpendicular, wherever their points are.
+  CHECK(apart(Shape::line, at({7, 0, 0}, {1, 0, 0}), Shape::line, at({0, -90, 12}, {0, 1, 0})).value() == Approx(12));
+  CHECK(apart(Shape::line, at({7, 0, 0}, {1, 0, 0}), Shape::cylinder, at({0, -90, 0}, {0, 1, 0})).value() == Approx(0).scale(1));
+}
+
+TEST_CASE("The nominals say what is parallel") {
+  const Element tilted = at({0, 0, 40}, leaning(0.1));
+  CHECK(apart(Shape::plane, kFloor, Shape::plane, tilted).failure() == "planes that are not parallel have no distance");
+  CHECK(apart(Shape::plane, kFloor, Shape::line, tilted).failure() == "a plane and a line that is not along it have no distance");
+  const auto nominally = [](const Element& nominal) {
+    Evaluation e("DISTB");
+    e.number("lower", -1).number("upper", 1).word("axis", "PT2PT");
+    return e.feature(Shape::line, at({})).feature(Shape::line, at({30, 40, 40}, leaning(1e-3)), nominal);
+  };
+  CHECK(nominally(at({30, 40, 40})).value() == Approx(std::hypot(30 - 20e-3, 40)).epsilon(1e-6));
+  CHECK(nominally(at({30, 40, 40}, leaning(0.1))).value() == Approx(40).epsilon(1e-6));
+  Evaluation same("DISTB");
+  same.word("axis", "PT2PT").feature(Shape::line, at({})).feature(Shape::line, at({30, 40, 40}), tilted);
+  CHECK(same.failure() == "the lines are parallel, and their nominals are not");
+}
+
+TEST_CASE("A cone is at its apex") {
+  const double angle = kPi / 6;
+  Element cone = spanning(sized(at({10, 20, -20}), 20 * std::tan(angle)), -5, 10);  // apex at z = -40
+  cone.angle = angle;
+  Element nominal = at({10, 20, -40});
+  nominal.angle = angle;
+  CHECK(apart(Shape::cone, cone, Shape::plane, kFloor).value() == Approx(40));
+  CHECK(apart(Shape::cone, cone, Shape::cylinder, at({13, 24, 0})).value() == Approx(5));
+  CHECK(nominal_distance("DISTB", "ZAXIS", 40, -1, 1).feature(Shape::cone, cone).feature(Shape::point, at({})).value() == Approx(40));
+  // MAX and MIN are between measured ends: z from -25 to -10.
+  const auto use = [&](const char* which) {
+    return nominal_distance("DISTB", "ZAXIS", 40, -1, 1).word("use", which).feature(Shape::cone, cone, nominal).feature(Shape::point, at({})).value();
+  };
+  CHECK(use("MAX") == Approx(25));
+  CHECK(use("MIN") == Approx(10));
+}
+
+TEST_CASE("MAX and MIN of a tilted plane are at its outermost touches") {
+  // 1 um/mm over 90 mm along x; the second feature brings its own touches.
+  const Element bottom = spanning(at({50, 30, 0}), -51, 51), top = spanning(at({50, 30, 20}, leaning(-1e-3)), -51, 51);
+  const auto value = [&](const char* axis, const char* use) {
+    Evaluation e = nominal_distance("DISTB", axis, 20, -0.1, 0.1).word("use", use).feature(Shape::plane, bottom).feature(Shape::plane, top);
+    for (const double x : {5.0, 95.0})
+      for (const double y : {5.0, 55.0}) {
+        e.touches.push_back({{x, y, 0}, {x, y, 0}, {0, 0, 1}});
+        e.second_touches.push_back({{x, y, 20 + 1e-3 * (x - 50)}, {x, y, 20}, {0, 0, 1}});
+      }
+    return e.value();
+  };
+  CHECK(value("ZAXIS", "MAX") == Approx(20.045));
+  CHECK(value("ZAXIS", "MIN") == Approx(19.955));
+  CHECK(value("ZAXIS", "AVG") == Approx(20));
+  // Straight: along the mean normal, half of the tilt from both: 22.5 um at the ends of each.
+  CHECK(value("PT2PT", "MAX") == Approx(20.045).epsilon(1e-6));
+  CHECK(value("PT2PT", "MIN") == Approx(19.955).epsilon(1e-6));
+  // Without touches of one face: the tilt over the extent.
+  Evaluation made = nominal_distance("DISTB", "ZAXIS", 20, -0.1, 0.1).word("use", "MAX").feature(Shape::point, at({})).feature(Shape::plane, top);
+  CHECK(made.value() == Approx(20.051).epsilon(1e-6));
+  for (const double side : {1.0, -1.0}) made.second_touches.push_back({{50, 30, 20 + side}, {50, 30, 20 + side}, {0, 0, side}});
+  CHECK(made.value() == Approx(20.051).epsilon(1e-6));
+}
+
+TEST_CASE("A distance looks at touches where it goes to the ends") {
+  CHECK_FALSE(needs_touches(*find_tolerance_kind("DISTB"), nominal_distance("DISTB", "XAXIS", 1, 0, 0).arguments));
+  CHECK(needs_touches(*find_tolerance_kind("DISTWRT"), nominal_distance("DISTWRT", "XAXIS", 1, 0, 0).word("use", "MIN").arguments));
+}
