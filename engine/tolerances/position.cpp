@@ -6,9 +6,10 @@
 // freedoms of the current coordinate system.
 //
 // - slots, rectangles, ellipses: their centre
-// - 2D: the feature's point, in the plane across the nominal direction (a sphere: across z)
+// - axes, 2D and 3D: both ends of the measured axis, distance from the nominal axis, the larger of the
+//   two: the zone holds the whole axis (ISO 1101:2017, clause 17)
+// - 2D, other features: their centre, in the plane across the nominal direction (a sphere: across z)
 // - 3D, features with a centre: in space
-// - 3D, axes: both ends of the measured axis, distance from the nominal axis, the larger of the two
 // - 3D, planes: a zone of parallel planes about the nominal, with the rim of the measured area and
 //   the outermost touches in it
 //
@@ -46,10 +47,10 @@ double plane_deviation(const Element& actual, const Element& nominal) {
 }
 
 double deviation(bool flat, Shape shape, const Element& actual, const Element& nominal) {
+  if (has_axis(shape) && !has_centre(shape)) return axis_deviation(actual, nominal);
   const Vec3 d = actual.point - nominal.point;
   if (flat) return norm(perpendicular_part(d, is_spot(shape) ? Vec3{0, 0, 1} : nominal.direction));
-  if (shape == Shape::plane) return plane_deviation(actual, nominal);
-  return has_centre(shape) ? norm(d) : axis_deviation(actual, nominal);
+  return shape == Shape::plane ? plane_deviation(actual, nominal) : norm(d);
 }
 
 Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) {
@@ -70,7 +71,8 @@ extern const ToleranceKind true_position_tolerance{
     .signature =
         "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
     .help =
-        "position: diameter of the zone about the nominal location, in the frame of the datums; "
+        "position: diameter of the zone about the nominal location, in the frame of the datums, of an "
+        "axis over its measured length; "
         "with MMC or LMC the actual size widens the zone",
     .example = "T(P1)=TOL/POS,3D,0.1,RFS,DAT(A),DAT(B),DAT(C)",
     .source = "ISO 22093:2011, TOL/POS; ISO 5458; ISO 5459; ASME Y14.5-2018, 10",

@@ -39,7 +39,9 @@ TEST_CASE("An axis is out of position by its worse end") {
   const Element tilted = spanning(at({10.02, 20, 5}, {std::sin(tilt), 0, std::cos(tilt)}), -10, 15);
   CHECK(position("3D").feature(Shape::cylinder, tilted, nominal).value() ==
         Approx(2 * (0.02 + 15 * std::sin(tilt))));
-  CHECK(position("2D").feature(Shape::cylinder, tilted, nominal).value() == Approx(0.04));
+  CHECK(position("2D").feature(Shape::cylinder, tilted, nominal).value() ==
+        Approx(2 * (0.02 + 15 * std::sin(tilt))));
+  CHECK(position("2D").feature(Shape::torus, tilted, nominal).value() == Approx(0.04));  // a centre
 }
 
 TEST_CASE("A plane is out of position by its worst corner") {
