@@ -1,3 +1,5 @@
+#include <array>
+
 #include "tests/unit/tolerances/evaluation.hpp"
 
 using namespace abbe;
@@ -151,4 +153,45 @@ TEST_CASE("A polar angle does not jump at half a turn, and needs a radius") {
   Evaluation none("CORTOL");
   none.word("axis", "ANGLE").feature(Shape::point, at({0, 0, 4}), at({1, 0, 4}));
   CHECK(none.failure() == "a point on the z axis has no polar angle");
+}
+
+namespace {
+
+Vec3 deviations(Shape shape, const Element& actual, const Element& nominal) {
+  Vec3 made;
+  for (int k = 0; k < 3; ++k) {
+    Evaluation e("CORTOL");
+    made[k] = e.word("axis", std::array{"XAXIS", "YAXIS", "ZAXIS"}[static_cast<std::size_t>(k)]).feature(shape, actual, nominal).value();
+  }
+  return made;
+}
+
+void check_deviations(const Vec3& is, const Vec3& expected) {
+  CAPTURE(is.x);
+  CAPTURE(is.y);
+  CAPTURE(is.z);
+  CHECK(norm(is - expected) < 1e-9);
+}
+
+}  // namespace
+
+TEST_CASE("CORTOL compares where a plane, line or axis passes the nominal point") {
+  const Vec3 slope = unit({1, 0, std::sqrt(3.0)}), along = unit({std::sqrt(3.0), 0, -1});
+  check_deviations(deviations(Shape::plane, at(25 * along + Vec3{0, 25, 0}, slope), at({}, slope)), {});
+  check_deviations(deviations(Shape::plane, at(25 * along + 0.02 * slope, slope), at({}, slope)), 0.02 * slope);
+  check_deviations(deviations(Shape::plane, at({40, 30, 0.02}), at({50, 50, 0})), {0, 0, 0.02});  // square to an axis
+  check_deviations(deviations(Shape::line, at({50 + 9 * along.x, 0.03, 9 * along.z}, along), at({50, 0, 0}, along)), {0, 0.03, 0});
+  check_deviations(deviations(Shape::cylinder, at({3.01, 3.98, -15}), at({3, 4, 0})), {0.01, -0.02, 0});
+  // The axis leans: at the nominal height it is 10 mm above its own point.
+  const Vec3 d = unit({1e-3, 0, 1});
+  const double t = 10 / d.z;
+  check_deviations(deviations(Shape::cylinder, at(Vec3{3, 4, 0} - t * d, d), at({3, 4, 0})), {});
+}
+
+TEST_CASE("CORTOL of a cone compares its apex") {
+  Element nominal = at({100, 50, -40});
+  nominal.angle = kPi / 6;
+  Element cone = sized(at({100, 50, -15.1}), 25 * std::tan(kPi / 6));
+  cone.angle = kPi / 6;
+  check_deviations(deviations(Shape::cone, cone, nominal), {0, 0, -0.1});
 }
