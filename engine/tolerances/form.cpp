@@ -34,7 +34,7 @@ Outcome<double> straightness_value(const Arguments&, const EvaluationInput& in) 
 
 /// The sine up to which vectors of touches count as one normal: written with few decimals, or taken from
 /// a surface that is nearly flat.
-constexpr double kOneNormal = 0.02;
+constexpr double kOneNormal = 0.0175;  // 1 degree
 
 bool have_one_normal(std::span<const TouchedPoint> touches) {
   return !touches.empty() && std::all_of(touches.begin(), touches.end(), [&](const TouchedPoint& touch) {
