@@ -152,13 +152,6 @@ bool matches(std::string_view text) {
 
 }  // namespace grammar
 
-std::string upper(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return out;
-}
-
 namespace {
 
 using grammar::Range;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/letter_case.hpp"
 #include "lang/lines.hpp"
 
 namespace abbe::lang {
@@ -67,8 +68,5 @@ inline constexpr int kMaximumNesting = 64;
 /// Nothing for a line without code, and for text that is no statement (then the sink has the
 /// message).
 std::optional<RawStatement> parse_statement(const LogicalLine&, const SourceFile&, Sink&);
-
-/// ASCII letters to upper case; the other bytes stay. Words and labels are compared in this form.
-std::string upper(std::string_view);
 
 }  // namespace abbe::lang

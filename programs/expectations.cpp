@@ -6,7 +6,7 @@
 #include <cctype>
 
 #include "engine/base/ids.hpp"
-#include "engine/run/sensor.hpp"
+#include "engine/base/letter_case.hpp"
 
 namespace abbe {
 

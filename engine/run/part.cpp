@@ -3,21 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/lanes/elementary.hpp"
 #include "engine/lanes/random.hpp"
 
 namespace abbe {
 
 namespace {
-
-std::string upper(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return out;
-}
 
 bool is_round(Shape shape) {
   return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::cone;
@@ -88,7 +81,7 @@ Part::Part(const Workpiece& workpiece, const plan::Plan& plan)
     surfaces_.push_back({&surface, surface.offset_mm});
     bool found = false;
     for (int f = 0; f < static_cast<int>(plan.features.size()); ++f) {
-      if (upper(plan.features[f].label) != upper(surface.label)) continue;
+      if (!same_label(plan.features[f].label, surface.label)) continue;
       if (std::find(touched.begin(), touched.end(), plan.features[f].label) == touched.end())
         continue;
       if (!found) resolve(surface, {f}, plan, errors);

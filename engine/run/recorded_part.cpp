@@ -9,6 +9,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/recording/units.hpp"
 #include "engine/run/sensor.hpp"
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <numeric>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/run/motion.hpp"
 #include "engine/run/part_frame.hpp"

@@ -5,14 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/machine/head.hpp"
 
 namespace abbe {
-
-bool same_label(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 namespace {
 

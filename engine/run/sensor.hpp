@@ -10,9 +10,6 @@
 
 namespace abbe {
 
-/// Labels are the same in upper and lower case.
-bool same_label(std::string_view, std::string_view);
-
 struct Sensor {
   std::string name;
   int ordinal = 1;                 ///< 1, 2, ...: stylus systems in the order of their first use (stylus_ordinal)

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/letter_case.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/figures/signature.hpp"
 #include "engine/machine/machine.hpp"
@@ -13,12 +14,6 @@
 
 namespace abbe {
 namespace {
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 std::optional<std::string> explain_code(const std::string& word) {
   for (const CodeInfo& code : all_codes())

@@ -68,7 +68,7 @@ std::string open_label_kind(std::string_view code) {
   if (open == std::string_view::npos || code.find(')', open) != std::string_view::npos) return "";
   std::size_t begin = open;
   while (begin > 0 && std::isalpha(static_cast<unsigned char>(code[begin - 1]))) --begin;
-  return lang::upper(code.substr(begin, open - begin));
+  return upper(code.substr(begin, open - begin));
 }
 
 /// The statement as far as it is typed, complete enough to be parsed: a last argument that is being

@@ -156,7 +156,7 @@ std::vector<plan::SensorDef> Session::candidates(const std::vector<std::string>&
   std::vector<plan::SensorDef> known;
   const auto add = [&](const plan::SensorDef& def) {
     std::erase_if(known, [&](const plan::SensorDef& k) {
-      return lang::upper(k.label) == lang::upper(def.label);
+      return upper(k.label) == upper(def.label);
     });
     known.push_back(def);
   };
@@ -174,7 +174,7 @@ std::vector<plan::SensorDef> Session::candidates(const std::vector<std::string>&
   for (const plan::SensorDef& def : known) names.push_back(def.label);
   for (const std::string& label : labels) {
     const auto it = std::find_if(known.begin(), known.end(), [&](const plan::SensorDef& def) {
-      return lang::upper(def.label) == lang::upper(bare_label(label));
+      return upper(def.label) == upper(bare_label(label));
     });
     if (it == known.end())
       throw UserError(diagnostic(Code::E0614,

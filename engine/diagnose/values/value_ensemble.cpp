@@ -4,13 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
 #include <tuple>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/recording/units.hpp"
 #include "engine/run/run.hpp"
@@ -18,11 +18,6 @@
 namespace abbe::diagnose {
 
 namespace {
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 std::vector<std::string> labels_of(const plan::Plan& plan, plan::CharacteristicId id) {
   std::vector<std::string> labels;
