@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/base/ids.hpp"
+#include "engine/machine/effect_names.hpp"
 #include "engine/report/influences.hpp"
 #include "engine/report/report_unit.hpp"
 
@@ -55,8 +56,9 @@ std::vector<NamedContributors> each_alone(const Machine& machine, bool workpiece
     list.push_back({"part", only(false, false, false, false)});
     list.back().contributors.part = true;
   }
-  for (int i = 0; i < static_cast<int>(machine.effects.size()); ++i) {
-    list.push_back({machine.effects[i].name, only(false, false, false, true)});
+  const std::vector<std::string> names = effect_names(machine.effects);
+  for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+    list.push_back({names[i], only(false, false, false, true)});
     list.back().contributors.only_effect = i;
   }
   return list;

@@ -7,6 +7,7 @@
 #include "engine/base/diagnostic.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/lanes/weighted_sum.hpp"
+#include "engine/machine/effect_names.hpp"
 
 namespace abbe {
 
@@ -63,9 +64,11 @@ std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vec
 }  // namespace
 
 EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, const std::string& machine) {
-  for (const EffectSetting& setting : settings) {
+  const std::vector<std::string> names = effect_names(settings);
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    const EffectSetting& setting = settings[k];
     const Effect& effect = registered(setting.name, machine);
-    Active a{&effect, stream_of(effect.name), {}, {}, false, false, {}};
+    Active a{&effect, stream_of(names[k]), {}, {}, false, false, {}};
     // What an effect draws at random cannot be corrected.
     a.corrected = use == EffectUse::corrected && effect.draws_per == DrawsPer::none;
     for (const EffectParameter& p : effect.parameters) a.value.push_back(p.standard);

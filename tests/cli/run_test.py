@@ -124,6 +124,19 @@ class Effects(harness.Case):
         self.assertIsNone(self.run_json("length.dmi", "--machines", 20, "--effects", "corrected")["effects_use"])
         self.assertNotIn("\neffects", self.abbe("run", "length.dmi", "--machines", 20).stdout)
 
+    def test_two_settings_of_one_effect_are_independent(self):
+        scale = {"name": "machine.scale", "parameters": {"scale_um_per_m": {"value": 0, "u": 500}, "axis": "x"}}
+        lengths = []
+        for effects in ([scale, scale], [scale]):
+            self.write("scales.json", with_effects(effects))
+            lengths.append(self.run_json("length.dmi", "--machine", "scales.json", "--machines", 4000)["characteristics"][0])
+        two, one = lengths
+        self.assertEqual([name for name in two["contributions"] if name.startswith("machine.")], ["machine.scale", "machine.scale #2"])
+        for length in lengths:
+            self.assertAlmostEqual(sum(length["contributions"].values()), 1, delta=1e-9)
+        # The same numbers in both would give 2. Three standard errors from so many machines.
+        self.assertAlmostEqual(two["u"] / one["u"], 2 ** 0.5, delta=0.05)
+
     def test_another_word_is_refused(self):
         self.assertIn("corrected", self.refused("E0609", "run", "length.dmi", "--effects", "removed"))
 

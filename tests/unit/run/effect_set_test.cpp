@@ -184,3 +184,28 @@ TEST_CASE("effect set: numbers do not depend on which other effects exist") {
     CHECK(alone.weights[0] == together.weights[k]);
   }
 }
+
+TEST_CASE("effect set: two settings of one effect draw their own numbers, and the first the same as alone") {
+  const auto machines = machines_from(100, kMachines);
+  const std::vector<int> lanes{0, 1, 2};
+  Numbers random(3);
+  const TouchScene where = random_scene(random);
+  const auto errors = [&](const std::vector<EffectSetting>& settings, int k) {
+    const EffectSet set(settings, EffectUse::left_in, "test");
+    Case c = case_of(where, lanes, machines);
+    c.group.scene = &c.scene;
+    set.add(k, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch);
+    return c.batch.error;
+  };
+  for (const char* name : {"machine.scale", "noise.vibration", "head.reindexing", "head.axis_errors"}) {
+    CAPTURE(name);
+    EffectSetting setting = setting_of(*find_effect(name), UncertainParameters::sizes);
+    setting.parameters["axis"] = {0, 0, "x"};
+    if (setting.name != "machine.scale") setting.parameters.erase("axis");
+    const Columns3 alone = errors({setting}, 0), first = errors({setting, setting}, 0), second = errors({setting, setting}, 1);
+    for (const int i : lanes) {
+      CHECK(first.get(i) == alone.get(i));
+      CHECK(norm(second.get(i) - first.get(i)) > 0);
+    }
+  }
+}
