@@ -117,7 +117,8 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   if (before) out.superseded.push_back(before->index);
   if (!gone) out.model_effects.push_back(std::move(setting));
   if (!before) return "";
-  return gone ? " The machine file has the opposite: it is not there any more." : " That is beside what the machine file has of it.";
+  return gone ? " The machine file has the opposite: it is not there any more."
+         : before->instead ? " It takes the place of what the machine file has of it." : " That is beside what the machine file has of it.";
 }
 
 /// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the finding, it is that.
@@ -170,14 +171,13 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
 /// One recording in so many has a change of the scatter.
 constexpr double kPriorScatter = 0.01;
 
-void tell_noise(const std::vector<NoiseFinding>& noise, Diagnosis& out) {
-  for (const NoiseFinding& n : noise) {
+void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) {
+  for (NoiseFinding& n : noise) {
+    const std::string in_file = tell_machine_file(c, *n.effect, n.parameters, out);
     if (out.effects.empty() && !out.unexplained) out.location.push_back({std::string(abbe::diagnose::name(n.factor)), n.where, 1, n.p});
     out.effects.push_back({{std::string(n.effect->name)}, believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain), n.parameters, n.sentence});
     if (!n.certain) out.effects.back().sentence += " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
-    EffectSetting setting{std::string(n.effect->name), {}};
-    for (const DiagnosedParameter& p : n.parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
-    out.model_effects.push_back(std::move(setting));
+    out.effects.back().sentence += in_file;
     out.p_value = std::min(out.p_value, n.p);
   }
 }
@@ -302,7 +302,7 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
   if (!result.findings.empty()) out.adequacy_p = result.adequacy;
   if (result.other) tell_unexplained(c, result, out);
   out.location = locate(c, first, result);
-  tell_noise(judge_noise(c, result), out);
+  tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);

@@ -74,7 +74,7 @@ class Diagnose(harness.Case):
         self.assertAlmostEqual(grown[0]["parameters"]["amplitude_um"]["value"], 6, delta=1)
 
     def test_lengths_beyond_the_specification_are_told(self):
-        """A scale that is 60 um/m wrong on a machine of 9 um + 3 um/m, and a bar of 500 mm in one place: nothing to name it by."""
+        """A scale that is 60 um/m wrong where the MPE is 6 um, and a bar of 500 mm in one place: nothing to name it by."""
         program = self.write("bar.dmi", BAR)
         self.abbe("record", program, "--machine", MACHINE, "-o", "bar.csv", "--with", "machine.scale:scale_um_per_m=60,axis=x")
         said = self.diagnosis("bar.csv", "--fail-on-mismatch", code=1)
@@ -82,6 +82,17 @@ class Diagnose(harness.Case):
         self.assertAlmostEqual(said["length_beyond_mpe"]["error_um"], 30, delta=6)
         self.abbe("record", program, "--machine", MACHINE, "-o", "bar.csv")
         self.assertIsNone(self.diagnosis("bar.csv", "--fail-on-mismatch")["length_beyond_mpe"])
+
+    def test_scatter_that_has_grown_is_one_effect(self):
+        quiet = json.loads(MACHINE.read_text())
+        quiet["effects"] = [{"name": "noise.vibration", "parameters": {"sd_um": {"value": 5, "u": 0.1}}}]
+        self.write("quiet.json", json.dumps(quiet))
+        recording = self.record("--with", "noise.vibration:sd_um=13")
+        said = json.loads(self.abbe("diagnose", recording, "--machine", "quiet.json", "--format", "json", "--model-out", "loud.json").stdout)
+        self.assertIn("beside what the machine file has", said["effects"][-1]["sentence"])
+        loud = json.loads((self.folder / "loud.json").read_text())["effects"]
+        self.assertEqual([e["name"] for e in loud], ["noise.vibration"])
+        self.assertAlmostEqual(loud[0]["parameters"]["sd_um"]["value"], 13, delta=2)   # 12 found beside 5
 
     def test_the_answer_does_not_depend_on_threads(self):
         recording = self.record("--with", "probe.tip_radius:amplitude_um=2")

@@ -7,12 +7,13 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// As the file gives it, or the standard; a choice as its word, also where the file has its code.
 EffectSetting::Value value_of(const EffectSetting& setting, const EffectParameter& p) {
   const auto found = setting.parameters.find(std::string(p.name));
-  if (found != setting.parameters.end()) return found->second;
-  EffectSetting::Value standard{p.standard, 0, {}};
-  if (!p.choices.empty()) standard.word = std::string(p.choices[static_cast<std::size_t>(std::lround(p.standard - p.low))]);
-  return standard;
+  EffectSetting::Value value = found != setting.parameters.end() ? found->second : EffectSetting::Value{p.standard, 0, {}};
+  const auto choice = static_cast<std::size_t>(std::lround(value.value - p.low));
+  if (value.word.empty() && choice < p.choices.size()) value.word = std::string(p.choices[choice]);
+  return value;
 }
 
 /// Whether what is no size is the same, as far as the two are known.
@@ -26,22 +27,38 @@ bool same_kind(const Effect& effect, const EffectSetting& a, const EffectSetting
   });
 }
 
+/// Rounding and outliers are read off the recording as they are; all other scatter is found beside what the machine file has of it.
+bool judged_whole(const Effect& effect) { return effect.draws > 0 && !effect.linear_in_draws; }
+
+EffectSetting::Value sum_of(const EffectSetting::Value& x, const EffectSetting::Value& y) { return {x.value + y.value, std::hypot(x.u, y.u), {}}; }
+
+/// Of standard deviations: the variances of what draws its own numbers add.
+EffectSetting::Value sum_of_variances(const EffectSetting::Value& x, const EffectSetting::Value& y) {
+  const double sd = std::hypot(x.value, y.value);
+  return {sd, sd > 0 ? std::hypot(x.value * x.u, y.value * y.u) / sd : std::hypot(x.u, y.u), {}};
+}
+
+/// What scatters more than before is not gone.
+KnownEffect together(std::size_t index, const Effect& effect, const EffectSetting& before, const EffectSetting& found) {
+  const bool drawn = effect.draws > 0;
+  KnownEffect out{index, before, !drawn, false};
+  for (const EffectParameter& p : effect.parameters) {
+    if (!p.linear) continue;
+    const auto sum = (drawn ? sum_of_variances : sum_of)(value_of(before, p), value_of(found, p));
+    if (sum.value != 0 || sum.u != 0) out.now.parameters[std::string(p.name)] = sum;
+    out.gone = out.gone && std::abs(sum.value) <= 2 * sum.u;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::optional<KnownEffect> known_effect(const Machine& machine, const Effect& effect, const EffectSetting& found) {
-  if (effect.draws > 0) return std::nullopt;   // sizes of what is drawn anew do not add up
   for (std::size_t k = 0; k < machine.effects.size(); ++k) {
     const EffectSetting& before = machine.effects[k];
-    if (before.name != found.name || !same_kind(effect, before, found)) continue;
-    KnownEffect out{k, before, true};
-    for (const EffectParameter& p : effect.parameters) {
-      if (!p.linear) continue;
-      const EffectSetting::Value x = value_of(before, p), y = value_of(found, p);
-      const EffectSetting::Value sum{x.value + y.value, std::hypot(x.u, y.u), {}};
-      if (sum.value != 0 || sum.u != 0) out.now.parameters[std::string(p.name)] = sum;
-      out.gone = out.gone && std::abs(sum.value) <= 2 * sum.u;
-    }
-    return out;
+    if (before.name != found.name) continue;
+    if (judged_whole(effect)) return KnownEffect{k, found, false, true};
+    if (same_kind(effect, before, found)) return together(k, effect, before, found);
   }
   return std::nullopt;
 }

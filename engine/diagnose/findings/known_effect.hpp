@@ -12,6 +12,7 @@ struct KnownEffect {
   std::size_t index = 0;             ///< in the machine's effects
   EffectSetting now;                 ///< what the file says and what was found, together
   bool gone = false;                 ///< that is nothing, within twice its uncertainties
+  bool instead = false;              ///< what was found is all there is: `now` is that
 };
 
 /// Nothing where the file does not have this effect of the same stylus, axis, phase, ...
