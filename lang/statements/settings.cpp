@@ -1,4 +1,6 @@
 // How the machine moves and what a touch yields: SNSET, FEDRAT, ACLRAT, FLY, PRCOMP, GEOALG.
+#include <fmt/format.h>
+
 #include "engine/features/feature.hpp"
 #include "lang/statement.hpp"
 #include "lang/statements/words.hpp"
@@ -21,7 +23,16 @@ void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match
 
 constexpr double kInch = 25.4;
 
+/// What says how fast the machine moves divides lengths.
+bool moves(Lowering& lowering, const Match& match, std::string_view what) {
+  const MatchedValue& value = *match.find("value");
+  if (value.number > 0) return true;
+  lowering.error(Code::E0106, value.span, fmt::format("{} of {:g} moves nothing", what, value.number), "give a number greater than zero");
+  return false;
+}
+
 void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
+  if (!moves(lowering, match, "a speed")) return;
   const std::string what = match.text("speed"), unit = match.text("unit");
   const MotionSetting setting = what == "POSVEL"   ? MotionSetting::positioning_speed
                                 : what == "MESVEL" ? MotionSetting::measuring_speed
@@ -32,6 +43,7 @@ void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
 }
 
 void set_acceleration(Lowering& lowering, const RawStatement&, const Match& match) {
+  if (!moves(lowering, match, "an acceleration")) return;
   const MotionSetting setting = match.text("acceleration") == "POSACL"
                                     ? MotionSetting::positioning_acceleration
                                     : MotionSetting::measuring_acceleration;
