@@ -18,7 +18,7 @@ namespace {
 
 [[noreturn]] void fail(const std::string& path, const char* doing) {
   throw UserError(diagnostic(Code::E0602, "cannot write '" + path + "': " + doing + ": " + std::strerror(errno),
-                             "check that the folder exists, is writable and has room; the file is unchanged"));
+                             "check that the folder exists and has room, and that it and the file are writable; the file is unchanged"));
 }
 
 /// Closes what it holds.
@@ -56,11 +56,32 @@ void write_into(const std::string& path, std::string_view content) {
   if (!write_all(file, content)) fail(path, "writing");
 }
 
+/// Of a file that nobody may write the content stays, whoever asks: root too.
+void refuse_read_only(const std::string& path) {
+  constexpr mode_t kAnyoneWrites = S_IWUSR | S_IWGRP | S_IWOTH;
+  struct stat there {};
+  if (::stat(path.c_str(), &there) != 0) return;
+  errno = EACCES;
+  if ((there.st_mode & kAnyoneWrites) == 0 || ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) fail(path, "replacing it");
+}
+
+/// Who may read and write the file: as before; of a new one as the umask says.
+mode_t mode_of(const std::string& path) {
+  constexpr mode_t kPermissions = 0777, kNewFile = 0666;
+  struct stat there {};
+  if (::stat(path.c_str(), &there) == 0) return there.st_mode & kPermissions;
+  const mode_t withheld = ::umask(0);   // cannot be read without setting it
+  ::umask(withheld);
+  return kNewFile & ~withheld;
+}
+
 void replace(const std::string& path, std::string_view content) {
+  refuse_read_only(path);
+  const mode_t mode = mode_of(path);
   std::string temporary = path + ".XXXXXX";
   const int file = mkstemp(temporary.data());
   if (file < 0) fail(path, "creating a temporary file beside it");
-  bool good = fchmod(file, 0644) == 0 && write_all(file, content) && fsync(file) == 0;
+  bool good = fchmod(file, mode) == 0 && write_all(file, content) && fsync(file) == 0;
   int cause = errno;
   close(file);
   if (good) {
@@ -100,6 +121,7 @@ void refuse_overwriting(const std::vector<std::string>& inputs, const std::vecto
   for (const std::string& input : inputs) taken.emplace(where(followed(input)), "which it reads");
   for (const std::string& output : outputs) {
     if (takes_content(output)) continue;
+    refuse_read_only(output);
     const auto [at, fresh] = taken.emplace(where(followed(output)), "which it writes too");
     if (!fresh)
       throw UserError(diagnostic(Code::E0616, "the output '" + output + "' would destroy a file of this command, " + at->second, "choose another name for the output"));

@@ -72,6 +72,26 @@ TEST_CASE("what is no file is written into, and a link stays") {
   std::remove("files_test_end");
 }
 
+TEST_CASE("a file keeps its permissions, a new one has those of the umask, and a read-only one stays") {
+  const std::filesystem::path path = "files_test_mode";
+  std::filesystem::remove(path);
+  const auto mode = [&] { return static_cast<unsigned>(std::filesystem::status(path).permissions()); };
+  const mode_t before = ::umask(027);
+  write_whole(path, "new");
+  ::umask(before);
+  CHECK(mode() == 0640);
+  for (const unsigned kept : {0600u, 0664u}) {
+    std::filesystem::permissions(path, static_cast<std::filesystem::perms>(kept));
+    write_whole(path, "kept");
+    CHECK(mode() == kept);
+  }
+  std::filesystem::permissions(path, static_cast<std::filesystem::perms>(0444));
+  CHECK_THROWS_AS(write_whole(path, "gone"), UserError);
+  CHECK_THROWS_AS(refuse_overwriting({}, {path}), UserError);
+  CHECK(read_source(path).text() == "kept");
+  std::filesystem::remove(path);
+}
+
 TEST_CASE("no output is an input or another output, whatever they are called") {
   const auto refused = [](const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
     try {
