@@ -9,6 +9,7 @@
 #include "engine/report/writer.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
+#include "programs/thread_count.hpp"
 
 namespace abbe {
 
@@ -30,11 +31,15 @@ CLI::Validator not_negative() {
   return {[](std::string& text) { return text.starts_with('-') ? "expected a whole number from 0 on, found " + text : std::string(); }, ""};
 }
 
+void add_threads(CLI::App* command, int& threads) {
+  command->add_option("--threads", threads, fmt::format("1 to {}; default: all of the computer; the result does not depend on it", kMostThreads))->type_name("T");
+}
+
 void add_settings(CLI::App* command, StudySettings& s) {
   command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
   command->add_option("--machines", s.machines, "how many virtual machines (default 1000)")->type_name("N");
   command->add_option("--seed", s.seed, "of the random numbers (default 1)")->type_name("S")->check(not_negative());
-  command->add_option("--threads", s.threads, "default: all of the computer; the result does not depend on it")->type_name("T");
+  add_threads(command, s.threads);
 }
 
 void add_format(CLI::App* command, std::string& format, std::vector<std::string> names) {
@@ -138,7 +143,7 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
   if (o->action == "screen") {
     command->add_option("--machines", o->machines, "how many accepted machines to draw")->capture_default_str();
     command->add_option("--seed", o->seed, "of the random numbers")->check(not_negative())->capture_default_str();
-    command->add_option("--threads", o->threads, "default: all of the computer")->type_name("T");
+    add_threads(command, o->threads);
   }
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
 }
@@ -183,7 +188,7 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
   command->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values");
   command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");
   command->add_option("--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S")->check(not_negative());
-  command->add_option("--threads", o->threads, "default: all of the computer; the result does not depend on it")->type_name("T");
+  add_threads(command, o->threads);
   add_format(command, o->format, {"text", "json"});
 }
 

@@ -4,20 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <thread>
 
 #include "engine/run/placement.hpp"
+#include "programs/thread_count.hpp"
 
 namespace abbe {
 
 namespace {
-
-int thread_count(int asked) {
-  if (asked < 0)
-    throw UserError(diagnostic(Code::E0603, fmt::format("{} threads were asked for; expected a positive number", asked),
-                               "leave --threads out to use the whole computer"));
-  return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 /// A file that a directive names: its path is as seen from the program.
 std::string beside(const CompiledProgram& program, const std::string& path) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,7 +31,11 @@ void on_threads(int count, int threads, const F& f) {
   };
   {
     std::vector<std::jthread> helpers;
-    for (int t = 1; t < std::min(threads, count); ++t) helpers.emplace_back(work);
+    try {
+      for (int t = 1; t < std::min(threads, count); ++t) helpers.emplace_back(work);
+    } catch (const std::system_error&) {
+      // The computer has no more threads to give: fewer do the same work.
+    }
     work();
   }
   if (failure) std::rethrow_exception(failure);

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
@@ -13,6 +12,7 @@
 #include "engine/run/recorded_touch.hpp"
 #include "programs/commands/recorded_values.hpp"
 #include "programs/terminal.hpp"
+#include "programs/thread_count.hpp"
 
 namespace abbe {
 
@@ -144,7 +144,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   DiagnoseOptions how;
   how.workpiece = workpiece ? &*workpiece : nullptr;
   how.seed = options.seed.value_or(1);
-  how.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  how.threads = thread_count(options.threads);
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
   const auto [d, machine] = are_values(options.recordings) ? of_values(options, how) : of_touches(options, how);

@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "engine/base/files.hpp"
 #include "engine/machine/shipped.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/commands/machine_report.hpp"
 #include "programs/terminal.hpp"
+#include "programs/thread_count.hpp"
 
 namespace abbe {
 
 namespace {
-
-int thread_count(const MachineOptions& options) {
-  return options.threads > 0 ? options.threads
-                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 int list(const MachineOptions& options) {
   std::string text;
@@ -49,7 +44,7 @@ int show(const MachineOptions& options) {
   MachineReport report;
   report.machine = read_machine(options.machine);
   report.seed = options.seed;
-  report.drawn = screened_machines(report.machine, options.seed, 1, thread_count(options));
+  report.drawn = screened_machines(report.machine, options.seed, 1, thread_count(options.threads));
   report.messages = machine_warnings(report.machine);
   if (options.format != "json") print_messages(report.messages);
   print_result(options.format == "json" ? machine_report_json(report)
@@ -84,7 +79,7 @@ int screen(const MachineOptions& options) {
   ProgressLine progress;
   progress.show("screening virtual machines");
   const VirtualMachines machines =
-      screened_machines(report.machine, options.seed, options.machines, thread_count(options));
+      screened_machines(report.machine, options.seed, options.machines, thread_count(options.threads));
   report.counts = machines.counts;
   std::vector<TestResult> results;
   for (const GeometryCoefficients& one : machines.geometry)
@@ -95,10 +90,10 @@ int screen(const MachineOptions& options) {
   report.probe = probe_checks(report.machine, options.seed);
   progress.show("looking for a factor on e_max");
   report.suggested = suggest_e_max_factor(report.machine, options.seed, kSuggestionCandidates,
-                                          thread_count(options));
+                                          thread_count(options.threads));
   report.messages = machine_warnings(report.machine);
   if (const auto warning =
-          screening_warning(report.machine, report.counts, options.seed, thread_count(options)))
+          screening_warning(report.machine, report.counts, options.seed, thread_count(options.threads)))
     report.messages.push_back(*warning);
   for (Diagnostic& warning : probe_warnings(report.machine, report.probe))
     report.messages.push_back(std::move(warning));

@@ -1,7 +1,9 @@
 """abbe run: figures, formats, files, and input that cannot be used."""
 import csv
 import json
+import resource
 import statistics
+import subprocess
 
 import harness
 from harness import LENGTH
@@ -144,8 +146,26 @@ class Effects(harness.Case):
 class Refusals(harness.Case):
     def test_settings_out_of_range(self):
         self.write("length.dmi", LENGTH)
-        for options in (["--machines", 0], ["--machines", -5], ["--machines", 1], ["--threads", -1], ["--digits", 3]):
+        for options in (["--machines", 0], ["--machines", -5], ["--machines", 1], ["--threads", -1], ["--threads", 3000], ["--digits", 3]):
             self.assertIn(str(options[1]), self.refused("E0603", "run", "length.dmi", *options))
+
+    def test_every_command_takes_as_many_threads(self):
+        self.write("length.dmi", LENGTH)
+        self.abbe("record", "length.dmi", "--machine", "coord3-mc16", "-o", "rec.csv")
+        for threads in (-5, 257):
+            for command in (["run", "length.dmi"], ["machine", "screen", "precision-500"], ["diagnose", "rec.csv"]):
+                self.refused("E0603", *command, "--threads", threads)
+
+    def test_fewer_threads_than_asked_for_do_the_same_work(self):
+        """A stack of 1 GiB for each thread, in 4 GiB: only some of the helpers start."""
+        self.write("length.dmi", LENGTH)
+        def small_computer():
+            resource.setrlimit(resource.RLIMIT_STACK, (1 << 30, resource.getrlimit(resource.RLIMIT_STACK)[1]))
+            resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+        command = [self.abbe_path, "run", "length.dmi", "--machines", "200", "--format", "json", "--threads"]
+        done = subprocess.run([*command, "64"], cwd=self.folder, preexec_fn=small_computer, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout, self.abbe(*command[1:], 1).stdout)
 
     def test_a_program_with_errors_is_not_run(self):
         self.write("wrong.dmi", LENGTH.replace("T(LEN)=TOL", "T(LEN)=TLO"))
