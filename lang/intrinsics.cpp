@@ -88,15 +88,18 @@ Value temperature(Values&, Texts&) {
 
 // ---- texts
 
+/// Cut before it is converted: most numbers are no int.
+int count_up_to(int most, double asked) { return asked > 0 ? static_cast<int>(std::min(asked, double(most))) : 0; }
+
 /// What STR writes: as few digits as identify the number, or `decimals` digits after the point, in at least `width` characters.
 Value number_text(Values& a, Texts& texts) {
   const Value& v = a[0];
   if (v.type == Type::text) return std::move(a[0]);
   std::string text;
   for (std::size_t k = 0; k < v.parts.size(); ++k)
-    text += (k ? "," : "") + (a.size() > 2 ? fmt::format("{:.{}f}", v.constant(k) + 0.0, std::clamp(static_cast<int>(a[2].constant()), 0, 17))
+    text += (k ? "," : "") + (a.size() > 2 ? fmt::format("{:.{}f}", v.constant(k) + 0.0, count_up_to(17, a[2].constant()))
                                             : fmt::format("{}", v.constant(k) + 0.0));
-  const int width = a.size() > 1 ? std::clamp(static_cast<int>(a[1].constant()), 0, 255) : 0;
+  const int width = a.size() > 1 ? count_up_to(255, a[1].constant()) : 0;
   return texts.value(fmt::format("{:>{}}", text, width));
 }
 

@@ -72,10 +72,17 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
          "last, and no comments");
   }
 
+  /// The parser takes it for the end of the file, and would not read what follows.
+  void refuse_nul() const {
+    const auto at = static_cast<std::uint32_t>(std::min(text_.find('\0'), text_.size()));
+    if (at < text_.size())
+      fail({at, at + 1}, Code::E0401, "this is not JSON: a NUL character", "write the file as text, in UTF-8");
+  }
+
   JsonNode root;
 
  private:
-  [[noreturn]] void fail(Span span, Code code, std::string message, std::string help) {
+  [[noreturn]] void fail(Span span, Code code, std::string message, std::string help) const {
     throw UserError(diagnostic_at(source_, span, code, std::move(message), std::move(help)));
   }
 
@@ -146,6 +153,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
 JsonNode parse_json(const SourceFile& source) {
   TreeBuilder builder(source);
+  builder.refuse_nul();
   nlohmann::json::sax_parse(source.text(), &builder);
   return std::move(builder.root);
 }

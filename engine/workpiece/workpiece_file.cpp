@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
@@ -171,6 +172,14 @@ void check_schema(JsonObject& root) {
         "is this the right file? docs/formats.md describes workpiece files");
 }
 
+void read_surfaces(JsonObject surfaces, Workpiece& w) {
+  for (const std::string& label : surfaces.own_names()) {
+    for (const Surface& other : w.surfaces)
+      if (same_label(other.label, label)) twice(surfaces, label, '"' + other.label + '"');
+    w.surfaces.push_back(read_surface(surfaces.object(label), label, surfaces.span_of(label)));
+  }
+}
+
 }  // namespace
 
 bool Workpiece::has_form() const {
@@ -201,9 +210,7 @@ Workpiece parse_workpiece(const SourceFile& file) {
   read_compensation(root.object_or_absent("compensation"), w);
   w.knows.load = root.has("load_kg");
   w.load_kg = root.number_or("load_kg", 0, kNotNegative);
-  JsonObject surfaces = root.object_or_absent("surfaces");
-  for (const std::string& label : surfaces.own_names())
-    w.surfaces.push_back(read_surface(surfaces.object(label), label, surfaces.span_of(label)));
+  read_surfaces(root.object_or_absent("surfaces"), w);
   w.bounds = read_bounds(root);
   reader.finish();
   return w;

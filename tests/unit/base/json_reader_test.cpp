@@ -123,6 +123,10 @@ TEST_CASE("a missing object is one error, not one for each of its keys") {
             Code::E0404, {1, 1});
 }
 
+TEST_CASE("a NUL character is refused: what follows it would not be read") {
+  check_one(reading(std::string("{}\n \0 {\"a\": 1}", 13), kNothing), Code::E0401, {2, 2});
+}
+
 TEST_CASE("a duplicate key names the first") {
   const auto found = reading("{\"a\": 1,\n \"b\": 2,\n \"a\": 3}", kNothing);
   check_one(found, Code::E0403, {3, 2});

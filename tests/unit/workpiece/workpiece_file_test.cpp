@@ -108,6 +108,7 @@ TEST_CASE("nothing may be said twice (E0422)") {
   CHECK(has(faults(surface(R"("offset_um": 1, "diameter_mm": 20)")),
             "E0422 \"offset_um\" and \"diameter_mm\""));
   CHECK(has(faults(surface(R"("diameter_mm": 20, "diameter_deviation_um": 1)")), "E0422"));
+  CHECK(has(faults(R"("surfaces": {"bore": {"offset_um": 1}, "TOP": {}, "BORE": {"offset_um": 2}})"), "E0422 \"BORE\" and \"bore\""));
 }
 
 TEST_CASE("what is missing or mistyped is named with its place") {
