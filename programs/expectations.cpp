@@ -52,7 +52,11 @@ ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) 
 }
 
 ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
-  if (!value) return {false, name + ": there is none, because the tolerance has no limits"};
+  if (!value)
+    return {false, fmt::format("{}: there is none, because {}", name,
+                               e.quantity == "conformance"
+                                   ? "the tolerance has no limits"
+                                   : "a condition sends the error-free machine past it")};
   const bool inside = (!e.low || *value >= *e.low) && (!e.high || *value <= *e.high);
   return {inside,
           fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};

@@ -48,14 +48,15 @@ double covariance(const std::vector<double>& x, const std::vector<double>& y) {
 
 }  // namespace
 
-std::vector<Line> variance_budget(const std::vector<ContributorRun>& alone, std::size_t sample,
-                                  Unit unit, double factor) {
+std::vector<Line> variance_budget(const std::vector<ContributorRun>& alone,
+                                  const std::vector<Samples>& samples, std::size_t index, Unit unit,
+                                  double factor) {
   std::vector<Line> lines;
   double total = 0;
   for (const ContributorRun& run : alone) {
-    const std::vector<double>& value = run.result.samples[sample].value;
-    if (value.size() < 2) return {};
-    const double u = without_rounding(summarize(value).u, unit);
+    const Samples* own = counterpart(samples, index, run.result);
+    if (!own || own->value.size() < 2) return {};
+    const double u = without_rounding(summarize(own->value).u, unit);
     lines.push_back({run.name, u * u, factor * u});
     total += u * u;
   }

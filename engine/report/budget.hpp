@@ -17,10 +17,12 @@ namespace abbe {
 /// An interaction below this share is left out.
 inline constexpr double kSmallestInteraction = 0.01;
 
-/// Of the sample with this index; `factor` turns its unit into that of the report. Empty when a
-/// source's own run left too few values to tell. Variances of rounding count as 0.
+/// Of entry `index` of the samples of the run with all sources; `factor` turns its unit into that of
+/// the report. Empty when a source's own run left too few values to tell. Variances of rounding count
+/// as 0.
 std::vector<CharacteristicReport::BudgetLine> variance_budget(
-    const std::vector<ContributorRun>& alone, std::size_t sample, Unit unit, double factor);
+    const std::vector<ContributorRun>& alone, const std::vector<Samples>& samples,
+    std::size_t index, Unit unit, double factor);
 
 /// "alignment", "feature" and, when it is not small, "interaction", from the machines that reached
 /// the characteristic in all three runs. Empty when fewer than two did.

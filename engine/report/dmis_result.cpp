@@ -129,10 +129,10 @@ class ResultText {
 
  private:
   void add_uncertainty(plan::CharacteristicId id, const std::string& label) {
-    const int occurrence = ++written_[id.value];
+    const int visit = ++written_[id.value];
     for (const CharacteristicReport& r : reports_) {
-      if (r.line != plan_[id].line || r.tolerance != label || r.occurrence != occurrence) continue;
-      text += fmt::format("$$! u TA({}) {:.3g} lcl {:.3g} ucl {:.3g}", label, r.summary.u, r.lcl, r.ucl);
+      if (!r.reference || r.characteristic != id || r.visit != visit) continue;
+      text += fmt::format("$$! u TA({}) {:.3g} lcl {:.3g} ucl {:.3g}", label, r.summary.u, r.lcl.value(), r.ucl.value());
       if (r.conformance_probability) text += fmt::format(" conforms {:.4g}", *r.conformance_probability);
       text += "\n";
       return;

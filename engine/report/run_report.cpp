@@ -1,6 +1,8 @@
 #include "engine/report/run_report.hpp"
 
-#include "engine/base/ids.hpp"
+#include <algorithm>
+#include <map>
+
 #include "engine/report/budget.hpp"
 #include "engine/report/report_unit.hpp"
 
@@ -10,9 +12,10 @@ namespace {
 
 /// Shares of variance; empty when a contributor's own run left too few values to tell.
 std::vector<CharacteristicReport::Contribution> contributions(
-    const std::vector<ContributorRun>& alone, std::size_t sample, Unit unit) {
+    const std::vector<ContributorRun>& alone, const std::vector<Samples>& samples,
+    std::size_t index, Unit unit) {
   std::vector<CharacteristicReport::Contribution> list;
-  for (const auto& line : variance_budget(alone, sample, unit, 1))
+  for (const auto& line : variance_budget(alone, samples, index, unit, 1))
     list.push_back({line.name, line.share});
   return list;
 }
@@ -39,8 +42,15 @@ CharacteristicReport::CoverageInterval interval_of(const Samples& samples, doubl
   return {coverage, s.symmetric, s.shortest};
 }
 
+/// Machines that stopped and have no value here.
+int stopped_before(const Samples& samples, const std::vector<Trap>& traps) {
+  return static_cast<int>(std::count_if(traps.begin(), traps.end(), [&](const Trap& t) {
+    return !std::binary_search(samples.machine.begin(), samples.machine.end(), t.machine);
+  }));
+}
+
 CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples,
-                                           int machines) {
+                                           const RunResult& run) {
   const plan::CharacteristicDef& definition = plan[samples.characteristic];
   const plan::ToleranceDef& tolerance = plan[definition.tolerance];
   const auto [unit, factor] = report_unit(plan, samples.characteristic);
@@ -52,49 +62,68 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.kind = tolerance.kind->word;
   report.unit = unit;
   report.line = definition.line;
-  report.occurrence = samples.occurrence;
+  report.characteristic = samples.characteristic;
+  report.visit = samples.occurrence;
   report.nominal = samples.nominal * factor;
-  report.reference = samples.reference * factor;
+  report.reference = scaled(samples.reference, factor);
   std::vector<double> values = samples.value;
   for (double& v : values) v *= factor;
   report.summary = summarize(values);
   report.histogram = histogram(values);
-  report.lcl = report.summary.symmetric.low - report.reference;
-  report.ucl = report.summary.symmetric.high - report.reference;
+  if (report.reference) {
+    report.lcl = report.summary.symmetric.low - *report.reference;
+    report.ucl = report.summary.symmetric.high - *report.reference;
+  }
   report.lower = scaled(samples.limits.lower, factor);
   report.upper = scaled(samples.limits.upper, factor);
   if (report.lower || report.upper)
     report.conformance_probability = conformance_probability(
         against_common_limits(samples), samples.limits.lower, samples.limits.upper);
-  report.trapped = machines - static_cast<int>(samples.value.size());
+  report.evaluated = static_cast<int>(samples.value.size());
+  report.trapped = stopped_before(samples, run.traps);
+  report.elsewhere = run.machines - report.evaluated - report.trapped;
   return report;
 }
 
 }  // namespace
+
+std::vector<int> occurrences(const plan::Plan& plan, const std::vector<Samples>& samples) {
+  std::map<std::pair<int, std::vector<std::string>>, int> met;
+  std::vector<int> numbers;
+  for (const Samples& s : samples) {
+    const plan::CharacteristicDef& definition = plan[s.characteristic];
+    std::vector<std::string> labels{plan[definition.tolerance].label};
+    for (const plan::FeatureId f : definition.features) labels.push_back(plan[f].label);
+    numbers.push_back(++met[{definition.line, std::move(labels)}]);
+  }
+  return numbers;
+}
 
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
                                                          const RunResult& result,
                                                          const std::vector<ContributorRun>& alone,
                                                          const BudgetRuns* budget,
                                                          std::optional<double> coverage) {
-  for (const ContributorRun& run : alone)
-    ABBE_CHECK(run.result.samples.size() == result.samples.size());
   std::vector<CharacteristicReport> reports;
+  const std::vector<int> numbers = occurrences(plan, result.samples);
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
     const Samples& samples = result.samples[i];
     if (samples.value.size() < 2) continue;
-    CharacteristicReport report = characteristic_report(plan, samples, result.machines);
+    CharacteristicReport report = characteristic_report(plan, samples, result);
+    report.occurrence = numbers[i];
     if (coverage)
       report.interval =
           interval_of(samples, report_unit(plan, samples.characteristic).factor, *coverage);
     const plan::ToleranceDef& tolerance = plan[plan[samples.characteristic].tolerance];
     const Unit unit = unit_of(*tolerance.kind, tolerance.arguments);
-    report.contributions = contributions(alone, i, unit);
+    report.contributions = contributions(alone, result.samples, i, unit);
     if (budget) {
       const double factor = report_unit(plan, samples.characteristic).factor;
-      report.budget = variance_budget(budget->alone, i, unit, factor);
-      report.alignment_split = alignment_split(samples, budget->alignment.samples.at(i),
-                                               budget->feature.samples.at(i), unit, factor);
+      report.budget = variance_budget(budget->alone, result.samples, i, unit, factor);
+      const Samples* alignment = counterpart(result.samples, i, budget->alignment);
+      const Samples* feature = counterpart(result.samples, i, budget->feature);
+      if (alignment && feature)
+        report.alignment_split = alignment_split(samples, *alignment, *feature, unit, factor);
     }
     reports.push_back(std::move(report));
   }

@@ -24,11 +24,15 @@ namespace abbe {
 struct CharacteristicReport {
   std::vector<std::string> features;
   std::string tolerance, kind, unit;
-  int line = 0, occurrence = 1;
-  double nominal = 0, reference = 0;
+  int line = 0;
+  int occurrence = 1;                  ///< among the evaluations of these labels that this line makes
+  plan::CharacteristicId characteristic;
+  int visit = 1;                       ///< Samples::occurrence
+  double nominal = 0;
+  std::optional<double> reference;     ///< none where a condition sends the error-free machine elsewhere
   Summary summary;                     ///< of the values
   Histogram histogram;                 ///< of the values
-  double lcl = 0, ucl = 0;             ///< limits of the 95 % interval minus reference
+  std::optional<double> lcl, ucl;      ///< limits of the 95 % interval minus reference
   /// The interval of another coverage probability, of the values; none: not asked for.
   struct CoverageInterval {
     double coverage = 0.95;
@@ -49,7 +53,9 @@ struct CharacteristicReport {
   };
   std::vector<BudgetLine> budget;           ///< each source alone, shares sum to 1; empty: not asked for
   std::vector<BudgetLine> alignment_split;  ///< "alignment", "feature" and what is left (budget.hpp)
-  int trapped = 0;    ///< machines that did not reach it
+  int evaluated = 0;  ///< machines that evaluated it: all figures are theirs
+  int trapped = 0;    ///< machines that stopped before they could
+  int elsewhere = 0;  ///< machines that a condition on measured values sent past it
 };
 
 struct Influence {
@@ -89,6 +95,11 @@ struct BudgetRuns {
   std::vector<ContributorRun> alone;  ///< each source
   RunResult alignment, feature;       ///< errors only on touches of the one or the other kind
 };
+/// Of each entry of `samples`, the how-manieth evaluation of its labels in its line it is. The turns of
+/// a loop that is written out, and the calls of a macro, are characteristics of their own in the plan;
+/// a reader sees the same labels again.
+std::vector<int> occurrences(const plan::Plan&, const std::vector<Samples>& samples);
+
 /// Turns samples into the figures of the report; angles become degrees here. Characteristics that
 /// fewer than two machines reached have no figures and are left out. A contributor's share is the
 /// variance of its own run over the sum of those variances; variances of rounding, below (1e-9

@@ -135,9 +135,9 @@ class StudyRun {
     counts.generated += machines.counts.generated, counts.failed_mpe += machines.counts.failed_mpe;
     counts.too_small += machines.counts.too_small, counts.used += machines.counts.used;
     study_.candidates.insert(study_.candidates.end(), machines.index.begin(), machines.index.end());
-    add_to_trials(part);
     if (shift == 0) {
       study_.result = std::move(part);
+      add_to_trials(study_.result);
       return;
     }
     for (Trap& trap : part.traps) {
@@ -145,26 +145,37 @@ class StudyRun {
       study_.result.traps.push_back(std::move(trap));
     }
     for (std::size_t i = 0; i < part.samples.size(); ++i) {
-      Samples &all = study_.result.samples[i], &more = part.samples[i];
-      ABBE_CHECK(all.characteristic == more.characteristic && all.occurrence == more.occurrence);
+      const Samples& more = part.samples[i];
+      Samples& all = study_.result.samples[entry(part, i)];
       all.value.insert(all.value.end(), more.value.begin(), more.value.end());
       all.own_limits.insert(all.own_limits.end(), more.own_limits.begin(), more.own_limits.end());
       for (const std::uint32_t m : more.machine) all.machine.push_back(m + shift);
     }
     study_.result.machines += part.machines;
     study_.result.touches += part.touches;
+    add_to_trials(part);
+  }
+
+  /// Where the result has the evaluation that is entry `i` of `part`; a new entry for one on a path
+  /// that only machines of `part` took.
+  std::size_t entry(const RunResult& part, std::size_t i) {
+    std::vector<Samples>& all = study_.result.samples;
+    if (const Samples* known = counterpart(part.samples, i, study_.result)) return known - all.data();
+    all.push_back(part.samples[i]);
+    all.back().value.clear(), all.back().own_limits.clear(), all.back().machine.clear();
+    return all.size() - 1;
   }
 
   void add_to_trials(const RunResult& block) {
     if (!options_.digits) return;
-    trials_.resize(block.samples.size(), AdaptiveTrials(*options_.digits));
+    trials_.resize(study_.result.samples.size(), AdaptiveTrials(*options_.digits));
     for (std::size_t i = 0; i < block.samples.size(); ++i) {
       const Samples& samples = block.samples[i];
       if (samples.value.size() < 2) continue;
       std::vector<double> values = samples.value;
       const double factor = report_unit(plan_, samples.characteristic).factor;
       for (double& v : values) v *= factor;  // the digits are those of the figures reported
-      trials_[i].add(summarize(values));
+      trials_[entry(block, i)].add(summarize(values));
     }
   }
 
@@ -210,6 +221,7 @@ class StudyRun {
               std::back_inserter(report.messages));
     report.traps = study_.result.traps;
     add_unreached();
+    warn_of_parting();
     warn_of_few_machines();
     warn_of_screening();
     if (study_.result.samples.empty())
@@ -232,6 +244,25 @@ class StudyRun {
         features += (features.empty() ? "" : ", ") + plan_[f].label;
       study_.report.lost.push_back({definition.line, features, reason});
     }
+  }
+
+  /// Machines that took one path are those with certain errors: their figures are not those of all.
+  void warn_of_parting() {
+    constexpr int kShown = 10;
+    int parted = 0;
+    for (const CharacteristicReport& c : study_.report.characteristics) {
+      if (c.elsewhere == 0 || ++parted > kShown) continue;
+      message(Code::W0619,
+              fmt::format("line {}: FA({}),TA({}): {} of {} machines evaluated this: a conditional result",
+                          c.line, fmt::join(c.features, "),FA("), c.tolerance, c.evaluated,
+                          study_.result.machines),
+              c.reference ? "a condition on measured values sent the others past it"
+                          : "a condition on measured values sent the others past it, and the error-free "
+                            "machine, so that there is no value to compare with");
+    }
+    if (parted > kShown)
+      message(Code::W0619, fmt::format("{} characteristics in all are conditional results", parted),
+              "`abbe run --format json` says of each how many machines `evaluated` it");
   }
 
   /// Beyond each end of an interval must be some values, or its ends are those of the sample.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "engine/base/on_threads.hpp"
 #include "engine/run/executor.hpp"
@@ -13,6 +14,8 @@ namespace abbe {
 
 namespace {
 
+using Key = std::pair<int, int>;  // characteristic, visit
+
 /// What one block contributes; merged in block order, so that the result does not depend on threads. All blocks are kept until then, so
 /// of every value only what differs from machine to machine.
 struct BlockResult {
@@ -20,6 +23,7 @@ struct BlockResult {
     plan::CharacteristicId characteristic;
     int visit = 0;
     double value = 0;
+    Key key() const { return {characteristic.value, visit}; }
   };
   struct LaneResult {
     std::vector<Kept> values;
@@ -27,6 +31,7 @@ struct BlockResult {
     std::optional<LaneTrap> trap;
   };
   std::vector<LaneResult> lanes;
+  std::map<Key, Value> elsewhere;  ///< what the error-free machine does not evaluate, on the twin of the first machine that did
   std::uint64_t touches = 0;
 };
 
@@ -41,12 +46,27 @@ BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
   return out;
 }
 
-BlockResult run_block(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, int first, int count) {
+/// Enters what `lane` evaluated and the error-free machine did not, as the lane's twin saw it.
+void keep_elsewhere(const Block& block, const Lane& lane, const std::set<Key>& referenced, std::map<Key, Value>& elsewhere) {
+  for (const Value& v : lane.values) {
+    const Key key{v.characteristic.value, v.visit};
+    if (referenced.contains(key) || elsewhere.contains(key)) continue;
+    const std::vector<Value>& seen = block.lanes[lane.twin].values;
+    const auto twins = std::find_if(seen.begin(), seen.end(), [&](const Value& t) { return Key{t.characteristic.value, t.visit} == key; });
+    elsewhere.emplace(key, twins != seen.end() ? *twins : v);  // a twin that stopped right here has none
+  }
+}
+
+BlockResult run_block(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, const std::set<Key>& referenced,
+                      int first, int count) {
   Block block = executor.make_block(machines, first, count);
   executor.run(block);
   BlockResult result;
   result.touches = block.touches;
-  for (int i = 0; i < count; ++i) result.lanes.push_back(kept(block.lanes[i], plan));
+  for (int i = 0; i < count; ++i) {
+    keep_elsewhere(block, block.lanes[i], referenced, result.elsewhere);
+    result.lanes.push_back(kept(block.lanes[i], plan));
+  }
   return result;
 }
 
@@ -57,13 +77,14 @@ int lanes_of_block(const Executor& executor, const RunOptions& options) {
 }
 
 /// Runs all blocks on `threads` threads; the first exception of a block ends the run.
-std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, const RunOptions& options) {
+std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, const RunOptions& options,
+                                    const std::set<Key>& referenced) {
   const int per_block = lanes_of_block(executor, options);
   const int blocks = (machines.size() + per_block - 1) / per_block;
   std::vector<BlockResult> results(blocks);
   on_threads(blocks, options.threads, [&](int b) {
     const int first = b * per_block;
-    results[static_cast<std::size_t>(b)] = run_block(executor, plan, machines, first, std::min(per_block, machines.size() - first));
+    results[static_cast<std::size_t>(b)] = run_block(executor, plan, machines, referenced, first, std::min(per_block, machines.size() - first));
   });
   return results;
 }
@@ -117,9 +138,41 @@ ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Mac
   return {std::move(lane), std::move(observed.outputs)};
 }
 
-using Key = std::pair<int, int>;  // characteristic, visit
+/// The samples of a run in the making.
+class Collected {
+ public:
+  explicit Collected(const std::vector<Value>& reference) {
+    for (const Value& v : reference) add(v, v.value);
+  }
+
+  /// The samples that a value belongs to; `elsewhere` describes what the error-free machine does not evaluate.
+  Samples& of(const Key& key, const std::map<Key, Value>& elsewhere) {
+    const auto found = slot_.find(key);
+    return found != slot_.end() ? samples[found->second] : add(elsewhere.at(key), std::nullopt);
+  }
+
+  std::vector<Samples> samples;
+
+ private:
+  Samples& add(const Value& v, std::optional<double> reference) {
+    slot_[{v.characteristic.value, v.visit}] = samples.size();
+    return samples.emplace_back(Samples{v.characteristic, v.visit + 1, reference, v.nominal, v.limits, {}, {}, {}});
+  }
+
+  std::map<Key, std::size_t> slot_;
+};
 
 }  // namespace
+
+const Samples* counterpart(const std::vector<Samples>& samples, std::size_t index, const RunResult& other) {
+  const auto same = [&](const Samples& s) {
+    return s.characteristic == samples[index].characteristic && s.occurrence == samples[index].occurrence;
+  };
+  // What the error-free machine evaluates comes first and in the same order.
+  if (index < other.samples.size() && same(other.samples[index])) return &other.samples[index];
+  const auto found = std::find_if(other.samples.begin(), other.samples.end(), same);
+  return found == other.samples.end() ? nullptr : &*found;
+}
 
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
                    const SourceFile& source) {
@@ -131,22 +184,18 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   result.machines = machines.size();
   result.reference_outputs = std::move(reference_ran.outputs);
   result.cycle_time_s = reference.motion->time_s();
-  std::map<Key, std::size_t> slot;
-  for (const Value& v : reference.values) {
-    slot[{v.characteristic.value, v.visit}] = result.samples.size();
-    result.samples.push_back({v.characteristic, v.visit + 1, v.value, v.nominal, v.limits, {}, {}, {}});
-  }
+  std::set<Key> referenced;
+  for (const Value& v : reference.values) referenced.insert({v.characteristic.value, v.visit});
+  Collected collected(reference.values);
   std::uint32_t machine_number = 0;
-  for (BlockResult& block : run_blocks(executor, plan, machines, options)) {
+  for (BlockResult& block : run_blocks(executor, plan, machines, options, referenced)) {
     result.touches += block.touches;
     for (BlockResult::LaneResult& lane : block.lanes) {
       auto own_limits = lane.own_limits.begin();
       for (const BlockResult::Kept& v : lane.values) {
         const bool widened = !plan[v.characteristic].widening.empty();
         const auto limits = widened ? own_limits++ : own_limits;
-        const auto found = slot.find({v.characteristic.value, v.visit});
-        if (found == slot.end()) continue;  // evaluated on a path that the error-free machine does not take
-        Samples& samples = result.samples[found->second];
+        Samples& samples = collected.of(v.key(), block.elsewhere);
         samples.value.push_back(v.value);
         if (widened) samples.own_limits.push_back(*limits);
         samples.machine.push_back(machine_number);
@@ -156,6 +205,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
       ++machine_number;
     }
   }
+  result.samples = std::move(collected.samples);
   return result;
 }
 

@@ -46,10 +46,13 @@ struct RunOptions {
 };
 
 /// The values of one characteristic, at its `occurrence`-th evaluation, on every machine. Values are mm or rad.
+///
+/// A condition on a measured value may send the error-free machine past a characteristic that virtual machines evaluate. It then
+/// has no reference; nominal and limits are those of the twin of the first machine that evaluated it.
 struct Samples {
   plan::CharacteristicId characteristic;
   int occurrence = 1;
-  double reference = 0;           ///< on the error-free machine
+  std::optional<double> reference;  ///< on the error-free machine; none where it takes another path
   double nominal = 0;
   ToleranceLimits limits;         ///< on the error-free machine
   std::vector<double> value;      ///< one per machine that reached it, in machine order
@@ -79,7 +82,8 @@ struct OutputRecord {
 };
 
 struct RunResult {
-  std::vector<Samples> samples;   ///< in the order in which the error-free machine evaluated them
+  /// In the order in which the error-free machine evaluated them, then those without a reference as the machines came to them.
+  std::vector<Samples> samples;
   std::vector<Trap> traps;        ///< by machine
   int machines = 0;
   std::vector<OutputRecord> reference_outputs;  ///< of the error-free machine
@@ -91,6 +95,9 @@ struct RunResult {
 /// size. Throws UserError, with places in `source`, when the error-free machine cannot finish (touch outside the travel, unknown
 /// sensor, degenerate fit): then no machine can.
 RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& machines, const RunOptions&, const SourceFile& source);
+
+/// What another run of the same plan has of the evaluation that is entry `index` in `samples`; nullptr when no machine made it there.
+const Samples* counterpart(const std::vector<Samples>& samples, std::size_t index, const RunResult& other);
 
 /// What the program had in force at a touch.
 struct TouchAim {

@@ -57,9 +57,10 @@ int decimals_for(double u) {
 std::string result_line(const CharacteristicReport& c) {
   const double u95 = (c.summary.symmetric.high - c.summary.symmetric.low) / 2;
   const int digits = decimals_for(u95);
-  return fmt::format("TA({}) of FA({}): {:.{}f} {}, u95 {:.{}f} {}\n", c.tolerance,
-                     fmt::join(c.features, "), FA("), c.reference, digits, c.unit, u95, digits,
-                     c.unit);
+  const std::string value = c.reference ? fmt::format("{:.{}f} {}", *c.reference, digits, c.unit)
+                                        : "no value on the error-free machine";
+  return fmt::format("TA({}) of FA({}): {}, u95 {:.{}f} {}\n", c.tolerance,
+                     fmt::join(c.features, "), FA("), value, u95, digits, c.unit);
 }
 
 }  // namespace

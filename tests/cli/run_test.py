@@ -10,7 +10,7 @@ from harness import LENGTH
 
 KEYS = {"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost", "traps", "influences", "messages"}
 CHARACTERISTIC_KEYS = {"feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal", "reference", "mean", "u", "lcl", "ucl",
-                       "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "contributions", "trapped"}
+                       "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "contributions", "trapped", "evaluated"}
 
 
 class Figures(harness.Case):
@@ -96,6 +96,70 @@ class Figures(harness.Case):
         short, long = (self.run_json(name, "--machines", 20)["cycle_time_s"] for name in ("length.dmi", "long.dmi"))
         self.assertGreater(short, 0)
         self.assertGreater(long, short + 1)
+
+
+BRANCHES = """DMISMN/'rework',4.0
+UNITS/MM,ANGDEC
+DECL/REAL,D
+S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4
+SNSLCT/S(P)
+D(R)=TRANS/XORIG,700,YORIG,400,ZORIG,-500
+F(H)=FEAT/CIRCLE,INNER,CART,50,30,-5,0,0,1,10
+MEAS/CIRCLE,F(H),6
+ENDMES
+D=OBTAIN/FA(H),11
+IF/(D .GT. 10.0001)
+T(BIG)=TOL/DIAM,-.01,.01
+OUTPUT/FA(H),TA(BIG)
+ELSE
+T(SMALL)=TOL/DIAM,-.02,.02
+OUTPUT/FA(H),TA(SMALL)
+ENDIF
+ENDFIL
+"""
+
+
+class Branches(harness.Case):
+    """A condition on a measured value: what each machine evaluates is reported, as what it is."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("branches.dmi", BRANCHES)
+
+    def test_every_characteristic_that_a_machine_evaluated_is_a_row(self):
+        report = self.run_json("branches.dmi", "--machines", 200, "--csv", "samples.csv")
+        small, big = report["characteristics"]
+        self.assertEqual((small["tolerance"], big["tolerance"]), ("SMALL", "BIG"))
+        self.assertEqual(small["evaluated"] + big["evaluated"], 200)
+        self.assertGreater(min(small["evaluated"], big["evaluated"]), 10)
+        self.assertAlmostEqual(small["reference"], 10, delta=1e-9)
+        self.assertEqual([big[k] for k in ("reference", "lcl", "ucl")], [None] * 3)
+        self.assertGreater(big["interval95"]["symmetric"][0], 10.0001)
+        self.assertEqual([c["trapped"] for c in (small, big)], [0, 0])
+        self.assertEqual((report["traps"], report["lost"]), ([], []))
+        self.assertEqual([m["code"] for m in report["messages"]].count("W0619"), 2)
+        with open(self.folder / "samples.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(sum(row["characteristic"] == "FA(H),TA(BIG)" for row in rows), big["evaluated"])
+        self.assertEqual({row["reference"] for row in rows if row["characteristic"] == "FA(H),TA(BIG)"}, {""})
+
+    def test_the_text_says_of_how_many_machines(self):
+        report = self.run_json("branches.dmi", "--machines", 200)
+        text = self.abbe("run", "branches.dmi", "--machines", 200).stdout
+        for c in report["characteristics"]:
+            self.assertIn(f"FA(H),TA({c['tolerance']}): {c['evaluated']} of 200 machines evaluated this: a conditional result", text)
+            self.assertIn(f"% of {c['evaluated']}", text)
+
+    def test_expectations_of_a_row_without_reference(self):
+        self.write("expected.dmi", BRANCHES.replace("UNITS", "$$! machines 200\n$$! expect TA(BIG) u between 0.00001 0.01\n"
+                                                             "$$! expect TA(BIG) value >= 0\nUNITS", 1))
+        done = self.abbe("test", "expected.dmi", code=1)
+        self.assertIn("1 passed, 1 failed", done.stdout)
+        self.assertIn("TA(BIG) value: there is none, because a condition sends the error-free machine past it", done.stdout)
+
+    def test_blocks_of_machines_join_what_paths_evaluate(self):
+        report = self.run_json("branches.dmi", "--digits", 1)
+        self.assertEqual(sum(c["evaluated"] for c in report["characteristics"]), report["machines"]["used"])
 
 
 def with_effects(effects):

@@ -38,6 +38,7 @@ const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, c
   std::set<std::string> names;
   int met = 0;
   for (const Samples& s : result.samples) {
+    if (!s.reference) continue;
     const std::vector<std::string> of = labels_of(plan, s.characteristic);
     names.insert(fmt::format("{}", fmt::join(of, " ")));
     if (row.ordinal > 0 ? labels.back() == of.back() && ++met == row.ordinal : !labels.empty() && means(labels, of) && s.occurrence == row.occurrence)
@@ -120,16 +121,16 @@ class EnsembleRuns {
                                     "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
-    if (!angle) refuse_unit(row, s.reference);
+    if (!angle) refuse_unit(row, *s.reference);
     RecordedValue v{r, run.program, run.repeat, s.characteristic, s.occurrence, angle};
-    v.reference = row.reference.value_or(s.reference * engine_scale(angle) * v.reported());
+    v.reference = row.reference.value_or(*s.reference * engine_scale(angle) * v.reported());
     v.deviation = (row.value - v.reference) / v.reported();
     v.calibration = row.expanded_uncertainty / 2 / v.reported();
     const std::string artefact = !row.artefact.empty() ? row.artefact : fmt::format("{}\n{}\n{}", run.program, s.characteristic.value, s.occurrence);
     v.artefact = artefact_.emplace(artefact, static_cast<int>(artefact_.size())).first->second;
     out_.values[static_cast<std::size_t>(r)] = v;
     for (std::size_t i = 0; i < s.value.size(); ++i)
-      out_.simulated(static_cast<Eigen::Index>(s.machine[i]), r) = engine_scale(angle) * (s.value[i] - s.reference);
+      out_.simulated(static_cast<Eigen::Index>(s.machine[i]), r) = engine_scale(angle) * (s.value[i] - *s.reference);
   }
 
   const ValueRecording& recording_;

@@ -56,8 +56,8 @@ class Plantation {
         const RecordedValue& v = values_[k];
         if (v.program != static_cast<int>(p)) continue;
         for (const Samples& s : result.samples)
-          if (s.characteristic == v.characteristic && s.occurrence == v.occurrence && !s.value.empty())
-            out(static_cast<Eigen::Index>(k)) = (v.angle ? kUradPerRad : kUmPerMm) * (s.value[0] - s.reference);
+          if (s.characteristic == v.characteristic && s.occurrence == v.occurrence && s.reference && !s.value.empty())
+            out(static_cast<Eigen::Index>(k)) = (v.angle ? kUradPerRad : kUmPerMm) * (s.value[0] - *s.reference);
       }
     }
     return out;

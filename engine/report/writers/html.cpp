@@ -20,6 +20,7 @@ std::string name_of(const CharacteristicReport& c) {
 }
 
 std::string decimal(std::optional<double> value, int decimals) { return value ? fmt::format("{:.{}f}", *value, decimals) : "-"; }
+std::string signed_decimal(std::optional<double> value, int decimals) { return value ? fmt::format("{:+.{}f}", *value, decimals) : "-"; }
 
 std::string characteristics(const RunReport& r) {
   if (r.characteristics.empty()) return html_paragraphs("No characteristic was evaluated.");
@@ -30,8 +31,8 @@ std::string characteristics(const RunReport& r) {
   for (const CharacteristicReport& c : r.characteristics) {
     const int decimals = decimals_for(c.summary.u);
     std::vector<std::string> cells{std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals), decimal(c.summary.u, decimals),
-                                   fmt::format("{:+.{}f}", c.lcl, decimals), fmt::format("{:+.{}f}", c.ucl, decimals), decimal(c.lower, kFewestDecimals),
-                                   decimal(c.upper, kFewestDecimals), c.conformance_probability ? fmt::format("{:.1f} %", 100 * *c.conformance_probability) : "-"};
+                                   signed_decimal(c.lcl, decimals), signed_decimal(c.ucl, decimals), decimal(c.lower, kFewestDecimals),
+                                   decimal(c.upper, kFewestDecimals), conforms(c)};
     for (std::size_t k = 0; k < contributors.size(); ++k)
       cells.push_back(k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-");
     rows += html_row(cells);
@@ -39,12 +40,13 @@ std::string characteristics(const RunReport& r) {
   return html_table(rows) + fmt::format("<p class=\"note\">{}</p>\n", escaped(report_legend(r)));
 }
 
-/// Deviations from the value of the error-free machine, in um or seconds of arc.
+/// Deviations from the value of the error-free machine, or from the mean where it has none, in um or seconds of arc.
 std::string distribution(const CharacteristicReport& c) {
   const bool length = c.unit == "mm";
   const double factor = length ? 1e3 : 3600;
-  const auto deviation = [&](double value) { return factor * (value - c.reference); };
-  HistogramPlot d{name_of(c), length ? "value on a machine minus value, um" : "value on a machine minus value, arcsec", c.histogram, {factor * c.lcl, factor * c.ucl}, {}};
+  const auto deviation = [&](double value) { return factor * (value - c.reference.value_or(c.summary.mean)); };
+  const std::string title = fmt::format("value on a machine minus {}, {}", c.reference ? "value" : "mean", length ? "um" : "arcsec");
+  HistogramPlot d{name_of(c), title, c.histogram, {deviation(c.summary.symmetric.low), deviation(c.summary.symmetric.high)}, {}};
   d.histogram.low = deviation(c.histogram.low), d.histogram.high = deviation(c.histogram.high);
   for (const std::optional<double>& limit : {c.lower, c.upper})
     if (limit) d.limits.push_back(deviation(*limit));
@@ -85,7 +87,9 @@ std::string intervals(const RunReport& r) {
   std::string rows = html_row({"characteristic", "unit", "symmetric", "shortest"}, "th");
   for (const CharacteristicReport& c : r.characteristics) {
     const int decimals = decimals_for(c.summary.u);
-    const auto from_value = [&](const Interval& i) { return fmt::format("{:+.{}f} to {:+.{}f}", i.low - c.reference, decimals, i.high - c.reference, decimals); };
+    const auto from_value = [&](const Interval& i) {
+      return c.reference ? fmt::format("{:+.{}f} to {:+.{}f}", i.low - *c.reference, decimals, i.high - *c.reference, decimals) : "-";
+    };
     rows += html_row({name_of(c), c.unit, from_value(c.interval->symmetric), from_value(c.interval->shortest)});
   }
   return fmt::format("<h2>{:g} % intervals</h2>\n<p class=\"note\">Limits minus value.</p>\n", 100 * r.characteristics.front().interval->coverage) + html_table(rows);

@@ -50,7 +50,8 @@ Json characteristic(const CharacteristicReport& c) {
               {"tolerance_limits", pair(c.lower, c.upper)},
               {"conformance_probability", number(c.conformance_probability)},
               {"contributions", contributions(c)},
-              {"trapped", c.trapped}};
+              {"trapped", c.trapped},
+              {"evaluated", c.evaluated}};
   if (c.interval)
     out["interval"] = {{"coverage", c.interval->coverage},
                        {"symmetric", pair(c.interval->symmetric.low, c.interval->symmetric.high)},

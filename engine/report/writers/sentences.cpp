@@ -62,6 +62,12 @@ std::string duration(double seconds) {
 
 }  // namespace
 
+std::string conforms(const CharacteristicReport& c) {
+  if (!c.conformance_probability) return "-";
+  const std::string share = fmt::format("{:.1f} %", 100 * *c.conformance_probability);
+  return c.elsewhere > 0 ? fmt::format("{} of {}", share, c.evaluated) : share;
+}
+
 int decimals_for(double u) {
   if (!(u > 0)) return kFewestDecimals;
   const std::string scientific = fmt::format("{:.1e}", u);  // rounds first: 0.0996 is 1.0e-01

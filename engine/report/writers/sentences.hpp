@@ -18,6 +18,9 @@ inline constexpr double kSmallestShare = 0.001;
 /// Decimals that show two significant digits of u.
 int decimals_for(double u);
 
+/// Share of conforming machines: "99.8 %"; and of how many, where a condition sent some past it.
+std::string conforms(const CharacteristicReport&);
+
 /// Words with commas between them.
 std::string joined(const std::vector<std::string>& words);
 

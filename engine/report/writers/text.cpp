@@ -53,9 +53,7 @@ std::string characteristics_table(const RunReport& r) {
                                    aligned(c.ucl, decimals, most, "+"),
                                    aligned(c.lower, kFewestDecimals, most),
                                    aligned(c.upper, kFewestDecimals, most),
-                                   c.conformance_probability
-                                       ? fmt::format("{:.1f} %", 100 * *c.conformance_probability)
-                                       : "-"};
+                                   conforms(c)};
     for (std::size_t k = 0; k < contributors.size(); ++k)
       cells.push_back(k < c.contributions.size()
                           ? fmt::format("{:.0f} %", 100 * c.contributions[k].share)
@@ -105,8 +103,9 @@ std::string interval_table(const RunReport& r) {
   for (const auto& c : r.characteristics) {
     const int decimals = decimals_for(c.summary.u);
     const auto from_value = [&](const Interval& i) {
-      return fmt::format("{:+.{}f} to {:+.{}f}", i.low - c.reference, decimals,
-                         i.high - c.reference, decimals);
+      if (!c.reference) return std::string("-");
+      return fmt::format("{:+.{}f} to {:+.{}f}", i.low - *c.reference, decimals,
+                         i.high - *c.reference, decimals);
     };
     table.add({std::to_string(c.line), joined(c.features), c.tolerance, c.unit,
                from_value(c.interval->symmetric), from_value(c.interval->shortest)});

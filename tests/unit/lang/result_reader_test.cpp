@@ -132,6 +132,7 @@ TEST_CASE("every form of a result and its uncertainty comes back as it was writt
       const bool inside = written.size() % 2 == 0;
       record.values.push_back({c, value, {std::nullopt, inside ? 1.0 : 0.0}});
       CharacteristicReport report;
+      report.characteristic = c, report.reference = value;
       report.tolerance = plan[plan[c].tolerance].label, report.line = plan[c].line;
       report.summary.u = value / 100, report.lcl = -value / 50, report.ucl = value / 40;
       if (inside) report.conformance_probability = 0.75;

@@ -29,7 +29,7 @@ Samples of(std::vector<double> v) { return samples(0, 500, {}, std::move(v)); }
 TEST_CASE("a budget has the uncertainty of each source and shares that sum to one") {
   const auto run = [](double a) { return run_of({of(values(a, 0))}, kMachines); };
   const auto lines = variance_budget({{"exx", run(0.002)}, {"head", run(0)}, {"probe", run(0.001)}},
-                                     0, Unit::mm, 1);
+                                     run(0.002).samples, 0, Unit::mm, 1);
   REQUIRE(lines.size() == 3);
   CHECK(lines[0].name == "exx");
   CHECK(lines[0].share == doctest::Approx(0.8));

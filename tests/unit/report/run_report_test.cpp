@@ -44,10 +44,12 @@ TEST_CASE("limits are relative to the error-free value, conformance is a share")
   CHECK(c.kind == "DISTB");
   CHECK(c.unit == "mm");
   CHECK(c.line == 41);
-  CHECK(c.lcl == doctest::Approx(-475.5e-6).epsilon(1e-9));  // 25th of 1000
-  CHECK(c.ucl == doctest::Approx(474.5e-6).epsilon(1e-9));   // 975th
+  CHECK(c.lcl.value() == doctest::Approx(-475.5e-6).epsilon(1e-9));  // 25th of 1000
+  CHECK(c.ucl.value() == doctest::Approx(474.5e-6).epsilon(1e-9));   // 975th
   CHECK(*c.conformance_probability == 0.7);                  // i - 499.5 <= 200: 700 of 1000
-  CHECK(c.trapped == 3);
+  CHECK(c.evaluated == 1000);
+  CHECK(c.trapped == 0);
+  CHECK(c.elsewhere == 3);
 }
 
 TEST_CASE("angles leave in degrees") {
@@ -56,13 +58,13 @@ TEST_CASE("angles leave in degrees") {
       1000);
   const CharacteristicReport c = characteristic_reports(length_and_angle(), run, {}).at(0);
   CHECK(c.unit == "deg");
-  CHECK(c.reference == doctest::Approx(90).epsilon(1e-14));
+  CHECK(c.reference.value() == doctest::Approx(90).epsilon(1e-14));
   CHECK(c.nominal == doctest::Approx(90).epsilon(1e-14));
   CHECK(*c.upper == doctest::Approx(91).epsilon(1e-14));
   CHECK_FALSE(c.lower);
   CHECK(c.summary.u ==
         doctest::Approx(1e-3 * std::sqrt(1000 * 1001 / 12.0)).epsilon(1e-9));  // of n equal steps
-  CHECK(c.lcl == doctest::Approx(-0.4755).epsilon(1e-9));
+  CHECK(c.lcl.value() == doctest::Approx(-0.4755).epsilon(1e-9));
 }
 
 TEST_CASE("shares of variance sum to one and ignore rounding") {
@@ -104,10 +106,45 @@ TEST_CASE("a characteristic that fewer than two machines reached has no figures"
   CHECK(reports[0].tolerance == "ANG");
 }
 
-TEST_CASE("runs of different plans are refused") {
+TEST_CASE("shares are unknown when a contributor alone sends no machine there") {
   const RunResult one = run_of({samples(0, 500, {}, ramp(500, 1e-6))}, 1000);
-  CHECK_THROWS_AS(characteristic_reports(length_and_angle(), one, {{"probe", run_of({}, 1000)}}),
-                  InternalError);
+  const auto reports = characteristic_reports(length_and_angle(), one, {{"probe", run_of({}, 1000)}});
+  CHECK(reports.at(0).contributions.empty());
+}
+
+TEST_CASE("only machines that stopped before it are trapped; a condition sent the others elsewhere") {
+  RunResult run = run_of({samples(0, 500, {}, {500.0, 500.1, 500.2})}, 10);
+  run.traps = {{2, 7, 50, "after it"}, {5, 3, 40, "before it"}};
+  const CharacteristicReport c = characteristic_reports(length_and_angle(), run, {}).at(0);
+  CHECK(c.evaluated == 3);
+  CHECK(c.trapped == 1);
+  CHECK(c.elsewhere == 6);
+}
+
+TEST_CASE("without a reference there is nothing that limits could be relative to") {
+  RunResult run = run_of({samples(0, 500, {499.9, 500.1}, {500.0, 500.1, 500.2})}, 10);
+  run.samples[0].reference = std::nullopt;
+  const CharacteristicReport c = characteristic_reports(length_and_angle(), run, {}).at(0);
+  CHECK_FALSE(c.reference);
+  CHECK_FALSE(c.lcl);
+  CHECK_FALSE(c.ucl);
+  CHECK(c.summary.symmetric.high == 500.2);
+  CHECK(c.conformance_probability.has_value());
+}
+
+TEST_CASE("the same labels again in the same line are further occurrences") {
+  plan::Plan plan = length_and_angle();
+  plan.characteristics.push_back(plan.characteristics[0]);
+  plan.characteristics.push_back(plan.characteristics[0]);
+  plan.characteristics.back().line = 50;
+  const RunResult run = run_of({samples(0, 500, {}, {500, 501}), samples(1, 1, {}, {1, 2}),
+                                samples(2, 500, {}, {500, 501}), samples(3, 500, {}, {500, 501})}, 2);
+  const auto reports = characteristic_reports(plan, run, {});
+  REQUIRE(reports.size() == 4);
+  CHECK(reports[0].occurrence == 1);
+  CHECK(reports[1].occurrence == 1);
+  CHECK(reports[2].occurrence == 2);
+  CHECK(reports[3].occurrence == 1);
 }
 
 TEST_CASE("influences are declared; an effect of the machine file makes its influence modelled") {
@@ -136,7 +173,7 @@ TEST_CASE("a coverage that is asked for gives its intervals beside those of 95 %
   REQUIRE(report.interval);
   CHECK(report.interval->coverage == 0.5);
   CHECK(report.interval->symmetric.high - report.interval->symmetric.low == doctest::Approx(0.5));
-  CHECK(report.ucl - report.lcl == doctest::Approx(0.95));
+  CHECK(*report.ucl - *report.lcl == doctest::Approx(0.95));
 }
 
 TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpiece file goes first") {
@@ -186,10 +223,11 @@ TEST_CASE("samples as CSV: every machine, labels quoted, angles in degrees") {
       {samples(0, 500, {}, {500.25}), samples(1, 90 * kDegree, {}, {90 * kDegree, 45 * kDegree})},
       2);
   study.result.samples[0].machine = {1};
+  study.result.samples[0].reference = std::nullopt;
   study.candidates = {0, 7};
   CHECK(samples_csv(length_and_angle(), study) ==
         "machine,candidate,characteristic,occurrence,unit,reference,value\r\n"
-        "1,7,\"FA(A),FA(B),TA(LEN)\",1,mm,500,500.25\r\n"
+        "1,7,\"FA(A),FA(B),TA(LEN)\",1,mm,,500.25\r\n"
         "0,0,\"FA(A),TA(ANG)\",1,deg,90,90\r\n"
         "1,7,\"FA(A),TA(ANG)\",1,deg,90,45\r\n");
 }

@@ -67,7 +67,7 @@ TEST_CASE("a study reports figures, shares, counts and the machine's weak spot")
   REQUIRE(r.characteristics.size() == 1);
   const CharacteristicReport& c = r.characteristics[0];
   CHECK(c.summary.n == 400);
-  CHECK(c.reference == doctest::Approx(200).epsilon(1e-12));
+  CHECK(c.reference.value() == doctest::Approx(200).epsilon(1e-12));
   CHECK(c.summary.u == summarize(study.result.samples[0].value).u);
   REQUIRE(c.contributions.size() == 3);
   CHECK(c.contributions[0].share + c.contributions[2].share == doctest::Approx(1).epsilon(1e-12));

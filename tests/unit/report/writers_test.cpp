@@ -18,7 +18,8 @@ CharacteristicReport length() {
   c.features = {"END1", "END2"};
   c.tolerance = "LEN", c.kind = "DISTB", c.unit = "mm";
   c.line = 41;
-  c.nominal = c.reference = 500;
+  c.nominal = 500, c.reference = 500;
+  c.evaluated = 1000;
   c.summary.n = 1000;
   c.summary.mean = 500.00002, c.summary.u = 0.00203;
   c.summary.symmetric = {499.996, 500.0042}, c.summary.shortest = {499.9961, 500.0041};
@@ -89,7 +90,8 @@ TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   CHECK(keys(c) == std::vector<std::string>{
                        "feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal",
                        "reference", "mean", "u", "lcl", "ucl", "interval95", "monte_carlo_error",
-                       "tolerance_limits", "conformance_probability", "contributions", "trapped"});
+                       "tolerance_limits", "conformance_probability", "contributions", "trapped",
+                       "evaluated"});
   CHECK(c["feature"] == Json{"END1", "END2"});
   CHECK(c["u"] == 0.00203);
   CHECK(c["interval95"] ==
@@ -244,6 +246,26 @@ TEST_CASE("figures are rounded to two digits of u and decimal points stand below
                   "499.9900   500.0100     99.8 %      62 %   0 %   38 %\n") != std::string::npos);
   CHECK(text.find("  41  END1, END2  LEN (DISTB) #2  mm    500.00000  0.00010  -0.00019  +0.00000  "
                   "  -        500.0100          -         -     -      -\n") != std::string::npos);
+}
+
+TEST_CASE("a row that rests on some of the machines says of how many") {
+  RunReport r = report();
+  CharacteristicReport& c = r.characteristics[0];
+  c.evaluated = 400, c.elsewhere = 600;
+  c.reference = c.lcl = c.ucl = std::nullopt;
+  const std::string text = written("text", r);
+  INFO(text);
+  CHECK(text.find("  mm    -       0.0020  -       -       499.9900  500.0100  99.8 % of 400  ") != std::string::npos);
+  const Json j = Json::parse(written("json", r))["characteristics"][0];
+  CHECK(j["reference"].is_null());
+  CHECK(j["lcl"].is_null());
+  CHECK(j["evaluated"] == 400);
+}
+
+TEST_CASE("an uncertainty that is rounding asks for no decimals") {
+  RunReport r = report();
+  r.characteristics[0].summary.u = 3e-13;
+  CHECK(written("text", r).find("  500.0000  0.0000  ") != std::string::npos);
 }
 
 TEST_CASE("a report without characteristics says so") {

@@ -49,8 +49,8 @@ TEST_CASE("without errors every machine sees the reference, exactly where the pr
   options.contributors.head = false;
   const RunResult r = run_plan(two_points(0, 0), machine, screened_machines(machine, 1, 5, 1), options, no_source());
   REQUIRE(r.samples.size() == 1);
-  CHECK(r.samples[0].reference == doctest::Approx(200).epsilon(1e-14));
-  for (const double v : r.samples[0].value) CHECK(v == r.samples[0].reference);
+  CHECK(r.samples[0].reference.value() == doctest::Approx(200).epsilon(1e-14));
+  for (const double v : r.samples[0].value) CHECK(v == r.samples[0].reference.value());
 }
 
 TEST_CASE("with one orientation the head's errors cancel out of a length") {

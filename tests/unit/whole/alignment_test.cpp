@@ -94,7 +94,7 @@ TEST_CASE("alignments pass on the uncertainty of their touches as the closed for
     CAPTURE(c.system);
     CAPTURE(c.axis);
     const Samples& samples = ran.samples(fmt::format("T{}", number++));
-    CHECK(std::fabs(samples.reference) < 1e-9);
+    CHECK(std::fabs(samples.reference.value()) < 1e-9);
     // 3.9 standard deviations of the variance of so many normal numbers.
     CHECK(std::fabs(variance(samples.value) / (square(sd.x) * c.variance) - 1) < 3.9 * std::sqrt(2.0 / (kMachines - 1)));
   }

@@ -86,6 +86,9 @@ void check_same(const RunResult& a, const RunResult& b) {
   for (std::size_t i = 0; i < a.samples.size(); ++i) {
     CHECK(a.samples[i].value == b.samples[i].value);
     CHECK(a.samples[i].machine == b.samples[i].machine);
+    CHECK(a.samples[i].reference == b.samples[i].reference);
+    CHECK(a.samples[i].nominal == b.samples[i].nominal);
+    CHECK(a.samples[i].limits.upper == b.samples[i].limits.upper);
   }
   CHECK(a.traps.size() == b.traps.size());
 }
@@ -116,4 +119,34 @@ TEST_CASE("machines that part by what they measure get exactly what each gets al
     check_same(alone, run(plan, machine, machines, 128, source));
   }
   CHECK(parted > 5);
+}
+
+TEST_CASE("what only virtual machines evaluate has samples, but no reference") {
+  const SourceFile source("branches.dmi",
+                          "DMISMN/'branches',5.2\nDECL/REAL,D\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4\nSNSLCT/S(P)\n"
+                          "D(R)=TRANS/XORIG,700,YORIG,400,ZORIG,-500\nF(H)=FEAT/CIRCLE,INNER,CART,50,30,-5,0,0,1,10\n"
+                          "MEAS/CIRCLE,F(H),6\nENDMES\nD=OBTAIN/FA(H),11\nIF/(D .GT. 10.0001)\nT(BIG)=TOL/DIAM,-0.01,0.01\n"
+                          "EVAL/FA(H),TA(BIG)\nELSE\nT(SMALL)=TOL/DIAM,-0.02,0.02\nEVAL/FA(H),TA(SMALL)\nENDIF\nENDFIL\n");
+  Sink sink;
+  const plan::Plan plan = lang::compile(source, sink).plan;
+  INFO(messages(sink));
+  REQUIRE_FALSE(sink.has_errors());
+  const Machine machine = read_machine("coord3-mc16");
+  const RunResult r = run(plan, machine, screened_machines(machine, 1, 60, 1), 7, source);
+  REQUIRE(r.samples.size() == 2);
+  const Samples &small = r.samples[0], &big = r.samples[1];
+  CHECK(*small.reference == doctest::Approx(10).epsilon(1e-12));
+  CHECK_FALSE(big.reference);
+  CHECK(big.nominal == 10);
+  CHECK(*big.limits.upper == doctest::Approx(10.01).epsilon(1e-12));
+  CHECK(big.value.size() > 2);
+  CHECK(small.value.size() > 2);
+  CHECK(small.value.size() + big.value.size() == 60);
+  for (const double d : big.value) CHECK(d > 10.0001);
+  CHECK(r.traps.empty());
+  CHECK(counterpart(r.samples, 1, r) == &big);
+  RunResult other;
+  other.samples = {big};
+  CHECK(counterpart(r.samples, 1, other) == &other.samples[0]);
+  CHECK(counterpart(r.samples, 0, other) == nullptr);
 }

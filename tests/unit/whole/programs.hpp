@@ -49,7 +49,7 @@ struct Ran {
     throw std::logic_error(tolerance);
   }
   /// Its value on the error-free machine.
-  double operator[](const std::string& tolerance) const { return samples(tolerance).reference; }
+  double operator[](const std::string& tolerance) const { return samples(tolerance).reference.value(); }
   /// The feature as the error-free machine put it out last, in the system current there.
   const Element& output(const std::string& feature) const {
     for (auto record = result.reference_outputs.rbegin(); record != result.reference_outputs.rend(); ++record) {
