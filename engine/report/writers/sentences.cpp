@@ -69,7 +69,8 @@ std::string conforms(const CharacteristicReport& c) {
 }
 
 int decimals_for(double u) {
-  if (!(u > 0)) return kFewestDecimals;
+  constexpr double kRounding = 1e-9;
+  if (!(u >= kRounding)) return kFewestDecimals;
   const std::string scientific = fmt::format("{:.1e}", u);  // rounds first: 0.0996 is 1.0e-01
   const int exponent = std::stoi(scientific.substr(scientific.find('e') + 1));
   return std::clamp(1 - exponent, kFewestDecimals, kMostDecimals);

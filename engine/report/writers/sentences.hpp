@@ -15,7 +15,7 @@ inline constexpr int kFewestDecimals = 4, kMostDecimals = 9;
 /// A budget leaves out sources with less than this share of the variance.
 inline constexpr double kSmallestShare = 0.001;
 
-/// Decimals that show two significant digits of u.
+/// Decimals that show two significant digits of u. Below 1 pm it is the rounding of coordinates.
 int decimals_for(double u);
 
 /// Share of conforming machines: "99.8 %"; and of how many, where a condition sent some past it.
