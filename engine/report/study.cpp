@@ -195,8 +195,8 @@ class StudyRun {
     }
     if (!stable())
       message(Code::W0605,
-              fmt::format("after {} machines the figures are not yet stable to {} digits",
-                          study_.result.machines, *options_.digits),
+              fmt::format("the figures are not yet stable to {} digits after {} machines, the most that are run for it",
+                          *options_.digits, study_.result.machines),
               "see the Monte Carlo errors, or ask for --digits 1");
   }
 
