@@ -16,11 +16,15 @@ struct Construction {
   std::string_view help;
   std::string_view example;
   std::string_view source;
+  /// nullptr when an element of shape `result` can be made of features of these shapes, else why not. Shapes as acts_as() has them.
+  const char* (*applies)(Shape result, std::span<const Shape> shapes);
   /// Builds an element of shape `result` from the operands, all in the coordinate system current at the statement (MOVEPT
   /// moves along its axes); `nominal` settles what geometry leaves open (the sense of a direction). Fails with a reason
-  /// (parallel planes, wrong kinds of operands).
+  /// (parallel planes). Precondition: applies().
   Outcome<Element> (*construct)(Shape result, std::span<const Shape> shapes, std::span<const Element> from,
                                 const Element& nominal, const Arguments&);
+  /// A line or axis stands for a point: that nearest to the nominal point of its feature. Its element comes with that as `point`.
+  bool axes_are_points = false;
 };
 
 std::span<const Construction* const> constructions();

@@ -60,6 +60,8 @@ class BlockRun {
   Arguments filled(const Lane&, const Arguments&, const std::vector<plan::VaryingNumber>&) const;
   /// What the lane knows of a feature that the operation names. Writing another feature's state does not move it.
   FeatureState& state(Lane&, plan::FeatureId);
+  /// As FEAT defined it, in the lane's D; where the lanes share the nominal, as it lies in the error-free D.
+  Element nominal_of(Lane&, plan::FeatureId);
   /// How often the lane has executed this operation before; counts it.
   int visit(Lane&);
   /// The measured or constructed element, or nullptr after trapping the lane.

@@ -6,6 +6,20 @@
 
 namespace abbe {
 
+Element BlockRun::nominal_of(Lane& lane, plan::FeatureId feature) {
+  const FeatureState& own = state(lane, feature);
+  if (own.own_nominal) return inverse(lane.X_WD) * own.nominal;
+  Lane& twin = twin_of(lane);
+  return inverse(twin.X_WD) * state(twin, feature).nominal;
+}
+
+namespace {
+
+/// The point of a line or axis that is nearest to q.
+Vec3 foot_on_axis(const Element& axis, const Vec3& q) { return axis.point + dot(q - axis.point, axis.direction) * axis.direction; }
+
+}  // namespace
+
 void BlockRun::operator()(const plan::Construct& construct) {
   const Shape shape = acts_as(executor.plan_[construct.result].kind->shape);
   std::vector<Shape> shapes;
@@ -19,6 +33,8 @@ void BlockRun::operator()(const plan::Construct& construct) {
       const Element* element = actual(i, construct.from[k]);
       if (!element) return "";
       from[k] = X_DW * *element;
+      if (construct.method->axes_are_points && has_axis(shapes[k]) && !has_centre(shapes[k]))
+        from[k].point = foot_on_axis(from[k], nominal_of(lane, construct.from[k]).point);
     }
     const Element nominal = inverse(twin.X_WD) * state(twin, construct.result).nominal;
     const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, filled(lane, construct.arguments, construct.varying));
@@ -166,8 +182,7 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
       const Element* element = actual(i, features[k]);
       if (!element) return "";
       actuals[k] = X_DW * *element;
-      const FeatureState& of = state(lane, features[k]);
-      nominals[k] = of.own_nominal ? X_DW * of.nominal : X_DW_true * state(twin, features[k]).nominal;
+      nominals[k] = nominal_of(lane, features[k]);
     }
     for (std::size_t k = 0; k < datums.size(); ++k) {
       const Element* element = actual(i, datums[k]);

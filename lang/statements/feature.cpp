@@ -4,6 +4,7 @@
 
 #include "engine/features/construct.hpp"
 #include "engine/features/feature.hpp"
+#include "engine/features/shape_traits.hpp"
 #include "lang/statement.hpp"
 #include "lang/statements/words.hpp"
 
@@ -37,6 +38,19 @@ std::vector<std::string_view> method_words() {
   return words;
 }
 
+/// Whether the method makes this kind of feature of those kinds; reports why not.
+bool can_be_made(Lowering& lowering, const RawStatement& raw, plan::FeatureId result,
+                 const Construction& method, const Arguments& arguments) {
+  const auto shape = [&](plan::FeatureId id) { return acts_as(lowering.out.plan[id].kind->shape); };
+  std::vector<Shape> from;
+  for (const int id : arguments.features("from")) from.push_back(shape({id}));
+  const char* reason = method.applies(shape(result), from);
+  if (reason)
+    lowering.error(Code::E0259, raw.span, fmt::format("this construction cannot be: {}", reason),
+                   fmt::format("`abbe explain {}` says what it makes of what", method.word));
+  return !reason;
+}
+
 void construct(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const std::optional<plan::FeatureId> result =
       lowering.defined_feature(match.find("feature")->label);
@@ -47,7 +61,7 @@ void construct(Lowering& lowering, const RawStatement& raw, const Match& match) 
   const std::optional<Match> rest =
       lowering.match(method->signature, raw, fmt::format("CONST/...,{}", method->word), match.used, Varying::taken);
   const std::optional<Arguments> arguments = rest ? lowering.arguments(*rest) : std::nullopt;
-  if (arguments && result) {
+  if (arguments && result && can_be_made(lowering, raw, *result, *method, *arguments)) {
     plan::Construct operation{*result, method, {}, *arguments, Lowering::varying(*rest)};
     for (const int id : arguments->features("from")) operation.from.push_back(plan::FeatureId{id});
     lowering.emit(std::move(operation));

@@ -1,15 +1,20 @@
-// BF: the least-squares element through the points and centres of other features.
+// BF: the least-squares element through the points and centres of other features. A line or axis
+// gives the point that is nearest to the nominal one of its feature, so that a line through bores or a
+// bolt circle does not depend on how deep the bores were touched.
 #include <vector>
 
 #include "engine/features/constructions/tools.hpp"
+#include "engine/features/feature.hpp"
 #include "engine/features/fit.hpp"
 
 namespace abbe {
 namespace {
 
+constexpr const char* kTooFew = "too few features for a best fit of this kind";
+
 /// A fit error as text that outlives the fit.
 const char* reason_of(const FitError& error) {
-  if (error.code == "too_few_points") return "too few features for a best fit of this kind";
+  if (error.code == "too_few_points") return kTooFew;
   if (error.code == "identical_points") return "the points of the features are identical";
   if (error.code == "collinear_points") return "the points of the features lie on one line";
   if (error.code == "coplanar_points") return "the points of the features lie in one plane";
@@ -17,11 +22,15 @@ const char* reason_of(const FitError& error) {
   return "the points of the features admit no best fit";
 }
 
-Outcome<Element> construct_best_fit(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                                    const Arguments&) {
+const char* best_fit_applies(Shape result, Shapes shapes) {
   for (const Shape shape : shapes)
-    if (!has_centre(shape))
-      return cannot("BF takes points, circles, spheres and tori: features with a centre");
+    if (!has_centre(shape) && !has_axis(shape)) return "BF takes features with a point, a centre or an axis";
+  const FeatureKind& kind = feature_kind(result);
+  if (!kind.fitted_anywhere) return "BF does not make a feature of this kind";
+  return static_cast<int>(shapes.size()) < kind.minimum_points ? kTooFew : nullptr;
+}
+
+Outcome<Element> construct_best_fit(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
   FitProblem problem{.shape = result, .points = {}, .normal = {}};
   problem.points.reserve(from.size());
   for (const Element& e : from) problem.points.push_back(e.point);
@@ -45,10 +54,12 @@ Outcome<Element> construct_best_fit(Shape result, Shapes shapes, Elements from, 
 extern const Construction best_fit_method{
     .word = "BF",
     .signature = "from:feature,{ from:feature }",
-    .help = "least-squares fit through the points and centres of features",
+    .help = "least-squares fit through the points and centres of features; a line or axis gives its point nearest to the nominal one",
     .example = "CONST/PLANE,F(P1),BF,FA(A),FA(B),FA(C)",
     .source = "ISO 22093:2011, CONST BF; orthogonal least squares as for measured features",
+    .applies = best_fit_applies,
     .construct = construct_best_fit,
+    .axes_are_points = true,
 };
 
 }  // namespace abbe

@@ -3,6 +3,7 @@
 // touches, an axis and a line to their measured ends.
 #include <cmath>
 
+#include "engine/base/ids.hpp"
 #include "engine/features/constructions/tools.hpp"
 
 namespace abbe {
@@ -27,12 +28,17 @@ Outcome<Vec3> farthest(Shape shape, const Element& f, const Vec3& e) {
     case Shape::line: return {end * f.direction};
     case Shape::cylinder: return {end * f.direction + f.size * out};
     case Shape::torus: return {f.size * out + f.minor_size * e};
-    default: return Outcome<Vec3>::failed("EXTREM takes points, lines, planes, circles, cylinders, spheres and tori");
+    default: ABBE_CHECK(false);
   }
 }
 
-Outcome<Element> extreme(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
-  if (result != Shape::point) return cannot("EXTREM makes a point");
+const char* extreme_applies(Shape result, Shapes shapes) {
+  if (result != Shape::point) return "EXTREM makes a point";
+  if (shapes[0] == Shape::cone || is_outline(shapes[0])) return "EXTREM takes points, lines, planes, circles, cylinders, spheres and tori";
+  return nullptr;
+}
+
+Outcome<Element> extreme(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
   const Vec3 along = direction_of(arguments);
   if (!(norm(along) > 0)) return cannot("the direction of EXTREM has no length");
   const Outcome<Vec3> there = farthest(shapes[0], from[0], arguments.text("end") == "MAX" ? unit(along) : -unit(along));
@@ -48,6 +54,7 @@ extern const Construction extreme_method{
     .help = "the point of a feature that lies farthest along (MAX) or against (MIN) a direction",
     .example = "CONST/POINT,F(P),EXTREM,MAX,FA(C),ZDIR",
     .source = "ISO 22093:2011, CONST EXTREM",
+    .applies = extreme_applies,
     .construct = extreme,
 };
 

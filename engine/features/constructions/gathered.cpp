@@ -5,17 +5,21 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> centre(Shape result, Shapes, Elements from, const Element& nominal,
-                        const Arguments&) {
-  if (result != Shape::point) return cannot("COG makes a point");
+const char* centre_applies(Shape result, Shapes) {
+  return result == Shape::point ? nullptr : "COG makes a point";
+}
+
+Outcome<Element> centre(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   Vec3 sum;
   for (const Element& e : from) sum += e.point;
   return {{.point = sum / static_cast<double>(from.size()), .direction = nominal.direction}};
 }
 
-Outcome<Element> transfer(Shape result, Shapes shapes, Elements from, const Element&,
-                          const Arguments&) {
-  if (result != shapes[0]) return cannot("TR takes over a feature of the same kind");
+const char* transfer_applies(Shape result, Shapes shapes) {
+  return result == shapes[0] ? nullptr : "TR takes over a feature of the same kind";
+}
+
+Outcome<Element> transfer(Shape, Shapes, Elements from, const Element&, const Arguments&) {
   return {from[0]};
 }
 
@@ -27,6 +31,7 @@ extern const Construction centre_of_gravity_method{
     .help = "the mean of the points or centres of features",
     .example = "CONST/POINT,F(P),COG,FA(A),FA(B),FA(C)",
     .source = "ISO 22093:2011, CONST COG",
+    .applies = centre_applies,
     .construct = centre,
 };
 
@@ -36,6 +41,7 @@ extern const Construction transferred_method{
     .help = "the same element under another label",
     .example = "CONST/PLANE,F(P2),TR,FA(P1)",
     .source = "ISO 22093:2011, CONST TR",
+    .applies = transfer_applies,
     .construct = transfer,
 };
 

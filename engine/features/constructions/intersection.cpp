@@ -10,6 +10,7 @@
 // - ellipse: plane and cylinder
 #include <cmath>
 
+#include "engine/base/ids.hpp"
 #include "engine/features/constructions/round_intersection.hpp"
 #include "engine/features/constructions/tools.hpp"
 
@@ -84,33 +85,48 @@ Outcome<Element> oblique_section(const Element& plane, const Element& body) {
            .size = body.size / cosine, .minor_size = body.size, .second = major}};
 }
 
-Outcome<Element> intersect_two(Shape result, Shapes shapes, Elements from, const Element& nominal) {
+/// What two features have in common.
+enum class Common { nothing, line_of_planes, point_on_plane, point_of_axes, section, oblique_section, round };
+
+Common common(Shape result, Shapes shapes) {
   const int planes = (shapes[0] == Shape::plane) + (shapes[1] == Shape::plane);
-  const int first = shapes[0] == Shape::plane ? 0 : 1, second = 1 - first;
-  const Shape other = shapes[second];
-  if (result == Shape::line && planes == 2) return line_of_planes(from[0], from[1], nominal);
-  if (result == Shape::point && planes == 1 && has_axis(other))
-    return point_on_plane(from[second], from[first]);
-  if (result == Shape::point && has_axis(shapes[0]) && has_axis(shapes[1]))
-    return point_of_axes(from[0], from[1], nominal);
+  const Shape other = shapes[shapes[0] == Shape::plane ? 1 : 0];
+  if (result == Shape::line && planes == 2) return Common::line_of_planes;
+  if (result == Shape::point && planes == 1 && has_axis(other)) return Common::point_on_plane;
+  if (result == Shape::point && has_axis(shapes[0]) && has_axis(shapes[1])) return Common::point_of_axes;
   if (result == Shape::circle && planes == 1 &&
       (other == Shape::sphere || other == Shape::cylinder || other == Shape::cone))
-    return section(from[first], other, from[second], nominal);
-  if (result == Shape::ellipse && planes == 1 && other == Shape::cylinder)
-    return oblique_section(from[first], from[second]);
-  if (result == Shape::point && meets_round(shapes)) return round_intersection(shapes, from, nominal);
-  return cannot(
-      "INTOF makes a line of two planes, a point of lines, planes and round features, or a circle or "
-      "ellipse of a plane and a cylinder, cone or sphere");
+    return Common::section;
+  if (result == Shape::ellipse && planes == 1 && other == Shape::cylinder) return Common::oblique_section;
+  if (result == Shape::point && meets_round(shapes)) return Common::round;
+  return Common::nothing;
+}
+
+const char* intersect_applies(Shape result, Shapes shapes) {
+  if (shapes.size() == 2)
+    return common(result, shapes) != Common::nothing
+               ? nullptr
+               : "INTOF makes a line of two planes, a point of lines, planes and round features, or a "
+                 "circle or ellipse of a plane and a cylinder, cone or sphere";
+  for (const Shape shape : shapes)
+    if (shape != Shape::plane) return "INTOF of three features takes three planes";
+  return result == Shape::point ? nullptr : "three planes meet in a point";
 }
 
 Outcome<Element> intersect(Shape result, Shapes shapes, Elements from, const Element& nominal,
                            const Arguments&) {
-  if (from.size() == 2) return intersect_two(result, shapes, from, nominal);
-  for (const Shape shape : shapes)
-    if (shape != Shape::plane) return cannot("INTOF of three features takes three planes");
-  if (result != Shape::point) return cannot("three planes meet in a point");
-  return point_of_planes(from, nominal);
+  if (from.size() == 3) return point_of_planes(from, nominal);
+  const int first = shapes[0] == Shape::plane ? 0 : 1, second = 1 - first;
+  switch (common(result, shapes)) {
+    case Common::line_of_planes: return line_of_planes(from[0], from[1], nominal);
+    case Common::point_on_plane: return point_on_plane(from[second], from[first]);
+    case Common::point_of_axes: return point_of_axes(from[0], from[1], nominal);
+    case Common::section: return section(from[first], shapes[second], from[second], nominal);
+    case Common::oblique_section: return oblique_section(from[first], from[second]);
+    case Common::round: return round_intersection(shapes, from, nominal);
+    case Common::nothing: break;
+  }
+  ABBE_CHECK(false);
 }
 
 }  // namespace
@@ -124,6 +140,7 @@ extern const Construction intersection_method{
         "to the nominal); circle or ellipse of plane and round surface",
     .example = "CONST/LINE,F(L1),INTOF,FA(P1),FA(P2)",
     .source = "ISO 22093:2011, CONST INTOF",
+    .applies = intersect_applies,
     .construct = intersect,
 };
 

@@ -20,16 +20,20 @@ Vec3 bisector(const Vec3& a, const Vec3& b, const Vec3& nominal) {
   return unit(same ? a + b : a - b);
 }
 
-Outcome<Element> middle_point(Shape result, Shapes, Elements from, const Element& nominal,
-                              const Arguments&) {
-  if (result != Shape::point) return cannot("MIDPT makes a point");
+const char* middle_point_applies(Shape result, Shapes) {
+  return result == Shape::point ? nullptr : "MIDPT makes a point";
+}
+
+Outcome<Element> middle_point(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   return {{.point = 0.5 * (from[0].point + from[1].point), .direction = nominal.direction}};
 }
 
-Outcome<Element> middle_line(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                             const Arguments&) {
-  if (result != Shape::line || !has_axis(shapes[0]) || !has_axis(shapes[1]))
-    return cannot("MIDLI makes a line of two lines or axes");
+const char* middle_line_applies(Shape result, Shapes shapes) {
+  const bool fits = result == Shape::line && has_axis(shapes[0]) && has_axis(shapes[1]);
+  return fits ? nullptr : "MIDLI makes a line of two lines or axes";
+}
+
+Outcome<Element> middle_line(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   const Vec3 d = bisector(from[0].direction, from[1].direction, nominal.direction);
   const Element across{.point = 0.5 * (from[0].point + from[1].point), .direction = d};
   const Vec3 a = line_meets_plane(from[0].point, from[0].direction, across);
@@ -37,10 +41,12 @@ Outcome<Element> middle_line(Shape result, Shapes shapes, Elements from, const E
   return {in_sense_of(nominal, {.point = 0.5 * (a + b), .direction = d})};
 }
 
-Outcome<Element> middle_plane(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                              const Arguments&) {
-  if (result != Shape::plane || shapes[0] != Shape::plane || shapes[1] != Shape::plane)
-    return cannot("MIDPL makes a plane of two planes");
+const char* middle_plane_applies(Shape result, Shapes shapes) {
+  const bool fits = result == Shape::plane && shapes[0] == Shape::plane && shapes[1] == Shape::plane;
+  return fits ? nullptr : "MIDPL makes a plane of two planes";
+}
+
+Outcome<Element> middle_plane(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   const Vec3 n = bisector(from[0].direction, from[1].direction, nominal.direction);
   const Vec3 middle = 0.5 * (from[0].point + from[1].point);
   const Vec3 point =
@@ -56,6 +62,7 @@ extern const Construction mid_point_method{
     .help = "the point halfway between the points or centres of two features",
     .example = "CONST/POINT,F(P),MIDPT,FA(A),FA(B)",
     .source = "ISO 22093:2011, CONST MIDPT",
+    .applies = middle_point_applies,
     .construct = middle_point,
 };
 
@@ -65,6 +72,7 @@ extern const Construction mid_line_method{
     .help = "the line halfway between two lines or axes",
     .example = "CONST/LINE,F(L),MIDLI,FA(A),FA(B)",
     .source = "ISO 22093:2011, CONST MIDLI",
+    .applies = middle_line_applies,
     .construct = middle_line,
 };
 
@@ -74,6 +82,7 @@ extern const Construction mid_plane_method{
     .help = "the plane halfway between two planes",
     .example = "CONST/PLANE,F(P),MIDPL,FA(A),FA(B)",
     .source = "ISO 22093:2011, CONST MIDPL",
+    .applies = middle_plane_applies,
     .construct = middle_plane,
 };
 

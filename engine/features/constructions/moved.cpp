@@ -5,21 +5,24 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> move_point(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                            const Arguments& arguments) {
-  if (result != Shape::point) return cannot("MOVEPT makes a point");
+const char* move_point_applies(Shape result, Shapes shapes) {
+  if (result != Shape::point) return "MOVEPT makes a point";
+  if (shapes.size() == 2 && shapes[1] == Shape::sphere) return "a sphere has no direction along which to move";
+  return nullptr;
+}
+
+Outcome<Element> move_point(Shape, Shapes, Elements from, const Element& nominal, const Arguments& arguments) {
   Vec3 by{arguments.number("dx"), arguments.number("dy"), arguments.number("dz")};
-  if (from.size() == 2) {
-    if (shapes[1] == Shape::sphere) return cannot("a sphere has no direction along which to move");
-    by = arguments.number("distance") * from[1].direction;
-  }
+  if (from.size() == 2) by = arguments.number("distance") * from[1].direction;
   return {{.point = from[0].point + by, .direction = nominal.direction}};
 }
 
-Outcome<Element> offset(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                        const Arguments& arguments) {
-  if (result != Shape::plane || shapes[0] != Shape::plane)
-    return cannot("OFFSET makes a plane of a plane");
+const char* offset_applies(Shape result, Shapes shapes) {
+  const bool fits = result == Shape::plane && shapes[0] == Shape::plane;
+  return fits ? nullptr : "OFFSET makes a plane of a plane";
+}
+
+Outcome<Element> offset(Shape, Shapes, Elements from, const Element& nominal, const Arguments& arguments) {
   Element moved = from[0];
   moved.point += arguments.number("distance") * moved.direction;
   moved.low = moved.high = 0;
@@ -36,6 +39,7 @@ extern const Construction moved_point_method{
         "second feature",
     .example = "CONST/POINT,F(P),MOVEPT,FA(A),10,0,-5",
     .source = "ISO 22093:2011, CONST MOVEPT",
+    .applies = move_point_applies,
     .construct = move_point,
 };
 
@@ -45,6 +49,7 @@ extern const Construction offset_plane_method{
     .help = "a plane moved along its normal",
     .example = "CONST/PLANE,F(P2),OFFSET,FA(P1),-30",
     .source = "ISO 22093:2011, CONST OFFSET",
+    .applies = offset_applies,
     .construct = offset,
 };
 

@@ -4,23 +4,27 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> project_point(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                               const Arguments&) {
-  if (result != Shape::point) return cannot("PROJPT makes a point");
+const char* project_point_applies(Shape result, Shapes shapes) {
+  if (result != Shape::point) return "PROJPT makes a point";
+  const bool fits = shapes[1] == Shape::plane || has_axis(shapes[1]);
+  return fits ? nullptr : "PROJPT projects onto a plane, a line or an axis";
+}
+
+Outcome<Element> project_point(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   const Element& onto = from[1];
   if (shapes[1] == Shape::plane)
     return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point),
              .direction = onto.direction}};
-  if (has_axis(shapes[1]))
-    return {{.point = foot_on_line(onto.point, onto.direction, from[0].point),
-             .direction = nominal.direction}};
-  return cannot("PROJPT projects onto a plane, a line or an axis");
+  return {{.point = foot_on_line(onto.point, onto.direction, from[0].point),
+           .direction = nominal.direction}};
 }
 
-Outcome<Element> project_line(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                              const Arguments&) {
-  if (result != Shape::line || !has_axis(shapes[0]) || shapes[1] != Shape::plane)
-    return cannot("PROJLI projects a line or an axis onto a plane");
+const char* project_line_applies(Shape result, Shapes shapes) {
+  const bool fits = result == Shape::line && has_axis(shapes[0]) && shapes[1] == Shape::plane;
+  return fits ? nullptr : "PROJLI projects a line or an axis onto a plane";
+}
+
+Outcome<Element> project_line(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   const Element &line = from[0], &plane = from[1];
   const Vec3 shadow = perpendicular_part(line.direction, plane.direction);
   const double cosine = norm(shadow);
@@ -40,6 +44,7 @@ extern const Construction projected_point_method{
         "the point or centre of the first feature, projected onto the plane or axis of the second",
     .example = "CONST/POINT,F(P),PROJPT,FA(A),FA(PL)",
     .source = "ISO 22093:2011, CONST PROJPT",
+    .applies = project_point_applies,
     .construct = project_point,
 };
 
@@ -49,6 +54,7 @@ extern const Construction projected_line_method{
     .help = "a line or axis projected onto a plane",
     .example = "CONST/LINE,F(L),PROJLI,FA(A),FA(PL)",
     .source = "ISO 22093:2011, CONST PROJLI",
+    .applies = project_line_applies,
     .construct = project_line,
 };
 

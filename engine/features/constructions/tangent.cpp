@@ -66,14 +66,18 @@ Outcome<Element> fillet(const Element& a, const Element& b, const Element& nomin
   return nearest.made();
 }
 
+const char* tangent_applies(Shape result, Shapes shapes) {
+  const auto all = [&](auto fits) { return fits(shapes[0]) && fits(shapes[1]); };
+  const bool circle = result == Shape::circle && all([](Shape s) { return s == Shape::line; });
+  const bool line = result == Shape::line && all([](Shape s) { return s == Shape::circle || s == Shape::point; }) &&
+                    (shapes[0] == Shape::circle || shapes[1] == Shape::circle);
+  return circle || line ? nullptr : "TANTO makes a line of a circle and a point or of two circles, or a circle of two lines";
+}
+
 Outcome<Element> tangent(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
-  if (result == Shape::circle && shapes[0] == Shape::line && shapes[1] == Shape::line) return fillet(from[0], from[1], nominal);
-  if (result == Shape::line && (shapes[0] == Shape::circle || shapes[1] == Shape::circle)) {
-    const int first = shapes[0] == Shape::circle ? 0 : 1, second = 1 - first;
-    if (shapes[second] == Shape::circle || shapes[second] == Shape::point)
-      return common_tangent(from[first], from[second], shapes[second] == Shape::circle ? from[second].size : 0, nominal);
-  }
-  return cannot("TANTO makes a line of a circle and a point or of two circles, or a circle of two lines");
+  if (result == Shape::circle) return fillet(from[0], from[1], nominal);
+  const int first = shapes[0] == Shape::circle ? 0 : 1, second = 1 - first;
+  return common_tangent(from[first], from[second], shapes[second] == Shape::circle ? from[second].size : 0, nominal);
 }
 
 }  // namespace
@@ -84,6 +88,7 @@ extern const Construction tangent_method{
     .help = "a line tangent to a circle through a point, or to two circles; a circle of the nominal size tangent to two lines",
     .example = "CONST/LINE,F(L),TANTO,FA(C),THRU,FA(P)",
     .source = "ISO 22093:2011, CONST TANTO",
+    .applies = tangent_applies,
     .construct = tangent,
 };
 

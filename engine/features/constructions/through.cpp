@@ -16,35 +16,40 @@ Outcome<Element> made(const Element& nominal, const Vec3& point, const Vec3& dir
   return {in_sense_of(nominal, {.point = point, .direction = direction})};
 }
 
+const char* perpendicular_applies(Shape result, Shapes shapes) {
+  const bool to_plane = shapes[0] == Shape::plane, to_axis = has_axis(shapes[0]);
+  const bool line = result == Shape::line && (to_plane || to_axis);
+  const bool plane = result == Shape::plane && (to_axis || (to_plane && has_axis(shapes[1])));
+  return line || plane ? nullptr
+                       : "PERPTO makes a line perpendicular to a plane or line, or a plane perpendicular "
+                         "to a line, or to a plane through a line";
+}
+
 Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const Element& nominal,
                                const Arguments&) {
   const Element &to = from[0], &through = from[1];
   const bool to_plane = shapes[0] == Shape::plane, to_axis = has_axis(shapes[0]);
   if ((result == Shape::line && to_plane) || (result == Shape::plane && to_axis))
     return made(nominal, through.point, to.direction);
-  if (result == Shape::line && to_axis) {
+  if (result == Shape::line) {
     const Vec3 across = foot_on_line(to.point, to.direction, through.point) - through.point;
     if (!(norm(across) > kNoDistance_mm))
       return cannot("the point lies on the line to which the new one should be perpendicular");
     return made(nominal, through.point, unit(across));
   }
-  if (result == Shape::plane && to_plane && has_axis(shapes[1])) {
-    const Vec3 n = cross(to.direction, through.direction);
-    if (norm(n) < kParallel)
-      return cannot("the line is perpendicular to the plane, so that no single plane contains it");
-    return made(nominal, through.point, unit(n));
-  }
-  return cannot(
-      "PERPTO makes a line perpendicular to a plane or line, or a plane perpendicular to a line, "
-      "or to a plane through a line");
+  const Vec3 n = cross(to.direction, through.direction);
+  if (norm(n) < kParallel)
+    return cannot("the line is perpendicular to the plane, so that no single plane contains it");
+  return made(nominal, through.point, unit(n));
 }
 
-Outcome<Element> parallel_to(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                             const Arguments&) {
+const char* parallel_applies(Shape result, Shapes shapes) {
   const bool planes = result == Shape::plane && shapes[0] == Shape::plane;
   const bool lines = result == Shape::line && has_axis(shapes[0]);
-  if (!planes && !lines)
-    return cannot("PARTO makes a plane parallel to a plane or a line parallel to a line");
+  return planes || lines ? nullptr : "PARTO makes a plane parallel to a plane or a line parallel to a line";
+}
+
+Outcome<Element> parallel_to(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   return made(nominal, from[1].point, from[0].direction);
 }
 
@@ -56,6 +61,7 @@ extern const Construction perpendicular_through_method{
     .help = "a line or plane perpendicular to the first feature through the second",
     .example = "CONST/LINE,F(L),PERPTO,FA(PL),THRU,FA(PT)",
     .source = "ISO 22093:2011, CONST PERPTO",
+    .applies = perpendicular_applies,
     .construct = perpendicular,
 };
 
@@ -65,6 +71,7 @@ extern const Construction parallel_through_method{
     .help = "a line or plane parallel to the first feature through the second",
     .example = "CONST/PLANE,F(P2),PARTO,FA(P1),THRU,FA(PT)",
     .source = "ISO 22093:2011, CONST PARTO",
+    .applies = parallel_applies,
     .construct = parallel_to,
 };
 

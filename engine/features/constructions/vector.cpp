@@ -6,8 +6,11 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> build_vector(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
-  if (result != Shape::point) return cannot("VECBLD makes a point");
+const char* vector_applies(Shape result, Shapes) {
+  return result == Shape::point ? nullptr : "VECBLD makes a point";
+}
+
+Outcome<Element> build_vector(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   FitProblem problem{.shape = Shape::plane, .points = {}, .normal = {}};
   for (const Element& e : from) problem.points.push_back(e.point);
   const FitSolution plane = fit_points(problem);
@@ -23,6 +26,7 @@ extern const Construction vector_method{
     .help = "the first point, with the normal of the plane through all the points as its vector",
     .example = "CONST/POINT,F(P),VECBLD,FA(A),FA(B),FA(C)",
     .source = "ISO 22093:2011, CONST VECBLD",
+    .applies = vector_applies,
     .construct = build_vector,
 };
 

@@ -26,6 +26,7 @@ Outcome<Element> build(const char* word, Shape result, const std::vector<Operand
   for (const Operand& o : operands) shapes.push_back(o.shape), elements.push_back(o.element);
   const Construction* method = find_construction(word);
   REQUIRE(method);
+  if (const char* why_not = method->applies(result, shapes)) return Outcome<Element>::failed(why_not);
   return method->construct(result, shapes, elements, {.point = {}, .direction = unit(nominal)},
                            arguments);
 }
@@ -266,5 +267,5 @@ TEST_CASE("BF through features") {
                {point({0, 0, 0}), point({1, 0, 0}), point({0, 1, 0}), point({1, 1, 0})}) ==
         "the points of the features lie in one plane");
   CHECK(reason("BF", Shape::plane, {plane({}, {0, 0, 1})}) ==
-        "BF takes points, circles, spheres and tori: features with a centre");
+        "BF takes features with a point, a centre or an axis");
 }

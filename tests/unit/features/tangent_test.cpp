@@ -18,7 +18,9 @@ Outcome<Element> build_near(const char* word, Shape result, const std::vector<Op
   std::vector<Shape> shapes;
   std::vector<Element> elements;
   for (const Operand& o : operands) shapes.push_back(o.shape), elements.push_back(o.element);
-  return find_construction(word)->construct(result, shapes, elements, nominal, arguments);
+  const Construction& method = *find_construction(word);
+  if (const char* why_not = method.applies(result, shapes)) return Outcome<Element>::failed(why_not);
+  return method.construct(result, shapes, elements, nominal, arguments);
 }
 
 Element made_near(const char* word, Shape result, const std::vector<Operand>& operands, const Element& nominal = {},

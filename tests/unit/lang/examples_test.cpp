@@ -41,17 +41,48 @@ const std::map<std::string_view, const char*> kAround = {
     {"EXTFIL", "XTERN\n{}\nENDXTN"},
     {"ENDXTN", "XTERN\n{}"}};
 
-std::string circle(const std::string& label) {
-  return fmt::format("F({0})=FEAT/CIRCLE,INNER,CART,50,50,0,0,0,1,20\nMEAS/CIRCLE,F({0}),4\nENDMES\n", label);
+/// By label in upper case; a circle where there is none.
+using Kinds = std::map<std::string, std::string>;
+
+std::string feature(const std::string& label, const Kinds& kinds = {}) {
+  static const std::map<std::string, const char*> kForms = {{"POINT", "CART,50,50,0,0,0,1"},
+                                                            {"LINE", "UNBND,CART,50,50,0,1,0,0,0,0,1"},
+                                                            {"PLANE", "CART,50,50,0,0,0,1"},
+                                                            {"CIRCLE", "INNER,CART,50,50,0,0,0,1,20"}};
+  const auto found = kinds.find(upper(label));
+  const std::string kind = found == kinds.end() ? "CIRCLE" : found->second;
+  return fmt::format("F({0})=FEAT/{1},{2}\nMEAS/{1},F({0}),4\nENDMES\n", label, kind, kForms.at(kind));
+}
+
+/// The kind that a CONST statement names, for its result; for the features it takes, kinds of which the method makes that.
+Kinds kinds_in(const Construction& method, const std::string& example) {
+  const std::size_t begin = example.find('/') + 1;
+  const std::string result = example.substr(begin, example.find(',') - begin);
+  std::vector<std::string> labels;
+  for (const LabelUse& use : label_uses(SourceFile("example", example))) labels.push_back(upper(use.name));
+  const std::vector<std::string> words{"POINT", "LINE", "PLANE", "CIRCLE"};
+  std::size_t combinations = 1;
+  for (std::size_t i = 1; i < labels.size(); ++i) combinations *= words.size();
+  for (std::size_t c = 0; c < combinations; ++c) {
+    Kinds kinds{{labels[0], result}};
+    std::vector<Shape> shapes;
+    for (std::size_t i = 1, rest = c; i < labels.size(); ++i, rest /= words.size()) {
+      kinds[labels[i]] = words[rest % words.size()];
+      shapes.push_back(find_feature_kind(kinds[labels[i]])->shape);
+    }
+    if (!method.applies(find_feature_kind(result)->shape, shapes)) return kinds;
+  }
+  FAIL("the example cannot be: ", example);
+  return {};
 }
 
 /// Definitions of all labels that the example uses and does not define itself.
-std::string definitions(const std::string& example) {
-  std::string out = circle("ANY");
+std::string definitions(const std::string& example, const Kinds& kinds) {
+  std::string out = feature("ANY");
   std::set<std::string> done;
   for (const LabelUse& use : label_uses(SourceFile("example", example))) {
     if (use.definition || !done.insert(use.kind + upper(use.name)).second) continue;
-    if (use.kind == "F") out += circle(use.name);
+    if (use.kind == "F") out += feature(use.name, kinds);
     if (use.kind == "D") out += fmt::format("D({})=TRANS/XORIG,1\n", use.name);
     if (use.kind == "S") out += fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\n", use.name);
     if (use.kind == "DAT") out += fmt::format("DATDEF/FA(ANY),DAT({})\n", use.name);
@@ -61,7 +92,7 @@ std::string definitions(const std::string& example) {
   return out;
 }
 
-std::string program(std::string_view word, std::string_view example) {
+std::string program(std::string_view word, std::string_view example, const Kinds& kinds) {
   const std::string text(example);
   const bool first = word == "DMISMN" || word == "DMISMD";
   const auto around = kAround.find(word);
@@ -73,12 +104,12 @@ std::string program(std::string_view word, std::string_view example) {
   if (first) return body + "\nENDFIL\n";
   return "DMISMN/'example',5.2\nSNSET/APPRCH,5\nDECL/REAL,X,Y\nDECL/INTGR,I,N\nX=ASSIGN/1\nY=ASSIGN/2\nN=ASSIGN/3\n"
          "S(ANY)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(ANY)\n" +
-         definitions(text) + body + "\nENDFIL\n";
+         definitions(text, kinds) + body + "\nENDFIL\n";
 }
 
-void check_example(std::string_view word, std::string_view example) {
+void check_example(std::string_view word, std::string_view example, const Kinds& kinds = {}) {
   // Modules are looked for beside the program.
-  const SourceFile source(std::string(ABBE_SOURCE_DIR) + "/tests/lang/modules/example.dmi", program(word, example));
+  const SourceFile source(std::string(ABBE_SOURCE_DIR) + "/tests/lang/modules/example.dmi", program(word, example, kinds));
   Sink sink;
   compile(source, sink, {{{"X", "1"}}});
   std::string messages;
@@ -96,8 +127,11 @@ void check_example(std::string_view word, std::string_view example) {
 }  // namespace
 
 TEST_CASE("the examples of statements, features, constructions and tolerances compile") {
-  for (const Statement* s : statements()) check_example(s->word, s->example);
+  for (const Statement* s : statements()) {
+    const bool constructs = s->word == "CONST";
+    check_example(s->word, s->example, constructs ? kinds_in(*find_construction("INTOF"), std::string(s->example)) : Kinds{});
+  }
   for (const FeatureKind* k : feature_kinds()) check_example(k->word, k->example);
-  for (const Construction* c : constructions()) check_example(c->word, c->example);
+  for (const Construction* c : constructions()) check_example(c->word, c->example, kinds_in(*c, std::string(c->example)));
   for (const ToleranceKind* t : tolerance_kinds()) check_example(t->word, t->example);
 }

@@ -64,6 +64,9 @@ TEST_CASE("constructed points lie where hand calculation puts them") {
 
 TEST_CASE("constructed lines run as hand calculation says") {
   check_near(made(kLine, "BF,FA(A),FA(B)").direction, {1, 0, 0});
+  check_near(made(kLine, "BF,FA(Z),FA(K)").direction, unit(Vec3{30, 20, 0}));
+  // L1 was touched about (25, 0, 0), but its nominal point is (0, 0, 0).
+  check_near(made(kLine, "BF,FA(L1),FA(D)").direction, unit(Vec3{5, 5, 30}));
   const Element edge = made(kLine, "INTOF,FA(TOP),FA(FRONT)");
   check_near(edge.direction, {1, 0, 0});
   CHECK(edge.point.y == Approx(-5));
