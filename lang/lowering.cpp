@@ -45,7 +45,9 @@ void Lowering::add(Diagnostic d) {
 
 void Lowering::error(Code code, Span span, std::string message, std::string help,
                      std::string replacement) {
+  const bool first = !failed;
   fail(message);
+  if (first) failure_line = file->place(span.begin).line;
   add(diagnostic_at(*file, span, code, std::move(message), std::move(help),
                     std::move(replacement)));
 }
@@ -61,7 +63,10 @@ void Lowering::mistake(const Mistake& m) {
 }
 
 void Lowering::fail(std::string reason) {
-  if (!failed) failure = std::move(reason);
+  if (!failed) {
+    failure = std::move(reason);
+    failure_line = statement ? statement->line : 0;
+  }
   failed = true;
 }
 
@@ -335,7 +340,7 @@ plan::Point Lowering::point(const Match& match, std::string_view first) {
 }
 
 std::string Lowering::blame() const {
-  return fmt::format("line {}: {}", statement->line, failure);
+  return fmt::format("line {}: {}", failure_line, failure);
 }
 
 std::string Lowering::doubt() const {

@@ -207,6 +207,7 @@ class Lowering : public State {
   // ---- of the current statement
   bool failed = false;
   std::string failure;  ///< the first reason
+  int failure_line = 0; ///< where its message points: ENDMES may complain of its MEAS
   const RawStatement* statement = nullptr;
 
   /// The first doubt that holds now and why, or "".

@@ -57,6 +57,12 @@ class OnlyValid(harness.Case):
         for line, feature, reason in expected:
             self.assertIn(f"lost: line {line}: {feature}: {reason}\n", text)
 
+    def test_the_line_to_blame_is_that_of_the_message(self):
+        cone = "F(K)=FEAT/CONE,INNER,CART,150,30,-20,0,0,1,90\nMEAS/CONE,F(K),8\nENDMES\nT(N)=TOL/ANGL,-0.1,0.1\nOUTPUT/FA(K),TA(N)\nENDFIL\n"
+        self.write("cone.dmi", LENGTH.replace("ENDFIL\n", cone))
+        lost, = self.run_json("cone.dmi", "--only-valid", "--machines", 20)["lost"]
+        self.assertIn(f"<- line {self.first + 1}: this MEAS has no PTMEAS", lost["reason"])
+
     def test_each_mistake_is_reported_once_at_its_place(self):
         done = self.abbe("check", "found.dmi", code=1)
         places = [line.split(":")[1] + line.split()[2] for line in done.stderr.splitlines() if line.startswith("found.dmi:")]
