@@ -84,7 +84,7 @@ extern const ToleranceKind flatness_tolerance{
 
 extern const ToleranceKind straightness_tolerance{
     .word = "STRGHT",
-    .signature = "zone:length",
+    .signature = "zone:length,[ RFS ]",
     .help =
         "straightness: width of the zone about the fitted line that holds the touches: in the section "
         "of a surface two parallel lines, of an axis a cylinder",

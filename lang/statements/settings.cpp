@@ -32,6 +32,7 @@ bool moves(Lowering& lowering, const Match& match, std::string_view what) {
 }
 
 void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
+  if (!match.has("speed")) return;  // ROTVEL: of a rotary table, which is not here
   if (!moves(lowering, match, "a speed")) return;
   const std::string what = match.text("speed"), unit = match.text("unit");
   const MotionSetting setting = what == "POSVEL"   ? MotionSetting::positioning_speed
@@ -78,8 +79,9 @@ const Statement kSnset = {
 const Statement kFedrat = {
     "FEDRAT",
     "",
-    "speed:POSVEL|MESVEL|SCNVEL, unit:MPM|MMPS|IPM|IPS|PCENT, value:number",
-    "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed.",
+    "( speed:POSVEL|MESVEL|SCNVEL, unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; ROTVEL, ... )",
+    "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed. "
+    "ROTVEL, of a rotary table, is skipped.",
     "FEDRAT/POSVEL,MPM,1.8",
     "ISO 22093, FEDRAT",
     set_speed};
