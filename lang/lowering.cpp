@@ -213,6 +213,7 @@ std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
 }
 
 std::optional<plan::FeatureId> Lowering::datum(const LabelRef& label) {
+  if (label.kind == "FA") return actual_feature(label);
   const plan::FeatureId* id =
       find(symbols.datums, "datum", label, "bind it with DATDEF/FA(feature),DAT(name)");
   return id ? std::optional(*id) : std::nullopt;

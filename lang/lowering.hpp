@@ -151,7 +151,7 @@ class Lowering : public State {
   // ---- labels: nothing after an error or when spoilt
   std::optional<plan::FeatureId> defined_feature(const LabelRef&);
   std::optional<plan::FeatureId> actual_feature(const LabelRef&);  ///< measured or constructed
-  std::optional<plan::FeatureId> datum(const LabelRef&);
+  std::optional<plan::FeatureId> datum(const LabelRef&);  ///< DAT(...), or the feature itself
   std::optional<plan::FrameId> frame(const LabelRef&);
   std::optional<plan::SensorId> sensor(const LabelRef&);
   const ToleranceSymbol* tolerance(const LabelRef&);

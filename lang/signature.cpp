@@ -28,7 +28,7 @@ constexpr std::array kTypes = {
     TypeInfo{ValueType::integer, "integer", "a whole number", {}},
     TypeInfo{ValueType::text, "text", "a text in quotes", {}},
     TypeInfo{ValueType::feature, "feature", "a feature FA(...)", {"FA", "F"}},
-    TypeInfo{ValueType::datum, "datum", "a datum DAT(...)", {"DAT", "DAT"}},
+    TypeInfo{ValueType::datum, "datum", "a datum DAT(...)", {"DAT", "FA"}},
     TypeInfo{ValueType::tolerance, "tolerance", "a tolerance TA(...)", {"TA", "T"}},
     TypeInfo{ValueType::sensor, "sensor", "a sensor S(...)", {"SA", "S"}},
     TypeInfo{ValueType::frame, "frame", "a coordinate system D(...)", {"DA", "D"}},

@@ -11,8 +11,12 @@ namespace abbe::lang {
 namespace {
 
 void bind_datum(Lowering& lowering, const RawStatement&, const Match& match) {
+  const MatchedValue& datum = *match.find("datum");
+  if (datum.label.kind != "DAT")
+    return lowering.error(Code::E0106, datum.span, "DATDEF gives a feature the name of a datum, and this is a feature",
+                          fmt::format("write DATDEF/FA({}),DAT(name)", match.text("feature")));
   const std::optional<plan::FeatureId> id = lowering.actual_feature(match.find("feature")->label);
-  if (id) lowering.symbols.datums.set(upper(match.text("datum")), *id);
+  if (id) lowering.symbols.datums.set(upper(datum.text), *id);
 }
 
 /// The words that follow a datum: at most one direction, any origins.

@@ -123,3 +123,9 @@ TEST_CASE("every construction is tried here") {
     CHECK(tried.find(method->word) != std::string_view::npos);
   }
 }
+
+TEST_CASE("a feature may stand where a datum is asked for") {
+  const Ran ran(parts() + "DATDEF/FA(TOP),DAT(A)\nT(P)=TOL/PARLEL,0.1,DAT(A)\nT(Q)=TOL/PARLEL,0.1,FA(TOP)\nOUTPUT/FA(SLOPE),TA(P),TA(Q)\n");
+  CHECK(ran["P"] > 1);
+  CHECK(ran["P"] == ran["Q"]);
+}
