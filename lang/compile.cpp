@@ -50,7 +50,10 @@ class Compiler {
     } else if (const Statement* statement = find_statement(raw.word)) {
       known(*statement, raw);
     } else if (is_standard_word(raw.word)) {
-      if (!outside(raw)) not_supported(raw.word, raw.word_span);
+      if (!outside(raw)) {
+        not_supported(raw.word, raw.word_span);
+        if (raw.label) lowering_.skipped_labels.insert(raw.label->kind);
+      }
     } else {
       meant_ = outside(raw) ? "" : unknown(raw);
       word = meant_;

@@ -138,6 +138,14 @@ void remember_sizes(Lowering& lowering, plan::FeatureId feature,
   }
 }
 
+/// Behind the features and tolerances, or alone, may stand what skipped statements name, and reports:
+/// they are for the head of a real result file.
+void check_report_label(Lowering& lowering, const MatchedValue& v) {
+  if (v.label.kind == "R" || lowering.skipped_labels.contains(v.label.kind)) return;
+  lowering.error(Code::E0106, v.span, fmt::format("OUTPUT puts out no {}({}) here", v.label.kind, v.label.name),
+                 "expected features FA(...), then their tolerances TA(...), then R(...); or D(...) or S(...)");
+}
+
 /// Every tolerance is tried by itself, so that one mistake does not take the others away.
 void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   std::vector<plan::FeatureId> features;
@@ -149,6 +157,7 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
     if (v.type == ValueType::frame)
       if (const auto frame = lowering.frame(v.label)) lowering.emit(plan::OutputFrame{*frame});
     if (v.type == ValueType::sensor) lowering.sensor(v.label);
+    if (v.type == ValueType::label) check_report_label(lowering, v);
   }
   if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty())
     lowering.fail(lowering.doubt());
@@ -194,8 +203,9 @@ const Statement kOutput = {
     "OUTPUT",
     "",
     "( feature:feature, { feature:feature }, { tolerance:tolerance } ; frame:frame ; sensor:sensor "
-    "), [ report:label ]",
-    "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty.",
+    "; report:label ), { report:label }",
+    "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty. What "
+    "identifies the part or the report, P(1) of PARTID, is skipped as the statement that names it is.",
     "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
     "ISO 22093, OUTPUT",
     output};
