@@ -44,7 +44,7 @@ std::string to_csv(const Recording&);
 /// number, incomplete vector, direction that is no unit vector.
 Recording read_recording(const SourceFile&);
 
-/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches.
+/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches. Throws UserError where it is no table.
 bool is_value_recording(const SourceFile&);
 
 }  // namespace abbe

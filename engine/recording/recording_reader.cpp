@@ -6,13 +6,13 @@
 #include <functional>
 #include <map>
 
-#include "engine/recording/csv.hpp"
+#include "engine/base/csv.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/recording/recording.hpp"
 
 namespace abbe {
 
 namespace {
-
 
 /// The coordinates of the vectors of a row, which come column by column.
 struct PartialVector {
@@ -35,7 +35,7 @@ using Setter = std::function<bool(const CsvField&, Draft&)>;
 template <class Member>
 Setter real(Member member) {
   return [=](const CsvField& f, Draft& d) {
-    const std::optional<double> v = csv_number(f);
+    const std::optional<double> v = finite_number(f.text);
     if (v) d.row.*member = *v;
     return v.has_value();
   };
@@ -44,7 +44,7 @@ Setter real(Member member) {
 template <class Member>
 Setter integer(Member member) {
   return [=](const CsvField& f, Draft& d) {
-    const std::optional<double> v = csv_number(f);
+    const std::optional<double> v = finite_number(f.text);
     if (!v || *v != std::floor(*v) || std::abs(*v) > 1e9) return false;
     d.row.*member = static_cast<int>(*v);
     return true;
@@ -62,7 +62,7 @@ Setter text(Member member) {
 Setter coordinate(std::string vector, int axis) {
   return [=](const CsvField& f, Draft& d) {
     constexpr double kNoMachine_mm = 1e9;   // not even in micrometres
-    const std::optional<double> v = csv_number(f);
+    const std::optional<double> v = finite_number(f.text);
     if (!v || std::abs(*v) > kNoMachine_mm) return false;
     d.vectors[vector].coordinate[axis] = *v;
     return true;
@@ -195,12 +195,8 @@ Recording read_recording(const SourceFile& file) {
 }
 
 bool is_value_recording(const SourceFile& file) {
-  for (int number = 1; number <= file.line_count(); ++number) {
-    const std::string_view line = file.line(number);
-    if (line.empty() || line.front() == '#') continue;
-    return line.find("characteristic") != std::string_view::npos;
-  }
-  return false;
+  const std::vector<CsvField> header = read_csv(file).header;
+  return std::any_of(header.begin(), header.end(), [](const CsvField& column) { return column.text == "characteristic"; });
 }
 
 }  // namespace abbe

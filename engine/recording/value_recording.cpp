@@ -8,7 +8,8 @@
 #include <cmath>
 #include <functional>
 
-#include "engine/recording/csv.hpp"
+#include "engine/base/csv.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace abbe {
 
@@ -21,13 +22,13 @@ struct ReadColumn {
 };
 
 bool set_number(const CsvField& f, const std::function<void(double)>& set) {
-  const std::optional<double> v = csv_number(f);
+  const std::optional<double> v = finite_number(f.text);
   if (v) set(*v);
   return v.has_value();
 }
 
 bool set_count(const CsvField& f, int& to) {
-  const std::optional<double> v = csv_number(f);
+  const std::optional<double> v = finite_number(f.text);
   constexpr double kMost = 1e6;
   if (!v || *v != std::floor(*v) || *v < 1 || *v > kMost) return false;
   to = static_cast<int>(*v);

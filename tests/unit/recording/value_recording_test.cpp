@@ -31,6 +31,12 @@ TEST_CASE("columns that are left out have their usual values") {
   CHECK(r.metadata.at(0).second == "M");
 }
 
+TEST_CASE("a recording of values is told by its header, whatever stands ahead of it") {
+  for (const char* ahead : {"", "\xEF\xBB\xBF", "\xEF\xBB\xBF# made: today\n", "\n", " \n# characteristic of nothing\n"})
+    for (const auto& [header, values] : {std::pair{"characteristic,value\nLEN,1\n", true}, std::pair{"value,\"characteristic\"\n1,LEN\n", true}, std::pair{"feature,touch\nA,1\n", false}})
+      CHECK(is_value_recording(SourceFile("v.csv", std::string(ahead) + header)) == values);
+}
+
 TEST_CASE("a negative U and a run that is no count are refused, each with its place") {
   try {
     read_value_recording(SourceFile("v.csv", "characteristic,value,U,run\nLEN,1,-0.1,1\nLEN,1,0.1,1.5\n,1,0,1\n"));

@@ -1,8 +1,7 @@
-// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings. Fields keep their place in the file, so that
-// a message can point at the very number that is wrong.
+// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings and of temperature logs. Fields keep their place
+// in the file, so that a message can point at the very number that is wrong.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,8 +31,5 @@ struct CsvTable {
 
 /// Reads the table. Throws UserError: no header, a column twice, a quote that is not closed, a row of another length than the header.
 CsvTable read_csv(const SourceFile&);
-
-/// A number written with a decimal point that a double can hold; nothing otherwise.
-std::optional<double> csv_number(const CsvField&);
 
 }  // namespace abbe

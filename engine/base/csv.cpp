@@ -1,9 +1,8 @@
-#include "engine/recording/csv.hpp"
+#include "engine/base/csv.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
+#include <algorithm>
 #include <set>
 
 namespace abbe {
@@ -102,17 +101,8 @@ CsvTable read_csv(const SourceFile& file) {
   if (sink.has_errors()) throw UserError(sink.list());
   if (table.header.empty() || table.rows.empty())
     throw UserError(diagnostic_at(file, {0, 1}, Code::E0524, "the file has no rows",
-                                  "the first line names the columns (docs/formats.md, \"Recordings\"), every other line is one touch"));
+                                  "the first line names the columns, every other line is one row (docs/formats.md)"));
   return table;
-}
-
-std::optional<double> csv_number(const CsvField& field) {
-  std::string_view text = field.text;
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 }  // namespace abbe
