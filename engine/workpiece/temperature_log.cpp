@@ -1,11 +1,12 @@
 #include "engine/workpiece/temperature_log.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 
-#include "engine/base/diagnostic.hpp"
+#include "engine/base/csv.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace abbe {
 
@@ -13,37 +14,16 @@ namespace {
 
 constexpr std::string_view kTime = "time_s";
 
-struct Field {
-  std::string_view text;
-  Span span;
-};
-
-std::vector<Field> fields_of(const SourceFile& file, int line) {
-  std::vector<Field> fields;
-  const std::string_view text = file.line(line);
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    std::size_t begin = from, end = comma;
-    while (begin < end && text[begin] == ' ') ++begin;
-    while (end > begin && text[end - 1] == ' ') --end;
-    const auto at = file.line_begin(line) + static_cast<std::uint32_t>(begin);
-    fields.push_back(
-        {text.substr(begin, end - begin), {at, at + static_cast<std::uint32_t>(end - begin)}});
-    from = comma + 1;
-  }
-  return fields;
-}
-
-[[noreturn]] void refuse(const SourceFile& file, const Field& at, std::string message,
+[[noreturn]] void refuse(const SourceFile& file, const CsvField& at, std::string message,
                          std::string help) {
   throw UserError(diagnostic_at(file, at.span, Code::E0425, std::move(message), std::move(help)));
 }
 
 /// Where the values of each field of a line go.
-std::vector<std::vector<double>*> read_header(const SourceFile& file, TemperatureLog& log) {
+std::vector<std::vector<double>*> columns_of(const std::vector<CsvField>& header, const SourceFile& file,
+                                             TemperatureLog& log) {
   std::vector<std::vector<double>*> columns;
-  const std::vector<Field> header = fields_of(file, 1);
-  for (const Field& field : header) {
+  for (const CsvField& field : header) {
     const auto name = std::find(log.kNames.begin(), log.kNames.end(), field.text);
     std::vector<double>* column = &log.time_s;
     if (name != log.kNames.end()) {
@@ -56,9 +36,6 @@ std::vector<std::vector<double>*> read_header(const SourceFile& file, Temperatur
              near.empty() ? fmt::format("its columns are: {}", fmt::join(known, ", "))
                           : fmt::format("did you mean '{}'?", near));
     }
-    if (std::find(columns.begin(), columns.end(), column) != columns.end())
-      refuse(file, field, fmt::format("column '{}' stands here for the second time", field.text),
-             "remove one of the two");
     columns.push_back(column);
   }
   if (columns.size() < 2 || std::find(columns.begin(), columns.end(), &log.time_s) == columns.end())
@@ -68,14 +45,12 @@ std::vector<std::vector<double>*> read_header(const SourceFile& file, Temperatur
   return columns;
 }
 
-double number(const SourceFile& file, const Field& field) {
-  double value = 0;
-  const auto [end, failure] =
-      std::from_chars(field.text.data(), field.text.data() + field.text.size(), value);
-  if (failure != std::errc{} || end != field.text.data() + field.text.size())
+double number(const SourceFile& file, const CsvField& field) {
+  const std::optional<double> value = finite_number(field.text);
+  if (!value)
     refuse(file, field, fmt::format("'{}' is not a number", field.text),
            "numbers have a decimal point: 20.15");
-  return value;
+  return *value;
 }
 
 }  // namespace
@@ -90,25 +65,17 @@ double TemperatureLog::at(Column c, double time) const {
 }
 
 TemperatureLog read_temperature_log(const SourceFile& file) {
+  const CsvTable table = read_csv(file);
   TemperatureLog log;
-  const std::vector<std::vector<double>*> columns = read_header(file, log);
-  for (int line = 2; line <= file.line_count(); ++line) {
-    const std::vector<Field> fields = fields_of(file, line);
-    if (fields.size() == 1 && fields[0].text.empty()) continue;
-    if (fields.size() != columns.size())
-      refuse(file, fields.front(),
-             fmt::format("this line has {} values, the header {} columns", fields.size(),
-                         columns.size()),
-             "every line holds one value for each column");
-    for (std::size_t k = 0; k < fields.size(); ++k) columns[k]->push_back(number(file, fields[k]));
+  const std::vector<std::vector<double>*> columns = columns_of(table.header, file, log);
+  for (const CsvRow& row : table.rows) {
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k]->push_back(number(file, row.fields[k]));
     const std::size_t n = log.time_s.size();
     if (n > 1 && log.time_s[n - 1] <= log.time_s[n - 2])
-      refuse(file, fields.front(),
+      refuse(file, row.fields.front(),
              fmt::format("time_s is {:g} here after {:g}", log.time_s[n - 1], log.time_s[n - 2]),
              "the lines of a log ascend in time");
   }
-  if (log.time_s.empty())
-    refuse(file, {"", {0, 1}}, "the temperature log has no values", "add a line such as '0,20.1'");
   return log;
 }
 

@@ -27,8 +27,8 @@ struct TemperatureLog {
   double at(Column, double time_s) const;
 };
 
-/// Throws UserError (E0425): unknown or missing column, a field that is not a number, times that do
-/// not ascend.
+/// Throws UserError: not a table (csv.hpp), or E0425: unknown or missing column, a field that is not
+/// a finite number, times that do not ascend.
 TemperatureLog read_temperature_log(const SourceFile&);
 
 }  // namespace abbe

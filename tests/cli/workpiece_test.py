@@ -90,7 +90,7 @@ def check_refusals(folder):
     assert "E0421" in message and "rectangular" in message, message
     (folder / "log.csv").write_text("time_s,temp_part_C\n0,20.1\n60,20,2\n")
     message = refusal(head + '"material": {"cte_ppm_per_K": 11.5}, "temperature": {"log": "log.csv"}}')
-    assert re.search(r"log\.csv:3:1: error E0425", message), message
+    assert re.search(r"log\.csv:3:1: error E0523", message), message
     (folder / "log.csv").write_text("time_s,temp_part_C\n0,20.1\n")
     message = refusal(head + '"material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 21, "log": "log.csv"}}')
     assert "E0422" in message and "temp_part_C of the log" in message, message

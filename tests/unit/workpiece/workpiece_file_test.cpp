@@ -163,6 +163,13 @@ TEST_CASE("a temperature log runs straight between its lines and stays at its en
   CHECK_FALSE(log.has(TemperatureLog::air));
 }
 
+TEST_CASE("a temperature log is a table as others are: byte order mark, signs, free text") {
+  const TemperatureLog log = read_temperature_log(
+      SourceFile("t.csv", "\xEF\xBB\xBF# logger 7\r\n\"time_s\",temp_air_C\r\n\r\n0,+20\r\n10, 21.5\r\n"));
+  CHECK(log.time_s == std::vector<double>{0, 10});
+  CHECK(log.temperature_C[TemperatureLog::air] == std::vector<double>{20, 21.5});
+}
+
 TEST_CASE("a log that cannot be read says where (E0425)") {
   const auto fault = [](const std::string& text) {
     try {
@@ -176,10 +183,14 @@ TEST_CASE("a log that cannot be read says where (E0425)") {
   CHECK(has(fault("time_s,temp_prt_C\n0,20\n"), "did you mean 'temp_part_C'?"));
   CHECK(has(fault("temp_part_C,temp_x_C\n0,20\n"), "needs the column 'time_s'"));
   CHECK(has(fault("time_s,temp_part_C\n0,20;5\n"), "'20;5' is not a number"));
+  for (const char* text : {"nan", "inf", "-inf", ""}) {
+    CHECK(has(fault(std::string("time_s,temp_part_C\n0,20\n10,") + text + "\n"), "is not a number"));
+    CHECK(has(fault(std::string("time_s,temp_part_C\n") + text + ",20\n10,21\n"), "is not a number"));
+  }
   CHECK(has(fault("time_s,temp_part_C\n0\n"), "has 1 values, the header 2 columns"));
   CHECK(has(fault("time_s,temp_part_C\n5,20\n5,21\n"), "ascend in time"));
   CHECK(has(fault("time_s,time_s\n5,20\n"), "for the second time"));
-  CHECK(has(fault("time_s,temp_part_C\n"), "has no values"));
+  CHECK(has(fault("time_s,temp_part_C\n"), "has no rows"));
 }
 
 TEST_CASE("strain is the difference of part and scales, less what the compensation takes out") {
