@@ -1,10 +1,14 @@
 #include "lang/directives.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <type_traits>
+
+#include "engine/base/numbers.hpp"
 
 namespace abbe::lang {
 
@@ -95,18 +99,28 @@ class DirectiveReader {
   }
 
   template <class Number>
-  Number number(std::string_view directive, std::string_view expected) {
-    const Token& token = take(directive, expected);
-    std::string_view digits = token.text;
+  static std::optional<Number> whole_number(std::string_view digits) {
     if (digits.starts_with('+')) digits.remove_prefix(1);
     Number value{};
     const auto [end, failure] =
         std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (failure != std::errc{} || end != digits.data() + digits.size())
+    if (failure != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
+    return value;
+  }
+
+  template <class Number>
+  Number number(std::string_view directive, std::string_view expected) {
+    const Token& token = take(directive, expected);
+    std::optional<Number> value;
+    if constexpr (std::is_floating_point_v<Number>)
+      value = finite_number(token.text);
+    else
+      value = whole_number<Number>(token.text);
+    if (!value)
       mistake(Code::E0114, token.span,
               fmt::format("directive '{}': '{}' is not {}", directive, token.text, expected),
               help_for(directive));
-    return value;
+    return *value;
   }
 
   void one() {

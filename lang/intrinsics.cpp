@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <optional>
 
+#include "engine/base/numbers.hpp"
 #include "engine/math/axis.hpp"
 #include "lang/expression.hpp"
 
@@ -106,13 +107,12 @@ Value number_text(Values& a, Texts& texts) {
 Value text_number(Values& a, Texts& texts) {
   std::string_view text = texts[a[0]];
   const auto blank = [](char c) { return c == ' '; };
-  while (!text.empty() && (blank(text.front()) || text.front() == '+')) text.remove_prefix(1);
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  double v = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), v);
-  if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+  const std::optional<double> v = finite_number(text);
+  if (!v)
     refuse(fmt::format("the text '{}' is not a number", texts[a[0]]), "VAL takes a text like '12.5'");
-  return text.find_first_of(".eE") == std::string_view::npos ? integer(v) : number(v);
+  return text.find_first_of(".eE") == std::string_view::npos ? integer(*v) : number(*v);
 }
 
 Value joined(Values& a, Texts& texts) {

@@ -16,7 +16,7 @@ std::optional<double> sexagesimal(std::string_view text) {
     double value = 0;
     const auto [end, failure] =
         std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-    if (failure != std::errc{} || value < 0 || (part > 0 && value >= 60)) return std::nullopt;
+    if (failure != std::errc{} || !std::isfinite(value) || value < 0 || (part > 0 && value >= 60)) return std::nullopt;
     degrees += value * unit;
     unit /= 60;
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));

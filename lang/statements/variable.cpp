@@ -1,8 +1,9 @@
 // Variables: DECL, ASSIGN, PROMPT, VALUE. (OBTAIN is in obtain.cpp.)
 #include <fmt/format.h>
 
-#include <charconv>
+#include <optional>
 
+#include "engine/base/numbers.hpp"
 #include "lang/statement.hpp"
 #include "lang/statements/target.hpp"
 
@@ -105,12 +106,8 @@ std::optional<Value> answer_value(Lowering& lowering, const std::string& answer,
   const std::string word = upper(answer);
   for (const bool v : {true, false})
     if (word == (v ? "TRUE" : "FALSE") || word == (v ? ".TRUE." : ".FALSE.")) return boolean(v);
-  std::string_view digits = answer;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  double v = 0;
-  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), v);
-  if (result.ec == std::errc{} && result.ptr == digits.data() + digits.size())
-    return digits.find_first_of(".eE") == std::string_view::npos ? integer(v) : number(v);
+  if (const std::optional<double> v = finite_number(answer))
+    return answer.find_first_of(".eE") == std::string::npos ? integer(*v) : number(*v);
   return variable ? std::nullopt : std::optional(lowering.texts.value(answer));
 }
 
