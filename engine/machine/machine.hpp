@@ -78,6 +78,9 @@ struct MotionSpec {
 
 /// One stylus system of the machine file.
 struct NamedSensor {
+  /// Where nobody says what a stylus is made of: tungsten carbide.
+  static constexpr double kUsualYoung_GPa = 620, kUsualCte_ppm_per_K = 5;
+
   double head_a_rad = 0, head_b_rad = 0;
   Vec3 tip_in_r_mm;
   double radius_mm = 0;

@@ -206,7 +206,7 @@ struct Material {
   double young_GPa, cte_ppm_per_K;
 };
 // Typical values of stylus shafts; a file that knows better gives its own numbers.
-constexpr Material kMaterials[] = {{"tungsten carbide", 620, 5.0},
+constexpr Material kMaterials[] = {{"tungsten carbide", NamedSensor::kUsualYoung_GPa, NamedSensor::kUsualCte_ppm_per_K},
                                    {"steel", 200, 11.5},
                                    {"ceramic", 350, 7.5},
                                    {"carbon fibre", 450, -0.4}};

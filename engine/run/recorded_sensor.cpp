@@ -2,7 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+#include <optional>
 #include <sstream>
+#include <vector>
+
+#include "engine/base/json_reader.hpp"
+#include "engine/base/numbers.hpp"
 
 namespace abbe {
 
@@ -10,6 +17,74 @@ namespace {
 
 constexpr std::string_view kKey = "sensor ";
 constexpr double kDegree = kPi / 180;
+
+/// A word of a sensor line and the numbers behind it, as in a machine file.
+struct SensorWord {
+  std::string_view name;
+  std::size_t count;
+  NumberRange range = kAnyNumber;
+  bool required = false;
+};
+constexpr SensorWord kWords[] = {{"head_deg", 2},
+                                 {"tip_in_r_mm", 3, kAnyNumber, true},
+                                 {"diameter_mm", 1, kPositive, true},
+                                 {"shaft_diameter_mm", 1, kPositive},
+                                 {"young_GPa", 1, kPositive},
+                                 {"cte_ppm_per_K", 1}};
+
+/// One sensor line of a recording, read word by word.
+class SensorLine {
+ public:
+  SensorLine(const std::string& key, const std::string& value, const std::string& file) : key_(key), value_(value), file_(file) {
+    std::istringstream in(value);
+    for (std::string name; in >> name;) read(name, in);
+    for (const SensorWord& word : kWords)
+      if (word.required && !numbers_.contains(word.name)) refuse(fmt::format("{} is missing", word.name));
+  }
+
+  /// Nothing when the line does not say it.
+  std::optional<std::vector<double>> numbers(std::string_view name) const {
+    const auto found = numbers_.find(name);
+    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
+  }
+  double number_or(std::string_view name, double otherwise) const { return numbers(name).value_or(std::vector{otherwise})[0]; }
+
+ private:
+  void read(const std::string& name, std::istream& in) {
+    const auto word = std::find_if(std::begin(kWords), std::end(kWords), [&](const SensorWord& w) { return w.name == name; });
+    if (word == std::end(kWords)) refuse(fmt::format("'{}' stands where one of its words is expected", name));
+    std::vector<double> numbers;
+    for (std::string text; numbers.size() < word->count && in >> text;) {
+      const std::optional<double> number = finite_number(text);
+      if (!number || !word->range.holds(*number)) refuse(fmt::format("'{}' of {} must be {}", text, name, word->range.words));
+      numbers.push_back(*number);
+    }
+    if (numbers.size() < word->count) refuse(fmt::format("{} has {} of {} numbers", name, numbers.size(), word->count));
+    if (!numbers_.emplace(word->name, std::move(numbers)).second) refuse(fmt::format("{} stands there twice", name));
+  }
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw UserError(diagnostic(Code::E0545, fmt::format("{}: the line '# {}: {}' cannot be read: {}", file_, key_, value_, why),
+                               "write head_deg A B tip_in_r_mm x y z diameter_mm d, numbers between blanks"));
+  }
+
+  const std::string &key_, &value_, &file_;
+  std::map<std::string_view, std::vector<double>> numbers_;
+};
+
+/// What a line leaves out is as in a machine file.
+NamedSensor sensor_of(const SensorLine& line) {
+  NamedSensor s;
+  const std::vector<double> head = line.numbers("head_deg").value_or(std::vector<double>{0, 0}), tip = *line.numbers("tip_in_r_mm");
+  s.head_a_rad = head[0] * kDegree;
+  s.head_b_rad = head[1] * kDegree;
+  s.tip_in_r_mm = {tip[0], tip[1], tip[2]};
+  s.radius_mm = line.numbers("diameter_mm")->front() / 2;
+  s.shaft_diameter_mm = line.number_or("shaft_diameter_mm", s.radius_mm);
+  s.young_GPa = line.number_or("young_GPa", NamedSensor::kUsualYoung_GPa);
+  s.cte_ppm_per_K = line.number_or("cte_ppm_per_K", NamedSensor::kUsualCte_ppm_per_K);
+  return s;
+}
 
 }  // namespace
 
@@ -24,25 +99,7 @@ std::pair<std::string, std::string> sensor_line(const Sensor& s, const Machine& 
 void add_recorded_sensors(const Recording& recording, Machine& machine, const std::string& file) {
   for (const auto& [key, value] : recording.metadata) {
     if (!key.starts_with(kKey)) continue;
-    std::istringstream in(value);
-    NamedSensor s;
-    double a = 0, b = 0, diameter = 0;
-    for (std::string word; in >> word;) {
-      if (word == "head_deg") in >> a >> b;
-      else if (word == "tip_in_r_mm") in >> s.tip_in_r_mm.x >> s.tip_in_r_mm.y >> s.tip_in_r_mm.z;
-      else if (word == "diameter_mm") in >> diameter;
-      else if (word == "shaft_diameter_mm") in >> s.shaft_diameter_mm;
-      else if (word == "young_GPa") in >> s.young_GPa;
-      else if (word == "cte_ppm_per_K") in >> s.cte_ppm_per_K;
-      else in.setstate(std::ios::failbit);
-    }
-    if (!in.eof() || diameter <= 0)
-      throw UserError(diagnostic(Code::E0545, fmt::format("{}: the line '# {}: {}' cannot be read", file, key, value),
-                                 "write head_deg A B tip_in_r_mm x y z diameter_mm d, numbers between blanks"));
-    s.head_a_rad = a * kDegree;
-    s.head_b_rad = b * kDegree;
-    s.radius_mm = diameter / 2;
-    machine.sensors.emplace(key.substr(kKey.size()), s);
+    machine.sensors.emplace(key.substr(kKey.size()), sensor_of(SensorLine(key, value, file)));
   }
 }
 
