@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <numeric>
+#include <variant>
 
 #include "engine/base/letter_case.hpp"
 #include "engine/machine/geometry.hpp"
@@ -49,16 +50,20 @@ const std::vector<CovariateColumns>& covariate_columns() {
   return all;
 }
 
+/// What a covariate holds: a figure, or the name of a sensor or feature.
+using CovariateValue = std::variant<double, std::string>;
+using CovariateValues = std::vector<CovariateValue>;
+
 /// The values of a covariate in a row; empty when it was not logged.
-std::vector<double> values(Covariate c, const RecordingRow& r) {
+CovariateValues values(Covariate c, const RecordingRow& r) {
   const auto given = [](std::initializer_list<std::optional<double>> list) {
-    std::vector<double> v;
+    CovariateValues v;
     for (const auto& x : list)
-      if (x) v.push_back(*x);
-    return v.size() == list.size() ? v : std::vector<double>{};
+      if (x) v.emplace_back(*x);
+    return v.size() == list.size() ? v : CovariateValues{};
   };
   const auto of = [](const std::optional<int>& v) { return v ? std::optional<double>(*v) : std::nullopt; };
-  const auto of_vector = [](const std::optional<Vec3>& v) { return v ? std::vector<double>{v->x, v->y, v->z} : std::vector<double>{}; };
+  const auto of_vector = [](const std::optional<Vec3>& v) { return v ? CovariateValues{v->x, v->y, v->z} : CovariateValues{}; };
   switch (c) {
     case Covariate::position: return of_vector(r.target_mm);
     case Covariate::part_frame: return of_vector(r.target_mm);
@@ -68,16 +73,16 @@ std::vector<double> values(Covariate c, const RecordingRow& r) {
     case Covariate::acceleration: return given({r.accel_mm_s2});
     case Covariate::direction: return of_vector(r.travel);
     case Covariate::head: return given({r.head_a_deg, r.head_b_deg});
-    case Covariate::sensor: return r.sensor ? std::vector<double>{double(std::hash<std::string>{}(*r.sensor) % 1000003)} : std::vector<double>{};
+    case Covariate::sensor: return r.sensor ? CovariateValues{*r.sensor} : CovariateValues{};
     case Covariate::part_temperature: return given({r.temp_part_C});
     case Covariate::scale_temperature: return given({r.temp_x_C, r.temp_y_C, r.temp_z_C});
     case Covariate::air_temperature: return given({r.temp_air_C});
     case Covariate::gradients: return {};
     case Covariate::raw_reading: return of_vector(r.reading_mm);
     case Covariate::load: return given({r.load_kg});
-    case Covariate::visit: return r.head_a_deg && r.head_b_deg ? std::vector<double>{double(r.visit.value_or(0))} : std::vector<double>{};
+    case Covariate::visit: return r.head_a_deg && r.head_b_deg ? CovariateValues{double(r.visit.value_or(0))} : CovariateValues{};
     case Covariate::qualification: return given({of(r.qualification)});
-    case Covariate::feature: return {double(std::hash<std::string>{}(r.feature) % 1000003)};
+    case Covariate::feature: return {r.feature};
   }
   return {};
 }
@@ -85,9 +90,9 @@ std::vector<double> values(Covariate c, const RecordingRow& r) {
 void find_covariates(const Recording& recording, RecordedTouches& out) {
   for (const CovariateColumns& entry : covariate_columns()) {
     bool known = true, varying = false;
-    const std::vector<double> first = values(entry.covariate, recording.rows.front());
+    const CovariateValues first = values(entry.covariate, recording.rows.front());
     for (const RecordingRow& row : recording.rows) {
-      const std::vector<double> v = values(entry.covariate, row);
+      const CovariateValues v = values(entry.covariate, row);
       known = known && !v.empty();
       if (known && v != first) varying = true;
     }

@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <functional>
+#include <map>
+
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
 
@@ -37,6 +40,21 @@ TEST_CASE("only effects within a signal period see what a touch itself adds to i
     CHECK(norm(scene_for(scale, t).reading - scene_for(scale, clean.touches[i]).reading) < 1e-9);
     CHECK(norm(scene_for(interpolation, t).reading - scene_for(interpolation, clean.touches[i]).reading - 0.004 * t.scene.normal) < 1e-9);
   }
+}
+
+TEST_CASE("two names are two names, even where their hashes are close") {
+  // Of 4000 names some two agree in their hash modulo a million.
+  std::map<std::size_t, std::string> met;
+  std::pair<std::string, std::string> alike;
+  for (int k = 0; k < 4000 && alike.first.empty(); ++k) {
+    const std::string name = "F" + std::to_string(k);
+    const auto [at, fresh] = met.emplace(std::hash<std::string>{}(name) % 1000003, name);
+    if (!fresh) alike = {at->second, name};
+  }
+  REQUIRE_FALSE(alike.first.empty());
+  Recording r = ball(0);
+  for (std::size_t k = 0; k < r.rows.size(); ++k) r.rows[k].feature = k < 4 ? alike.first : alike.second;
+  CHECK((recorded_touches(r, read_machine("coord3-mc16"), "r").varying & static_cast<unsigned>(Covariate::feature)) != 0);
 }
 
 TEST_CASE("targets of a program are of the point and in the frame that the recording states") {
