@@ -218,9 +218,13 @@ class Diagnose(harness.Case):
 
     def test_a_broken_known_state_is_refused(self):
         machine = json.loads(MACHINE.read_text())
-        machine["known_state"] = {"schema": "abbe.known_state/1", "mean": [1, 2], "factor": []}
-        known = self.write("known.json", json.dumps(machine))
-        self.refused("E0706", "diagnose", self.record(), "--known", known)
+        recording = self.record()
+        good = {"schema": "abbe.known_state/1", "mean": [0] * 378, "factor": [[0] * 378]}
+        for state in ({"schema": 1}, {"schema": None}, {}, [], "abbe.known_state/1", 7, good | {"schema": "abbe.known_state/2"},
+                      good | {"mean": [1, 2]}, good | {"mean": None}, good | {"mean": ["0"] * 378}, good | {"factor": []}, good | {"factor": 1},
+                      good | {"factor": [1]}, good | {"factor": [[None] * 378]}, {k: v for k, v in good.items() if k != "factor"}):
+            machine["known_state"] = state
+            self.refused("E0706", "diagnose", recording, "--known", self.write("known.json", json.dumps(machine)))
 
 
 if __name__ == "__main__":

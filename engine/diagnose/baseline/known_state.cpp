@@ -38,7 +38,8 @@ nlohmann::ordered_json list_of(const Vector& v) {
 std::optional<KnownGeometry> read_known_state(const Machine& machine) {
   if (machine.known_state.empty()) return std::nullopt;
   const nlohmann::json state = nlohmann::json::parse(machine.known_state, nullptr, false);
-  if (!state.is_object() || state.value("schema", "") != kSchema) refuse(machine, fmt::format("\"schema\": \"{}\" is missing", kSchema));
+  const auto schema = state.find("schema");
+  if (schema == state.end() || *schema != nlohmann::json(kSchema)) refuse(machine, fmt::format("\"schema\": \"{}\" is missing", kSchema));
   const Eigen::Index size = kComponents * basis_size(machine.harmonics);
   for (const char* key : {"mean", "factor"})
     if (!state.contains(key)) refuse(machine, fmt::format("\"{}\" is missing", key));
