@@ -31,20 +31,14 @@ def sources(*suffixes):
 
 
 def layers():
-    """Folder -> folders it may include, from the abbe_layer lines of CMakeLists.txt; uses of uses count."""
+    """Folder -> folders it may include: its own and those that its abbe_layer line in CMakeLists.txt names."""
     text = (ROOT / "CMakeLists.txt").read_text()
     folder, uses = {}, {}
     for name, where, rest in re.findall(r"abbe_layer\((\w+)\s+(\S+)([^)]*)\)", text):
         folder[name] = where
         used = re.search(r"USES\s+(.*)", rest.split("LINKS")[0], re.S)
         uses[name] = set(used.group(1).split()) if used else set()
-
-    def closure(name):
-        found = set(uses[name])
-        for used in uses[name]:
-            found |= closure(used)
-        return found
-    table = {folder[n]: {folder[u] for u in closure(n)} | {folder[n]} for n in folder}
+    table = {folder[n]: {folder[u] for u in uses[n]} | {folder[n]} for n in folder}
     table["programs"] = set(folder.values()) | {"programs"}
     return table
 
