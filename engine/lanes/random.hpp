@@ -1,4 +1,4 @@
-// Random numbers without state: Philox4x32-10 (Salmon et al., SC'11) addressed by (seed, machine, mechanism, site, visit,
+// Random numbers without state: Philox4x32-10 (Salmon et al., SC'11) addressed by (seed, machine, effect, site, visit,
 // draw). So a number depends on nothing but its own address: not on threads, blocks, the order of work, or on which other
 // effects exist. Integer and exactly rounded operations only: the same bits on every machine.
 #pragma once
@@ -30,15 +30,19 @@ constexpr Philox4 philox4x32(std::uint32_t c0, std::uint32_t c1, std::uint32_t c
   return {{c0, c1, c2, c3}};
 }
 
-/// FNV-1a hash of a mechanism's name: its own stream of numbers, whatever else exists.
-constexpr std::uint32_t stream_of(std::string_view mechanism) {
+/// FNV-1a hash of an effect's name: its own stream of numbers, whatever else exists.
+constexpr std::uint32_t stream_of(std::string_view effect) {
   std::uint32_t h = 2166136261u;
-  for (const char c : mechanism) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
+  for (const char c : effect) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
   return h;
 }
 
+/// `draw` has so many bits of an address, `visit` the others of its word.
+inline constexpr int kDrawBits = 12;
+inline constexpr std::uint64_t kMostVisits = std::uint64_t{1} << (32 - kDrawBits);
+
 /// The address of a pair of random numbers. `site`: the place in the program (index of the operation), 0 for what is drawn once
-/// per machine; `visit`: how often this machine has been there (up to 2^20); `draw`: which pair of that visit (up to 2^12).
+/// per machine; `visit`: how often this machine has been there (below kMostVisits); `draw`: which pair of that visit.
 struct RandomAddress {
   std::uint64_t seed = 1;
   std::uint32_t machine = 0;
@@ -49,7 +53,7 @@ struct RandomAddress {
 };
 
 constexpr Philox4 random_bits(const RandomAddress& a) {
-  return philox4x32(a.machine, a.stream, a.site, (a.visit << 12) | a.draw, static_cast<std::uint32_t>(a.seed),
+  return philox4x32(a.machine, a.stream, a.site, (a.visit << kDrawBits) | a.draw, static_cast<std::uint32_t>(a.seed),
                     static_cast<std::uint32_t>(a.seed >> 32));
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "engine/lanes/random.hpp"
 #include "engine/plan/lifetimes.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/block.hpp"
@@ -17,6 +18,7 @@ namespace abbe {
 
 /// How many operations a lane may execute before it counts as caught in an endless loop.
 inline constexpr std::uint64_t kFuel = 2'000'000;
+static_assert(kFuel / 2 < kMostVisits, "visits must have addresses of their own: each takes two operations, itself and the jump back");
 
 class Executor {
  public:
