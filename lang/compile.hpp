@@ -43,6 +43,7 @@ struct Compilation {
   plan::Plan plan;           ///< of the statements without errors
   Directives directives;
   std::vector<Lost> lost;
+  std::vector<std::string> modules;  ///< files that INCLUD, EXTFIL and CALL read
 };
 
 /// What a compilation needs to know beyond the program.

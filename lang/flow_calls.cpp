@@ -182,6 +182,7 @@ Flow::Module* Flow::load(const RawArgument& name) {
       lowering_.error(Code::E0241, name.span, e.diagnostics().front().message, e.diagnostics().front().help);
       return nullptr;
     }
+    lowering_.out.modules.push_back(file.string());
     module.lines = logical_lines(*module.file);
   }
   return &module;

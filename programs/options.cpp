@@ -1,11 +1,14 @@
 #include "programs/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
+#include <algorithm>
+#include <array>
 #include <memory>
 
+#include "engine/base/numbers.hpp"
 #include "engine/report/writer.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
@@ -113,15 +116,15 @@ void add_test(CLI::App& app, Chosen& chosen) {
 /// "i,j,k".
 std::array<double, 3> parse_vector(const std::string& text) {
   std::array<double, 3> v{};
-  const char *at = text.data(), *end = at + text.size();
-  for (int i = 0; i < 3; ++i) {
-    if (i > 0 && (at == end || *at++ != ',')) throw CLI::ConversionError(text, "--normal");
-    if (at != end && *at == '+') ++at;
-    const auto [next, error] = std::from_chars(at, end, v[i]);
-    if (error != std::errc{}) throw CLI::ConversionError(text, "--normal");
-    at = next;
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::optional<double> number = finite_number(rest.substr(0, comma));
+    const bool last = comma == rest.size();
+    if (!number || last != (i + 1 == v.size())) throw CLI::ConversionError(text, "--normal");
+    v[i] = *number;
+    if (!last) rest.remove_prefix(comma + 1);
   }
-  if (at != end) throw CLI::ConversionError(text, "--normal");
   return v;
 }
 

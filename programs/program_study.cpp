@@ -40,19 +40,42 @@ CompiledProgram compile_program(const std::string& path, const std::map<std::str
   return {std::move(source), std::move(compilation), sink.sorted(), sink.has_errors()};
 }
 
-Study study_program(const CompiledProgram& program, const StudySettings& settings, const Progress& progress) {
+std::vector<std::string> files_compiled(const CompiledProgram& program) {
+  std::vector<std::string> files = program.compilation.modules;
+  files.push_back(program.source.name());
+  return files;
+}
+
+std::vector<std::string> files_of(const std::optional<Workpiece>& workpiece) {
+  if (!workpiece) return {};
+  if (workpiece->log_file.empty()) return {workpiece->source.name()};
+  return {workpiece->source.name(), workpiece->log_file};
+}
+
+StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& settings) {
+  StudyInputs in;
+  in.machine_name = machine_name(program, settings.machine);
+  in.machine = read_machine(in.machine_name);
+  in.workpiece = workpiece_of(program, settings.workpiece);
+  in.files = files_compiled(program);
+  in.files.push_back(in.machine_name);
+  for (const std::string& file : files_of(in.workpiece)) in.files.push_back(file);
+  if (settings.recording) {
+    Sink sink;
+    in.recording = read_recording(read_text(*settings.recording, sink));
+    in.messages = sink.list();
+    in.files.push_back(*settings.recording);
+  }
+  return in;
+}
+
+Study study_program(const CompiledProgram& program, const StudySettings& settings, const StudyInputs& in, const Progress& progress) {
   const lang::Directives& asked = program.compilation.directives;
   const plan::Plan& plan = program.compilation.plan;
-  const Machine machine = read_machine(machine_name(program, settings.machine));
-
-  const std::optional<Workpiece> workpiece = workpiece_of(program, settings.workpiece);
 
   StudyOptions options;
-  options.workpiece = workpiece ? &*workpiece : nullptr;
-  Sink sink;
-  const std::optional<Recording> recorded =
-      settings.recording ? std::optional(read_recording(read_text(*settings.recording, sink))) : std::nullopt;
-  options.recorded = recorded ? &*recorded : nullptr;
+  options.workpiece = in.workpiece ? &*in.workpiece : nullptr;
+  options.recorded = in.recording ? &*in.recording : nullptr;
   options.seed = settings.seed.value_or(asked.seed.value_or(options.seed));
   options.machines = settings.machines.value_or(asked.machines.value_or(kDefaultMachines));
   options.digits = settings.digits;
@@ -62,16 +85,16 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.threads = thread_count(settings.threads);
 
   std::vector<Diagnostic> messages = program.messages;
-  messages.insert(messages.end(), sink.list().begin(), sink.list().end());
+  messages.insert(messages.end(), in.messages.begin(), in.messages.end());
   if (asked.place_mm) {
     options.placement_mm = *asked.place_mm;
   } else {
-    const Placement placement = find_placement(plan, machine, program.source);
+    const Placement placement = find_placement(plan, in.machine, program.source);
     options.placement_mm = placement.shift_mm;
     if (placement.message) messages.push_back(*placement.message);
   }
 
-  Study study = run_study(plan, machine, options, program.source, progress);
+  Study study = run_study(plan, in.machine, options, program.source, progress);
   study.report.version = ABBE_VERSION;
   std::vector<LostCharacteristic> lost;
   for (const lang::Lost& l : program.compilation.lost) lost.push_back({l.line, l.feature, l.reason});

@@ -54,7 +54,24 @@ std::string machine_name(const CompiledProgram&, const std::optional<std::string
 /// program. Nothing when neither names one. Throws UserError as read_workpiece does.
 std::optional<Workpiece> workpiece_of(const CompiledProgram&, const std::optional<std::string>& chosen);
 
-/// Studies a compiled program. Throws UserError: no usable machine, or the error-free machine cannot run the program.
-Study study_program(const CompiledProgram&, const StudySettings&, const Progress& progress = {});
+/// The program and its modules.
+std::vector<std::string> files_compiled(const CompiledProgram&);
+/// A workpiece file and the temperature log that it names; nothing without a workpiece.
+std::vector<std::string> files_of(const std::optional<Workpiece>&);
+
+/// What a program is run with, whoever named it: the command line, the program or the workpiece file.
+struct StudyInputs {
+  std::string machine_name;                ///< as read_machine took it
+  Machine machine;
+  std::optional<Workpiece> workpiece;
+  std::optional<Recording> recording;
+  std::vector<Diagnostic> messages;        ///< of reading them
+  std::vector<std::string> files;          ///< that were read, the program and its modules among them: no output may take their place
+};
+/// Reads each of them once. Throws UserError as read_machine, read_workpiece and read_recording do.
+StudyInputs read_inputs(const CompiledProgram&, const StudySettings&);
+
+/// Studies a compiled program. Throws UserError: the error-free machine cannot run the program.
+Study study_program(const CompiledProgram&, const StudySettings&, const StudyInputs&, const Progress& progress = {});
 
 }  // namespace abbe

@@ -66,6 +66,7 @@ struct Workpiece {
   std::optional<Uncertain> part_minus_scale_K;
   bool part_follows_scale = false;
   TemperatureLog log;
+  std::string log_file;  ///< that it was read from; empty without one
   Temperatures other;  ///< air and gradients; part and scales are unused here
 
   bool compensated = false;  ///< at the start; TECOMP changes it

@@ -84,8 +84,8 @@ void read_difference(JsonObject& t, Workpiece& w) {
 void read_log(JsonObject& t, Workpiece& w) {
   if (!t.has("log")) return;
   const std::filesystem::path file = t.text("log");
-  w.log = read_temperature_log(
-      read_source((std::filesystem::path(w.source.name()).parent_path() / file).string()));
+  w.log_file = (std::filesystem::path(w.source.name()).parent_path() / file).string();
+  w.log = read_temperature_log(read_source(w.log_file));
 }
 
 void note_what_is_known(const JsonObject& t, Workpiece& w) {

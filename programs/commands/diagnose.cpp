@@ -11,6 +11,7 @@
 #include "engine/run/recorded_sensor.hpp"
 #include "engine/run/recorded_touch.hpp"
 #include "programs/commands/recorded_values.hpp"
+#include "programs/commands/usable_program.hpp"
 #include "programs/terminal.hpp"
 #include "programs/thread_count.hpp"
 
@@ -19,11 +20,7 @@ namespace abbe {
 namespace {
 
 /// What an error-free machine would record of the program: targets, normals, sensors.
-MachineRecord nominal_record(const std::string& path, const Machine& machine) {
-  const CompiledProgram program = compile_program(path);
-  print_messages(program.messages);
-  if (program.has_errors)
-    throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()), "correct the program; `abbe check` lists what is wrong"));
+MachineRecord nominal_record(const CompiledProgram& program, const Machine& machine) {
   RunOptions run;
   run.contributors = {.geometry = false, .head = false, .probe = false, .only_component = {}, .part = false, .effects = false, .only_effect = {}};
   const plan::Plan& plan = program.compilation.plan;
@@ -77,20 +74,21 @@ void doubt_machine(const Recording& first, const std::string& name, const Record
 }
 
 /// Several files are one recording; their frames must agree.
-Recording joined(const std::vector<std::string>& files) {
+Recording joined(const std::vector<SourceFile>& files) {
   Recording all;
   for (std::size_t k = 0; k < files.size(); ++k) {
-    Recording one = read_recording(read_text_aloud(files[k]));
+    const std::string& name = files[k].name();
+    Recording one = read_recording(files[k]);
     if (k == 0) {
       all = std::move(one);
       continue;
     }
     if (one.in_part_frame != all.in_part_frame || one.point != all.point)
-      throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0], files[k]),
+      throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0].name(), name),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
-    refuse_copy(all, files[0], one, files[k]);
-    doubt_machine(all, files[0], one, files[k]);
-    continue_clock(all, one, files[k]);
+    refuse_copy(all, files[0].name(), one, name);
+    doubt_machine(all, files[0].name(), one, name);
+    continue_clock(all, one, name);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());   // new styli; of what is said twice the first counts
   }
@@ -104,9 +102,17 @@ std::string machine_of(const DiagnoseCommandOptions& options, const std::string&
   return recorded.empty() ? kDefaultMachine : recorded;
 }
 
-/// Before the work: a diagnosis takes minutes.
-void protect_files(const DiagnoseCommandOptions& options, const std::string& machine) {
-  std::vector<std::string> inputs = files_given({options.program, options.workpiece, machine});
+/// Every file was read once: a recording may come through a pipe.
+struct Files {
+  std::vector<SourceFile> recordings;
+  std::optional<Workpiece> workpiece;
+};
+
+/// Before the work: a diagnosis takes minutes. `programs`: those that were compiled, with their modules.
+void protect_files(const DiagnoseCommandOptions& options, const Files& read, const std::vector<std::string>& programs, const std::string& machine) {
+  std::vector<std::string> inputs = programs;
+  inputs.push_back(machine);
+  for (const std::string& file : files_of(read.workpiece)) inputs.push_back(file);
   inputs.insert(inputs.end(), options.recordings.begin(), options.recordings.end());
   refuse_overwriting(inputs, files_given({options.report, options.model_out}));
 }
@@ -116,22 +122,23 @@ struct Answer {
   std::string machine;                ///< that it was compared with
 };
 
-Answer of_values(const DiagnoseCommandOptions& options, const DiagnoseOptions& how) {
-  const RecordedValues values(options);
+Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
+  const RecordedValues values(read.recordings.front(), options.program);
   const std::string name = machine_of(options, values.machine());
-  protect_files(options, name);
+  protect_files(options, read, values.files(), name);
   return {values.diagnosis(read_machine(name), how), name};
 }
 
-Answer of_touches(const DiagnoseCommandOptions& options, const DiagnoseOptions& how) {
-  Recording recording = joined(options.recordings);
+Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
+  Recording recording = joined(read.recordings);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
   const std::string name = machine_of(options, machine_in(recording));
-  protect_files(options, name);
+  const std::optional<CompiledProgram> program = options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
+  protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
   Machine machine = read_machine(name);
   if (options.known && machine.known_state.empty())
     print_messages({diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name), "`abbe diagnose --model-out` writes one; --machine takes a file without")});
-  if (options.program) complete_from_program(recording, nominal_record(*options.program, machine), file);
+  if (program) complete_from_program(recording, nominal_record(*program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   add_recorded_sensors(recording, machine, file);
   return {diagnose_recording(recording, machine, how, file), name};
@@ -140,14 +147,16 @@ Answer of_touches(const DiagnoseCommandOptions& options, const DiagnoseOptions& 
 }  // namespace
 
 int diagnose_command(const DiagnoseCommandOptions& options) {
-  const std::optional<Workpiece> workpiece = options.workpiece ? std::optional(read_workpiece(*options.workpiece)) : std::nullopt;
+  Files read;
+  for (const std::string& file : options.recordings) read.recordings.push_back(read_text_aloud(file));
+  if (options.workpiece) read.workpiece = read_workpiece(*options.workpiece);
   DiagnoseOptions how;
-  how.workpiece = workpiece ? &*workpiece : nullptr;
+  how.workpiece = read.workpiece ? &*read.workpiece : nullptr;
   how.seed = options.seed.value_or(1);
   how.threads = thread_count(options.threads);
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
-  const auto [d, machine] = are_values(options.recordings) ? of_values(options, how) : of_touches(options, how);
+  const auto [d, machine] = are_values(read.recordings) ? of_values(options, read, how) : of_touches(options, read, how);
   print_messages(d.messages);
   if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(machine), d));
   if (options.report) write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));

@@ -1,6 +1,7 @@
 // abbe fit ELEMENT POINTS.csv: the least-squares element of measured points, outside of any program.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>

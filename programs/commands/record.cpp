@@ -1,13 +1,16 @@
 // `abbe record`: what one virtual machine reports of a program, touch by touch, with any effects at work.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <charconv>
+#include <algorithm>
 
 #include "engine/base/files.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/report/dmis_result.hpp"
 #include "engine/run/placement.hpp"
 #include "programs/commands/commands.hpp"
+#include "programs/commands/usable_program.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
@@ -22,8 +25,8 @@ namespace {
 /// "value" as a number, or as the word of a choice.
 EffectSetting::Value parameter_value(const std::string& text) {
   EffectSetting::Value value;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value.value);
-  if (error != std::errc{} || end != text.data() + text.size()) value.word = text;
+  if (const std::optional<double> number = finite_number(text)) value.value = *number;
+  else value.word = text;
   return value;
 }
 
@@ -71,17 +74,15 @@ std::string describe(const std::vector<std::string>& with) { return with.empty()
 }  // namespace
 
 int record_command(const RecordOptions& options) {
-  refuse_overwriting(files_given({options.program, options.machine, options.workpiece}), files_given({options.output, options.dmo}));
-  const CompiledProgram program = compile_program(options.program, options.answers);
-  print_messages(program.messages);
-  if (program.has_errors) {
-    throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()),
-                               "correct the program; `abbe check` lists what is wrong"));
-  }
+  const CompiledProgram program = usable_program(options.program, options.answers);
   const lang::Directives& asked = program.compilation.directives;
-  const std::string name = machine_name(program, options.machine);
-  Machine machine = read_machine(name);
-  const std::optional<Workpiece> workpiece = workpiece_of(program, options.workpiece);
+  StudySettings settings;
+  settings.machine = options.machine;
+  settings.workpiece = options.workpiece;
+  const StudyInputs inputs = read_inputs(program, settings);
+  refuse_overwriting(inputs.files, files_given({options.output, options.dmo}));
+  const std::optional<Workpiece>& workpiece = inputs.workpiece;
+  Machine machine = inputs.machine;
   for (const std::string& with : options.with) machine.effects.push_back(effect_setting(with));
 
   RunOptions run;
@@ -95,7 +96,7 @@ int record_command(const RecordOptions& options) {
   const auto recorded = [&](const Machine& as) { return record_plan(plan, as, one, run, program.source); };
   MachineRecord record = recorded(machine);
   auto& metadata = record.recording.metadata;
-  const std::pair<std::string, std::string> origin[] = {{"machine", name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
+  const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                                                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
   metadata.insert(metadata.begin(), std::begin(origin), std::end(origin));
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);

@@ -10,19 +10,12 @@
 #include "engine/recording/recording.hpp"
 #include "engine/run/placement.hpp"
 #include "lang/result_reader.hpp"
+#include "programs/commands/usable_program.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
 
 namespace {
-
-CompiledProgram usable_program(const std::string& path) {
-  CompiledProgram program = compile_program(path);
-  print_messages(program.messages);
-  if (program.has_errors)
-    throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()), "correct the program; `abbe check` lists what is wrong"));
-  return program;
-}
 
 bool is_angle(const lang::ResultValue& v) {
   Arguments axis;
@@ -55,25 +48,32 @@ bool is_result(const std::string& file) { return file.ends_with(".dmo") || file.
 
 }  // namespace
 
-bool are_values(const std::vector<std::string>& files) {
-  const auto count = std::count_if(files.begin(), files.end(), [](const std::string& f) { return is_result(f) || is_value_recording(read_source(f)); });
+bool are_values(const std::vector<SourceFile>& files) {
+  const auto count = std::count_if(files.begin(), files.end(), [](const SourceFile& f) { return is_result(f.name()) || is_value_recording(f); });
   if (count > 0 && files.size() > 1)
-    throw UserError(diagnostic(Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), files.front()),
+    throw UserError(diagnostic(Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), files.front().name()),
                                "put the values of one machine into one file; the columns 'program' and 'run' keep them apart"));
   return count > 0;
 }
 
-RecordedValues::RecordedValues(const DiagnoseCommandOptions& options) : recording_(is_result(options.recordings.front()) ? from_result(read_text_aloud(options.recordings.front()))
-                                                     : read_value_recording(read_text_aloud(options.recordings.front()))) {
-  const std::filesystem::path folder = std::filesystem::path(options.recordings.front()).parent_path();
+RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program)
+    : recording_(is_result(file.name()) ? from_result(file) : read_value_recording(file)) {
+  const std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
   for (const ValueRow& row : recording_.rows) {
     if (std::find(names_.begin(), names_.end(), row.program) != names_.end()) continue;
-    if (row.program.empty() && !options.program)
+    if (row.program.empty() && !program)
       throw UserError(diagnostic_at(recording_.source, row.span, Code::E0555, "which program evaluated this value is not said",
                                     "give --program P.dmi, or a column 'program' with its path as seen from this file"));
     names_.push_back(row.program);
-    programs_.push_back(usable_program(row.program.empty() ? *options.program : (folder / row.program).string()));
+    programs_.push_back(usable_program(row.program.empty() ? *program : (folder / row.program).string()));
   }
+}
+
+std::vector<std::string> RecordedValues::files() const {
+  std::vector<std::string> all;
+  for (const CompiledProgram& program : programs_)
+    for (const std::string& file : files_compiled(program)) all.push_back(file);
+  return all;
 }
 
 std::string RecordedValues::machine() const {

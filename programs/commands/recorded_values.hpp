@@ -7,14 +7,17 @@
 namespace abbe {
 
 /// Whether these recordings are tables of values, not of touches. Throws UserError when several files are and so cannot be one machine's.
-bool are_values(const std::vector<std::string>& files);
+bool are_values(const std::vector<SourceFile>& files);
 
 /// A recording of values with everything that its diagnosis needs.
 class RecordedValues {
  public:
-  explicit RecordedValues(const DiagnoseCommandOptions&);
+  /// `program`: of rows that name none. Programs that rows name lie as seen from the file.
+  RecordedValues(const SourceFile& file, const std::optional<std::string>& program);
   /// The machine that the recording or its first program names; empty: none does.
   std::string machine() const;
+  /// The programs and their modules.
+  std::vector<std::string> files() const;
   Diagnosis diagnosis(const Machine&, const DiagnoseOptions&) const;
 
  private:

@@ -28,15 +28,15 @@ void refuse_errors(const CompiledProgram& program) {
 }  // namespace
 
 int run_command(const RunCommandOptions& options) {
-  const StudySettings& from = options.request.settings;
-  refuse_overwriting(files_given({options.request.program, from.machine, from.workpiece, from.recording}), files_given({options.report, options.csv, options.dmo}));
   const ReportWriter* writer = find_report_writer(options.format);
   const CompiledProgram program = compile_program(options.request.program, options.request.answers);
   print_messages(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
+  const StudyInputs inputs = read_inputs(program, options.request.settings);
+  refuse_overwriting(inputs.files, files_given({options.report, options.csv, options.dmo}));
 
   ProgressLine line;
-  const Study study = study_program(program, options.request.settings,
+  const Study study = study_program(program, options.request.settings, inputs,
                                     [&](std::string_view step) { line.show(step); });
   if (options.csv) write_whole(*options.csv, samples_csv(program.compilation.plan, study));
   if (options.dmo) write_whole(*options.dmo, dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));

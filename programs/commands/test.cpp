@@ -95,8 +95,20 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
     fail_all(suite, expectations, "the program has errors; `abbe check` lists them");
     return suite;
   }
+  const auto fail = [&](const UserError& error) {
+    print_messages(error.diagnostics());
+    fail_all(suite, expectations, error.what());
+  };
+  StudyInputs inputs;
   try {
-    const Study study = study_program(program, options.settings, [&](std::string_view step) {
+    inputs = read_inputs(program, options.settings);
+  } catch (const UserError& error) {
+    fail(error);
+    return suite;
+  }
+  if (options.junit) refuse_overwriting(inputs.files, {*options.junit});  // a mistake of the command, not of the program
+  try {
+    const Study study = study_program(program, options.settings, inputs, [&](std::string_view step) {
       progress.show(fmt::format("{}: {}", path, step));
     });
     for (const lang::Expectation& e : expectations) {
@@ -104,8 +116,7 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
       suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
     }
   } catch (const UserError& error) {
-    print_messages(error.diagnostics());
-    fail_all(suite, expectations, error.what());
+    fail(error);
   }
   return suite;
 }

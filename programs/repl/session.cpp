@@ -1,6 +1,7 @@
 #include "programs/repl/session.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +120,7 @@ std::string Session::entry(const std::string& text) {
 std::string Session::evaluate(const CompiledProgram& program, int after) {
   CompiledProgram quiet = program;
   quiet.messages.clear();  // they were shown when they arose
-  const RunReport report = study_program(quiet, settings_).report;
+  const RunReport report = study_program(quiet, settings_, read_inputs(quiet, settings_)).report;
   std::string out;
   for (const CharacteristicReport& c : report.characteristics)
     if (c.line > after) out += result_line(c);

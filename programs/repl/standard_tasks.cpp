@@ -83,7 +83,7 @@ CompiledProgram standard_program(const Vec3& place, double length) {
 std::optional<TaskUncertainties> study_tasks(const CompiledProgram& program,
                                              const StudySettings& settings) {
   try {
-    const RunReport report = study_program(program, settings).report;
+    const RunReport report = study_program(program, settings, read_inputs(program, settings)).report;
     if (report.characteristics.size() != 5) return std::nullopt;
     const auto u95 = [&](std::size_t k) {
       const Interval& i = report.characteristics[k].summary.symmetric;

@@ -137,6 +137,37 @@ class Outputs(Input):
         self.assertEqual((self.recording.read_text(), program.read_text()), before)
         self.assertFalse((self.folder / "out").exists())
 
+    def test_no_file_that_a_program_names_is_destroyed(self):
+        machine, workpiece = json.loads((harness.ROOT / "examples/machines/coord3-mc16.json").read_text()), \
+            {"schema": "abbe.workpiece/1", "name": "w", "material": {"cte_ppm_per_K": 11.5}, "temperature": {"log": "log.csv"}}
+        text = "".join(line for line in PROGRAM.read_text().splitlines(True) if not line.startswith("$$!"))
+        first = text.index("\n") + 1
+        named = "$$! machine mine.json\n$$! workpiece w.json\n"
+        files = {"mine.json": json.dumps(machine), "w.json": json.dumps(workpiece), "log.csv": "time_s,temp_part_C\n0,20\n",
+                 "module.dmi": "DMISMD/'module',5.2\nENDFIL\n",
+                 "p.dmi": text[:first] + named + "INCLUD/DMIS,'module.dmi'\n" + text[first:]}
+        files["expects.dmi"] = files["p.dmi"].replace(named, named + "$$! expect TA(DIA1) u >= 0\n")
+        for name, content in files.items():
+            self.write(name, content)
+        for target in ("mine.json", "w.json", "log.csv", "module.dmi"):
+            for args in (("run", "p.dmi", "--machines", 20, "--csv", target), ("run", "p.dmi", "--machines", 20, "--dmo", target),
+                         ("record", "p.dmi", "-o", target), ("record", "p.dmi", "-o", "out.csv", "--dmo", target), ("test", "expects.dmi", "--junit", target)):
+                self.refused("E0616", *args)
+        for args in (("--program", "p.dmi", "--report", "module.dmi"), ("--workpiece", "w.json", "--report", "log.csv"),
+                     ("--workpiece", "w.json", "--model-out", "w.json")):
+            self.refused("E0616", "diagnose", "rec.csv", *args)
+        self.assertFalse((self.folder / "out.csv").exists())
+        self.assertEqual({name: (self.folder / name).read_text() for name in files}, files)
+
+    def test_a_recording_comes_through_a_pipe(self):
+        expected = self.abbe("diagnose", "rec.csv", "--design-only", "--format", "json").stdout
+        os.mkfifo(self.folder / "pipe")
+        writer = threading.Thread(target=lambda: (self.folder / "pipe").write_text(self.recording.read_text()))
+        writer.start()
+        said = self.abbe("diagnose", "pipe", "--design-only", "--format", "json").stdout
+        writer.join()
+        self.assertEqual(said.replace("pipe", "rec.csv"), expected)
+
     def test_a_pipe_stays_a_pipe(self):
         os.mkfifo(self.folder / "pipe")
         came = []

@@ -107,6 +107,7 @@ with tempfile.TemporaryDirectory() as folder:
     for arguments, code, text in ((["--with", "probe.tip_radus"], "E0305", "did you mean 'probe.tip_radius'"),
                                   (["--with", "probe.tip_radius:amplitude=1"], "E0306", "amplitude_um"),
                                   (["--with", "probe.tip_radius:amplitude_um=1e9"], "E0307", "not plausible"),
+                                  (["--with", "probe.tip_radius:amplitude_um=nan"], "E0307", "nan"),
                                   (["--with", "machine.scale:axis=q"], "E0307", "x, y, z"),
                                   (["--with", "probe.tip_radius:amplitude_um"], "E0610", "parameter=value")):
         (pathlib.Path(folder) / "rec.csv").unlink(missing_ok=True)
