@@ -7,11 +7,10 @@
 // What an error takes away is followed up, because a result that silently lacks a touch or an
 // alignment is worse than none:
 //   - a statement with an error makes the label it would have defined *spoilt*; uses of a spoilt
-//   label give no further message
+//     label give no further message
 //   - an error inside MEAS..ENDMES spoils the feature that is measured there
 //   - an error in a statement that sets the coordinate system, the units or the sensor casts a
-//   *doubt* on everything
-//     measured and evaluated until the next statement that sets it completely
+//     *doubt* on everything measured and evaluated until the next statement that sets it completely
 // An OUTPUT or EVAL of something spoilt or in doubt is entered in Compilation::lost with the line
 // to blame.
 #pragma once
@@ -96,7 +95,7 @@ struct Symbols {
 };
 
 /// What holds at a place of the program. Where machines may part at a condition it is kept and restored, so that each path is
-/// lowered from the same beginning, and merged where they meet (merge.hpp).
+/// lowered from the same beginning, and merged where they meet (flow_merge.cpp).
 struct State {
   Units units;
   Symbols symbols;

@@ -1,6 +1,7 @@
 #include "lang/reference.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 #include "engine/influences/influence.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 

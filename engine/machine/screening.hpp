@@ -39,7 +39,7 @@ struct VirtualMachines {
 /// Draws candidates 0, 1, 2, ... until `count` are accepted. The same for any number of threads. Throws UserError when fewer than
 /// one in ten thousand pass, naming the share and the factor on e_max that would fit.
 VirtualMachines screened_machines(const Machine&, std::uint64_t seed, int count, int threads);
-/// Continues where `after` stopped: the next `count` accepted machines (adaptive runs).
+/// Continues a screening: the next `count` accepted machines from `first_candidate` on (adaptive runs).
 VirtualMachines more_screened_machines(const Machine&, std::uint64_t seed, int count, int threads, std::uint32_t first_candidate);
 
 /// What the user must hear of a screening: over half of the candidates fall outside the specification, and which factor on e_max

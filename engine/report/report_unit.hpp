@@ -1,5 +1,6 @@
-// The unit in which a characteristic is reported: mm as inside the engine, degrees for angles. The
-// only place of that conversion on the way out.
+// The unit in which a characteristic is reported: mm as inside the engine, degrees for angles. All
+// reports convert here; a DMIS result file (dmis_result.cpp), whose arguments are no reported values,
+// converts them itself.
 #pragma once
 
 #include <numbers>

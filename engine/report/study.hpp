@@ -3,10 +3,9 @@
 //
 // 1. Virtual machines that pass the acceptance test are drawn (engine/machine/screening).
 // 2. The plan runs on all of them with every contributor acting: the samples from which all figures
-// come.
+//    come.
 // 3. It runs once more with each contributor alone, on the same machines and with the same random
-// numbers: the variances of
-//    these runs share out the uncertainty.
+//    numbers: the variances of these runs share out the uncertainty.
 //
 // The number of machines is given, or chosen by JCGM 101:2008, 7.9.4: blocks of 10 000 machines are
 // added until twice the standard error of the mean, of u and of both limits is within the numerical

@@ -8,9 +8,10 @@
 // The figures carry their own Monte Carlo errors (standard errors, from this sample alone):
 //   mean    u / sqrt(n)
 //   u       sqrt((m4 - u^4 (n-3)/(n-1)) / n) / (2u), m4 the fourth central moment: exact variance
-//   of u^2, then first order limits  the number of values below a p-quantile is binomial, so its
-//   rank is uncertain by sqrt(n p (1-p)); times the
-//           local distance between neighbouring values (over the ranks of a 95 % band)
+//           of u^2, then first order
+//   limits  the number of values below a p-quantile is binomial, so its rank is uncertain by
+//           sqrt(n p (1-p)); times the local distance between neighbouring values (over the ranks
+//           of a 95 % band)
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 #include "lang/statements/words.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <set>

@@ -1,5 +1,6 @@
 // The commands of a session: lines that begin with a dot.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <sstream>
