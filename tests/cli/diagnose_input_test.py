@@ -195,9 +195,20 @@ class Mistakes(Input):
                                    (readings, 1e3, "readings are in micrometres"), (readings, 1 / 25.4, "readings are in inches"),
                                    (self.PLACE + targets + readings, 1e3, "are in micrometres"), (self.PLACE + targets + readings, 1e-3, "are in metres")):
             self.assertIn(words, self.told("E0701", self.scaled(columns, by)))
+        half = lambda row: row | ({c: "" for c in readings} if int(row["touch"]) % 2 else {})
+        self.assertIn("readings are in inches", self.told("E0701", lambda row: half(self.scaled(readings, 1 / 25.4)(row))))   # some have none
         elsewhere = self.scaled(self.PLACE, 1e-3)
         self.assertIn("in metres", self.told("E0701", lambda row: elsewhere(row | {"x": repr(float(row["x"]) + 500)})))   # wherever the part stood
         self.assertIn("line", self.told("E0530", lambda row: row | {"x": "1e300"}).replace("changed.csv:", "line "))
+
+    def test_units_of_readings_where_the_head_turns(self):
+        """The readings jump from orientation to orientation; those of one orientation tell the unit."""
+        folder = harness.ROOT / "examples/iso10360"
+        machine = folder / "portal-2009.json"
+        self.abbe("record", folder / "form_and_size_5x25.dmi", "--machine", machine, "-o", "rec.csv")
+        readings = ("enc_x", "enc_y", "enc_z")
+        for by, unit in ((1 / 25.4, "inches"), (1e-3, "metres"), (1e3, "micrometres")):
+            self.assertIn(f"readings are in {unit}", self.told("E0701", self.scaled(readings, by), "--machine", machine))
 
     def test_a_wrong_tip(self):
         def out(by):

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/median.hpp"
@@ -55,7 +56,31 @@ double reach_of(const Recording& r, const Machine& machine) {
   return median(std::move(reach));
 }
 
-/// Positions and targets in different units, both in one that this machine makes impossible, or readings in another than the positions.
+/// How far the scales travelled from touch to touch, over how far the tip did: half of the ratios are smaller. Only between touches of one
+/// stylus in one orientation, because the readings jump where the head turns, and of one setup, because `frame: part` does not tell that the
+/// part was moved. Nothing where no two such touches with readings lie apart.
+std::optional<double> reading_per_position(const Recording& r) {
+  constexpr double kApart_mm = 1;
+  using Mounted = std::tuple<int, std::optional<std::string>, std::optional<double>, std::optional<double>>;
+  std::map<Mounted, const RecordingRow*> before;
+  std::vector<double> ratios;
+  for (const RecordingRow& row : r.rows) {
+    if (!row.reading_mm) continue;
+    const RecordingRow* last = std::exchange(before[{row.setup, row.sensor, row.head_a_deg, row.head_b_deg}], &row);
+    const double moved = last ? norm(row.position_mm - last->position_mm) : 0;
+    if (moved > kApart_mm) ratios.push_back(norm(*row.reading_mm - *last->reading_mm) / moved);
+  }
+  return ratios.empty() ? std::nullopt : std::optional(median(std::move(ratios)));
+}
+
+void check_readings(const Recording& r, const std::string& file) {
+  const std::optional<double> ratio = reading_per_position(r);
+  const auto unit = ratio ? foreign_unit(*ratio, 1) : std::nullopt;
+  if (unit)
+    refuse(file, fmt::format("the scale readings are in {}, the recorded positions in millimetres", unit->name), fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
+}
+
+/// Positions and targets in different units, or both in one that this machine makes impossible.
 void check_units(const Recording& r, const Machine& machine, const std::string& file) {
   constexpr double kLeast_mm = 1, kFar = 10, kNear = 2e-3;
   const double recorded = size_of(r, [](const RecordingRow& row) { return row.position_mm; });
@@ -70,9 +95,6 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
     refuse(file, fmt::format("positions and targets reach more than {:g} times as far as machine '{}' travels: they are in micrometres", kFar, machine.name), "multiply x, y, z, tx, ty, tz by 0.001");
   if (meant > 0 && meant < kLeast_mm && reach_of(r, machine) < kNear)
     refuse(file, fmt::format("half of the touches lie within {:.2g} mm, close to the machine's zero: positions and targets are in metres", meant), "multiply x, y, z, tx, ty, tz by 1000");
-  if (!std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.reading_mm.has_value(); })) return;
-  if (const auto unit = foreign_unit(size_of(r, [](const RecordingRow& row) { return *row.reading_mm; }), recorded))
-    refuse(file, fmt::format("the scale readings are in {}, the recorded positions in millimetres", unit->name), fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
 }
 
 void check_axes(const Recording& r, const std::string& file, double gross) {
@@ -125,6 +147,7 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   if (!complete) return;  // recorded_touches() says what is missing
   check_normals(r, file);
   check_units(r, machine, file);
+  check_readings(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross > kGross_mm) check_axes(r, file, gross);
 }
