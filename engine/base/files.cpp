@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -31,6 +32,23 @@ class Descriptor {
 
  private:
   int number_;
+};
+
+/// Whoever ends the program while a file is written gets it whole, and no temporary file stays behind: the signal waits.
+class SignalsWait {
+ public:
+  SignalsWait() {
+    sigset_t ending;
+    sigemptyset(&ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    pthread_sigmask(SIG_BLOCK, &ending, &before_);
+  }
+  ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_;
 };
 
 bool write_all(int file, std::string_view content) {
@@ -78,6 +96,7 @@ mode_t mode_of(const std::string& path) {
 void replace(const std::string& path, std::string_view content) {
   refuse_read_only(path);
   const mode_t mode = mode_of(path);
+  const SignalsWait wait;
   std::string temporary = path + ".XXXXXX";
   const int file = mkstemp(temporary.data());
   if (file < 0) fail(path, "creating a temporary file beside it");

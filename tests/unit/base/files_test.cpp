@@ -3,7 +3,11 @@
 #include <doctest/doctest.h>
 
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -21,6 +25,27 @@ TEST_CASE("a file is written whole and read back") {
   CHECK(read_source(path).text() == "second\n");
   CHECK(read_source(path).name() == path);
   std::remove(path.c_str());
+}
+
+TEST_CASE("a program that is ended while it writes leaves whole files and nothing beside them") {
+  const std::filesystem::path folder = "files_test_ended";
+  std::filesystem::create_directory(folder);
+  const std::string content(8 << 20, 'x');
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+    const pid_t writer = fork();
+    if (writer == 0)
+      for (;;) write_whole((folder / "file").string(), content);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(writer, signal);
+    int status = 0;
+    REQUIRE(waitpid(writer, &status, 0) == writer);
+    CHECK((WIFSIGNALED(status) && WTERMSIG(status) == signal));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    CHECK(entry.path().filename() == "file");
+    CHECK(entry.file_size() == content.size());
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("a file that cannot be written says so and leaves nothing behind") {
