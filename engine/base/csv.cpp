@@ -46,11 +46,11 @@ std::vector<CsvField> split(const SourceFile& file, std::string_view line, std::
   }
 }
 
-void read_metadata(std::string_view line, CsvTable& table) {
-  line.remove_prefix(1);
+void read_remark(std::string_view line, std::uint32_t begin, CsvTable& table) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return;
-  table.metadata.emplace_back(trimmed(line.substr(0, colon)), trimmed(line.substr(colon + 1)));
+  table.remarks.push_back({std::string(trimmed(line.substr(1, colon - 1))), std::string(trimmed(line.substr(colon + 1))),
+                           {begin, begin + static_cast<std::uint32_t>(line.size())}});
 }
 
 /// Where Excel writes decimal commas it writes semicolons between the columns.
@@ -82,7 +82,7 @@ CsvTable read_csv(const SourceFile& file) {
     while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (trimmed(line).empty()) continue;
     if (line.front() == '#') {
-      read_metadata(line, table);
+      read_remark(line, begin, table);
       continue;
     }
     std::vector<CsvField> fields = split(file, line, begin, sink);

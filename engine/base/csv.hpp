@@ -3,7 +3,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
@@ -23,8 +22,14 @@ struct CsvRow {
   std::vector<CsvField> fields;
 };
 
+/// A line `# key: value`.
+struct CsvRemark {
+  std::string key, value;
+  Span span;           ///< of the line
+};
+
 struct CsvTable {
-  std::vector<std::pair<std::string, std::string>> metadata;  ///< `# key: value` lines; others that begin with # are free text
+  std::vector<CsvRemark> remarks;                             ///< other lines that begin with # are free text
   std::vector<CsvField> header;
   std::vector<CsvRow> rows;                                   ///< blank lines are left out
 };

@@ -41,11 +41,13 @@ Setter real(Member member) {
   };
 }
 
+constexpr int kMostCount = 1'000'000'000;
+
 template <class Member>
-Setter integer(Member member) {
+Setter integer(Member member, int least = -kMostCount) {
   return [=](const CsvField& f, Draft& d) {
     const std::optional<double> v = finite_number(f.text);
-    if (!v || *v != std::floor(*v) || std::abs(*v) > 1e9) return false;
+    if (!v || *v != std::floor(*v) || *v < least || *v > kMostCount) return false;
     d.row.*member = static_cast<int>(*v);
     return true;
   };
@@ -82,9 +84,9 @@ constexpr VectorColumns kVectors[] = {{{"x", "y", "z"}, "x,y,z"},
 std::map<std::string, Setter> setters() {
   std::map<std::string, Setter> s = {
       {"feature", text(&RecordingRow::feature)},
-      {"touch", integer(&RecordingRow::touch)},
-      {"setup", integer(&RecordingRow::setup)},
-      {"run", integer(&RecordingRow::run)},
+      {"touch", integer(&RecordingRow::touch, 1)},
+      {"setup", integer(&RecordingRow::setup, 1)},
+      {"run", integer(&RecordingRow::run, 1)},
       {"sensor", text(&RecordingRow::sensor)},
       {"head_A_deg", real(&RecordingRow::head_a_deg)},
       {"head_B_deg", real(&RecordingRow::head_b_deg)},
@@ -105,17 +107,27 @@ std::map<std::string, Setter> setters() {
   return s;
 }
 
+/// Whether a line says `yes`; the other thing that it may say is `no`.
+bool says(const CsvRemark& line, std::string_view yes, std::string_view no, const SourceFile& file) {
+  if (line.value == yes || line.value == no) return line.value == yes;
+  throw UserError(diagnostic_at(file, line.span, Code::E0525, fmt::format("'{}: {}' is neither '{}' nor '{}'", line.key, line.value, no, yes),
+                                "correct the line, or leave it out: docs/formats.md, \"Recordings\", says what holds then"));
+}
+
+void check_distance(const CsvRemark& line, const SourceFile& file) {
+  const std::optional<double> distance = csv_number({line.value, line.span});
+  if (!distance || *distance < 0)
+    throw UserError(diagnostic_at(file, line.span, Code::E0525, fmt::format("'{}: {}' is no distance", line.key, line.value), "give millimetres, 0 or more: 3.5"));
+}
+
 Recording with_metadata(const CsvTable& table, const SourceFile& file) {
   Recording recording;
-  const auto choose = [&](const std::string& key, const std::string& value, const std::string& other, const std::string& otherwise) {
-    if (value == other || value == otherwise) return value == other;
-    throw UserError(diagnostic(Code::E0525, fmt::format("{}: '# {}: {}' is neither '{}' nor '{}'", file.name(), key, value, otherwise, other),
-                               "correct the line, or leave it out for the first of the two"));
-  };
-  for (const auto& [key, value] : table.metadata) {
-    if (key == "frame") recording.in_part_frame = choose(key, value, "part", "mcs");
-    else if (key == "point") recording.point = choose(key, value, "surface", "tip_centre") ? RecordedPoint::surface : RecordedPoint::tip_centre;
-    else recording.metadata.emplace_back(key, value);
+  for (const CsvRemark& line : table.remarks) {
+    if (line.key == "frame") recording.in_part_frame = says(line, "part", "mcs", file);
+    else if (line.key == "point") recording.point = says(line, "surface", "tip_centre", file) ? RecordedPoint::surface : RecordedPoint::tip_centre;
+    else recording.metadata.emplace_back(line.key, line.value);
+    if (line.key == "approach_mm" || line.key == "retract_mm") check_distance(line, file);
+    if (line.key == "temperature_compensation") says(line, "on", "off", file);
   }
   return recording;
 }
@@ -183,7 +195,7 @@ Recording read_recording(const SourceFile& file) {
       const CsvField& field = row.fields[k];
       if (field.text.empty() || columns[k](field, draft)) continue;
       sink.add(diagnostic_at(file, field.span, Code::E0530, fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
-                             "numbers have a decimal point and no unit: 12.5; counts are whole"));
+                             "numbers have a decimal point and no unit: 12.5; counts are whole; touch, setup and run count from 1"));
     }
     complete_vectors(file, row, draft, sink);
     draft.row.line = row.line;

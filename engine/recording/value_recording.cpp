@@ -75,7 +75,8 @@ ValueRecording read_value_recording(const SourceFile& file) {
   Sink sink;
   const std::vector<const ReadColumn*> columns = columns_used(table, file, sink);
   if (sink.has_errors()) throw UserError(sink.list());
-  ValueRecording out{file, table.metadata, {}};
+  ValueRecording out{file, {}, {}};
+  for (const CsvRemark& line : table.remarks) out.metadata.emplace_back(line.key, line.value);
   for (const CsvRow& row : table.rows) {
     ValueRow r;
     r.line = row.line;

@@ -54,3 +54,31 @@ TEST_CASE("every mistake has its place") {
     CHECK(e.diagnostics()[1].place == Place{4, 9});
   }
 }
+
+TEST_CASE("lines before the table and counts say something possible, or are refused where they stand") {
+  const auto refused = [](const std::string& remark, const std::string& columns, const std::string& row) {
+    try {
+      read_recording(SourceFile("r.csv", remark + columns + "\n" + row + "\n"));
+    } catch (const UserError& e) {
+      REQUIRE(e.diagnostics().size() == 1);
+      return e.diagnostics()[0];
+    }
+    FAIL(remark << row << " was read");
+    return Diagnostic{};
+  };
+  for (const char* remark : {"# approach_mm: -3\n", "# retract_mm: three\n", "# temperature_compensation: maybe\n", "# frame: free text\n", "# point: tip\n"}) {
+    CAPTURE(remark);
+    const Diagnostic d = refused(remark, "feature,touch,x,y,z", "A,1,0,0,0");
+    CHECK(d.code == Code::E0525);
+    CHECK(d.place.line == 1);
+    CHECK_FALSE(d.help.empty());
+  }
+  for (const auto& [columns, row] : {std::pair{"feature,touch,x,y,z", "A,0,0,0,0"}, {"feature,touch,setup,x,y,z", "A,1,0,0,0,0"}, {"feature,touch,run,x,y,z", "A,1,-1,0,0,0"}}) {
+    CAPTURE(row);
+    const Diagnostic d = refused("", columns, row);
+    CHECK(d.code == Code::E0530);
+    CHECK(d.place.line == 2);
+  }
+  const Recording r = read_recording(SourceFile("r.csv", "# approach_mm: 0\n# retract_mm: 3.5\n# temperature_compensation: off\n# note: anything\nfeature,touch,x,y,z\nA,1,0,0,0\n"));
+  CHECK(r.metadata.size() == 4);
+}
