@@ -10,19 +10,12 @@
 
 namespace abbe {
 
-namespace {
-
-/// A file that a directive names: its path is as seen from the program.
-std::string beside(const CompiledProgram& program, const std::string& path) {
-  return (std::filesystem::path(program.source.name()).parent_path() / path).string();
-}
-
-}  // namespace
+std::string beside(const std::string& file, const std::string& path) { return (std::filesystem::path(file).parent_path() / path).string(); }
 
 std::string machine_name(const CompiledProgram& program, const std::optional<std::string>& chosen) {
   if (chosen) return *chosen;
   const std::string asked = program.compilation.directives.machine.value_or(kDefaultMachine);
-  const std::string file = beside(program, asked);
+  const std::string file = beside(program.source.name(), asked);
   return std::filesystem::exists(file) ? file : asked;
 }
 
@@ -30,7 +23,7 @@ std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std:
   if (chosen) return read_workpiece(*chosen);
   const std::optional<std::string>& asked = program.compilation.directives.workpiece;
   if (!asked) return std::nullopt;
-  return read_workpiece(beside(program, *asked));
+  return read_workpiece(beside(program.source.name(), *asked));
 }
 
 CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers) {
@@ -85,6 +78,7 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.threads = thread_count(settings.threads);
 
   std::vector<Diagnostic> messages = program.messages;
+  for (Diagnostic& warning : machine_warnings(machine)) messages.push_back(std::move(warning));
   messages.insert(messages.end(), in.messages.begin(), in.messages.end());
   if (asked.place_mm) {
     options.placement_mm = *asked.place_mm;

@@ -47,6 +47,8 @@ struct CompiledProgram {
 };
 CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers = {});
 
+/// A file that another file names: its path is as seen from that one.
+std::string beside(const std::string& file, const std::string& path);
 /// The machine to use, as read_machine takes it: what the command line chose, else what the program asks for (a file beside the
 /// program or a shipped machine), else the default.
 std::string machine_name(const CompiledProgram&, const std::optional<std::string>& chosen);

@@ -115,7 +115,7 @@ bool says(const CsvRemark& line, std::string_view yes, std::string_view no, cons
 }
 
 void check_distance(const CsvRemark& line, const SourceFile& file) {
-  const std::optional<double> distance = csv_number({line.value, line.span});
+  const std::optional<double> distance = finite_number(line.value);
   if (!distance || *distance < 0)
     throw UserError(diagnostic_at(file, line.span, Code::E0525, fmt::format("'{}: {}' is no distance", line.key, line.value), "give millimetres, 0 or more: 3.5"));
 }

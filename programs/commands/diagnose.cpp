@@ -96,9 +96,11 @@ Recording joined(const std::vector<SourceFile>& files) {
 }
 
 /// The machine to compare with: what the command line names, else what the recording names, else the default.
-std::string machine_of(const DiagnoseCommandOptions& options, const std::string& recorded) {
+template <class Recorded>
+std::string machine_of(const DiagnoseCommandOptions& options, Recorded recorded_machine) {
   if (options.known) return *options.known;
   if (options.machine) return *options.machine;
+  const std::string recorded = recorded_machine();
   return recorded.empty() ? kDefaultMachine : recorded;
 }
 
@@ -124,7 +126,7 @@ struct Answer {
 
 Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
   const RecordedValues values(read.recordings.front(), options.program);
-  const std::string name = machine_of(options, values.machine());
+  const std::string name = machine_of(options, [&] { return values.machine(); });
   protect_files(options, read, values.files(), name);
   return {values.diagnosis(read_machine(name), how), name};
 }
@@ -132,7 +134,7 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
 Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
   Recording recording = joined(read.recordings);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  const std::string name = machine_of(options, machine_in(recording));
+  const std::string name = machine_of(options, [&] { return recorded_machine(machine_in(recording), options.recordings); });
   const std::optional<CompiledProgram> program = options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
   Machine machine = read_machine(name);

@@ -1,6 +1,7 @@
 #include "programs/commands/recorded_values.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -56,6 +57,18 @@ bool are_values(const std::vector<SourceFile>& files) {
   return count > 0;
 }
 
+std::string recorded_machine(const std::string& named, const std::vector<std::string>& recordings) {
+  if (named.empty()) return named;
+  for (const std::string& recording : recordings)
+    if (const std::string file = beside(recording, named); std::filesystem::is_regular_file(file)) return file;
+  const std::vector<std::string> shipped = shipped_machines();
+  if (std::find(shipped.begin(), shipped.end(), named) != shipped.end() || std::filesystem::exists(named)) return named;
+  throw UserError(diagnostic(Code::E0411,
+                             fmt::format("{}: '# machine: {}' names neither a file, beside the recording or in this folder, nor a shipped machine",
+                                         fmt::join(recordings, ", "), named),
+                             "give --machine, put the machine file beside the recording, or correct the line"));
+}
+
 RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program)
     : recording_(is_result(file.name()) ? from_result(file) : read_value_recording(file)) {
   const std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
@@ -78,7 +91,7 @@ std::vector<std::string> RecordedValues::files() const {
 
 std::string RecordedValues::machine() const {
   for (const auto& [key, value] : recording_.metadata)
-    if (key == "machine") return value;
+    if (key == "machine") return recorded_machine(value, {recording_.source.name()});
   return programs_.front().compilation.directives.machine ? machine_name(programs_.front(), std::nullopt) : "";
 }
 

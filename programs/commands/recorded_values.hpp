@@ -9,12 +9,16 @@ namespace abbe {
 /// Whether these recordings are tables of values, not of touches. Throws UserError when several files are and so cannot be one machine's.
 bool are_values(const std::vector<SourceFile>& files);
 
+/// The machine that one of these recordings names, as read_machine takes it: a file beside one of them, a shipped machine, or a file as seen
+/// from here; empty: `named` is. Throws UserError when there is none of these.
+std::string recorded_machine(const std::string& named, const std::vector<std::string>& recordings);
+
 /// A recording of values with everything that its diagnosis needs.
 class RecordedValues {
  public:
   /// `program`: of rows that name none. Programs that rows name lie as seen from the file.
   RecordedValues(const SourceFile& file, const std::optional<std::string>& program);
-  /// The machine that the recording or its first program names; empty: none does.
+  /// The machine that the recording or its first program names; empty: none does. Throws UserError as recorded_machine does.
   std::string machine() const;
   /// The programs and their modules.
   std::vector<std::string> files() const;

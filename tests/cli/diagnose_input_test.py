@@ -210,6 +210,18 @@ class Mistakes(Input):
         for by, unit in ((1 / 25.4, "inches"), (1e-3, "metres"), (1e3, "micrometres")):
             self.assertIn(f"readings are in {unit}", self.told("E0701", self.scaled(readings, by), "--machine", machine))
 
+    def test_a_recording_names_a_machine_beside_it(self):
+        machine = (harness.ROOT / "examples/machines/moving-table-700.json").read_text()
+        self.write("there/mm2.json", machine)
+        named = self.write("there/rec.csv", self.recording.read_text().replace("# machine: coord3-mc16", "# machine: mm2.json"))
+        found, meant, other = (self.said(named, "--design-only", *options) for options in ((), ("--machine", "there/mm2.json"), ("--machine", "coord3-mc16")))
+        self.assertEqual(found, meant)
+        self.assertNotEqual(found, other)
+        alone = self.write("rec2.csv", named.read_text())
+        message = self.refused("E0411", "diagnose", alone)
+        self.assertIn("rec2.csv: '# machine: mm2.json'", message)
+        self.said(alone, "--machine", "coord3-mc16", "--design-only")   # whoever names one need not have the other
+
     def test_a_wrong_tip(self):
         def out(by):
             return lambda row: row | {a: repr(float(row[a]) + by * float(row["n" + a])) for a in self.PLACE}
