@@ -7,6 +7,7 @@
 
 #include "engine/base/files.hpp"
 #include "engine/machine/shipped.hpp"
+#include "engine/run/effect_set.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/commands/machine_report.hpp"
 #include "programs/terminal.hpp"
@@ -40,9 +41,16 @@ int list(const MachineOptions& options) {
   return kDone;
 }
 
+/// A machine whose effects exist and can be as they are described: what runs ask of it.
+Machine usable_machine(const std::string& name) {
+  Machine machine = read_machine(name);
+  const EffectSet checked(machine.effects, EffectUse::left_in, machine.name);
+  return machine;
+}
+
 int show(const MachineOptions& options) {
   MachineReport report;
-  report.machine = read_machine(options.machine);
+  report.machine = usable_machine(options.machine);
   report.seed = options.seed;
   report.drawn = screened_machines(report.machine, options.seed, 1, thread_count(options.threads));
   report.messages = machine_warnings(report.machine);
@@ -74,7 +82,7 @@ int screen(const MachineOptions& options) {
     throw UserError(diagnostic(
         Code::E0603, fmt::format("--machines is {}, but must be at least 1", options.machines)));
   ScreeningReport report;
-  report.machine = read_machine(options.machine);
+  report.machine = usable_machine(options.machine);
   report.seed = options.seed;
   ProgressLine progress;
   progress.show("screening virtual machines");

@@ -1,6 +1,9 @@
 // The JSON reports of `abbe machine show` and `abbe machine screen`. Every number is in the unit
 // that its key names.
+#include <fmt/format.h>
+
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "programs/commands/machine_report.hpp"
@@ -11,7 +14,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json triple_json(const Vec3& v) { return {v.x, v.y, v.z}; }
+/// What the file says, in its unit again: to 15 digits, or 9 um would come back as 9.000000000000002.
+double as_given(double value) { return std::strtod(fmt::format("{:.15g}", value).c_str(), nullptr); }
+
+Json triple_json(const Vec3& v) { return {as_given(v.x), as_given(v.y), as_given(v.z)}; }
 
 Json chain(const std::vector<Axis>& axes) {
   Json out = Json::array();
@@ -29,9 +35,9 @@ Json messages(const std::vector<Diagnostic>& list) {
 Json specification(const Specification& spec) {
   Json out{{"standard", spec.standard}, {"mpe", length_mpe_json(spec.mpe)}};
   if (spec.e150_mpe) out["e150_mpe"] = length_mpe_json(*spec.e150_mpe);
-  if (spec.r0_mpl_mm) out["r0_mpl_um"] = *spec.r0_mpl_mm * 1e3;
-  if (spec.form_mpe_mm) out["probing"]["p_form_mpe_um"] = *spec.form_mpe_mm * 1e3;
-  if (spec.size_mpe_mm) out["probing"]["p_size_mpe_um"] = *spec.size_mpe_mm * 1e3;
+  if (spec.r0_mpl_mm) out["r0_mpl_um"] = as_given(*spec.r0_mpl_mm * 1e3);
+  if (spec.form_mpe_mm) out["probing"]["p_form_mpe_um"] = as_given(*spec.form_mpe_mm * 1e3);
+  if (spec.size_mpe_mm) out["probing"]["p_size_mpe_um"] = as_given(*spec.size_mpe_mm * 1e3);
   out["v_min"] = spec.v_min;
   out["v_max"] = std::isfinite(spec.v_max) ? Json(spec.v_max) : Json("unlimited");
   out["longest_share"] = spec.longest_share;
@@ -54,7 +60,7 @@ Json component_json(const MachineReport& report, Component component) {
                      (rotation ? 1e6 : 1e3));
   }
   Json out{{"s", spec.linear}, {"c", spec.curvature}};
-  out[rotation ? "e_max_um_per_m2" : "e_max_um_per_m"] = spec.e_max * (rotation ? 1e6 : 1e3);
+  out[rotation ? "e_max_um_per_m2" : "e_max_um_per_m"] = as_given(spec.e_max * (rotation ? 1e6 : 1e3));
   if (!spec.harmonics.empty()) out["harmonics"] = spec.harmonics;
   out["curve"] = {{"reading_mm", readings}, {std::string("error_") + unit, values}};
   return out;
@@ -75,7 +81,7 @@ Json axes_json(const Machine& machine) {
 Json sensors_json(const Machine& machine) {
   Json out = Json::object();
   for (const auto& [label, s] : machine.sensors)
-    out[label] = {{"head_deg", {s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad}},
+    out[label] = {{"head_deg", {as_given(s.head_a_rad * kDegreesPerRad), as_given(s.head_b_rad * kDegreesPerRad)}},
                   {"tip_in_r_mm", triple_json(s.tip_in_r_mm)},
                   {"diameter_mm", 2 * s.radius_mm},
                   {"shaft_diameter_mm", s.shaft_diameter_mm},
@@ -101,7 +107,7 @@ Json bounds_json(const Machine& machine) {
   Json out = Json::array();
   for (const InfluenceBound& b : machine.bounds)
     out.push_back(
-        {{"influence", b.influence}, {"at_most_um", b.at_most_mm * 1e3}, {"source", b.source}});
+        {{"influence", b.influence}, {"at_most_um", as_given(b.at_most_mm * 1e3)}, {"source", b.source}});
   return out;
 }
 
@@ -127,8 +133,8 @@ Json line_json(const LineReport& report) {
 }  // namespace
 
 Json length_mpe_json(const LengthMpe& mpe) {
-  Json out{{"a_um", mpe.a_mm * 1e3}, {"k_um_per_m", mpe.k * 1e6}};
-  if (std::isfinite(mpe.b_mm)) out["b_um"] = mpe.b_mm * 1e3;
+  Json out{{"a_um", as_given(mpe.a_mm * 1e3)}, {"k_um_per_m", as_given(mpe.k * 1e6)}};
+  if (std::isfinite(mpe.b_mm)) out["b_um"] = as_given(mpe.b_mm * 1e3);
   return out;
 }
 
@@ -147,17 +153,17 @@ std::string machine_report_json(const MachineReport& report) {
        {"mount_offset_mm", triple_json(m.mount_offset_mm)},
        {"harmonics", m.harmonics},
        {"squareness_um_per_m",
-        {{"cwy", m.squareness_cwy_rad * 1e6},
-         {"bwz", m.squareness_bwz_rad * 1e6},
-         {"awz", m.squareness_awz_rad * 1e6}}},
+        {{"cwy", as_given(m.squareness_cwy_rad * 1e6)},
+         {"bwz", as_given(m.squareness_bwz_rad * 1e6)},
+         {"awz", as_given(m.squareness_awz_rad * 1e6)}}},
        {"specification", specification(m.specification)},
        {"head",
         {{"model", m.head.model},
          {"l_r_mm", m.head.l_r_mm},
          {"angle_sd_arcsec",
-          {{"A", m.head.sd_a_rad * kDegreesPerRad * 3600},
-           {"B", m.head.sd_b_rad * kDegreesPerRad * 3600}}},
-         {"mounting", {{"turn_deg", m.head.mounting_rad * kDegreesPerRad}}}}},
+          {{"A", as_given(m.head.sd_a_rad * kDegreesPerRad * 3600)},
+           {"B", as_given(m.head.sd_b_rad * kDegreesPerRad * 3600)}}},
+         {"mounting", {{"turn_deg", as_given(m.head.mounting_rad * kDegreesPerRad)}}}}},
        {"probe", {{"sd_um", triple_json(1e3 * m.probe.sd_mm)}}},
        {"motion",
         {{"speed_mm_s", m.motion.speed_mm_s},
@@ -179,7 +185,7 @@ std::string screening_json(const ScreeningReport& report) {
   Json probe = Json::array();
   for (const ProbeCheck& check : report.probe)
     probe.push_back({{"name", check.name},
-                     {"limit_um", check.limit_mm * 1e3},
+                     {"limit_um", as_given(check.limit_mm * 1e3)},
                      {"median_um", check.median_mm * 1e3},
                      {"share_passed", check.share_passed}});
   return dump(

@@ -48,6 +48,29 @@ class Machine(harness.Case):
         self.assertEqual((self.folder / "mine.json").read_text(), before)
         self.assertEqual(json.loads(self.machine("init", "mine"))["name"], "mine")
 
+    def test_show_gives_back_what_the_file_says(self):
+        given = json.loads((harness.ROOT / "examples/iso10360/portal-2009.json").read_text())
+        shown = self.machine_json("show", harness.ROOT / "examples/iso10360/portal-2009.json")
+        self.assertEqual(shown["specification"]["mpe"], given["specification"]["mpe"])   # to the last digit
+        self.assertEqual(shown["specification"]["probing"], given["specification"]["probing"])
+
+    def test_show_and_screen_refuse_effects_that_no_command_can_run(self):
+        machine = json.loads(self.machine("init", "mine"))
+        for effect, code, words in (({"name": "probe.tipradius"}, "E0305", "probe.tip_radius"),
+                                    ({"name": "probe.tip_radius", "parameters": {"amplitude": 1}}, "E0306", "amplitude_um"),
+                                    ({"name": "machine.squareness", "parameters": {"which": "abc"}}, "E0307", "cwy, bwz, awz")):
+            path = self.write("mine.json", json.dumps(machine | {"effects": [effect]}))
+            for action in ("show", "screen"):
+                self.assertIn(words, self.refused(code, "machine", action, path))
+
+    def test_a_run_says_that_there_are_no_scale_positions(self):
+        machine = json.loads(self.machine("init", "mine"))
+        del machine["offsets_mm"]
+        path = self.write("mine.json", json.dumps(machine))
+        self.assertIn("W0417", self.abbe("machine", "show", path).stderr)
+        self.write("length.dmi", harness.LENGTH)
+        self.assertIn("W0417", [m["code"] for m in self.run_json("length.dmi", "--machine", path, "--machines", 10)["messages"]])
+
     def test_what_a_machine_file_may_not_say(self):
         text = self.machine("init", "bad")
         for old, new, code, words in (('"travel_mm": 1600', '"travel_mm": -1600', "E0406", "greater than 0"),
