@@ -35,7 +35,7 @@ class Compiler {
     Flow(lowering_, moving, [this](const RawStatement& raw) { one(raw); }).run(program);
     for (int at = 0; at < program.size(); ++at)
       if (!program.visited[static_cast<std::size_t>(at)] && !program[at].skipped) never_run(program[at].raw);
-    finish();
+    finish(program.size() == 0);
     return std::move(lowering_.out);
   }
 
@@ -168,7 +168,7 @@ class Compiler {
     return near;
   }
 
-  void finish() {
+  void finish(bool empty) {
     const std::uint32_t end = static_cast<std::uint32_t>(lowering_.source.text().size());
     const Span last{end > 0 ? end - 1 : 0, end};
     if (lowering_.measuring) {
@@ -182,7 +182,7 @@ class Compiler {
     if (lowering_.begin_line == 0 && !lowering_.out.plan.operations.empty())
       lowering_.warn(Code::W0226, {0, 1}, "the program has no DMISMN",
                      "begin it with DMISMN/'name',5.2");
-    if (lowering_.begin_line != 0 && lowering_.end_line == 0)
+    if (lowering_.end_line == 0 && (lowering_.begin_line != 0 || empty))
       lowering_.warn(Code::W0225, last, "the program has no ENDFIL", "end it with ENDFIL");
     check_expectations(lowering_);
   }

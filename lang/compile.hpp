@@ -28,6 +28,7 @@ struct Directives {
   std::optional<int> machines;
   std::optional<std::uint64_t> seed;
   std::optional<std::string> workpiece;
+  Span machine_span, workpiece_span;
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in upper case
   std::optional<Vec3> place_mm;      ///< where the program's machine coordinate system lies in W
   std::vector<Expectation> expectations;

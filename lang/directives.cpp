@@ -128,7 +128,8 @@ class DirectiveReader {
     const std::string name = upper(word.text);
     Directives& out = lowering_.out.directives;
     if (name == "MACHINE") {
-      out.machine = take("machine", "a name").text;
+      const Token& machine = take("machine", "a name");
+      out.machine = machine.text, out.machine_span = machine.span;
     } else if (name == "MACHINES") {
       const Span at = peek() ? peek()->span : word.span;
       out.machines = number<int>("machines", "a whole number");
@@ -138,7 +139,8 @@ class DirectiveReader {
     } else if (name == "SEED") {
       out.seed = number<std::uint64_t>("seed", "a whole number");
     } else if (name == "WORKPIECE") {
-      out.workpiece = take("workpiece", "a file").text;
+      const Token& workpiece = take("workpiece", "a file");
+      out.workpiece = workpiece.text, out.workpiece_span = workpiece.span;
     } else if (name == "PLACE") {
       Vec3 place;
       for (int k = 0; k < 3; ++k) place[k] = number<double>("place", "a number in mm");

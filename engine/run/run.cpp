@@ -1,4 +1,4 @@
-#include "engine/run/run.hpp"
+#include "engine/run/check_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -207,6 +207,11 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   }
   result.samples = std::move(collected.samples);
   return result;
+}
+
+void check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source) {
+  Executor executor(plan, machine, options, source);
+  reference_run(executor, plan, machine, source);
 }
 
 MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,

@@ -1,17 +1,49 @@
-// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Nothing
-// is run.
+// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Only the error-free machine runs them, and
+// only on a machine that the program names.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/diagnostic.hpp"
-#include "lang/compile.hpp"
+#include "engine/run/check_plan.hpp"
+#include "engine/run/placement.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
 namespace {
+
+/// Errors of a file that a directive names, or that it cannot be read: where they stand in that file, else at the directive.
+void add_at(const UserError& error, const SourceFile& source, Span directive, Sink& sink) {
+  for (const Diagnostic& d : error.diagnostics())
+    sink.add(d.span ? d : diagnostic_at(source, directive, d.code, d.message, d.help));
+}
+
+/// What a run would refuse on the machine and of the workpiece that the program names. Of a program that leaves its machine to the
+/// command line nothing more can be said.
+void check_on_machine(const CompiledProgram& program, Sink& sink) {
+  const lang::Directives& asked = program.compilation.directives;
+  const plan::Plan& plan = program.compilation.plan;
+  std::optional<Workpiece> workpiece;
+  try {
+    workpiece = workpiece_of(program, std::nullopt);
+  } catch (const UserError& error) {
+    return add_at(error, program.source, asked.workpiece_span, sink);
+  }
+  if (!asked.machine) return;
+  try {
+    const Machine machine = read_machine(machine_name(program, std::nullopt));
+    for (const Diagnostic& d : machine_warnings(machine)) sink.add(diagnostic_at(program.source, asked.machine_span, d.code, d.message, d.help));
+    RunOptions options;
+    options.workpiece = workpiece ? &*workpiece : nullptr;
+    const Placement found = asked.place_mm ? Placement{*asked.place_mm, {}} : find_placement(plan, machine, program.source);
+    if (found.message) sink.add(*found.message);
+    options.placement_mm = found.shift_mm;
+    check_plan(plan, machine, options, program.source);
+  } catch (const UserError& error) {
+    add_at(error, program.source, asked.machine_span, sink);
+  }
+}
 
 struct Checked {
   std::vector<Diagnostic> messages;  ///< by place
@@ -19,9 +51,11 @@ struct Checked {
 };
 
 Checked check(const std::string& path, const std::map<std::string, std::string>& answers) {
+  CompiledProgram program = compile_program(path, answers);
   Sink sink;
-  lang::Compilation compilation = lang::compile(read_text(path, sink), sink, {answers});
-  return {sink.sorted(), std::move(compilation.plan)};
+  for (const Diagnostic& d : program.messages) sink.add(d);
+  if (!program.has_errors) check_on_machine(program, sink);
+  return {sink.list(), std::move(program.compilation.plan)};
 }
 
 std::string_view severity_name(Severity severity) {
@@ -50,6 +84,7 @@ int check_command(const CheckOptions& options) {
   nlohmann::ordered_json messages = nlohmann::ordered_json::array(),
                          plans = nlohmann::ordered_json::object();
   std::size_t errors = 0, warnings = 0;
+  std::string result;
   for (const std::string& program : options.programs) {
     const Checked checked = check(program, options.answers);
     for (const Diagnostic& d : checked.messages) {
@@ -58,22 +93,23 @@ int check_command(const CheckOptions& options) {
       if (as_json)
         messages.push_back(to_json(d));
       else
-        fmt::print(stderr, "{}", render(d));
+        print_messages({d});
     }
     if (!options.plan) continue;
     if (as_json)
       plans[program] = plan::to_text(checked.plan);
     else
-      fmt::print("{}", plan::to_text(checked.plan));
+      result += plan::to_text(checked.plan);
   }
   if (as_json) {
     nlohmann::ordered_json out = {{"schema", "abbe.check/1"}, {"messages", messages}};
     if (options.plan) out["plans"] = plans;
-    fmt::print("{}\n", indented(out));
+    result = indented(out) + "\n";
   } else {
-    fmt::print("{}, {} in {}\n", counted(errors, "error"), counted(warnings, "warning"),
-               counted(options.programs.size(), "program"));
+    result += fmt::format("{}, {} in {}\n", counted(errors, "error"), counted(warnings, "warning"),
+                          counted(options.programs.size(), "program"));
   }
+  print_result(result);
   return errors > 0 ? kNo : kDone;
 }
 

@@ -1,0 +1,43 @@
+"""abbe check: what is wrong with a program, and with the machine and workpiece that it names."""
+import json
+
+import harness
+
+
+class Check(harness.Case):
+    def told(self, text, code=1):
+        """The messages about a program: (code, line)."""
+        self.write("program.dmi", text)
+        return [(m["code"], m["line"]) for m in json.loads(self.abbe("check", "program.dmi", "--format", "json", code=code).stdout)["messages"]]
+
+    def test_an_empty_file_has_no_end(self):
+        for text in ("", "\n", "$$ nothing but a comment\n"):
+            self.assertEqual([code for code, _ in self.told(text, code=0)], ["W0225"])
+
+    def test_a_program_without_machine_is_judged_by_itself(self):
+        self.assertEqual(self.told(harness.LENGTH.replace("XORIG,800", "XORIG,8000"), code=0), [])
+
+    def test_touches_outside_the_travel_of_the_machine_that_it_names(self):
+        named = "$$! machine coord3-mc16\n" + harness.LENGTH
+        self.assertEqual(self.told(named, code=0), [])
+        outside = named.replace("XORIG,800", "XORIG,8000")
+        self.assertEqual(self.told(outside), [("E0302", 10), ("E0302", 14)])
+        self.assertEqual(self.told("$$! place -7200 0 0\n" + outside, code=0), [])
+
+    def test_files_that_directives_name(self):
+        self.assertEqual(self.told("$$ about it\n$$! machine coord3-mc61\n" + harness.LENGTH), [("E0411", 2)])
+        self.assertEqual(self.told("$$! workpiece none.json\n" + harness.LENGTH), [("E0601", 1)])
+        self.write("part.json", '{"schema": "abbe.workpiece/1", "name": "part", "lod_kg": 3}')
+        self.assertEqual(self.told("$$! workpiece part.json\n" + harness.LENGTH), [("E0402", 1)])
+        self.assertIn("part.json:1:", self.abbe("check", "program.dmi", code=1).stderr)
+        self.write("part.json", '{"schema": "abbe.workpiece/1", "name": "part", "surfaces": {"C": {"offset_um": 3}}}')
+        self.assertEqual(self.told("$$! machine coord3-mc16\n$$! workpiece part.json\n" + harness.LENGTH), [("E0423", 1)])
+
+    def test_what_such_a_machine_lacks(self):
+        machine = json.loads(self.abbe("machine", "init", "mine").stdout)
+        del machine["offsets_mm"]
+        self.write("mine.json", json.dumps(machine | {"effects": [{"name": "probe.tipradius"}]}))
+        self.assertEqual(self.told("$$! machine mine.json\n" + harness.LENGTH), [("W0417", 1), ("E0305", 1)])
+
+
+harness.main()
