@@ -6,7 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <limits>
 #include <memory>
+#include <optional>
+#include <type_traits>
 
 #include "engine/base/numbers.hpp"
 #include "engine/report/writer.hpp"
@@ -17,6 +21,8 @@
 namespace abbe {
 
 namespace {
+
+constexpr int kMostRepeats = 1'000'000;
 
 /// The command that was chosen; set by the callback of its parser.
 using Chosen = std::function<int()>;
@@ -29,19 +35,44 @@ std::shared_ptr<Options> chosen_by(CLI::App* command, Chosen& chosen, int (*run)
   return options;
 }
 
-/// CLI11 would wrap "-1" into a huge unsigned number.
-CLI::Validator not_negative() {
-  return {[](std::string& text) { return text.starts_with('-') ? "expected a whole number from 0 on, found " + text : std::string(); }, ""};
+template <class Value>
+struct NumberOf {
+  using Type = Value;
+};
+template <class Value>
+struct NumberOf<std::optional<Value>> {
+  using Type = Value;
+};
+
+/// A number in decimals, as the directives of a program have it, and nothing else: CLI11 would read 010 as 8 and 0x64 as 100, and make
+/// the largest number of what is too large.
+template <class Number>
+Number decimal(const std::string& option, const std::string& text, Number least, Number most) {
+  const char *begin = text.data(), *end = begin + text.size();
+  if (begin != end && *begin == '+') ++begin;
+  Number value{};
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (error == std::errc{} && stop == end && value >= least && value <= most) return value;
+  const std::string expected = std::is_integral_v<Number> ? fmt::format("a whole number from {} to {}", least, most) : "a number with a decimal point";
+  throw CLI::ValidationError(option, fmt::format("expected {}, found {}", expected, text));
+}
+
+/// An option that takes a number. What a command can do with it is for the command to say.
+template <class Value, class Number = typename NumberOf<Value>::Type>
+CLI::Option* add_number(CLI::App* command, const std::string& option, Value& value, const std::string& help,
+                        Number least = std::numeric_limits<Number>::lowest(), Number most = std::numeric_limits<Number>::max()) {
+  return command->add_option_function<std::string>(
+      option, [&value, option, least, most](const std::string& text) { value = decimal<Number>(option, text, least, most); }, help);
 }
 
 void add_threads(CLI::App* command, int& threads) {
-  command->add_option("--threads", threads, fmt::format("1 to {}; default: all of the computer; the result does not depend on it", kMostThreads))->type_name("T");
+  add_number(command, "--threads", threads, fmt::format("1 to {}; default: all of the computer; the result does not depend on it", kMostThreads))->type_name("T");
 }
 
 void add_settings(CLI::App* command, StudySettings& s) {
   command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
-  command->add_option("--machines", s.machines, "how many virtual machines (default 1000)")->type_name("N");
-  command->add_option("--seed", s.seed, "of the random numbers (default 1)")->type_name("S")->check(not_negative());
+  add_number(command, "--machines", s.machines, "how many virtual machines (default 1000)")->type_name("N");
+  add_number(command, "--seed", s.seed, "of the random numbers (default 1)")->type_name("S");
   add_threads(command, s.threads);
 }
 
@@ -77,13 +108,13 @@ void add_run(CLI::App& app, Chosen& chosen) {
   command->add_option("PROGRAM", o->request.program, "a DMIS program")->required();
   command->add_option("--machine", settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
   add_settings(command, settings);
-  command->add_option("--digits", settings.digits, "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
+  add_number(command, "--digits", settings.digits, "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
       ->type_name("D")
       ->excludes("--machines");
   command->add_option("--recording", settings.recording, "add the errors to these recorded points instead of to nominal ones")->type_name("REC.csv");
   add_effects(command, settings.effect_use);
   command->add_flag("--budget", settings.budget, "share out the variance among all sources, and between alignment and features");
-  command->add_option("--coverage", settings.coverage, "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
+  add_number(command, "--coverage", settings.coverage, "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
       ->type_name("P");
   add_answers(command, o->request.answers);
   command->add_flag("--only-valid", o->request.only_valid, "leave out statements with errors, and say what is lost");
@@ -144,8 +175,8 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
   o->action = action;
   if (operand) command->add_option(operand, o->machine, "machine file or name")->required();
   if (o->action == "screen") {
-    command->add_option("--machines", o->machines, "how many accepted machines to draw")->capture_default_str();
-    command->add_option("--seed", o->seed, "of the random numbers")->check(not_negative())->capture_default_str();
+    add_number(command, "--machines", o->machines, "how many accepted machines to draw (default 1000)")->type_name("N");
+    add_number(command, "--seed", o->seed, "of the random numbers (default 1)")->type_name("S");
     add_threads(command, o->threads);
   }
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
@@ -168,11 +199,10 @@ void add_record(CLI::App& app, Chosen& chosen) {
   command->add_option("--workpiece", o->workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
   command->add_option("--with", o->with, "let an effect act, left in: EFFECT or EFFECT:parameter=value,... (may be repeated)")
       ->type_name("EFFECT")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S")->check(not_negative());
-  command->add_option("--run", o->run, "which repeat: the same machine and part, other noise of probe and head")
-      ->type_name("K")->check(CLI::Range(1, 1000000))->capture_default_str();
-  command->add_option("--setup", o->setup, "which placement of the part: a diagnosis takes those of other setups as placed anew")
-      ->type_name("N")->check(CLI::Range(1, 1000000))->capture_default_str();
+  add_number(command, "--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S");
+  add_number(command, "--run", o->run, "which repeat: the same machine and part, other noise of probe and head (default 1)", 1, kMostRepeats)->type_name("K");
+  add_number(command, "--setup", o->setup, "which placement of the part: a diagnosis takes those of other setups as placed anew (default 1)", 1, kMostRepeats)
+      ->type_name("N");
   add_answers(command, o->answers);
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
   command->add_option("--dmo", o->dmo, "write the DMIS result file of the recorded machine")->type_name("D.dmo");
@@ -190,7 +220,7 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
   command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")->type_name("I.json");
   command->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values");
   command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");
-  command->add_option("--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S")->check(not_negative());
+  add_number(command, "--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S");
   add_threads(command, o->threads);
   add_format(command, o->format, {"text", "json"});
 }

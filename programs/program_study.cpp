@@ -78,7 +78,7 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.threads = thread_count(settings.threads);
 
   std::vector<Diagnostic> messages = program.messages;
-  for (Diagnostic& warning : machine_warnings(machine)) messages.push_back(std::move(warning));
+  for (Diagnostic& warning : machine_warnings(in.machine)) messages.push_back(std::move(warning));
   messages.insert(messages.end(), in.messages.begin(), in.messages.end());
   if (asked.place_mm) {
     options.placement_mm = *asked.place_mm;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/base/letter_case.hpp"
@@ -11,6 +10,7 @@
 #include "engine/machine/machine.hpp"
 #include "lang/reference.hpp"
 #include "programs/commands/commands.hpp"
+#include "programs/terminal.hpp"
 
 namespace abbe {
 namespace {
@@ -21,13 +21,27 @@ std::optional<std::string> explain_code(const std::string& word) {
   return std::nullopt;
 }
 
+/// What holds of a parameter that is left out, and what may be given.
+std::string range_of(const EffectParameter& p) {
+  if (p.choices.empty()) return fmt::format("{:g} if left out; {} to {}", p.standard, p.low, p.high);
+  const auto left_out = static_cast<std::size_t>(p.standard - p.low);
+  return fmt::format("{} if left out; one of {}", p.choices[left_out], fmt::join(p.choices, ", "));
+}
+
+/// `record --with EFFECT` gives the first parameter its typical size (record.cpp).
+std::string alone(const Effect& effect) {
+  if (effect.parameters.empty()) return "";
+  const EffectParameter& first = effect.parameters.front();
+  return fmt::format("  `abbe record --with {}` alone: {}={:g}\n", effect.name, first.name, first.typical);
+}
+
 std::optional<std::string> explain_effect(const std::string& name) {
   const Effect* effect = find_effect(name);
   if (!effect) return std::nullopt;
   std::string out = fmt::format("{}: {}\n  {}\n", effect->name, effect->title, effect->help);
   for (const EffectParameter& p : effect->parameters)
-    out += fmt::format("  {} [{}]  {}; {} to {}\n", p.name, p.unit, p.help, p.low, p.high);
-  return out + fmt::format("  told apart by: {}\n  source: {}\n", effect->separate, effect->source);
+    out += fmt::format("  {} [{}]  {}; {}\n", p.name, p.unit, p.help, range_of(p));
+  return out + alone(*effect) + fmt::format("  told apart by: {}\n  source: {}\n", effect->separate, effect->source);
 }
 
 std::string overview() {
@@ -65,17 +79,21 @@ std::string figure(const std::optional<std::string>& word) {
   return vega_lite(signature(*effect, read_machine(kDefaultMachine)));
 }
 
-}  // namespace
-
-int explain_command(const ExplainOptions& options) {
-  if (options.format == "vega") return fmt::print("{}", figure(options.word)), kDone;
-  if (options.markdown) return fmt::print("{}", lang::reference_markdown()), kDone;
-  if (!options.word) return fmt::print("{}", overview()), kDone;
+std::string text_of(const ExplainOptions& options) {
+  if (options.format == "vega") return figure(options.word);
+  if (options.markdown) return lang::reference_markdown();
+  if (!options.word) return overview();
   std::optional<std::string> text = explain_code(upper(*options.word));
   if (!text) text = lang::explain_word(*options.word);
   if (!text) text = explain_effect(*options.word);
   if (!text) unknown(*options.word);
-  fmt::print("{}", *text);
+  return *text;
+}
+
+}  // namespace
+
+int explain_command(const ExplainOptions& options) {
+  print_result(text_of(options));
   return kDone;
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/diagnostic.hpp"
@@ -13,6 +12,7 @@
 #include "engine/features/fit.hpp"
 #include "engine/features/points_csv.hpp"
 #include "programs/commands/commands.hpp"
+#include "programs/terminal.hpp"
 
 namespace abbe {
 namespace {
@@ -112,7 +112,7 @@ int fit_command(const FitOptions& options) {
   }
   const Json result = result_of(names, solution, problem.points.size());
   const std::string text = options.format == "json" ? result.dump(2) + "\n" : as_text(result);
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  print_result(text);
   return kDone;
 }
 

@@ -29,9 +29,27 @@ class Usage(harness.Case):
         self.assertIn("'PTMEAS' is none", self.refused("E0431", "explain", "PTMEAS", "--format", "vega"))
         self.assertIn("none is named", self.refused("E0431", "explain", "--format", "vega"))
 
+    def test_numbers_are_decimals(self):
+        self.write("length.dmi", harness.LENGTH)
+        said = self.run_json("length.dmi", "--machines", "010", "--seed", "+08")
+        self.assertEqual((said["machines"]["used"], said["seed"]), (10, 8))
+
+    def test_a_result_that_cannot_be_written_is_said(self):
+        self.write("length.dmi", harness.LENGTH)
+        for command in (("check", "length.dmi"), ("check", "length.dmi", "--plan"), ("check", "length.dmi", "--format", "json"), ("explain",), ("explain", "--markdown"),
+                        ("explain", "PTMEAS"), ("fit", "circle", harness.ROOT / "tests/cli/circle.csv"), ("machine", "list"), ("--help",)):
+            with open("/dev/full", "w") as full:
+                self.assertIn("E0602", self.abbe(*command, code=2, stdout=full).stderr, command)
+
     def test_values_that_cannot_be_read(self):
         self.assertIn("abc", self.refused("E0609", "run", "x.dmi", "--machines", "abc"))
         self.assertIn("found -1", self.refused("E0609", "run", "x.dmi", "--seed", "-1"))
+        for number in ("0x64", "1e3", "12.5", "99999999999999999999999", "3 4", ""):
+            self.assertIn(f"found {number}", self.refused("E0609", "run", "x.dmi", "--seed", number))
+            self.assertIn("a whole number", self.refused("E0609", "run", "x.dmi", "--machines", number))
+        for number in ("0x1p-1", "nan", "inf", "95%"):
+            self.assertIn(f"found {number}", self.refused("E0609", "run", "x.dmi", "--coverage", number))
+        self.assertIn("from 1 to", self.refused("E0609", "record", "x.dmi", "-o", "r.csv", "--run", "0"))
         self.assertIn("xml", self.refused("E0609", "run", "x.dmi", "--format", "xml"))
         self.assertIn("1,2", self.refused("E0609", "fit", "circle", "p.csv", "--normal", "1,2"))
         self.refused("E0609", "run", "x.dmi", "y.dmi")
