@@ -54,8 +54,14 @@ const std::vector<CovariateColumns>& covariate_columns() {
 using CovariateValue = std::variant<double, std::string>;
 using CovariateValues = std::vector<CovariateValue>;
 
+/// The angles of the head: those of the row, or where it has none those that are stated of the stylus it names. Empty where neither says.
+CovariateValues head_angles(const RecordingRow& r, const Sensor& sensor) {
+  const bool stated = (r.head_a_deg && r.head_b_deg) || r.sensor;
+  return stated ? CovariateValues{sensor.head_a_rad, sensor.head_b_rad} : CovariateValues{};
+}
+
 /// The values of a covariate in a row; empty when it was not logged.
-CovariateValues values(Covariate c, const RecordingRow& r) {
+CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor) {
   const auto given = [](std::initializer_list<std::optional<double>> list) {
     CovariateValues v;
     for (const auto& x : list)
@@ -72,7 +78,7 @@ CovariateValues values(Covariate c, const RecordingRow& r) {
     case Covariate::speed: return given({r.speed_mm_s});
     case Covariate::acceleration: return given({r.accel_mm_s2});
     case Covariate::direction: return of_vector(r.travel);
-    case Covariate::head: return given({r.head_a_deg, r.head_b_deg});
+    case Covariate::head: return head_angles(r, sensor);
     case Covariate::sensor: return r.sensor ? CovariateValues{*r.sensor} : CovariateValues{};
     case Covariate::part_temperature: return given({r.temp_part_C});
     case Covariate::scale_temperature: return given({r.temp_x_C, r.temp_y_C, r.temp_z_C});
@@ -80,19 +86,20 @@ CovariateValues values(Covariate c, const RecordingRow& r) {
     case Covariate::gradients: return {};
     case Covariate::raw_reading: return of_vector(r.reading_mm);
     case Covariate::load: return given({r.load_kg});
-    case Covariate::visit: return r.head_a_deg && r.head_b_deg ? CovariateValues{double(r.visit.value_or(0))} : CovariateValues{};
+    case Covariate::visit: return head_angles(r, sensor).empty() ? CovariateValues{} : CovariateValues{double(r.visit.value_or(0))};
     case Covariate::qualification: return given({of(r.qualification)});
     case Covariate::feature: return {r.feature};
   }
   return {};
 }
 
-void find_covariates(const Recording& recording, RecordedTouches& out) {
+/// `sensors`: by row.
+void find_covariates(const Recording& recording, const std::vector<const Sensor*>& sensors, RecordedTouches& out) {
   for (const CovariateColumns& entry : covariate_columns()) {
     bool known = true, varying = false;
-    const CovariateValues first = values(entry.covariate, recording.rows.front());
-    for (const RecordingRow& row : recording.rows) {
-      const CovariateValues v = values(entry.covariate, row);
+    const CovariateValues first = values(entry.covariate, recording.rows.front(), *sensors.front());
+    for (std::size_t i = 0; i < recording.rows.size(); ++i) {
+      const CovariateValues v = values(entry.covariate, recording.rows[i], *sensors[i]);
       known = known && !v.empty();
       if (known && v != first) varying = true;
     }
@@ -300,7 +307,6 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   ABBE_CHECK(!recording.rows.empty());
   RecordedTouches out;
   for (const RecordingRow& row : recording.rows) require_target(row, file);
-  find_covariates(recording, out);
   Sensors sensors(machine, file);
   std::vector<Vec3> readings;
   std::vector<const Sensor*> sensor_of;
@@ -310,6 +316,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     const Vec3 tip = *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
     readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
   }
+  find_covariates(recording, sensor_of, out);
   doubt_axes(recording, out, file);
   const Vec3 shift = placement(recording, machine, readings, out, file);
   const auto surface_of = [&](std::size_t i) {

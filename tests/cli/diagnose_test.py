@@ -58,6 +58,19 @@ class Diagnose(harness.Case):
         again = self.diagnosis(recording, "--known", "improved.json")
         self.assertEqual(again["baseline"]["mode"], "known")
 
+    def test_one_orientation_is_known_from_its_stylus(self):
+        """Constant columns of the head say nothing that the stylus does not, and nothing lies in a head that stood still."""
+        recording = self.record("--with", "probe.pretravel_lobing:amplitude_um=6")
+        logged = self.changed(recording, lambda row: row if row["sensor"] == "H1" else None, "logged.csv")
+        head = ("head_A_deg", "head_B_deg", "visit")
+        known = self.changed(logged, lambda row: {k: v for k, v in row.items() if k not in head}, "known.csv")
+        with_columns, without = self.diagnosis(logged), self.diagnosis(known)
+        self.assertIn(with_columns["verdict"], ("named", "one_of"))
+        for key in ("verdict", "p_value", "effects", "location", "cannot_judge"):
+            self.assertEqual(with_columns[key], without[key], key)
+        self.assertTrue(without["location"])
+        self.assertFalse({"head", "sensor"} & {place["factor"] for place in without["location"]})
+
     def test_what_was_mended_leaves_the_machine_file(self):
         first = self.record("--with", "probe.tip_radius:amplitude_um=3")
         self.diagnosis(first, "--model-out", "worn.json")

@@ -71,6 +71,14 @@ bool varies(const Case& c, Factor factor) {
   return true;
 }
 
+/// The factor of an explanation; or, where all touches are alike in that, what of it they do differ in: the place, where it acts on that, else the
+/// direction.
+Factor shown_in(const Case& c, const Explanation& e) {
+  if (varies(c, e.factor)) return e.factor;
+  constexpr unsigned kOfPlace = Covariate::position | Covariate::part_frame | Covariate::raw_reading;
+  return e.effect && (e.effect->needs & kOfPlace) ? Factor::position : Factor::direction;
+}
+
 /// Where a pattern is strongest, in words of its factor.
 std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor factor, const Vector& pattern) {
   std::vector<std::pair<double, int>> order;
@@ -137,12 +145,13 @@ struct Located {
   }
 };
 
-std::map<Factor, Located> by_factor(const Explanations& all, const Evidence& evidence) {
+std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
+  const Explanations& all = c.explanations;
   std::map<Factor, Located> out;
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
     const bool changes = all.blocks[static_cast<std::size_t>(best_block(e, evidence))].change.run > 0;
-    out[changes ? Factor::run : e.factor].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k], evidence);
+    out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k], evidence);
   }
   return out;
 }
@@ -156,23 +165,22 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   for (const Evidence& null : result.null) simulated.push_back(*std::max_element(null.log_bayes.begin(), null.log_bayes.end()));
   struct Entry {
     Location location;
-    bool varies;
     double belief, energy;
   };
   std::vector<Entry> entries;
-  for (const auto& [factor, located] : by_factor(all, result.first)) {
+  for (const auto& [factor, located] : by_factor(c, result.first)) {
     const int block = best_block(all.list[located.best], result.first);
     const Pattern pattern = pattern_of(search, all.blocks[block], block);
     entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
                         tail_probability(result.first.log_bayes[located.best], simulated)},
-                       varies(c, factor), log_sum_exp(located.log_belief), pattern.energy});
+                       log_sum_exp(located.log_belief), pattern.energy});
   }
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.belief > b.belief; });
   const double most = std::max_element(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.energy < b.energy; })->energy;
   std::vector<Location> out;
   for (Entry& e : entries) {
     e.location.share = most > 0 ? e.energy / most : 0;
-    if (out.empty() || (e.location.p <= 0.05 && e.varies)) out.push_back(std::move(e.location));
+    if (out.empty() || e.location.p <= 0.05) out.push_back(std::move(e.location));
   }
   return out;
 }

@@ -81,3 +81,19 @@ TEST_CASE("targets of a program are of the point and in the frame that the recor
     }
   }
 }
+
+TEST_CASE("the head stands as its stylus says where no column tells it, and as nothing says where the stylus is assumed") {
+  Machine machine = read_machine("coord3-mc16");
+  for (const auto& [name, a_rad] : {std::pair{"DOWN", 0.0}, {"SIDE", kPi / 2}})
+    machine.sensors[name] = {.head_a_rad = a_rad, .tip_in_r_mm = {0, 0, -100}, .radius_mm = 2, .material = "", .young_GPa = 600, .cte_ppm_per_K = 5};
+  const unsigned head = static_cast<unsigned>(Covariate::head);
+  Recording r = ball(0);
+  const RecordedTouches assumed = recorded_touches(r, machine, "assumed");
+  CHECK((assumed.known & head) == 0);
+  for (RecordingRow& row : r.rows) row.sensor = "DOWN";
+  const RecordedTouches one = recorded_touches(r, machine, "one");
+  CHECK((one.known & head) != 0);
+  CHECK((one.varying & head) == 0);
+  r.rows.back().sensor = "SIDE";
+  CHECK((recorded_touches(r, machine, "two").varying & head) != 0);
+}
