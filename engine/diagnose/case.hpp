@@ -92,7 +92,11 @@ void check_data(const Recording&, const Machine&, const std::string& file);
 void check_pairing(const Recording&, const RecordedTouches&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
-std::vector<DiagnosedParameter> estimate_parameters(const Case&, const SearchResult&, std::size_t finding);
+struct FoundSize {
+  std::vector<DiagnosedParameter> parameters;
+  double largest_um = 0;             ///< DiagnosedEffect::largest_um
+};
+FoundSize estimate_size(const Case&, const SearchResult&, std::size_t finding);
 Unexplained describe_unexplained(const Case&, const SearchResult&);
 struct NoiseFinding {
   const Effect* effect = nullptr;

@@ -139,7 +139,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
       e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(likeliest)], c.explanations.blocks[static_cast<std::size_t>(f.block)]));
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
-    e.parameters = estimate_parameters(c, result, k);
+    FoundSize size = estimate_size(c, result, k);
+    e.parameters = std::move(size.parameters);
+    e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
     const std::string in_file = change.gone ? " It is gone: the machine file needs nothing of it." : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);

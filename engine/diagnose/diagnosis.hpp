@@ -49,6 +49,7 @@ struct DiagnosedEffect {
   std::vector<DiagnosedParameter> parameters;  ///< of the first member
   std::string sentence;
   std::vector<RunChange> change = {};          ///< by member; none: in all runs
+  std::optional<double> largest_um = {};       ///< of what the first member does along the normal at a touch; nothing of scatter and of values
 };
 
 struct Location {

@@ -67,6 +67,13 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles, co
   return fmt::format("One of these {} {}, and {} cannot tell which: {}.{}{}{}", doubted ? "may explain" : "explains", it, data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
 }
 
+std::string sizes_in_words(const DiagnosedEffect& e) {
+  std::vector<std::string> sizes;
+  for (const DiagnosedParameter& p : e.parameters) sizes.push_back(with_interval(p));
+  if (e.largest_um) sizes.push_back(fmt::format("at most {:.2g} um at a touch", *e.largest_um));
+  return fmt::format("{}", fmt::join(sizes, "; "));
+}
+
 std::vector<std::string> in_words(const DiagnosedEffect& e) {
   std::vector<std::string> names = e.members;
   for (std::size_t m = 0; m < e.change.size(); ++m)

@@ -1,4 +1,5 @@
 """abbe diagnose: recordings against the machine that made them."""
+import csv
 import json
 import pathlib
 
@@ -45,6 +46,11 @@ class Diagnose(harness.Case):
             low, high = said["effects"][0]["parameters"]["amplitude_um"]["interval95"]
             self.assertLess(low, 3.3)
             self.assertGreater(high, 2.7)
+        # What the size comes to at the touches is the difference to the same recording without the effect.
+        rows = lambda path: list(csv.DictReader(line for line in path.read_text().splitlines() if not line.startswith("#")))
+        out = lambda row: sum(float(row[n]) * float(row[x]) for n, x in zip(("nx", "ny", "nz"), "xyz"))
+        largest = 1000 * max(abs(out(a) - out(b)) for a, b in zip(rows(recording), rows(self.record(name="without.csv"))))
+        self.assertAlmostEqual(said["effects"][0]["largest_um"], largest, delta=0.2 * largest)
         self.assertGreater(said["improvement"]["log_score_gain"], 3)
         self.assertLess(said["improvement"]["rms_um"]["after"], said["improvement"]["rms_um"]["before"])
         residuals = said["residuals"]

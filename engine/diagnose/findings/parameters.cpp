@@ -1,5 +1,6 @@
 // Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a linear-Gaussian posterior with a prior so
 // wide that it does not pull.
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,17 @@ class Estimator {
     for (const EffectParameter& p : explanation_.effect->parameters) search_.push_back(search_of(p, c.touches));
   }
 
+  /// What the likeliest variant does at the touch where it does most. Draws have no parameters: they are taken at the spread that is told.
+  double largest_um() const {
+    const Variant& likeliest = variants_[likeliest_];
+    if (explanation_.effect->draws == 0) return largest(likeliest.estimate->shift_um());
+    double spread = 0;
+    for (const MixtureTerm& c : spread_estimate(likeliest.info, 1)) spread += c.weight * c.value;
+    const Matrix& g = likeliest.info.g;
+    const Eigen::LLT<Matrix> posterior(g + Matrix::Identity(g.rows(), g.cols()) / (spread * spread));
+    return largest(likeliest.block.signature * posterior.solve(likeliest.info.u));
+  }
+
   std::vector<DiagnosedParameter> all() const {
     std::vector<DiagnosedParameter> out;
     for (std::size_t p = 0; p < search_.size(); ++p) add(p, out);
@@ -113,6 +125,8 @@ class Estimator {
     std::optional<VariantEstimate> estimate;
     EvidenceSearch::Information info;
   };
+
+  static double largest(const Vector& shift_um) { return shift_um.cwiseAbs().maxCoeff(); }
 
   /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli or two axes: told is that of the
   /// likeliest variant, over the values of what has a value between any two.
@@ -233,8 +247,9 @@ class Estimator {
 
 }  // namespace
 
-std::vector<DiagnosedParameter> estimate_parameters(const Case& c, const SearchResult& result, std::size_t finding) {
-  return Estimator(c, result, finding).all();
+FoundSize estimate_size(const Case& c, const SearchResult& result, std::size_t finding) {
+  const Estimator estimator(c, result, finding);
+  return {estimator.all(), estimator.largest_um()};
 }
 
 }  // namespace abbe::diagnose

@@ -34,6 +34,8 @@ class VariantEstimate {
   std::optional<SpannedDirection> direction() const;
   /// Of that parameter, deg; nothing where no phases are spanned.
   std::optional<Estimate> phase_deg(int parameter) const;
+  /// What the coefficients do along the normal of every touch, um.
+  Vector shift_um() const { return block_.signature * mean_; }
 
  private:
   /// sigma u w' of the coefficients of one parameter, by direction and phase.

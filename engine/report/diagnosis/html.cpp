@@ -29,11 +29,8 @@ std::string_view title(const Diagnosis& d) {
 std::string explanations(const Diagnosis& d) {
   if (d.effects.empty() && !d.unexplained) return "";
   std::string rows = html_row({"effect", "probability", "size (95 % interval)"}, "th");
-  for (const DiagnosedEffect& e : d.effects) {
-    std::vector<std::string> sizes;
-    for (const DiagnosedParameter& p : e.parameters) sizes.push_back(with_interval(p));
-    rows += html_row({fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), fmt::format("{}", fmt::join(sizes, "; "))});
-  }
+  for (const DiagnosedEffect& e : d.effects)
+    rows += html_row({fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), sizes_in_words(e)});
   if (d.unexplained)
     rows += html_row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
                 fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um)});

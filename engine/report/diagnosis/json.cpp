@@ -32,7 +32,7 @@ Json effect(const DiagnosedEffect& e) {
     return list;
   };
   return {{"members", e.members}, {"probability", number(e.probability)}, {"parameters", parameters(e.parameters)}, {"sentence", e.sentence},
-          {"new_in_run", in_run(false)}, {"gone_in_run", in_run(true)}};
+          {"new_in_run", in_run(false)}, {"gone_in_run", in_run(true)}, {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
 }
 
 Json location(const Location& l) {

@@ -70,10 +70,7 @@ std::string mismatch_table(const Diagnosis& d) {
     const std::vector<std::string> names = in_words(e);
     for (std::size_t m = 0; m < names.size(); ++m) {
       out += fmt::format("{:<38} {:>6}", (m ? "  or " : "") + names[m], m ? "" : fmt::format("{:.2f}", e.probability));
-      std::vector<std::string> sizes;
-      for (const DiagnosedParameter& p : e.parameters)
-        sizes.push_back(with_interval(p));
-      out += m ? "\n" : fmt::format("  {}\n", fmt::join(sizes, "; "));
+      out += m ? "\n" : fmt::format("  {}\n", sizes_in_words(e));
     }
   }
   if (d.unexplained) out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n", "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
