@@ -90,6 +90,9 @@ Recording without_copies(const Recording&, const std::string& file, std::vector<
 void check_data(const Recording&, const Machine&, const std::string& file);
 /// Throws UserError when many touches lie beside their targets; a few are warned of.
 void check_pairing(const Recording&, const RecordedTouches&, const std::string& file, std::vector<Diagnostic>& messages);
+/// The factor in which an explanation shows in this recording: its own; or, where all touches are alike in that, what of it they do differ in: the
+/// place, where it acts on that, else the direction.
+Factor shown_in(const Case&, const Explanation&);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
 struct FoundSize {

@@ -112,7 +112,7 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   const std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
   if (before) setting = before->now;
   const bool gone = before && before->gone;
-  if (!gone && !plausible(effect, setting)) return kTooLarge;
+  if (!gone && !plausible(effect, setting)) return kNoSuchSize;
   for (DiagnosedParameter& p : parameters) p.plausible = true;
   if (before) out.superseded.push_back(before->index);
   if (!gone) out.model_effects.push_back(std::move(setting));
@@ -148,7 +148,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability <= kDoubted) + in_file;
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) + in_file;
     if (change.run > 0 && stays_in_its_setup(c)) e.sentence += " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));
   }

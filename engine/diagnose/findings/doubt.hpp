@@ -9,7 +9,9 @@
 
 namespace abbe::diagnose {
 
-/// The most that is believed of a name that is doubted. Up to this it is told as what it looks like, not as what it is. A name is doubted
+/// Below this a name is told as what it looks like, not as what it is.
+inline constexpr double kTold = 0.9;
+/// The most that is believed of a name that is doubted. A name is doubted
 /// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
 /// - on a covariate that was not logged or did not change: other functions of it would look the same;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
@@ -22,7 +24,7 @@ inline bool plausible(const std::vector<DiagnosedParameter>& parameters) {
   return std::all_of(parameters.begin(), parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
 }
 /// Of a size that is not, no machine file may have a setting either.
-inline constexpr const char* kTooLarge = " No such effect is so large: the name may be wrong, and no machine file carries it.";
+inline constexpr const char* kNoSuchSize = " No such effect has such a size: the name may be wrong, and no machine file carries it.";
 
 inline EffectSetting setting_of(const std::string& effect, const std::vector<DiagnosedParameter>& parameters) {
   EffectSetting setting{effect, {}};

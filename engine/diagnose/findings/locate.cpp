@@ -71,14 +71,6 @@ bool varies(const Case& c, Factor factor) {
   return true;
 }
 
-/// The factor of an explanation; or, where all touches are alike in that, what of it they do differ in: the place, where it acts on that, else the
-/// direction.
-Factor shown_in(const Case& c, const Explanation& e) {
-  if (varies(c, e.factor)) return e.factor;
-  constexpr unsigned kOfPlace = Covariate::position | Covariate::part_frame | Covariate::raw_reading;
-  return e.effect && (e.effect->needs & kOfPlace) ? Factor::position : Factor::direction;
-}
-
 /// Where a pattern is strongest, in words of its factor.
 std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor factor, const Vector& pattern) {
   std::vector<std::pair<double, int>> order;
@@ -157,6 +149,12 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
 }
 
 }  // namespace
+
+Factor shown_in(const Case& c, const Explanation& e) {
+  if (varies(c, e.factor)) return e.factor;
+  constexpr unsigned kOfPlace = Covariate::position | Covariate::part_frame | Covariate::raw_reading;
+  return e.effect && (e.effect->needs & kOfPlace) ? Factor::position : Factor::direction;
+}
 
 std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const SearchResult& result) {
   if (result.findings.empty() && !result.other) return {};

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/findings/doubt.hpp"
 
 namespace abbe::diagnose {
 
@@ -337,12 +338,20 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
   return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.", fmt::join(columns, ", "));
 }
 
+/// What would show whether a name that stands alone is right, where it is not told for certain.
+std::string to_check_a_name(const Case& c, const SearchResult& result) {
+  for (const Finding& f : result.findings)
+    if (f.set.size() == 1 && f.probability < kTold) return to_follow_a_pattern(shown_in(c, c.explanations.list[static_cast<std::size_t>(f.explanation)]));
+  return "";
+}
+
 /// What to do beside a measurement of the menu, or where there is none.
 std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
   if (!next.empty()) return to_follow_what_is_left(c, result);
   if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
+  if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
   const std::vector<int> rivals = question_of(result).rivals;
   if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {

@@ -146,8 +146,8 @@ void tell_name(const ValueCase& c, const Finding& f, double adequacy, Diagnosis&
   e.parameters = parameters_of(c, f);
   const bool size = plausible(e.parameters);
   e.probability = believed(f.probability, adequacy < kInadequate || !size);
-  e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability <= kDoubted);
-  if (!size) e.sentence += kTooLarge;
+  e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
+  if (!size) e.sentence += kNoSuchSize;
   else out.model_effects.push_back(setting_of(e.members.front(), e.parameters));
   out.adequacy_p = adequacy;
   out.verdict = f.set.size() > 1 ? Verdict::one_of : Verdict::named;
