@@ -111,6 +111,7 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   EffectSetting setting = setting_of(std::string(effect.name), parameters);
   const std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
   if (before) setting = before->now;
+  setting = nearest_possible(effect, setting);
   const bool gone = before && before->gone;
   if (!gone && !plausible(effect, setting)) return kNoSuchSize;
   for (DiagnosedParameter& p : parameters) p.plausible = true;

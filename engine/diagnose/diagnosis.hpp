@@ -27,7 +27,7 @@ struct DiagnosedParameter {
   double value = 0, u = 0;
   double low = 0, high = 0;                    ///< 95 % interval
   std::string word = {};                       ///< of a choice: "x"; then the numbers mean nothing
-  bool plausible = true;                       ///< inside the range that the catalogue gives
+  bool plausible = true;                       ///< some of the interval is inside the range that the catalogue gives
   std::string called = {};                     ///< what a number stands for, where that has a name: the stylus
 };
 

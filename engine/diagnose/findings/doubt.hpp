@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
+#include "engine/effects/effect.hpp"
 
 namespace abbe::diagnose {
 
@@ -29,6 +31,18 @@ inline constexpr const char* kNoSuchSize = " No such effect has such a size: the
 inline EffectSetting setting_of(const std::string& effect, const std::vector<DiagnosedParameter>& parameters) {
   EffectSetting setting{effect, {}};
   for (const DiagnosedParameter& p : parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+  return setting;
+}
+
+/// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ± 0.02 N may be none.
+inline EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
+  constexpr double kWithin = 1.96;   // standard uncertainties: the 95 % interval reaches it
+  for (const EffectParameter& p : effect.parameters) {
+    const auto found = setting.parameters.find(std::string(p.name));
+    if (!p.linear || found == setting.parameters.end()) continue;
+    const double possible = std::clamp(found->second.value, p.low, p.high);
+    if (std::abs(found->second.value - possible) <= kWithin * found->second.u) found->second.value = possible;
+  }
   return setting;
 }
 

@@ -45,7 +45,7 @@ DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<M
   out.low = quantile(mixture, 0.025);
   out.high = quantile(mixture, 0.975);
   if (value) out.value = *value;
-  out.plausible = out.value >= parameter.low && out.value <= parameter.high;
+  out.plausible = out.high >= parameter.low && out.low <= parameter.high;
   return out;
 }
 
