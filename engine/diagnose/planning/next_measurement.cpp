@@ -24,8 +24,12 @@ constexpr std::size_t kShown = 3, kMostRivals = 8, kPaired = 6;
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
 constexpr double kDecides = 0.95;
-/// What it must be above chance, or the measurement is not worth a proposal.
-constexpr double kAboveChance = 0.05;
+/// What a pair of changes must add to it, or one of them is enough.
+constexpr double kAdds = 0.05;
+/// The share of what can be gained over guessing that a measurement must bring, or it is not worth a proposal: of two, a probability of 0.6.
+constexpr double kWorthARound = 0.2;
+/// Expected probabilities are no more exact than this.
+constexpr double kAlike = 0.01;
 /// Signal-to-noise that a plan without data reckons with.
 constexpr double kPlanned = 6;
 
@@ -230,6 +234,7 @@ class Judge {
 
   void add(const std::vector<Change>& changes) {
     list_ = scored(changes);
+    leave_out_no_better_than_a_repeat();
     rank();
   }
   const std::vector<Scored>& list() const { return list_; }
@@ -237,7 +242,7 @@ class Judge {
   /// Where one change does not decide: two of those that say most by themselves, if the two say more than the better one.
   void add_pairs() {
     std::vector<Scored> singles = list_;
-    std::erase_if(singles, [&](const Scored& s) { return !s.change.changes_touches || s.gain < kAboveChance / 2; });
+    std::erase_if(singles, [&](const Scored& s) { return !s.change.changes_touches || s.gain < kAdds / 2; });
     std::stable_sort(singles.begin(), singles.end(), [](const Scored& a, const Scored& b) { return a.gain > b.gain; });
     if (singles.size() > kPaired) singles.erase(singles.begin() + kPaired, singles.end());
     std::vector<Change> pairs;
@@ -247,13 +252,22 @@ class Judge {
     std::vector<Scored> kept;
     for (Scored& s : scored(pairs)) {
       const auto k = static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Change& c) { return c.text == s.change.text; }) - pairs.begin());
-      if (s.gain > better[k] + kAboveChance) kept.push_back(std::move(s));
+      if (s.gain > better[k] + kAdds) kept.push_back(std::move(s));
     }
     std::move(kept.begin(), kept.end(), std::back_inserter(list_));
     rank();
   }
 
  private:
+  /// A change that tells no more than the same touches once more has no part in it: what tells is that they are measured twice.
+  void leave_out_no_better_than_a_repeat() {
+    const auto plain = [](const Scored& s) { return !s.change.changes_touches && !s.change.reversed; };
+    const auto repeat = std::find_if(list_.begin(), list_.end(), plain);
+    if (repeat == list_.end()) return;
+    const double enough = repeat->gain + kAlike;
+    std::erase_if(list_, [&](const Scored& s) { return !plain(s) && s.gain <= enough; });
+  }
+
   std::vector<Scored> scored(const std::vector<Change>& changes) const {
     std::vector<std::optional<Scored>> each(changes.size());
     on_threads(static_cast<int>(changes.size()), case_.options.threads, [&](int k) { each[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
@@ -353,7 +367,7 @@ std::string besides_sizes(const Case& c, const SearchResult& result, const std::
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
   if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
   const std::vector<int> rivals = question_of(result).rivals;
-  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart. What would:");
+  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart much better than guessing. What would:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
     const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
     sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
@@ -377,7 +391,7 @@ std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& 
   std::vector<NextMeasurement> out;
   for (std::size_t k = 0; k < std::min(most, judge.list().size()); ++k) {
     const Scored& s = judge.list()[k];
-    if (s.gain < kAboveChance) break;
+    if (s.gain < kWorthARound * (1 - 1 / double(question.rivals.size()))) break;
     out.push_back(s.measurement);
     if (k == 0) out.back().program = dmis_program(c, s.longer, s.change);
   }
