@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model/linear.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/run/recorded_touch.hpp"

@@ -149,10 +149,11 @@ TEST_CASE("many runs make no more variants than few") {
   std::vector<int> rows(t.touches.size());
   std::iota(rows.begin(), rows.end(), 0);
   const Explanations all = explanations_without_readings(t, rows);
-  std::set<int> tried;
+  std::set<int> tried, gone;
   for (const Block& b : all.blocks)
-    if (b.from_run > 0) tried.insert(b.from_run);
+    if (b.change.run > 0) (b.change.gone ? gone : tried).insert(b.change.run);
   CHECK(tried.size() == 8);
+  CHECK(gone.size() == 4);
   for (const Explanation& e : all.list)
     if (e.factor == Factor::run || e.factor == Factor::feature)
       for (const int b : e.blocks) CHECK(all.blocks[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);
