@@ -254,7 +254,6 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   }
   c.baseline = baseline_of(c.touches, machine, {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
   out.beyond = c.baseline.beyond;
-  if (out.beyond) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   add_doubts(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);
   return c;
@@ -307,6 +306,7 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
   out.location = locate(c, first, result);
   tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
+  if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);

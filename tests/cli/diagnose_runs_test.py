@@ -66,7 +66,7 @@ class DiagnoseRuns(harness.Case):
         found = said["effects"][0]
         self.assertIn("probe.tip_radius", found["members"])
         self.assertEqual(found["gone_in_run"][found["members"].index("probe.tip_radius")], 2)
-        self.assertIn("What is gone in run 2", found["sentence"])
+        self.assertIn("what is gone in run 2", found["sentence"].lower())
         self.assertEqual(json.loads((self.folder / "now.json").read_text())["effects"], [])
 
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):

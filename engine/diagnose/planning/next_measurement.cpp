@@ -26,7 +26,9 @@ constexpr double kRound_min = 60;
 constexpr double kDecides = 0.95;
 /// What a pair of changes must add to it, or one of them is enough.
 constexpr double kAdds = 0.05;
-/// The share of what can be gained over guessing that a measurement must bring, or it is not worth a proposal: of two, a probability of 0.6.
+/// What it must be above guessing, or the measurement is no proposal.
+constexpr double kAboveChance = 0.05;
+/// The share of what can be gained over guessing below which the answer says beside it what would tell more: of two, a probability of 0.6.
 constexpr double kWorthARound = 0.2;
 /// Expected probabilities are no more exact than this.
 constexpr double kAlike = 0.01;
@@ -359,9 +361,17 @@ std::string to_check_a_name(const Case& c, const SearchResult& result) {
   return "";
 }
 
-/// What to do beside a measurement of the menu, or where there is none.
+/// Whether a measurement of the menu tells the rivals apart clearly better than guessing.
+bool worth_a_round(const std::vector<NextMeasurement>& next) {
+  return std::any_of(next.begin(), next.end(), [](const NextMeasurement& n) {
+    const double guess = 1 / double(n.separates.size());
+    return n.expected_probability > guess + kWorthARound * (1 - guess);
+  });
+}
+
+/// What to do beside a measurement of the menu, or where there is none that is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (!next.empty()) return to_follow_what_is_left(c, result);
+  if (worth_a_round(next)) return to_follow_what_is_left(c, result);
   if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
@@ -391,7 +401,7 @@ std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& 
   std::vector<NextMeasurement> out;
   for (std::size_t k = 0; k < std::min(most, judge.list().size()); ++k) {
     const Scored& s = judge.list()[k];
-    if (s.gain < kWorthARound * (1 - 1 / double(question.rivals.size()))) break;
+    if (s.gain < kAboveChance) break;
     out.push_back(s.measurement);
     if (k == 0) out.back().program = dmis_program(c, s.longer, s.change);
   }
