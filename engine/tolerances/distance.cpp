@@ -15,8 +15,10 @@
 // - two lines or axes that are not parallel: along their common perpendicular
 // - a plane and a line along it: along the normal of the plane, at the point of the line
 //
-// The nominals decide what is parallel, so that all machines are judged alike. Planes that are not
-// parallel, and a line that is not along a plane, meet: they have no distance.
+// - planes that are not parallel, and a line that is not along a plane: they meet, and what is left
+//   is from the middle of the one's touches to that of the other's
+//
+// The nominals decide what is parallel, so that all machines are judged alike.
 //
 // Sign. A distance is what one reads off a rule: unsigned. But where the limits allow negative
 // values (NOMINL,0,-0.1,0.1) the program means a deviation to either side, and folding it would
@@ -131,9 +133,9 @@ struct Two {
   Vec3 from_to() const { return place(shape[1], *element[1]) - place(shape[0], *element[0]); }
 };
 
-Outcome<Ruler> between_planes(const Two& two) {
-  if (!two.parallel()) return Outcome<Ruler>::failed("planes that are not parallel have no distance");
-  return {laid_along(mean_direction(two.direction(0), two.direction(1)), two.from_to())};
+Ruler between_planes(const Two& two) {
+  if (!two.parallel()) return from_end_to_end(two.from_to());
+  return laid_along(mean_direction(two.direction(0), two.direction(1)), two.from_to());
 }
 
 Outcome<Ruler> between_lines(const Two& two) {
@@ -147,11 +149,10 @@ Outcome<Ruler> between_lines(const Two& two) {
 Outcome<Ruler> straight(const Two& two) {
   const bool plane[2] = {two.shape[0] == Shape::plane, two.shape[1] == Shape::plane};
   const bool line[2] = {is_straight_line(two.shape[0]), is_straight_line(two.shape[1])};
-  if (plane[0] && plane[1]) return between_planes(two);
+  if (plane[0] && plane[1]) return {between_planes(two)};
   if (line[0] && line[1]) return between_lines(two);
   if (plane[0] || plane[1]) {
-    if ((line[0] || line[1]) && !two.square())
-      return Outcome<Ruler>::failed("a plane and a line that is not along it have no distance");
+    if ((line[0] || line[1]) && !two.square()) return {from_end_to_end(two.from_to())};
     return {laid_along(two.direction(plane[0] ? 0 : 1), two.from_to())};
   }
   if (line[0] || line[1])
@@ -191,7 +192,7 @@ Outcome<double> measured(const Arguments& arguments, const EvaluationInput& in, 
   return {is_signed(arguments) ? sense * value : value};
 }
 
-/// Of features whose nominals have no distance it is 0, and nothing is evaluated.
+/// Lines whose nominals have no distance get 0, and nothing is evaluated.
 double nominal_distance(const Arguments& arguments, Shapes shapes, Elements nominal, int i, int j) {
   if (arguments.has("nominal")) return arguments.number("nominal");
   const double d = ruler(arguments, {{shapes[i], shapes[j]}, {&nominal[i], &nominal[j]},
