@@ -58,6 +58,9 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
     in.recording = read_recording(read_text(*settings.recording, sink));
     in.messages = sink.list();
     in.files.push_back(*settings.recording);
+    if (in.recording->in_part_frame)
+      throw UserError(diagnostic(Code::E0525, fmt::format("{}: its points are in part coordinates, and errors of a machine are added in machine coordinates", *settings.recording),
+                                 "record machine coordinates (without the line '# frame: part'); `abbe diagnose` carries part coordinates over, `abbe run` does not"));
   }
   return in;
 }

@@ -30,6 +30,13 @@ class RecordedPoints(harness.Case):
         self.write("short.csv", "\n".join(lines[:-1]) + "\n")
         self.assertIn("no touch 25 of 'BALL'", self.refused("E0304", "run", PROGRAM, "--recording", "short.csv"))
 
+    def test_points_in_part_coordinates_are_no_points_of_the_machine(self):
+        self.abbe("record", PROGRAM, "-o", "rec.csv")
+        text = (self.folder / "rec.csv").read_text()
+        self.assertIn("# frame: mcs\n", text)
+        self.write("part.csv", text.replace("# frame: mcs\n", "# frame: part\n"))
+        self.assertIn("part.csv: its points are in part coordinates", self.refused("E0525", "run", PROGRAM, "--recording", "part.csv"))
+
 
 if __name__ == "__main__":
     harness.main()
