@@ -54,14 +54,10 @@ Machine read_machine(const std::string& name_or_path) {
 std::string machine_text(const std::string& name_or_path) { return std::string(machine_source(name_or_path).text()); }
 
 std::vector<Diagnostic> machine_warnings(const Machine& machine) {
-  const auto at_origin = [](const MachineAxis& axis) { return axis.offset_mm == Vec3{}; };
-  if (machine.mount_offset_mm != Vec3{} ||
-      !std::all_of(machine.axes.begin(), machine.axes.end(), at_origin))
-    return {};
+  if (machine.offsets_not_given.empty()) return {};
   return {diagnostic(Code::W0417,
-                     fmt::format("machine \"{}\" gives no scale positions: every scale is taken to "
-                                 "lie in the machine's origin",
-                                 machine.name),
+                     fmt::format("machine \"{}\" gives no scale position for {}: they are taken for zero",
+                                 machine.name, fmt::join(machine.offsets_not_given, ", ")),
                      "measure where the scales are and give \"offsets_mm\": without them "
                      "measurements far from the scales seem too good")};
 }

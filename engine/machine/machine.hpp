@@ -105,6 +105,7 @@ struct Machine {
   std::vector<Axis> ram_chain{Axis::x, Axis::y, Axis::z};  ///< from the base to the ram
   std::vector<Axis> table_chain;                 ///< from the base to the part
   Vec3 mount_offset_mm;                          ///< mounting point in the frame of the last ram-side axis
+  std::vector<std::string> offsets_not_given;    ///< keys of "offsets_mm" that the file leaves out: they count as zeros
   int harmonics = 7;
   std::array<ComponentSpec, kComponents> components;
   double squareness_cwy_rad = 0, squareness_bwz_rad = 0, squareness_awz_rad = 0;  ///< ISO 230-1; known, the same for every virtual machine
@@ -132,7 +133,7 @@ std::string machine_text(const std::string& name_or_path);
 /// Names of the shipped machines, in alphabetical order.
 std::vector<std::string> shipped_machines();
 
-/// What is suspect in a machine that can be used: no scale positions given, so that Abbe errors are too small.
+/// What is suspect in a machine that can be used: scale positions that are not given, so that Abbe errors are wrong.
 std::vector<Diagnostic> machine_warnings(const Machine&);
 
 /// Parses the text of a machine file; `file` names it in messages. Throws UserError as read_machine does.

@@ -70,9 +70,12 @@ void read_chain(JsonObject chain, Machine& machine) {
 }
 
 void read_offsets(JsonObject offsets, Machine& machine) {
-  for (int k = 0; k < 3; ++k)
-    machine.axes[k].offset_mm = vec3(offsets.numbers_or(kAxisNames[k], {0, 0, 0}, 3));
-  machine.mount_offset_mm = vec3(offsets.numbers_or("mount", {0, 0, 0}, 3));
+  const auto offset = [&](std::string_view key) {
+    if (!offsets.present() || !offsets.has(key)) machine.offsets_not_given.emplace_back(key);
+    return vec3(offsets.numbers_or(key, {0, 0, 0}, 3));
+  };
+  for (int k = 0; k < 3; ++k) machine.axes[k].offset_mm = offset(kAxisNames[k]);
+  machine.mount_offset_mm = offset("mount");
 }
 
 /// Table 1 of the paper.

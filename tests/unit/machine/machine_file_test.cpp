@@ -236,12 +236,16 @@ TEST_CASE("a machine is found by name or by path, or the nearest name is offered
   CHECK_THROWS_AS(read_machine("no/such/file.json"), UserError);
 }
 
-TEST_CASE("a machine without scale positions is usable, with a warning") {
-  const std::vector<Diagnostic> found = machine_warnings(parse_machine("m.json", small_file()));
-  REQUIRE(found.size() == 1);
-  CHECK(found[0].code == Code::W0417);
-  CHECK(machine_warnings(parse_machine("m.json", small_file(R"("offsets_mm": {"y": [0, 1, 0]})")))
-            .empty());
+TEST_CASE("a machine without scale positions is usable, with a warning that names those missing") {
+  const auto warned = [](const std::string& offsets) {
+    const std::vector<Diagnostic> found = machine_warnings(parse_machine("m.json", small_file(offsets)));
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].code == Code::W0417);
+    return found[0].message;
+  };
+  CHECK(warned("").find("for x, y, z, mount:") != std::string::npos);
+  CHECK(warned(R"("offsets_mm": {"y": [0, 1, 0], "x": [0, 0, 0]})").find("for z, mount:") != std::string::npos);
+  CHECK(machine_warnings(parse_machine("m.json", small_file(R"("offsets_mm": {"x": [0, 0, 0], "y": [0, 1, 0], "z": [0, 0, 0], "mount": [0, 0, 0]})"))).empty());
   for (const std::string& name : shipped_machines())
     CHECK(machine_warnings(read_machine(name)).empty());
 }
