@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -198,13 +199,6 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     constexpr double kLine = 2;
     m.rough = rough_geometry(t, machine, kLine);
     m.uneven = uneven_functions(t, machine);
-    if (options.surfaces == Surfaces::calibrated) out.beyond = beyond_specification(t, machine);
-    if (out.beyond) {
-      // Larger errors of the machine are no explanation then.
-      constexpr double kAsSpecified = 0.1;
-      m.scale_spread = kAsSpecified;
-      m.uneven.clear();
-    }
   } else {
     m.scale_spread = 0.3;            // an earlier recording has found the scale
     // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.
@@ -216,6 +210,14 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   }
   m.y.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) m.y(i) = kUmPerMm * t.touches[i].residual_mm;
+  if (!options.known && options.surfaces == Surfaces::calibrated)
+    out.beyond = beyond_specification(t, m.y - m.free * m.free.colPivHouseholderQr().solve(m.y), machine);
+  if (out.beyond) {
+    // Larger errors of the machine are no explanation then.
+    constexpr double kAsSpecified = 0.1;
+    m.scale_spread = kAsSpecified;
+    m.uneven.clear();
+  }
   m.y -= out.geometry_um * out.mean;
   group_noise(t, machine, out);
   m.follows.assign(n, 0);

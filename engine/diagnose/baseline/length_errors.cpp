@@ -8,7 +8,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kAlong = 0.97;   ///< cosine between a normal and the length, at most 14 degrees: cosine errors below 3 %
+constexpr double kAlong = 0.9999;   ///< cosine between a normal and the length, at most 0.8 degrees: a length touched across depends on where the part stood
 
 bool comparable(const TouchScene& a, const TouchScene& b) {
   return a.setup == b.setup && a.run == b.run && a.stylus.tip_ordinal == b.stylus.tip_ordinal && a.visit == b.visit;
@@ -18,7 +18,7 @@ double share(const LengthError& e) { return std::abs(e.error_mm) / e.mpe_mm; }
 
 }  // namespace
 
-LengthError worst_length(const RecordedTouches& t, const Specification& specification) {
+LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, const Specification& specification) {
   constexpr std::size_t kCount = 3;
   constexpr double kLeast_mm = 1;
   std::vector<LengthError> worst;
@@ -30,7 +30,7 @@ LengthError worst_length(const RecordedTouches& t, const Specification& specific
       if (length < kLeast_mm || !comparable(a, b)) continue;
       const double along_a = dot(a.normal, between) / length, along_b = dot(b.normal, between) / length;
       if (std::min(std::abs(along_a), std::abs(along_b)) < kAlong) continue;
-      const LengthError e{length, along_a * t.touches[i].residual_mm - along_b * t.touches[j].residual_mm, specification.mpe.at(length)};
+      const LengthError e{length, (along_a * residuals_um(Eigen::Index(i)) - along_b * residuals_um(Eigen::Index(j))) / kUmPerMm, specification.mpe.at(length)};
       worst.insert(std::find_if(worst.begin(), worst.end(), [&](const LengthError& other) { return share(other) < share(e); }), e);
       if (worst.size() > kCount) worst.pop_back();
     }
@@ -38,10 +38,10 @@ LengthError worst_length(const RecordedTouches& t, const Specification& specific
   return worst.size() < kCount ? LengthError{} : worst.back();
 }
 
-std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Machine& machine) {
+std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Vector& residuals_um, const Machine& machine) {
   constexpr double kElsewhere = 1.5, kDeviations = 4;
   const double touch_mm = norm(machine.probe.sd_mm) / std::sqrt(3.0);
-  const LengthError e = worst_length(t, machine.specification);
+  const LengthError e = worst_length(t, residuals_um, machine.specification);
   if (std::abs(e.error_mm) <= kElsewhere * e.mpe_mm + kDeviations * std::sqrt(2.0) * touch_mm) return std::nullopt;
   return e;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/diagnose/diagnosis.hpp"
+#include "engine/diagnose/model/linear.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/run/recorded_touch.hpp"
 
@@ -12,10 +13,11 @@ namespace abbe::diagnose {
 
 /// The worst length, as a share of its MPE, but for the two that are worse: one touch of dirt spoils several. Lengths of one setup, run and
 /// qualified tip, whose ends are touched along them. All 0 where there are no such lengths.
-LengthError worst_length(const RecordedTouches&, const Specification&);
+/// `residuals_um`: how far out each touch is once its setup stands where it fits best, for normals are never quite along a length.
+LengthError worst_length(const RecordedTouches&, const Vector& residuals_um, const Specification&);
 
 /// That length, where it is worse than what any machine of this specification makes of it, elsewhere in its volume and with other styli than in
 /// the acceptance test: by half as much again as its MPE, and what two touches scatter by.
-std::optional<LengthError> beyond_specification(const RecordedTouches&, const Machine&);
+std::optional<LengthError> beyond_specification(const RecordedTouches&, const Vector& residuals_um, const Machine&);
 
 }  // namespace abbe::diagnose

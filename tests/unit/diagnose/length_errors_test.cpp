@@ -36,33 +36,42 @@ RecordedTouches bars(double error_mm) {
   return t;
 }
 
+Vector residuals_um(const RecordedTouches& t) {
+  Vector r(static_cast<Eigen::Index>(t.touches.size()));
+  for (std::size_t i = 0; i < t.touches.size(); ++i) r(static_cast<Eigen::Index>(i)) = 1e3 * t.touches[i].residual_mm;
+  return r;
+}
+
+LengthError worst(const RecordedTouches& t) { return worst_length(t, residuals_um(t), machine().specification); }
+bool beyond(const RecordedTouches& t) { return beyond_specification(t, residuals_um(t), machine()).has_value(); }
+
 }  // namespace
 
 TEST_CASE("a length is wrong by what its ends are too far out along it") {
-  const LengthError outside = worst_length(bars(0.010), machine().specification);
+  const LengthError outside = worst(bars(0.010));
   CHECK(outside.length_mm == doctest::Approx(500));
   CHECK(outside.error_mm == doctest::Approx(0.010));
   CHECK(outside.mpe_mm == doctest::Approx(0.004));
   RecordedTouches steps = bars(0.010);   // faces that look the same way: what both have in common is no error of the length
   for (RecordedTouch& t : steps.touches) t.scene.normal = {1, 0, 0};
-  CHECK(worst_length(steps, machine().specification).error_mm == doctest::Approx(0));
+  CHECK(worst(steps).error_mm == doctest::Approx(0));
 }
 
 TEST_CASE("lengths of two runs, two setups or across the normals are none") {
   RecordedTouches t = bars(0.010);
   for (std::size_t i = 0; i < t.touches.size(); ++i) t.touches[i].scene.setup = static_cast<int>(i);
-  CHECK(worst_length(t, machine().specification).mpe_mm == 0);
+  CHECK(worst(t).mpe_mm == 0);
   t = bars(0.010);
-  for (RecordedTouch& touch : t.touches) touch.scene.normal = {0, 1, 0};
-  CHECK(worst_length(t, machine().specification).mpe_mm == 0);
+  for (RecordedTouch& touch : t.touches) touch.scene.normal = {std::cos(0.02), std::sin(0.02), 0};   // 1.1 degrees
+  CHECK(worst(t).mpe_mm == 0);
 }
 
 TEST_CASE("one and a half MPE and four deviations of two touches are within the specification") {
   const double limit_mm = 1.5 * 0.004 + 4 * 0.0005 * std::sqrt(2.0);
-  CHECK(!beyond_specification(bars(0.99 * limit_mm), machine()));
-  CHECK(beyond_specification(bars(1.01 * limit_mm), machine()));
-  CHECK(beyond_specification(bars(-1.01 * limit_mm), machine()));
+  CHECK(!beyond(bars(0.99 * limit_mm)));
+  CHECK(beyond(bars(1.01 * limit_mm)));
+  CHECK(beyond(bars(-1.01 * limit_mm)));
   RecordedTouches dirty = bars(0);       // one bad touch spoils one length
   dirty.touches[0].residual_mm = 1;
-  CHECK(!beyond_specification(dirty, machine()));
+  CHECK(!beyond(dirty));
 }
