@@ -6,6 +6,7 @@
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 #include "engine/diagnose/baseline/known_state.hpp"
+#include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
 #include "engine/diagnose/case.hpp"
@@ -253,7 +254,9 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
     out.messages.push_back(not_its_targets(c.touches, kHalf, file));
   }
   c.baseline = baseline_of(c.touches, machine, {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
-  out.beyond = c.baseline.beyond;
+  if (!known && c.baseline.surfaces == Surfaces::calibrated && !options.design_only)
+    out.beyond = c.baseline.beyond = beyond_specification(c.touches, without_placement(c.baseline.model), machine);
+  if (out.beyond) hold_to_specification(c.baseline.model);
   add_doubts(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);
   return c;

@@ -2,14 +2,12 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 
-#include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/screening.hpp"
@@ -210,14 +208,6 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   }
   m.y.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) m.y(i) = kUmPerMm * t.touches[i].residual_mm;
-  if (!options.known && options.surfaces == Surfaces::calibrated)
-    out.beyond = beyond_specification(t, m.y - m.free * m.free.colPivHouseholderQr().solve(m.y), machine);
-  if (out.beyond) {
-    // Larger errors of the machine are no explanation then.
-    constexpr double kAsSpecified = 0.1;
-    m.scale_spread = kAsSpecified;
-    m.uneven.clear();
-  }
   m.y -= out.geometry_um * out.mean;
   group_noise(t, machine, out);
   m.follows.assign(n, 0);

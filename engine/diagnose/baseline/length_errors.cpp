@@ -1,5 +1,6 @@
 #include "engine/diagnose/baseline/length_errors.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -17,6 +18,8 @@ bool comparable(const TouchScene& a, const TouchScene& b) {
 double share(const LengthError& e) { return std::abs(e.error_mm) / e.mpe_mm; }
 
 }  // namespace
+
+Vector without_placement(const LinearModel& m) { return m.y - m.free * m.free.colPivHouseholderQr().solve(m.y); }
 
 LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, const Specification& specification) {
   constexpr std::size_t kCount = 3;
@@ -44,6 +47,12 @@ std::optional<LengthError> beyond_specification(const RecordedTouches& t, const 
   const LengthError e = worst_length(t, residuals_um, machine.specification);
   if (std::abs(e.error_mm) <= kElsewhere * e.mpe_mm + kDeviations * std::sqrt(2.0) * touch_mm) return std::nullopt;
   return e;
+}
+
+void hold_to_specification(LinearModel& m) {
+  constexpr double kScaleSpread = 0.1;
+  m.scale_spread = kScaleSpread;
+  m.uneven.clear();
 }
 
 }  // namespace abbe::diagnose

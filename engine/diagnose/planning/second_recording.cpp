@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
+#include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/path.hpp"
@@ -105,6 +106,7 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
   const bool known = !c.machine->known_state.empty();
   Baseline out = baseline_of(longer.touches, longer.machine,
                              {.surfaces = c.baseline.surfaces, .known = known ? &geometry : nullptr, .seed = c.options.seed, .threads = c.options.threads, .sampled = &geometry});
+  if (c.baseline.beyond) hold_to_specification(out.model);
   add_doubts(EffectSet(longer.machine.effects, EffectUse::left_in, longer.machine.name), longer.touches, out);
   if (c.options.workpiece) calibrate(recorded_part(*c.options.workpiece, longer.recording, longer.touches, ""), longer.touches, out);
   return out;

@@ -66,6 +66,20 @@ TEST_CASE("lengths of two runs, two setups or across the normals are none") {
   CHECK(worst(t).mpe_mm == 0);
 }
 
+TEST_CASE("where the part stood is no error of a length") {
+  RecordedTouches t = bars(0);
+  LinearModel m;
+  m.y.resize(6), m.free.resize(6, 2);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    Vec3& normal = t.touches[static_cast<std::size_t>(i)].scene.normal;
+    normal = {normal.x * std::cos(0.01), std::sin(0.01), 0};   // 0.6 degrees
+    m.free.row(i) << normal.x, normal.y;
+    m.y(i) = 2000 * normal.y;                                  // the part stood 2 mm beside its targets
+  }
+  CHECK(worst_length(t, m.y, machine().specification).error_mm == doctest::Approx(0.04).epsilon(0.001));
+  CHECK(worst_length(t, without_placement(m), machine().specification).error_mm == doctest::Approx(0));
+}
+
 TEST_CASE("one and a half MPE and four deviations of two touches are within the specification") {
   const double limit_mm = 1.5 * 0.004 + 4 * 0.0005 * std::sqrt(2.0);
   CHECK(!beyond(bars(0.99 * limit_mm)));
