@@ -3,16 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace abbe::diagnose {
-
-/// The middle value, the upper one of two. The list is not empty.
-inline double median(std::vector<double> v) {
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 /// The value that this share of a list lies below. The list is not empty; 0 <= share < 1.
 inline double quantile(std::vector<double> v, double share) {
@@ -20,5 +14,8 @@ inline double quantile(std::vector<double> v, double share) {
   std::nth_element(v.begin(), at, v.end());
   return *at;
 }
+
+/// The middle value, the upper one of two. The list is not empty.
+inline double median(std::vector<double> v) { return quantile(std::move(v), 0.5); }
 
 }  // namespace abbe::diagnose

@@ -96,23 +96,17 @@ std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, c
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
   const std::vector<Block> in_all = list;
-  for (const LaterRun& at : in_stretches(later, kMostChanges)) {
+  const auto add = [&](const LaterRun& at, bool gone) {
     for (Block block : in_all) {
       if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
       if (moment) block.theta[*moment] = at.between_s, block.cells[*moment] = {at.between_s, at.between_s};
-      block.change = {at.from_run, false};
+      block.change = {at.from_run, gone};
       block.runs = at.runs;
       list.push_back(std::move(block));
     }
-  }
-  if (moment) return list;
-  for (const LaterRun& at : in_stretches(later, kMostGone)) {
-    for (Block block : in_all) {
-      block.change = {at.from_run, true};
-      block.runs = at.runs;
-      list.push_back(std::move(block));
-    }
-  }
+  };
+  for (const LaterRun& at : in_stretches(later, kMostChanges)) add(at, false);
+  for (const LaterRun& at : in_stretches(later, moment ? 0 : kMostGone)) add(at, true);
   return list;
 }
 
@@ -201,6 +195,7 @@ Factor factor_of(const Effect& effect) {
 
 /// Belief before the data that what is found is new in a later run, of what may be in all.
 constexpr double kPriorChange = 0.1;
+
 /// The names share their belief equally, and so do the patterns, but for those that only a change between runs makes.
 void share_priors(Explanations& all) {
   const auto weight = [](const Explanation& e) { return !e.effect && e.factor == Factor::run ? kPriorChange : 1; };

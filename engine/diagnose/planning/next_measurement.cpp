@@ -24,9 +24,7 @@ constexpr std::size_t kShown = 3, kMostRivals = 8, kPaired = 6;
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
 constexpr double kDecides = 0.95;
-/// What a pair of changes must add to it, or one of them is enough.
-constexpr double kAdds = 0.05;
-/// What it must be above guessing, or the measurement is no proposal.
+/// What it must be above guessing, or the measurement is no proposal; and what a pair of changes must add, or one of them is enough.
 constexpr double kAboveChance = 0.05;
 /// The share of what can be gained over guessing below which the answer says beside it what would tell more: of two, a probability of 0.6.
 constexpr double kWorthARound = 0.2;
@@ -244,7 +242,7 @@ class Judge {
   /// Where one change does not decide: two of those that say most by themselves, if the two say more than the better one.
   void add_pairs() {
     std::vector<Scored> singles = list_;
-    std::erase_if(singles, [&](const Scored& s) { return !s.change.changes_touches || s.gain < kAdds / 2; });
+    std::erase_if(singles, [&](const Scored& s) { return !s.change.changes_touches || s.gain < kAboveChance / 2; });
     std::stable_sort(singles.begin(), singles.end(), [](const Scored& a, const Scored& b) { return a.gain > b.gain; });
     if (singles.size() > kPaired) singles.erase(singles.begin() + kPaired, singles.end());
     std::vector<Change> pairs;
@@ -254,7 +252,7 @@ class Judge {
     std::vector<Scored> kept;
     for (Scored& s : scored(pairs)) {
       const auto k = static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Change& c) { return c.text == s.change.text; }) - pairs.begin());
-      if (s.gain > better[k] + kAdds) kept.push_back(std::move(s));
+      if (s.gain > better[k] + kAboveChance) kept.push_back(std::move(s));
     }
     std::move(kept.begin(), kept.end(), std::back_inserter(list_));
     rank();
