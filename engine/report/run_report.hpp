@@ -95,7 +95,7 @@ struct BudgetRuns {
   std::vector<ContributorRun> alone;  ///< each source
   RunResult alignment, feature;       ///< errors only on touches of the one or the other kind
 };
-/// Of each entry of `samples`, the how-manieth evaluation of its labels in its line it is. The turns of
+/// Of each entry of `samples`, which evaluation of its labels in its line it is: 1, 2, ... The turns of
 /// a loop that is written out, and the calls of a macro, are characteristics of their own in the plan;
 /// a reader sees the same labels again.
 std::vector<int> occurrences(const plan::Plan&, const std::vector<Samples>& samples);

@@ -14,7 +14,6 @@
 //   mean of their directions. That is their distance midway between the points of the two
 // - two lines or axes that are not parallel: along their common perpendicular
 // - a plane and a line along it: along the normal of the plane, at the point of the line
-//
 // - planes that are not parallel, and a line that is not along a plane: they meet, and what is left
 //   is from the middle of the one's touches to that of the other's
 //

@@ -16,18 +16,18 @@ Vec3 direction_of(const Arguments& arguments) {
 }
 
 /// From the point of the feature to its farthest point along the unit vector e.
-Outcome<Vec3> farthest(Shape shape, const Element& f, const Vec3& e) {
+Vec3 farthest(Shape shape, const Element& f, const Vec3& e) {
   const Vec3 across = perpendicular_part(e, f.direction);
   const Vec3 out = norm(across) > kParallel ? unit(across) : Vec3{};
   const double end = dot(e, f.direction) < 0 ? f.begin : f.end;
   switch (shape) {
-    case Shape::point: return {Vec3{}};
-    case Shape::sphere: return {f.size * e};
-    case Shape::circle: return {f.size * out};
-    case Shape::plane: return {f.end * out};
-    case Shape::line: return {end * f.direction};
-    case Shape::cylinder: return {end * f.direction + f.size * out};
-    case Shape::torus: return {f.size * out + f.minor_size * e};
+    case Shape::point: return {};
+    case Shape::sphere: return f.size * e;
+    case Shape::circle: return f.size * out;
+    case Shape::plane: return f.end * out;
+    case Shape::line: return end * f.direction;
+    case Shape::cylinder: return end * f.direction + f.size * out;
+    case Shape::torus: return f.size * out + f.minor_size * e;
     default: ABBE_CHECK(false);
   }
 }
@@ -41,9 +41,8 @@ const char* extreme_applies(Shape result, Shapes shapes) {
 Outcome<Element> extreme(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
   const Vec3 along = direction_of(arguments);
   if (!(norm(along) > 0)) return cannot("the direction of EXTREM has no length");
-  const Outcome<Vec3> there = farthest(shapes[0], from[0], arguments.text("end") == "MAX" ? unit(along) : -unit(along));
-  if (!there) return cannot(there.failure);
-  return {{.point = from[0].point + there.value, .direction = nominal.direction}};
+  const Vec3 there = farthest(shapes[0], from[0], arguments.text("end") == "MAX" ? unit(along) : -unit(along));
+  return {{.point = from[0].point + there, .direction = nominal.direction}};
 }
 
 }  // namespace

@@ -16,11 +16,8 @@ namespace {
 constexpr std::size_t kMostPlots = 200;
 
 std::string name_of(const CharacteristicReport& c) {
-  return fmt::format("{}: {} ({}){}", joined(c.features), c.tolerance, c.kind, c.occurrence > 1 ? fmt::format(" #{}", c.occurrence) : "");
+  return joined(c.features) + ": " + tolerance_name(c);
 }
-
-std::string decimal(std::optional<double> value, int decimals) { return value ? fmt::format("{:.{}f}", *value, decimals) : "-"; }
-std::string signed_decimal(std::optional<double> value, int decimals) { return value ? fmt::format("{:+.{}f}", *value, decimals) : "-"; }
 
 std::string characteristics(const RunReport& r) {
   if (r.characteristics.empty()) return html_paragraphs("No characteristic was evaluated.");
@@ -31,10 +28,9 @@ std::string characteristics(const RunReport& r) {
   for (const CharacteristicReport& c : r.characteristics) {
     const int decimals = decimals_for(c.summary.u);
     std::vector<std::string> cells{std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals), decimal(c.summary.u, decimals),
-                                   signed_decimal(c.lcl, decimals), signed_decimal(c.ucl, decimals), decimal(c.lower, kFewestDecimals),
+                                   decimal(c.lcl, decimals, true), decimal(c.ucl, decimals, true), decimal(c.lower, kFewestDecimals),
                                    decimal(c.upper, kFewestDecimals), conforms(c)};
-    for (std::size_t k = 0; k < contributors.size(); ++k)
-      cells.push_back(k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-");
+    for (std::size_t k = 0; k < contributors.size(); ++k) cells.push_back(share_of(c, k));
     rows += html_row(cells);
   }
   return html_table(rows) + fmt::format("<p class=\"note\">{}</p>\n", escaped(report_legend(r)));
@@ -64,14 +60,9 @@ std::string distributions(const RunReport& r) {
   return out + "</div>\n";
 }
 
-/// The sources of one characteristic, the largest first.
 std::string budget(const CharacteristicReport& c) {
-  std::vector<CharacteristicReport::BudgetLine> lines = c.budget;
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
-  std::erase_if(lines, [](const auto& line) { return line.share < kSmallestShare; });
-  lines.insert(lines.end(), c.alignment_split.begin(), c.alignment_split.end());
   std::string rows = html_row({"source", "u, " + c.unit, "share"}, "th");
-  for (const auto& line : lines) rows += html_row({line.name, decimal(line.u, decimals_for(line.u)), fmt::format("{:.1f} %", 100 * line.share)});
+  for (const auto& line : budget_lines(c)) rows += html_row({line.name, decimal(line.u, decimals_for(line.u)), fmt::format("{:.1f} %", 100 * line.share)});
   return "<h3>" + escaped(name_of(c)) + "</h3>\n" + html_table(rows);
 }
 
@@ -85,13 +76,8 @@ std::string budgets(const RunReport& r) {
 std::string intervals(const RunReport& r) {
   if (r.characteristics.empty() || !r.characteristics.front().interval) return "";
   std::string rows = html_row({"characteristic", "unit", "symmetric", "shortest"}, "th");
-  for (const CharacteristicReport& c : r.characteristics) {
-    const int decimals = decimals_for(c.summary.u);
-    const auto from_value = [&](const Interval& i) {
-      return c.reference ? fmt::format("{:+.{}f} to {:+.{}f}", i.low - *c.reference, decimals, i.high - *c.reference, decimals) : "-";
-    };
-    rows += html_row({name_of(c), c.unit, from_value(c.interval->symmetric), from_value(c.interval->shortest)});
-  }
+  for (const CharacteristicReport& c : r.characteristics)
+    rows += html_row({name_of(c), c.unit, from_reference(c, c.interval->symmetric), from_reference(c, c.interval->shortest)});
   return fmt::format("<h2>{:g} % intervals</h2>\n<p class=\"note\">Limits minus value.</p>\n", 100 * r.characteristics.front().interval->coverage) + html_table(rows);
 }
 

@@ -76,6 +76,34 @@ int decimals_for(double u) {
   return std::clamp(1 - exponent, kFewestDecimals, kMostDecimals);
 }
 
+std::string decimal(std::optional<double> value, int decimals, bool sign) {
+  if (!value) return "-";
+  const double shown = std::fabs(*value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : *value;
+  return sign ? fmt::format("{:+.{}f}", shown, decimals) : fmt::format("{:.{}f}", shown, decimals);
+}
+
+std::string tolerance_name(const CharacteristicReport& c) {
+  return fmt::format("{} ({}){}", c.tolerance, c.kind, c.occurrence > 1 ? fmt::format(" #{}", c.occurrence) : "");
+}
+
+std::string from_reference(const CharacteristicReport& c, const Interval& i) {
+  if (!c.reference) return "-";
+  const int decimals = decimals_for(c.summary.u);
+  return decimal(i.low - *c.reference, decimals, true) + " to " + decimal(i.high - *c.reference, decimals, true);
+}
+
+std::string share_of(const CharacteristicReport& c, std::size_t k) {
+  return k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-";
+}
+
+std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicReport& c) {
+  std::vector<CharacteristicReport::BudgetLine> lines = c.budget;
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
+  std::erase_if(lines, [](const auto& line) { return line.share < 0.001; });
+  lines.insert(lines.end(), c.alignment_split.begin(), c.alignment_split.end());
+  return lines;
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;

@@ -1,7 +1,7 @@
-// What the reports for people say in words, and to how many digits: text and page say the same. Each function returns lines that end with a
-// newline, or nothing.
+// What the reports for people say, in words and to how many digits: text and page say the same.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +12,23 @@ namespace abbe {
 /// mm and degrees keep at least so many decimals, and have no more than so many.
 inline constexpr int kFewestDecimals = 4, kMostDecimals = 9;
 
-/// A budget leaves out sources with less than this share of the variance.
-inline constexpr double kSmallestShare = 0.001;
-
 /// Decimals that show two significant digits of u. Below 1 pm it is the rounding of coordinates.
 int decimals_for(double u);
+
+/// "12.340", or with its sign "+12.340"; "-" where there is none, and no "-0.0000".
+std::string decimal(std::optional<double> value, int decimals, bool sign = false);
+
+/// "SIZE (DIAM)", of a further evaluation "SIZE (DIAM) #2".
+std::string tolerance_name(const CharacteristicReport&);
+
+/// "-0.0012 to +0.0034": the ends of an interval of values, minus the reference; "-" where there is none.
+std::string from_reference(const CharacteristicReport&, const Interval&);
+
+/// The share of the k-th contributor: "62 %"; "-" where it is not known.
+std::string share_of(const CharacteristicReport&, std::size_t k);
+
+/// What a budget shows: the sources, the largest first, without those below a thousandth of the variance; then alignment and feature.
+std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicReport&);
 
 /// Share of conforming machines: "99.8 %"; and of how many, where a condition sent some past it.
 std::string conforms(const CharacteristicReport&);
@@ -26,6 +38,8 @@ std::string joined(const std::vector<std::string>& words);
 
 /// From the first characteristic that knows its shares.
 std::vector<std::string> contributor_names(const RunReport&);
+
+// Lines that end with a newline, or nothing.
 
 /// What was run, on what.
 std::string report_header(const RunReport&);

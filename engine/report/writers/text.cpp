@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/report/writer.hpp"
 #include "engine/report/writers/sentences.hpp"
@@ -16,13 +15,9 @@ namespace abbe {
 namespace {
 
 /// A number with `decimals`, followed by blanks up to the width of `most` decimals.
-std::string aligned(std::optional<double> value, int decimals, int most, const char* sign = "-") {
-  if (!value) return "-" + std::string(most + 1, ' ');
-  const double rounded =
-      std::fabs(*value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : *value;  // no "-0.0000"
-  const std::string number = *sign == '+' ? fmt::format("{:+.{}f}", rounded, decimals)
-                                          : fmt::format("{:.{}f}", rounded, decimals);
-  return number + std::string(most - decimals, ' ');
+std::string aligned(std::optional<double> value, int decimals, int most, bool sign = false) {
+  const int after = value ? most - decimals : most + 1;
+  return decimal(value, decimals, sign) + std::string(static_cast<std::size_t>(after), ' ');
 }
 
 std::vector<Table::Column> columns(const std::vector<std::string>& contributors) {
@@ -42,22 +37,18 @@ std::string characteristics_table(const RunReport& r) {
   Table table(columns(contributors));
   for (const auto& c : r.characteristics) {
     const int decimals = decimals_for(c.summary.u);
-    const std::string repeat = c.occurrence > 1 ? fmt::format(" #{}", c.occurrence) : "";
     std::vector<std::string> cells{std::to_string(c.line),
                                    joined(c.features),
-                                   fmt::format("{} ({}){}", c.tolerance, c.kind, repeat),
+                                   tolerance_name(c),
                                    c.unit,
                                    aligned(c.reference, decimals, most),
                                    aligned(c.summary.u, decimals, most),
-                                   aligned(c.lcl, decimals, most, "+"),
-                                   aligned(c.ucl, decimals, most, "+"),
+                                   aligned(c.lcl, decimals, most, true),
+                                   aligned(c.ucl, decimals, most, true),
                                    aligned(c.lower, kFewestDecimals, most),
                                    aligned(c.upper, kFewestDecimals, most),
                                    conforms(c)};
-    for (std::size_t k = 0; k < contributors.size(); ++k)
-      cells.push_back(k < c.contributions.size()
-                          ? fmt::format("{:.0f} %", 100 * c.contributions[k].share)
-                          : "-");
+    for (std::size_t k = 0; k < contributors.size(); ++k) cells.push_back(share_of(c, k));
     table.add(std::move(cells));
   }
   return table.to_text();
@@ -69,23 +60,15 @@ std::string budget_table(const RunReport& r) {
   Table table(
       {{"line"}, {"feature", left}, {"tolerance", left}, {"source", left}, {"u"}, {"share"}});
   bool any = false;
-  for (const auto& c : r.characteristics) {
-    const auto add = [&](const CharacteristicReport::BudgetLine& line) {
+  for (const auto& c : r.characteristics)
+    for (const auto& line : budget_lines(c)) {
       any = true;
       table.add({std::to_string(c.line), joined(c.features), c.tolerance, line.name,
-                 fmt::format("{:.{}f} {}", line.u, decimals_for(line.u), c.unit),
+                 decimal(line.u, decimals_for(line.u)) + " " + c.unit,
                  fmt::format("{:.1f} %", 100 * line.share)});
-    };
-    auto sources = c.budget;
-    std::stable_sort(sources.begin(), sources.end(),
-                     [](const auto& a, const auto& b) { return a.share > b.share; });
-    for (const auto& line : sources)
-      if (line.share >= kSmallestShare) add(line);
-    for (const auto& line : c.alignment_split) add(line);
-  }
+    }
   if (!any) return "";
-  return "\n" + table.to_text() +
-         "\n" + budget_legend() + "\n";
+  return "\n" + table.to_text() + "\n" + budget_legend() + "\n";
 }
 
 /// The intervals of another coverage probability; nothing when none was asked for.
@@ -100,16 +83,9 @@ std::string interval_table(const RunReport& r) {
                {"unit", left},
                {"symmetric " + percent, left},
                {"shortest " + percent, left}});
-  for (const auto& c : r.characteristics) {
-    const int decimals = decimals_for(c.summary.u);
-    const auto from_value = [&](const Interval& i) {
-      if (!c.reference) return std::string("-");
-      return fmt::format("{:+.{}f} to {:+.{}f}", i.low - *c.reference, decimals,
-                         i.high - *c.reference, decimals);
-    };
+  for (const auto& c : r.characteristics)
     table.add({std::to_string(c.line), joined(c.features), c.tolerance, c.unit,
-               from_value(c.interval->symmetric), from_value(c.interval->shortest)});
-  }
+               from_reference(c, c.interval->symmetric), from_reference(c, c.interval->shortest)});
   return "\n" + table.to_text() + "\nlimits minus value.\n";
 }
 
