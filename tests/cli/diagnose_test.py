@@ -8,17 +8,10 @@ import harness
 PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"   # one sphere, five orientations of the head, 125 touches
 MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
 
-# Nine touches on either end of a bar of 500 mm along x.
-BAR = """DMISMN/'a bar',4.0
-UNITS/MM,ANGDEC
-S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,100.0,4.0
-SNSLCT/S(P)
-D(M)=DATSET/MCS
-D(R)=TRANS/XORIG,500,YORIG,500,ZORIG,-400
-F(A)=FEAT/PLANE,CART,0,0,0,-1,0,0
-F(B)=FEAT/PLANE,CART,500,0,0,1,0,0
-""" + "".join(f"MEAS/PLANE,F({label}),9\n" + "".join(f"PTMEAS/CART,{x},{y},{z},{n},0,0\n" for y in (-20, 0, 20) for z in (-20, 0, 20)) + "ENDMES\n"
-              for label, x, n in (("A", 0, -1), ("B", 500, 1))) + "ENDFIL\n"
+# Nine touches on either end of a bar of 500 mm along x, in the middle of the machine.
+BAR = harness.LENGTH.split("F(A)=")[0] + "F(A)=FEAT/PLANE,CART,-400,0,0,-1,0,0\nF(B)=FEAT/PLANE,CART,100,0,0,1,0,0\n" + "".join(
+    f"MEAS/PLANE,F({label}),9\n" + "".join(f"PTMEAS/CART,{x},{y},{z},{n},0,0\n" for y in (-20, 0, 20) for z in (-20, 0, 20)) + "ENDMES\n"
+    for label, x, n in (("A", -400, -1), ("B", 100, 1))) + "ENDFIL\n"
 
 
 class Diagnose(harness.Case):
