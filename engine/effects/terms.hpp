@@ -1,14 +1,11 @@
-// Small words that many effects use: units of their parameters, directions given by two angles,
-// codes, and the parameters that mean the same everywhere.
+// Small words that many effects use: units of their parameters (math/units.hpp), directions given by
+// two angles, codes, and the parameters that mean the same everywhere.
 #pragma once
 
 #include "engine/effects/effect.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
-
-inline constexpr double kUm = 1e-3;           ///< mm per um
-inline constexpr double kUrad = 1e-6;         ///< rad per urad
-inline constexpr double kDegree = kPi / 180;  ///< rad per degree
 
 /// The code of a parameter that is a choice or an ordinal.
 inline int code(double value) { return static_cast<int>(value + 0.5); }

@@ -5,12 +5,11 @@
 
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/head.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
 namespace {
-
-constexpr double kDegree = kPi / 180;
 
 using Touch = StandardTouch;
 

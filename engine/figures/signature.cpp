@@ -9,12 +9,12 @@
 #include "engine/base/ids.hpp"
 #include "engine/figures/scenes.hpp"
 #include "engine/lanes/random.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
 namespace {
 
-constexpr double kUmPerMm = 1e3;
 constexpr int kLineSamples = 480, kPointSamples = 600;
 constexpr double kMatters =
     0.1;  ///< share of the largest |r| from which a change is worth a figure

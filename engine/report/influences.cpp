@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <string_view>
 
+#include "engine/math/units.hpp"
+
 namespace abbe {
 
 namespace {
-
-constexpr double kUmPerMm = 1e3;
 
 /// What makes an influence modelled that is not part of every simulation.
 struct Row {

@@ -10,13 +10,13 @@
 
 #include "engine/base/json_reader.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
 namespace {
 
 constexpr std::string_view kKey = "sensor ";
-constexpr double kDegree = kPi / 180;
 
 /// A word of a sensor line and the numbers behind it, as in a machine file.
 struct SensorWord {

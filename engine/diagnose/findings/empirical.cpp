@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/effects/empirical/empirical.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe::diagnose {
 
@@ -37,7 +38,6 @@ Piece curve(const Case& c, CurveCoordinate along) {
 
 /// One offset for each stylus system or each orientation.
 std::vector<Piece> offsets(const Case& c, bool by_sensor) {
-  constexpr double kDegree = kPi / 180;
   std::set<std::vector<double>> groups;
   for (const int i : c.rows) {
     const StylusScene& s = c.touches.touches[static_cast<std::size_t>(i)].scene.stylus;

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <map>
 
+#include "engine/math/units.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
 
 constexpr double kWide = 30;         // prior standard deviations
-constexpr double kDegree_rad = kPi / 180;
 
 /// The part of the information on some columns that others do not share, of the whole; none where there is no information.
 double own_share(const Matrix& g, const std::vector<Eigen::Index>& columns, const std::vector<Eigen::Index>& others) {
@@ -121,7 +122,7 @@ std::optional<SpannedDirection> VariantEstimate::direction() const {
 std::optional<Estimate> VariantEstimate::phase_deg(int parameter) const {
   const std::optional<Motion> m = phases_ > 1 ? motion(parameter) : std::nullopt;
   if (!m || m->size == 0) return std::nullopt;
-  return Estimate{std::atan2(m->phase(1), m->phase(0)) / kDegree_rad, std::sqrt(across_phases(m->covariance, m->along, m->phase)) / m->size / kDegree_rad};
+  return Estimate{std::atan2(m->phase(1), m->phase(0)) / kDegree, std::sqrt(across_phases(m->covariance, m->along, m->phase)) / m->size / kDegree};
 }
 
 }  // namespace abbe::diagnose

@@ -18,14 +18,14 @@
 #include <utility>
 #include <vector>
 
+#include "engine/math/units.hpp"
+
 namespace abbe::diagnose {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// The models are in um and urad, the engine in mm and rad.
-inline constexpr double kUmPerMm = 1e3, kUradPerRad = 1e6;
-
+/// Of residuals in um.
 struct LinearModel {
   Vector y;                         ///< um
   Matrix free;                      ///< X, one column per unknown of which nothing is known

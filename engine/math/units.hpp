@@ -1,0 +1,14 @@
+// Units that parameters and models are given in beside mm and rad, in which everything is computed.
+#pragma once
+
+#include "engine/math/vec.hpp"
+
+namespace abbe {
+
+inline constexpr double kUm = 1e-3;           ///< mm per um
+inline constexpr double kUmPerMm = 1e3;       ///< um per mm
+inline constexpr double kUrad = 1e-6;         ///< rad per urad
+inline constexpr double kUradPerRad = 1e6;    ///< urad per rad
+inline constexpr double kDegree = kPi / 180;  ///< rad per degree
+
+}  // namespace abbe
