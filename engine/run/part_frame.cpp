@@ -1,9 +1,11 @@
 #include "engine/run/part_frame.hpp"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/math/rigid_fit.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
@@ -54,7 +56,29 @@ std::optional<Rigid> carried(const Known& here, const Known& first) {
   return X;
 }
 
+/// To 1 um and 1 urad.
+std::array<long, 12> rounded(const Rigid& X) {
+  std::array<long, 12> key{};
+  auto out = key.begin();
+  for (const Vec3& column : {X.R.cx, X.R.cy, X.R.cz})
+    for (int k = 0; k < 3; ++k) *out++ = std::lround(kUradPerRad * column[k]);
+  for (int k = 0; k < 3; ++k) *out++ = std::lround(kUmPerMm * X.p[k]);
+  return key;
+}
+
 }  // namespace
+
+void FrameCount::add(const Rigid& X_WD) {
+  const int order = static_cast<int>(used_.size());
+  ++used_.try_emplace(rounded(X_WD), Used{X_WD, 0, order}).first->second.touches;
+}
+
+Rigid FrameCount::most_used() const {
+  Used best;
+  for (const auto& [key, used] : used_)
+    if (used.touches > best.touches || (used.touches == best.touches && used.order < best.order)) best = used;
+  return best.X_WD;
+}
 
 PartFrames::PartFrames(const std::vector<AimedTouch>& touches) {
   std::map<int, Known> points, centres;

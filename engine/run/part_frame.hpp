@@ -1,9 +1,15 @@
-// The part's own coordinates in every setup of a recording: those of the first setup, with the centre of its targets as origin. Other
+// The part's own coordinates, in which what the part does is given: where it grows, bows, or is out of form.
+//
+// In a program, the coordinate system in which most touches are made, of equally many the first. One for all touches: the part does not move
+// when the program changes its coordinate system.
+//
+// In a recording, which has no such systems, those of the machine in the first setup, with the centre of its targets as origin. Other
 // setups are brought onto them by what they share with it, with the best rigid transform (rigid_fit): the touches of the same feature and
 // index where these are the same points of the part, else the centres of the features that are touched from enough sides to have one
 // (balls, mostly). A setup that shares too little keeps the orientation of the machine's axes.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,6 +17,22 @@
 #include "engine/math/vec.hpp"
 
 namespace abbe {
+
+/// Counts the touches in each coordinate system of a program.
+class FrameCount {
+ public:
+  /// A touch under the coordinate system X_WD.
+  void add(const Rigid& X_WD);
+  /// X_WP; the machine's system where nothing is touched.
+  Rigid most_used() const;
+
+ private:
+  struct Used {
+    Rigid X_WD;
+    int touches = 0, order = 0;
+  };
+  std::map<std::array<long, 12>, Used> used_;   ///< by its numbers, rounded to 1 um and 1 urad: a system that is made again is the same
+};
 
 /// Where a touch was aimed, in the machine's coordinates.
 struct AimedTouch {

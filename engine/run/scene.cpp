@@ -37,8 +37,8 @@ TouchScene BlockRun::scene_of(const plan::Touch& touch, int slot) const {
   scene.normal = touch_batch.surface_normal.get(slot);
   scene.travel = motion.travel;
   scene.reading = touch_batch.reading.get(slot);
-  scene.on_part = inverse(twin.X_WD) * scene.point;
-  scene.normal_on_part = transpose(twin.X_WD.R) * scene.normal;
+  scene.on_part = executor.X_PW_ * scene.point;
+  scene.normal_on_part = executor.X_PW_.R * scene.normal;
   scene.stylus = stylus_scene(executor.sensors_[twin.sensor.value]);
   scene.time_s = motion.time_s;
   scene.speed_mm_s = motion.speed_mm_s;
@@ -113,7 +113,10 @@ void BlockRun::add_part(int machines) {
 
 void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   const int lane = touch_batch.lane[slot];
-  if (lane == block.reference()) observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
+  if (lane == block.reference()) {
+    observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
+    observed->frames.add(block.lanes[lane].X_WD);
+  }
   if (lane != 0 || block.machines == 0) return;
   observed->rows.push_back(recording_row(touch, slot));
   const Rigid X_MW{Mat3{}, -executor.options_.placement_mm};

@@ -7,6 +7,8 @@ import subprocess
 import sys
 import tempfile
 
+import harness
+
 ABBE = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "gauge_block_h1"
@@ -120,8 +122,33 @@ def check_documented_example(folder):
     assert abs(json.loads(done.stdout)["characteristics"][0]["reference"] - 40.0021) < 1e-6, done.stdout
 
 
+def check_part_stays_where_it_is(folder):
+    # 100 mm of a part that is 1 K warmer than assumed, at 10 ppm/K, are 1 um longer, and a bow of 1 um at 100 mm lowers one end by
+    # 1 um against the other; in whichever coordinate system the program touches them.
+    length = harness.LENGTH.replace("F(B)=", "F(C)=FEAT/POINT,CART,0,0,0,0,0,1\nMEAS/POINT,F(C),1\nPTMEAS/CART,0,0,0,0,0,1\nENDMES\nF(B)=").replace(
+        "T(LEN)=", "F(D)=FEAT/POINT,CART,100,0,0,0,0,1\nMEAS/POINT,F(D),1\nPTMEAS/CART,100,0,0,0,0,1\nENDMES\nT(LEN)=").replace(
+        "ENDFIL", "T(UP)=TOL/DISTB,NOMINL,0.0,-0.01,0.01,ZAXIS\nOUTPUT/FA(C),FA(D),TA(UP)\nENDFIL")
+    moved = length.replace("F(B)=", "D(S)=TRANS/XORIG,100\nF(B)=").replace("POINT,CART,100,0,0", "POINT,CART,0,0,0").replace("PTMEAS/CART,100,0,0", "PTMEAS/CART,0,0,0")
+    effects = {"thermal.part_expansion": ({"temperature_error_K": 1, "cte_ppm_per_K": 10}, (0.001, 0)),
+               "part.clamping": ({"bow_um": 1, "half_size_mm": 100}, (0, 0.001))}
+    plain = json.loads(abbe("machine", "init", "m").stdout)
+
+    def means(program, effect):
+        (folder / "p.dmi").write_text(program)
+        (folder / "m.json").write_text(json.dumps(plain | {"effects": [effect] if effect else []}))
+        done = abbe("run", folder / "p.dmi", "--machine", folder / "m.json", "--machines", 20, "--format", "json")
+        assert done.returncode == 0, done.stderr
+        return [c["mean"] for c in json.loads(done.stdout)["characteristics"]]
+
+    for name, (parameters, expected) in effects.items():
+        for program in (length, moved):
+            before, after = means(program, None), means(program, {"name": name, "parameters": parameters})
+            grown = [a - b for a, b in zip(after, before)]
+            assert all(abs(abs(g) - e) < 1e-5 for g, e in zip(grown, expected)), (name, program == moved, grown)
+
+
 with tempfile.TemporaryDirectory() as temporary:
-    for check in (check_gauge_block, check_options, check_refusals, check_documented_example):
+    for check in (check_gauge_block, check_options, check_refusals, check_documented_example, check_part_stays_where_it_is):
         try:
             check(pathlib.Path(temporary))
         except AssertionError as failure:
