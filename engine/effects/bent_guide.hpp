@@ -8,6 +8,10 @@
 //
 //   d_z = + k s^2 / 2 + k s l_i        d_i = - k s l_z
 //
+// A carriage that carries the part stands at -s on its guide when the scale reads s, and what it
+// does the surface does: d_z = - k s^2 / 2 + k s l_i, with the lever to the point on the part, and
+// the same d_i.
+//
 // Height and slope count from the scale's zero, as in the error functions of the geometric model.
 // Another origin changes d only by a rigid motion (and the scale of axis i if also l_z were counted
 // from elsewhere), which an alignment takes out.
@@ -23,7 +27,7 @@ namespace abbe {
 constexpr Vec3 bent_guide(const TouchScene& scene, int axis, double curvature_per_mm) {
   const double s = scene.reading[axis], slope = curvature_per_mm * s;
   const Vec3& lever = scene.lever_mm[axis];
-  Vec3 d{0, 0, slope * s / 2 + slope * lever[axis]};
+  Vec3 d{0, 0, scene.side[axis] * slope * s / 2 + slope * lever[axis]};
   d[axis] = -slope * lever.z;
   return d;
 }

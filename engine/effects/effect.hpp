@@ -90,6 +90,9 @@ struct TouchScene {
   /// From the origin of each carriage's frame (x, y, z) to the tip, W: the arm on which a rotation of that carriage acts. For x it
   /// is l_y + l_z + l_m + t of the geometric model (machine/geometry.hpp).
   Vec3 lever_mm[3];
+  /// Of each axis: 1 where its carriage carries the ram, -1 where it carries the part. Its lever then runs to the point on the part.
+  double side[3] = {1, 1, 1};
+  int on_table = 0, on_bridge = 1;  ///< the horizontal axis whose guide lies on the table (or under it), and the one along the bridge
 };
 
 /// Where in the chain of a touch an effect acts. Within a stage displacements add.

@@ -346,7 +346,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     s.touch = static_cast<int>(out.touches.size());
     s.feature = label_index(out.features, row.feature);
     fill_covariates(row, machine, s.touch, s);
-    set_levers(machine, s);
+    set_structure(machine, s);
     if (row.reading_mm) {
       t.beyond_target_mm = t.residual_mm;
       s.reading = *row.reading_mm - t.residual_mm * s.normal;

@@ -54,7 +54,7 @@ TouchScene BlockRun::scene_of(const plan::Touch& touch, int slot) const {
   scene.feature = touch.feature.value;
   scene.curved = !is_flat(executor.plan_[touch.feature].kind->shape);
   scene.visit = static_cast<int>(twin.indexings);
-  set_levers(executor.machine_, scene);
+  set_structure(executor.machine_, scene);
   return scene;
 }
 

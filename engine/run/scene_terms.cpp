@@ -22,12 +22,18 @@ StylusScene stylus_scene(const Sensor& sensor) {
   return s;
 }
 
-void set_levers(const Machine& machine, TouchScene& scene) {
+void set_structure(const Machine& machine, TouchScene& scene) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const int k = static_cast<int>(axis);
+    const AxisLever lever = axis_lever(machine, axis);
     scene.travel_length_mm[k] = machine[axis].travel_mm;
-    scene.lever_mm[k] = axis_lever(machine, axis).at(scene.reading, scene.stylus.tip_from_mount_mm);
+    scene.lever_mm[k] = lever.at(scene.reading, scene.stylus.tip_from_mount_mm);
+    scene.side[k] = lever.sign;
   }
+  // The bridge carries the last horizontal axis of the ram.
+  for (const Axis axis : machine.ram_chain)
+    if (axis != Axis::z) scene.on_bridge = static_cast<int>(axis);
+  scene.on_table = 1 - scene.on_bridge;
 }
 
 }  // namespace abbe

@@ -9,7 +9,7 @@ namespace abbe {
 
 /// The stylus system as effects see it.
 StylusScene stylus_scene(const Sensor&);
-/// Travel of the axes and levers of the carriages, from the readings and the stylus of the scene.
-void set_levers(const Machine&, TouchScene&);
+/// How the machine is built: travel of the axes, what their carriages carry, and their levers, from the readings and the stylus of the scene.
+void set_structure(const Machine&, TouchScene&);
 
 }  // namespace abbe

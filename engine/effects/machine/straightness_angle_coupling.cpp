@@ -69,7 +69,7 @@ Vec3 straightness_angle_coupling(const TouchScene& scene, const double* theta, c
   for (int plane = 0; plane < 2; ++plane) {
     const Vec3 across = axis_vector((axis + 1 + plane) % 3);
     const Carriage e = carriage(k, x, 0.5 * theta[1], z + 2 * kHarmonics * plane);
-    d += e.offset * across;
+    d += scene.side[axis] * e.offset * across;
     rotation += e.slope * cross(axis_vector(axis), across);
   }
   return theta[0] * kUm * (d + cross(rotation, scene.lever_mm[axis]));

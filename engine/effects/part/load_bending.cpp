@@ -4,6 +4,8 @@
 //   d_z = - k [ s_x^2/2 + s_x l_x + q (s_y^2/2 + s_y l_y) ]
 //   d_x = + k s_x l_z      d_y = + q k s_y l_z
 //
+// x stands for the axis whose guide lies on the table: y where that carries the part.
+//
 // To first order a central load makes a bowl: equal curvatures along x and y (q = 1). Rails of x at
 // the sides of the table follow its curvature along x only (q = 0). The guides pitch with their
 // slope, so the sag comes with its Abbe part (bent_guide.hpp; here the middle is low, which is a
@@ -45,9 +47,10 @@ constexpr EffectParameter kLoadBendingParameters[] = {
 };
 
 Vec3 load_bending(const TouchScene& scene, const double* theta, const double*) {
-  const double load = (scene.load_kg + theta[1]) / kRatedLoad_kg, travel = scene.travel_length_mm.x;
+  const double load = (scene.load_kg + theta[1]) / kRatedLoad_kg, travel = scene.travel_length_mm[scene.on_table];
   const double curvature = 8 * theta[0] * kUm * load / (travel * travel);
-  return bent_guide(scene, 0, -curvature) + bent_guide(scene, 1, -theta[2] * curvature);
+  return bent_guide(scene, scene.on_table, -curvature) +
+         bent_guide(scene, 1 - scene.on_table, -theta[2] * curvature);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 //
 //   beam:  k = a dT / h      d_z = + k s^2 / 2 + k s l_y     d_y = - k s l_z
 //          s: reading of y, l: lever from the saddle to the tip
+//          y: the horizontal axis along the bridge; x where y carries the part
 //   legs:  f = a H dT_legs / W  (rad)     d = - (f e_x) x (lever from the foot of the guided leg)
 //
 // dT (top minus bottom of the beam) and dT_legs (leg at large y minus leg at small y) are
@@ -74,19 +75,22 @@ constexpr EffectParameter kBridgeBendingParameters[] = {
      .standard = 1200},
 };
 
-/// A bridge that is turned about +X by `roll_rad`, on a foot `leg_length_mm` below the saddle's
+/// A bridge along y that is turned about +X by `roll_rad` (along x: about -Y), on a foot `leg_length_mm` below the saddle's
 /// frame at home.
 Vec3 rolled(const TouchScene& scene, double roll_rad, double leg_length_mm) {
-  const Vec3& from_saddle = scene.lever_mm[1];
-  const double above_foot = from_saddle.z + leg_length_mm, across = scene.reading.y + from_saddle.y;
-  return {0, roll_rad * above_foot, -roll_rad * across};
+  const int along = scene.on_bridge;
+  const Vec3& from_saddle = scene.lever_mm[along];
+  const double across = scene.reading[along] + from_saddle[along];
+  Vec3 d{0, 0, -roll_rad * across};
+  d[along] = roll_rad * (from_saddle.z + leg_length_mm);
+  return d;
 }
 
 Vec3 bridge_bending(const TouchScene& scene, const double* theta, const double*) {
   const double beam_K = theta[0] + theta[2] * scene.temperature.bridge_gradient_K;
   const double legs_K = theta[1] + theta[2] * scene.temperature.legs_difference_K;
   const double roll_rad = theta[3] * kPpm * theta[5] * legs_K / theta[6];
-  return bent_guide(scene, 1, thermal_curvature(theta[3], beam_K, theta[4])) +
+  return bent_guide(scene, scene.on_bridge, thermal_curvature(theta[3], beam_K, theta[4])) +
          rolled(scene, roll_rad, theta[5]);
 }
 

@@ -3,6 +3,7 @@
 //   k = a dT / h      d_z = + k s^2 / 2 + k s l_x      d_x = - k s l_z
 //   s: reading of x, l: lever from the x carriage to the tip
 //
+// x stands for the horizontal axis whose guide lies on the table: y where that carries the part.
 // dT = gradient_K + logged_share * (top minus bottom as logged). One coefficient makes a parabola
 // in z over x and, because the carriage pitches, an Abbe error in x that grows with x and with the
 // height above the x scale (bent_guide.hpp). The part is stiff or stands on three points: it does
@@ -52,7 +53,7 @@ constexpr EffectParameter kTableBendingParameters[] = {
 
 Vec3 table_bending(const TouchScene& scene, const double* theta, const double*) {
   const double difference_K = theta[0] + theta[1] * scene.temperature.table_top_minus_bottom_K;
-  return bent_guide(scene, 0, thermal_curvature(theta[2], difference_K, theta[3]));
+  return bent_guide(scene, scene.on_table, thermal_curvature(theta[2], difference_K, theta[3]));
 }
 
 }  // namespace

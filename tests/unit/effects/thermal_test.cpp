@@ -111,6 +111,20 @@ TEST_CASE("table bending: another origin of x is a rigid turn") {
   CHECK(up.z == doctest::Approx(0));
 }
 
+TEST_CASE("table bending: a table that moves along y carries the surface along the arch of its guide") {
+  // The table stands at -s and the point of the part at c from its frame: an arch of curvature k lifts it by k s^2/2 + k s c, the
+  // parabola that the guide itself has.
+  const double k = 6.5e-6 * 0.5 / 200, c = -300, height = 250;
+  for (const double s : {-600.0, 0.0, 200.0, 700.0}) {
+    TouchScene scene = touch_at({50, s, 0}, {40, c + s, height});
+    scene.side[1] = -1, scene.on_table = 1, scene.on_bridge = 0;
+    const Vec3 d = displacement_mm(kTableBending, scene, {{"gradient_K", 0.5}});
+    CHECK(d.z == doctest::Approx(k * s * s / 2 + k * s * c));
+    CHECK(d.y == doctest::Approx(-k * s * height));
+    CHECK(d.x == 0);
+  }
+}
+
 TEST_CASE("table bending: the logged gradient bends by its share") {
   TouchScene scene = touch_at({800, 0, 0}, {});
   scene.temperature.table_top_minus_bottom_K = 0.5;
