@@ -66,7 +66,7 @@ CLI::Option* add_number(CLI::App* command, const std::string& option, Value& val
 }
 
 void add_threads(CLI::App* command, int& threads) {
-  add_number(command, "--threads", threads, fmt::format("1 to {}; default: all of the computer; the result does not depend on it", kMostThreads))->type_name("T");
+  add_number(command, "--threads", threads, fmt::format("1 to {}; 0, the default: all of the computer; the result does not depend on it", kMostThreads))->type_name("T");
 }
 
 void add_settings(CLI::App* command, StudySettings& s) {

@@ -107,6 +107,8 @@ struct EffectParameter {
   double standard = 0;        ///< value when a user gives none
   bool linear = false;        ///< the displacement is linear in all linear parameters jointly
   std::span<const std::string_view> choices = {};  ///< names of the codes low, low + 1, ... of a parameter that is a choice
+  /// Whether it is a choice or an ordinal: a whole number, and certain.
+  constexpr bool is_code() const { return unit == "code"; }
 };
 
 /// The names of the codes 0, 1, 2 of every parameter `axis`.

@@ -9,6 +9,7 @@
 #include <array>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -94,9 +95,13 @@ struct EffectSetting {
   struct Value {
     double value = 0, u = 0;
     std::string word;                  ///< of a parameter that names something ("axis": "x")
+    Span span = {};                    ///< where it stands in `file`
   };
   std::string name;
   std::map<std::string, Value> parameters;
+  std::shared_ptr<const SourceFile> file = {};  ///< the machine file, if it comes from one
+  Span span = {};                          ///< of the name in it
+  std::string option = {};                 ///< else what the command line says: "--with machine.scale"
 };
 
 struct Machine {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "engine/base/json_reader.hpp"
@@ -241,12 +242,15 @@ NamedSensor read_sensor(JsonObject object) {
   return sensor;
 }
 
-EffectSetting read_effect(JsonObject object) {
+EffectSetting read_effect(JsonObject object, const std::shared_ptr<const SourceFile>& file) {
   EffectSetting effect;
+  effect.file = file;
   effect.name = object.text("name");
+  effect.span = object.span_of("name");
   JsonObject parameters = object.object_or_absent("parameters");
   for (const std::string& key : parameters.own_names()) {
     EffectSetting::Value& parameter = effect.parameters[key];
+    parameter.span = parameters.span_of(key);
     if (parameters.kind_of(key) == JsonNode::Kind::object) {
       JsonObject value = parameters.object(key);
       parameter.value = value.number("value");
@@ -289,8 +293,9 @@ Machine parse_machine(const std::string& file, const std::string& text) {
   JsonObject sensors = root.object_or_absent("sensors");
   for (const std::string& key : sensors.own_names())
     machine.sensors[key] = read_sensor(sensors.object(key));
+  const auto source = std::make_shared<const SourceFile>(file, text);
   for (const JsonObject& effect : root.object_list("effects"))
-    machine.effects.push_back(read_effect(effect));
+    machine.effects.push_back(read_effect(effect, source));
   machine.bounds = read_bounds(root);
   machine.known_state = root.raw("known_state");
   reader.finish();

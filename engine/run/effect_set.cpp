@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/lanes/random.hpp"
@@ -22,31 +24,59 @@ std::string did_you_mean(std::string_view name, const std::vector<std::string_vi
   return near.empty() ? otherwise : "did you mean '" + near + "'?";
 }
 
-const Effect& registered(const std::string& name, const std::string& machine) {
-  if (const Effect* effect = find_effect(name)) return *effect;
-  std::vector<std::string_view> names;
-  for (const Effect* e : effects()) names.push_back(e->name);
-  throw UserError(diagnostic(Code::E0305, fmt::format("machine '{}' asks for an unknown effect '{}'", machine, name),
-                             did_you_mean(name, names, "`abbe explain effects` lists them")));
-}
+/// A setting that cannot be used, said where it stands.
+class Refusal {
+ public:
+  Refusal(const EffectSetting& setting, const std::string& machine)
+      : setting_(setting), whose_(setting.option.empty() ? fmt::format("machine '{}'", machine) : setting.option) {}
 
-int parameter_index(const Effect& effect, const std::string& name, const std::string& machine) {
-  std::vector<std::string_view> names;
-  for (const EffectParameter& p : effect.parameters) {
-    if (p.name == name) return static_cast<int>(names.size());
-    names.push_back(p.name);
+  [[noreturn]] void unknown_effect() const {
+    std::vector<std::string_view> names;
+    for (const Effect* e : effects()) names.push_back(e->name);
+    refuse(setting_.span, Code::E0305, "unknown effect", did_you_mean(setting_.name, names, "`abbe explain` lists them"));
   }
-  throw UserError(diagnostic(Code::E0306, fmt::format("effect '{}' of machine '{}' has no parameter '{}'", effect.name, machine, name),
-                             did_you_mean(name, names, fmt::format("it has: {}", fmt::join(names, ", ")))));
+  [[noreturn]] void unknown_parameter(const Effect& effect, const std::string& name, Span span) const {
+    std::vector<std::string_view> names;
+    for (const EffectParameter& p : effect.parameters) names.push_back(p.name);
+    refuse(span, Code::E0306, fmt::format("it has no parameter '{}'", name), did_you_mean(name, names, fmt::format("it has: {}", fmt::join(names, ", "))));
+  }
+  [[noreturn]] void impossible(const EffectParameter& p, const std::string& value, Span span) const {
+    const std::string help = !p.choices.empty() ? fmt::format("give one of: {}", fmt::join(p.choices, ", "))
+                             : p.is_code()      ? fmt::format("give a whole number from {:g} to {:g}", p.low, p.high)
+                                                : fmt::format("give a number from {:g} to {:g} {}", p.low, p.high, p.unit);
+    refuse(span, Code::E0307, fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
+  }
+  [[noreturn]] void uncertain_choice(const EffectParameter& p, Span span) const {
+    refuse(span, Code::E0307, fmt::format("{} is a choice and has no uncertainty", p.name), "leave \"u\" out");
+  }
+
+ private:
+  [[noreturn]] void refuse(Span span, Code code, const std::string& what, const std::string& help) const {
+    const std::string message = fmt::format("effect '{}' of {}: {}", setting_.name, whose_, what);
+    throw UserError(setting_.file ? diagnostic_at(*setting_.file, span, code, message, help) : diagnostic(code, message, help));
+  }
+
+  const EffectSetting& setting_;
+  std::string whose_;
+};
+
+std::optional<std::size_t> parameter_index(const Effect& effect, const std::string& name) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].name == name) return p;
+  return std::nullopt;
 }
 
-/// The code of a parameter that is given as a word ("axis": "x").
-double code_of(const EffectParameter& parameter, const std::string& word, const Effect& effect, const std::string& machine) {
-  const auto found = std::find(parameter.choices.begin(), parameter.choices.end(), word);
-  if (found != parameter.choices.end()) return parameter.low + static_cast<double>(found - parameter.choices.begin());
-  throw UserError(diagnostic(Code::E0307,
-                             fmt::format("{}={} of effect '{}' (machine '{}') is not a value it can have", parameter.name, word, effect.name, machine),
-                             parameter.choices.empty() ? "give a number" : fmt::format("give one of: {}", fmt::join(parameter.choices, ", "))));
+/// The number of a parameter, which may be given as the word of a choice ("axis": "x").
+double checked_value(const EffectParameter& p, const EffectSetting::Value& given, const Refusal& refusal) {
+  double value = given.value;
+  if (!given.word.empty()) {
+    const auto found = std::find(p.choices.begin(), p.choices.end(), given.word);
+    if (found == p.choices.end()) refusal.impossible(p, given.word, given.span);
+    value = p.low + static_cast<double>(found - p.choices.begin());
+  }
+  if (value < p.low || value > p.high || (p.is_code() && value != std::floor(value))) refusal.impossible(p, fmt::format("{:g}", value), given.span);
+  if (p.is_code() && given.u != 0) refusal.uncertain_choice(p, given.span);
+  return value;
 }
 
 /// `count` standard normal numbers for every machine: [draw][machine].
@@ -67,22 +97,20 @@ EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, 
   const std::vector<std::string> names = effect_names(settings);
   for (std::size_t k = 0; k < settings.size(); ++k) {
     const EffectSetting& setting = settings[k];
-    const Effect& effect = registered(setting.name, machine);
+    const Refusal refusal(setting, machine);
+    const Effect* const found = find_effect(setting.name);
+    if (!found) refusal.unknown_effect();
+    const Effect& effect = *found;
     Active a{&effect, stream_of(names[k]), {}, {}, false, false, {}};
     // What an effect draws at random cannot be corrected.
     a.corrected = use == EffectUse::corrected && effect.draws_per == DrawsPer::none;
     for (const EffectParameter& p : effect.parameters) a.value.push_back(p.standard);
     a.u.assign(effect.parameters.size(), 0.0);
     for (const auto& [name, value] : setting.parameters) {
-      const int p = parameter_index(effect, name, machine);
-      const EffectParameter& parameter = effect.parameters[p];
-      a.value[p] = value.word.empty() ? value.value : code_of(parameter, value.word, effect, machine);
-      if (a.value[p] < parameter.low || a.value[p] > parameter.high) {
-        throw UserError(diagnostic(Code::E0307,
-                                   fmt::format("{}={:g} of effect '{}' (machine '{}') is not plausible", name, value.value, effect.name, machine),
-                                   fmt::format("give a value from {:g} to {:g} {}", parameter.low, parameter.high, parameter.unit)));
-      }
-      a.u[p] = value.u;
+      const std::optional<std::size_t> p = parameter_index(effect, name);
+      if (!p) refusal.unknown_parameter(effect, name, value.span);
+      a.value[*p] = checked_value(effect.parameters[*p], value, refusal);
+      a.u[*p] = value.u;
     }
     a.linear = is_linear(a);
     if (a.linear) a.components = components_of(a);

@@ -25,8 +25,8 @@ namespace abbe {
 class EffectSet {
  public:
   EffectSet() = default;
-  /// Throws UserError: unknown effect or parameter (with the nearest known name), value outside its plausible range. `machine` names
-  /// the machine in messages.
+  /// Throws UserError, with the place of the setting: unknown effect or parameter (with the nearest known name), value outside its plausible
+  /// range, a choice that is none. `machine` names the machine in messages.
   EffectSet(const std::vector<EffectSetting>&, EffectUse, const std::string& machine);
 
   bool empty() const { return active_.empty(); }

@@ -33,6 +33,7 @@ EffectSetting::Value parameter_value(const std::string& text) {
 /// EFFECT[:name=value,...]. An effect without parameters acts with the typical size of its first one: a size of zero would do nothing.
 EffectSetting effect_setting(const std::string& text) {
   EffectSetting setting;
+  setting.option = "--with " + text;
   const std::size_t colon = text.find(':');
   setting.name = text.substr(0, colon);
   if (colon == std::string::npos) {
@@ -45,7 +46,8 @@ EffectSetting effect_setting(const std::string& text) {
     const std::string item = text.substr(begin, end - begin);
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) refuse(text, fmt::format("'{}' is not parameter=value", item));
-    setting.parameters[item.substr(0, equals)] = parameter_value(item.substr(equals + 1));
+    const bool first = setting.parameters.emplace(item.substr(0, equals), parameter_value(item.substr(equals + 1))).second;
+    if (!first) refuse(text, fmt::format("'{}' is given twice", item.substr(0, equals)));
     begin = end + 1;
   }
   return setting;

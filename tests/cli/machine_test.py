@@ -58,10 +58,16 @@ class Machine(harness.Case):
         machine = json.loads(self.machine("init", "mine"))
         for effect, code, words in (({"name": "probe.tipradius"}, "E0305", "probe.tip_radius"),
                                     ({"name": "probe.tip_radius", "parameters": {"amplitude": 1}}, "E0306", "amplitude_um"),
-                                    ({"name": "machine.squareness", "parameters": {"which": "abc"}}, "E0307", "cwy, bwz, awz")):
-            path = self.write("mine.json", json.dumps(machine | {"effects": [effect]}))
+                                    ({"name": "machine.squareness", "parameters": {"which": "abc"}}, "E0307", "cwy, bwz, awz"),
+                                    ({"name": "machine.scale", "parameters": {"axis": 1.5}}, "E0307", "x, y, z"),
+                                    ({"name": "machine.scale", "parameters": {"axis": {"value": 1, "u": 1}}}, "E0307", "no uncertainty"),
+                                    ({"name": "probe.step", "parameters": {"tip": 0.5}}, "E0307", "whole number")):
+            path = self.write("mine.json", json.dumps(machine | {"effects": [{"name": "machine.scale"}, effect]}, indent=1))
+            line = 1 + path.read_text().splitlines().index(f'   "name": "{effect["name"]}"' + ("," if "parameters" in effect else ""), path.read_text().splitlines().index(' "effects": [') + 4)
             for action in ("show", "screen"):
-                self.assertIn(words, self.refused(code, "machine", action, path))
+                told = self.refused(code, "machine", action, path)
+                self.assertIn(words, told)
+                self.assertRegex(told, rf"mine\.json:({line}|{line + 2}):\d+: error {code}")
 
     def test_a_run_says_that_there_are_no_scale_positions(self):
         machine = json.loads(self.machine("init", "mine"))
