@@ -219,6 +219,11 @@ bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d)
          std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
 }
 
+Diagnostic nothing_but_targets(const std::string& file) {
+  return diagnostic(Code::W0717, fmt::format("{}: every touch is exactly where an error-free machine has it", file),
+                    "a real machine differs in the last digits: check that measured positions were recorded, and not targets");
+}
+
 Diagnostic beyond_its_specification(const LengthError& e, const std::string& file) {
   return diagnostic(Code::W0716,
                     fmt::format("{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um", file, e.length_mm,
@@ -266,7 +271,11 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
 Diagnosis diagnosed(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
   const Diagnosis before = out;
   Case c = on_the_bench(recording, machine, options, surfaces, file, out);
-  if (options.design_only) {
+  // What holds no error at all says no more than its plan.
+  const bool as_planned = !options.design_only && c.baseline.model.y.isZero(0);
+  if (as_planned) out.messages.push_back(nothing_but_targets(file));
+  const bool plan = options.design_only || as_planned;
+  if (plan) {
     c.masked.assign(c.touches.touches.size(), 0);
     c.model = compact(c.baseline.model);
     c.model.y.setZero();
@@ -278,14 +287,15 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
   c.explanations = explanations_without_readings(c.touches, c.rows);
   EvidenceSearch first(c.model, c.hyper, c.explanations);
   const std::size_t without_readings = c.explanations.blocks.size();
-  if (!options.design_only) free_readings_of_noise(c, first);
-  add_explanations_of_readings(c.touches, c.rows, c.explanations);
+  if (!plan) free_readings_of_noise(c, first);
+  add_explanations_of_readings(c.touches, c.rows, recorded_step_um(c), c.explanations);
   first.extend(c.explanations, without_readings);
   out.cannot_judge = cannot_judge(c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
   const bool known = !machine.known_state.empty();
-  if (options.design_only) {
+  if (plan) {
     out.baseline = summary(c, c.hyper, known);
+    if (as_planned) return out;
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
     return out;
   }

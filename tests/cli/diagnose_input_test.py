@@ -86,6 +86,19 @@ class Placement(Input):
             self.assertIn("W0704", self.codes(said))
             self.assertEqual(said["verdict"], "no_mismatch")
 
+    def test_targets_instead_of_positions_are_no_mismatch_and_are_told(self):
+        machine = json.loads(self.abbe("machine", "init", "m").stdout)
+        for component in machine["geometry"]["components"].values():
+            component["e_max"] = 0
+        machine["specification"]["v_max"] = "unlimited"   # or it is too good for its specification
+        self.write("m.json", json.dumps(machine))
+        path = self.changed(self.recording, lambda row: row | {a: row["t" + a] for a in "xyz"})
+        said = self.said(path, "--machine", "m.json")
+        self.assertEqual((said["verdict"], said["p_value"], self.codes(said)), ("no_mismatch", 1, ["W0717"]))
+        self.assertGreater(len(said["smallest_detectable"]), 5)
+        said = self.said(self.recording, "--machine", "m.json")   # and a real one of such a machine is judged
+        self.assertEqual(said["effects"][0]["members"][0], "probe.tip_radius")
+
     def test_what_nothing_can_be_judged_of_is_said(self):
         alone = iter(range(1, 1000))
         every_touch_a_setup = self.changed(self.recording, lambda row: row | {"setup": next(alone)}, "setups.csv")
