@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -86,6 +87,18 @@ NamedSensor sensor_of(const SensorLine& line) {
   return s;
 }
 
+/// As far as a recording writes them.
+bool same_geometry(const NamedSensor& a, const NamedSensor& b) {
+  constexpr double kWritten_mm = 1e-3, kWritten_rad = 1e-5;
+  return norm(a.tip_in_r_mm - b.tip_in_r_mm) < kWritten_mm && std::abs(a.radius_mm - b.radius_mm) < kWritten_mm &&
+         std::abs(a.head_a_rad - b.head_a_rad) < kWritten_rad && std::abs(a.head_b_rad - b.head_b_rad) < kWritten_rad;
+}
+
+std::string place_of(const NamedSensor& s) {
+  const Vec3& t = s.tip_in_r_mm;
+  return fmt::format("{:g} {:g} {:g} mm with head angles {:g} {:g} and a ball of {:g} mm", t.x, t.y, t.z, s.head_a_rad / kDegree, s.head_b_rad / kDegree, 2 * s.radius_mm);
+}
+
 }  // namespace
 
 std::pair<std::string, std::string> sensor_line(const Sensor& s, const Machine& machine) {
@@ -96,10 +109,15 @@ std::pair<std::string, std::string> sensor_line(const Sensor& s, const Machine& 
                       s.head_a_rad / kDegree, s.head_b_rad / kDegree, tip.x, tip.y, tip.z, 2 * s.radius_mm, s.shaft_diameter_mm, s.young_MPa / 1e3, 1e6 * s.cte_per_K)};
 }
 
-void add_recorded_sensors(const Recording& recording, Machine& machine, const std::string& file) {
+void add_recorded_sensors(const Recording& recording, Machine& machine, const std::string& file, std::vector<Diagnostic>& messages) {
   for (const auto& [key, value] : recording.metadata) {
     if (!key.starts_with(kKey)) continue;
-    machine.sensors.emplace(key.substr(kKey.size()), sensor_of(SensorLine(key, value, file)));
+    const std::string name = key.substr(kKey.size());
+    const NamedSensor recorded = sensor_of(SensorLine(key, value, file));
+    if (const auto known = machine.sensors.find(name); known != machine.sensors.end() && !same_geometry(known->second, recorded))
+      messages.push_back(diagnostic(Code::N0718, fmt::format("{}: stylus '{}' is another one than the machine file has under that name: that of the recording counts", file, name),
+                                    fmt::format("its tip is at {}, and at {} in the machine file", place_of(recorded), place_of(known->second))));
+    machine.sensors.insert_or_assign(name, recorded);
   }
 }
 

@@ -4,7 +4,9 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "engine/base/diagnostic.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/sensor.hpp"
@@ -14,7 +16,8 @@ namespace abbe {
 /// The metadata line of a sensor: key and value, "head_deg A B tip_in_r_mm x y z diameter_mm d ..." in the words of the machine file.
 std::pair<std::string, std::string> sensor_line(const Sensor&, const Machine&);
 
-/// Adds the sensors that a recording describes to a machine that does not know them. Throws UserError for a line that cannot be read.
-void add_recorded_sensors(const Recording&, Machine&, const std::string& file);
+/// Gives a machine the sensors that a recording describes. Of one name the recording's counts, which says what was mounted then; a note says
+/// where the machine file has another. Throws UserError for a line that cannot be read.
+void add_recorded_sensors(const Recording&, Machine&, const std::string& file, std::vector<Diagnostic>& messages);
 
 }  // namespace abbe

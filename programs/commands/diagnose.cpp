@@ -142,8 +142,11 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
     print_messages({diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name), "`abbe diagnose --model-out` writes one; --machine takes a file without")});
   if (program) complete_from_program(recording, nominal_record(*program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
-  add_recorded_sensors(recording, machine, file);
-  return {diagnose_recording(recording, machine, how, file), name};
+  std::vector<Diagnostic> messages;
+  add_recorded_sensors(recording, machine, file, messages);
+  Diagnosis answer = diagnose_recording(recording, machine, how, file);
+  answer.messages.insert(answer.messages.begin(), messages.begin(), messages.end());
+  return {std::move(answer), name};
 }
 
 }  // namespace

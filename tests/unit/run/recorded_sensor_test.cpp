@@ -12,7 +12,9 @@ NamedSensor sensor_read(const std::string& line) {
   Recording r;
   r.metadata = {{"sensor T", line}};
   Machine machine;
-  add_recorded_sensors(r, machine, "r.csv");
+  std::vector<Diagnostic> messages;
+  add_recorded_sensors(r, machine, "r.csv", messages);
+  CHECK(messages.empty());
   return machine.sensors.at("T");
 }
 
@@ -62,4 +64,22 @@ TEST_CASE("a sensor line that says too little, too much or what cannot be is ref
   CHECK(holds(sensor_refusal(good + " cte_ppm_per_K inf"), "must be a finite number"));
   CHECK(holds(sensor_refusal(good + " diameter_mm 4"), "twice"));
   CHECK(holds(sensor_refusal(good + " 7"), "'7' stands where"));
+}
+
+TEST_CASE("of one name the stylus of the recording counts, and another one is told") {
+  const auto said = [](const std::string& tip) {
+    Recording r;
+    r.metadata = {{"sensor T", "head_deg 90 0 tip_in_r_mm " + tip + " diameter_mm 4"}};
+    Machine machine;
+    machine.sensors["T"].head_a_rad = kPi / 2, machine.sensors["T"].tip_in_r_mm = {0, 0, -150}, machine.sensors["T"].radius_mm = 2;
+    std::vector<Diagnostic> messages;
+    add_recorded_sensors(r, machine, "r.csv", messages);
+    return std::pair{machine.sensors.at("T").tip_in_r_mm.z, messages};
+  };
+  const auto [z, messages] = said("0 0 -100");
+  CHECK(z == -100);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].code == Code::N0718);
+  CHECK(holds(messages[0].help, "-150"));
+  CHECK(said("0 0 -150.0001").second.empty());
 }
