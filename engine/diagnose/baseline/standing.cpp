@@ -98,22 +98,32 @@ Back placement_of(const Rows& rows) {
   return middle_size(beyond(rows, far)) < left / 2 ? far : near;
 }
 
+double angle_deg(const Mat3& R) {
+  const Vec3 twice_sine{R.cy.z - R.cz.y, R.cz.x - R.cx.z, R.cx.y - R.cy.x};
+  return std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1) * 180 / kPi;
+}
+
+/// Whether a tip explains it with the part where it should be, and the placement only with the part turned far: about the axis of a ring, which
+/// shortens all that is seen along its normals, and which no touch of a ring can tell.
+bool instead_of_a_turn(const Rows& rows, const Back& tip, const Back& back) {
+  constexpr double kAlike_mm = 0.05, kFar_deg = 1, kShare = 0.1;
+  return angle_deg(back.X.R) > kFar_deg && angle_deg(tip.X.R) < kShare * angle_deg(back.X.R) && middle_size(beyond(rows, tip)) < middle_size(beyond(rows, back)) + kAlike_mm;
+}
+
 /// One length along all normals mends what no placement does: no physics of a touch is so large and so even.
 void refuse_wrong_tip(const Rows& rows, const Back& back, double most_out_mm, const std::string& file) {
   constexpr double kMends = 0.2;
-  const Back with_tip = refined(rows, back, true);
+  Back with_tip = refined(rows, back, true);
+  const Back in_place = refined(rows, {}, true);
+  const bool turned = instead_of_a_turn(rows, in_place, back);
+  if (turned) with_tip = in_place;
   const double out = with_tip.out_mm;
-  if (std::abs(out) < most_out_mm || middle_size(beyond(rows, with_tip)) > kMends * middle_size(beyond(rows, back))) return;
+  if (std::abs(out) < most_out_mm || (!turned && middle_size(beyond(rows, with_tip)) > kMends * middle_size(beyond(rows, back)))) return;
   throw UserError(diagnostic(Code::E0701,
                              fmt::format("{}: every touch is {:.3f} mm too far {} along its normal: a tip radius, or a tip diameter, that was {}, or another tip than the file says",
                                          file, std::abs(out), out > 0 ? "out" : "in", out > 0 ? "added once too often" : "taken off once too often"),
                              "check the line '# point: tip_centre|surface', the sign of the compensation, the tip, and whether targets are tip centres too; "
                              "where it is the size of the features that is not known, say '# surfaces: unknown_size'"));
-}
-
-double angle_deg(const Mat3& R) {
-  const Vec3 twice_sine{R.cy.z - R.cz.y, R.cz.x - R.cx.z, R.cx.y - R.cy.x};
-  return std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1) * 180 / kPi;
 }
 
 }  // namespace

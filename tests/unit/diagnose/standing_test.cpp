@@ -93,3 +93,22 @@ TEST_CASE("a wrong tip is told from a part off its targets") {
   }
   CHECK_NOTHROW(put_on_targets(recorded, 0.2, "box", messages));
 }
+
+TEST_CASE("a ring with a wrong tip is not turned about its axis until it fits") {
+  // With 4 mm too little of 23 the tip's circle passes for one that is seen turned by 31.6 degrees: cos 31.6 = 23 / 27.
+  for (const double off : {-4.0, -1.0, 1.0}) {
+    Recording recorded;
+    for (int k = 0; k < 36; ++k) {
+      RecordingRow row;
+      const double angle = kPi / 6 * k;
+      row.feature = "RING", row.touch = k + 1;
+      row.normal = Vec3{-std::cos(angle), -std::sin(angle), 0};
+      row.target_mm = Vec3{800, 500, -650.0 + 10 * (k / 12)} - 23.0 * *row.normal;
+      row.position_mm = *row.target_mm + (off + 1e-3 * std::sin(3.0 * angle + k)) * *row.normal;
+      recorded.rows.push_back(row);
+    }
+    std::vector<Diagnostic> messages;
+    CHECK_THROWS_AS(put_on_targets(recorded, 0.05, "ring", messages), UserError);
+    CHECK_NOTHROW(put_on_targets(recorded, kNoTip, "ring", messages));
+  }
+}
