@@ -111,6 +111,8 @@ struct NoiseFinding {
   std::vector<std::pair<std::string, std::string>> where = {};
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
+/// The step of which all recorded positions are multiples: the greatest common divisor of what the file says, down to 1 nm.
+double recorded_step_um(const Case&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
 std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*, const std::vector<Detectable>&);

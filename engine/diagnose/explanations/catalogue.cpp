@@ -207,19 +207,22 @@ void share_priors(Explanations& all) {
 /// Effects of the noise change no mean: they are judged by the variance (findings/noise_effects.cpp).
 bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
 
-std::vector<Search> searches(const Effect& effect, const RecordedTouches& t) {
+std::vector<Search> searches(const Effect& effect, const RecordedTouches& t, double least_period_um = 0) {
   std::vector<Search> list;
-  for (const EffectParameter& p : effect.parameters) list.push_back(search_of(p, t));
+  for (const EffectParameter& p : effect.parameters) {
+    list.push_back(search_of(p, t));
+    if (p.name == "period_um") std::erase_if(list.back().values, [&](double period_um) { return period_um < least_period_um; });
+  }
   return list;
 }
 
-void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
+void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out, double least_period_um = 0) {
   Explanation explanation;
   explanation.name = std::string(effect.name);
   explanation.effect = &effect;
   explanation.factor = factor_of(effect);
   explanation.missing = missing_of(effect, t);
-  const std::vector<Search> search = searches(effect, t);
+  const std::vector<Search> search = searches(effect, t, least_period_um);
   const Evaluation evaluation(effect, t, rows);
   const VariantColumns variant(effect, search, evaluation);
   for (Block& block : with_changes(settings(effect, search), effect, later_runs(t, rows))) {
@@ -234,9 +237,9 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
 }
 
-void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out) {
+void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out, double least_period_um = 0) {
   for (const Effect* effect : effects())
-    if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings) add_effect(*effect, t, rows, out);
+    if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings) add_effect(*effect, t, rows, out, least_period_um);
 }
 
 }  // namespace
@@ -321,8 +324,9 @@ Explanations explanations_without_readings(const RecordedTouches& t, const std::
   return out;
 }
 
-void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
-  add_catalogue(t, rows, true, out);
+void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, double step_um, Explanations& out) {
+  constexpr double kSteps = 8;   // the second harmonic too
+  add_catalogue(t, rows, true, out, kSteps * step_um);
   share_priors(out);
 }
 

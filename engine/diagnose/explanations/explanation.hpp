@@ -82,7 +82,8 @@ inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
 /// Every explanation for these touches but those that look at raw readings, which are added once the readings are free of noise
 /// (own_noise.cpp); `rows`: which touches take part.
 Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
-void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
+/// `step_um`: of the recorded positions. What their rounding does is periodic in the readings too, and so nothing is sought within a few steps.
+void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, double step_um, Explanations&);
 
 /// What cannot be judged, in the order of the catalogue, with the columns that are missing.
 std::vector<CannotJudge> cannot_judge(const Explanations&);

@@ -143,15 +143,9 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
   return best;
 }
 
-/// Positions that are all multiples of one step: the greatest common divisor of what the file says, in its last digit.
 std::optional<NoiseFinding> resolution(const Case& c) {
-  constexpr double kLeastOfNoise = 0.3, kLastDigitsPerMm = 1e6, kStored_um = 1e-4;
-  long long step = 0;
-  for (const int i : c.rows) {
-    const Vec3& p = c.recording->rows[static_cast<std::size_t>(c.touches.touches[static_cast<std::size_t>(i)].row)].position_mm;
-    for (int k = 0; k < 3; ++k) step = std::gcd(step, std::llround(kLastDigitsPerMm * p[k]));
-  }
-  const double step_um = 1e3 * double(step) / kLastDigitsPerMm;
+  constexpr double kLeastOfNoise = 0.3, kStored_um = 1e-4;
+  const double step_um = recorded_step_um(c);
   if (step_um / std::sqrt(12.0) < kLeastOfNoise * c.model.noise_um.mean()) return std::nullopt;
   // That every one of so many numbers has this divisor by chance is out of the question.
   NoiseFinding f{find_effect("noise.resolution"), 1e-12, {figure("resolution_um", "um", step_um, kStored_um)}, {}};
@@ -220,6 +214,16 @@ std::optional<NoiseFinding> outliers(const Case& c) {
 }
 
 }  // namespace
+
+double recorded_step_um(const Case& c) {
+  constexpr double kLastDigitsPerMm = 1e6;
+  long long step = 0;
+  for (const int i : c.rows) {
+    const Vec3& p = c.recording->rows[static_cast<std::size_t>(c.touches.touches[static_cast<std::size_t>(i)].row)].position_mm;
+    for (int k = 0; k < 3; ++k) step = std::gcd(step, std::llround(kLastDigitsPerMm * p[k]));
+  }
+  return 1e3 * double(step) / kLastDigitsPerMm;
+}
 
 std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result) {
   std::vector<std::optional<NoiseFinding>> judged{resolution(c), outliers(c)};
