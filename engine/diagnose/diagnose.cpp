@@ -129,6 +129,24 @@ RunChange change_of(const Block& variant, const Block& found) {
   return holds ? found.change : variant.change;
 }
 
+/// A member that would need a size which no such effect has explains nothing, where another of its set does with a possible one.
+void drop_impossible_members(const Case& c, SearchResult& result) {
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    const Finding as_found = result.findings[k];
+    Finding& f = result.findings[k];
+    while (!plausible(estimate_size(c, result, k).parameters)) {
+      if (f.set.size() == 1) {
+        f = as_found;
+        break;
+      }
+      f.set.erase(f.set.begin());
+      f.explanation = f.set.front();
+      f.block = best_block(c.explanations.list[static_cast<std::size_t>(f.explanation)], f.evidence);
+      f.variants.clear();
+    }
+  }
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -304,7 +322,8 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
     return out;
   }
   c.rough = first.rough() > 0.5;
-  const SearchResult result = search(c, first);
+  SearchResult result = search(c, first);
+  drop_impossible_members(c, result);
   out.baseline = summary(c, result.hyper, known);
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
