@@ -4,6 +4,8 @@
 // which is how a diagnosis finds length and direction together.
 #pragma once
 
+#include <iterator>
+
 #include "engine/effects/terms.hpp"
 
 namespace abbe {
@@ -31,6 +33,11 @@ inline constexpr EffectParameter kElevationParameter{
     .help = "of an oblique direction: 90 is up, along z",
     .low = -90,
     .high = 90};
+
+/// Whether a parameter is such a direction, and not a choice of axes only.
+constexpr bool is_direction(const EffectParameter& p) {
+  return p.name == kDirectionParameter.name && p.choices.size() == std::size(kDirectionChoices);
+}
 
 /// The unit vector that the three parameters at `theta` name.
 inline Vec3 chosen_direction(const double* theta) {

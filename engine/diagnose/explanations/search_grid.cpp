@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "engine/effects/direction.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -56,8 +58,6 @@ std::vector<double> choices(const EffectParameter& p, const RecordedTouches& t) 
   for (double v = p.low; v <= high; ++v) list.push_back(v);
   return list;
 }
-
-bool is_direction(const EffectParameter& p) { return p.name == "direction" && p.choices.size() == 4 && p.choices[3] == "oblique"; }
 
 }  // namespace
 

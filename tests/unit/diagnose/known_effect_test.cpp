@@ -54,3 +54,22 @@ TEST_CASE("rounding and outliers are as the recording shows them, whatever the f
   CHECK(known->now.parameters.at("share").value == 0.01);
   CHECK(found_beside({"noise.resolution", {{"resolution_um", {1, 0, {}}}}}, {"noise.resolution", {{"resolution_um", {5, 0, {}}}}})->now.parameters.at("resolution_um").value == 5);
 }
+
+TEST_CASE("sizes with a direction add as vectors, however their directions are written") {
+  const auto drift = [](double um, EffectSetting::Value direction, double azimuth_deg) {
+    return EffectSetting{"thermal.drift", {{"amplitude_um", {um, 0.1, {}}}, {"direction", std::move(direction)}, {"azimuth_deg", {azimuth_deg, 1, {}}}, {"tau_s", {1000, 50, {}}}}};
+  };
+  // 4.5 um at 22 degrees, and what its mending looks like beside it.
+  const auto mended = found_beside(drift(4.5, {0, 0, "oblique"}, 22), drift(4.4, {3, 0, {}}, -157));
+  REQUIRE(mended);
+  CHECK(mended->gone);
+  // 3 um along x and 4 um along y are 5 um between them.
+  const auto grown = found_beside(drift(3, {0, 0, "x"}, 0), drift(4, {0, 0, "y"}, 0));
+  REQUIRE(grown);
+  CHECK_FALSE(grown->gone);
+  CHECK(grown->now.parameters.at("amplitude_um").value == doctest::Approx(5));
+  CHECK(grown->now.parameters.at("direction").word == "oblique");
+  CHECK(grown->now.parameters.at("azimuth_deg").value == doctest::Approx(53.130));
+  CHECK(grown->now.parameters.at("elevation_deg").value == doctest::Approx(0));
+  CHECK_FALSE(found_beside({"thermal.drift", {{"tau_s", {1000, 50, {}}}}}, {"thermal.drift", {{"tau_s", {4000, 50, {}}}}}));
+}
