@@ -166,8 +166,9 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   const Scheme scheme = scheme_of(c);
   const std::set<int> groups(scheme.group.begin(), scheme.group.end());
   const LinearModel machine = likelier_ensemble(c, c.model);
+  // Before and after by one machine, as it is beside what was found: one that takes the mismatch for its own errors predicts worse than none.
   Vector before = Vector::Zero(machine.y.size());
-  for (const int g : groups) before += beyond_prediction(machine, c.hyper, of_group(scheme, g));
+  for (const int g : groups) before += beyond_prediction(machine, result.hyper, of_group(scheme, g));
   std::vector<int> named;
   std::vector<int> blocks;
   for (const Finding& f : result.findings) named.push_back(f.explanation), blocks.push_back(f.block);
