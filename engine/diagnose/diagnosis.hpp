@@ -161,6 +161,8 @@ struct Diagnosis {
   std::vector<NextMeasurement> next_measurement;
   std::string otherwise;                       ///< what to do next where no measurement of the menu helps; else empty
   BaselineSummary baseline;
+  /// What the machine does beside what was found, over what an earlier recording left open, where that is too much for the same machine.
+  std::optional<double> beyond_known;
   std::optional<LengthError> beyond;           ///< a length that no machine of the specification makes so wrong
   Rivals rivals;
   std::vector<ResidualRow> residuals;

@@ -166,7 +166,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(machine), d));
   if (options.report) write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));
   print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d));
-  return options.fail_on_mismatch && d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond) ? kNo : kDone;
+  return options.fail_on_mismatch && d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known) ? kNo : kDone;
 }
 
 }  // namespace abbe

@@ -1,5 +1,6 @@
 """abbe diagnose on several runs of one program: what differs between them."""
 import json
+import math
 import random
 
 import harness
@@ -21,6 +22,28 @@ class DiagnoseRuns(harness.Case):
         said = self.diagnosis(self.record(1, "--seed", 7), self.record(2, "--seed", 7))
         self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 250))
         self.assertGreater(said["p_value"], 0.01)
+
+    def test_another_machine_than_the_known_one_is_told(self):
+        """Sixteen balls all over the volume: what the first recording left uncertain is far less than what two machines differ by."""
+        points = [(0, 0, 1)] + [(math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e))
+                                for e, first in ((math.pi / 4, 0), (math.pi / 18, math.pi / 4)) for a in (first + k * math.pi / 2 for k in range(4))]
+        balls = [(x, y, z) for z in (-600, -350) for y in (250, 750) for x in (250, 550, 850, 1150)]
+        program = self.write("balls.dmi", harness.LENGTH.split("D(R)=")[0] + "".join(
+            f"F(B{k})=FEAT/SPHERE,OUTER,CART,{x},{y},{z},30\nMEAS/SPHERE,F(B{k}),9\n"
+            + "".join(f"PTMEAS/CART,{x + 15 * i:.6f},{y + 15 * j:.6f},{z + 15 * l:.6f},{i:.9f},{j:.9f},{l:.9f}\n" for i, j, l in points) + "ENDMES\n"
+            for k, (x, y, z) in enumerate(balls)) + "ENDFIL\n")
+        for name, seed, run in (("first.csv", 1, 1), ("same.csv", 1, 2), ("other.csv", 2, 2)):
+            self.abbe("record", program, "--machine", MACHINE, "--seed", seed, "--run", run, "-o", name)
+        self.abbe("diagnose", "first.csv", "--machine", MACHINE, "--model-out", "known.json")
+        same = self.known("same.csv", code=0)
+        self.assertEqual((same["verdict"], same["times_known_uncertainty"]), ("no_mismatch", None))
+        self.assertLess(same["baseline"]["geometry_scale"], 2)
+        other = self.known("other.csv", code=1)
+        self.assertGreater(other["times_known_uncertainty"], 3)
+        self.assertIn("W0720", [m["code"] for m in other["messages"]])
+
+    def known(self, recording, code):
+        return json.loads(self.abbe("diagnose", recording, "--known", "known.json", "--fail-on-mismatch", "--format", "json", code=code).stdout)
 
     def test_the_noise_of_one_place_is_no_period_of_the_scale(self):
         """One point touched 30 times: the readings differ by the noise of the touches and nothing else."""

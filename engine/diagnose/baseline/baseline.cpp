@@ -199,6 +199,7 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     m.uneven = uneven_functions(t, machine);
   } else {
     m.scale_spread = 0.3;            // an earlier recording has found the scale
+    m.largest_scale = 2;             // what that left open may be wrong by some tens of per cent, not by a multiple: that is another machine
     // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.
     constexpr double kNotFollowed = 0.4;
     const Matrix rough = rough_geometry(t, machine, 0);

@@ -23,10 +23,10 @@ Hyperparameters at_scale_one(Hyperparameters h) {
 
 /// Evenly in their logarithm: from the stated to the estimated scale, and a little beyond both. No machine that passed its acceptance test has
 /// errors many times those of its specification: whatever asks for them is a mismatch.
-std::vector<double> scales_between(double estimated) {
+std::vector<double> scales_between(double estimated, double largest) {
   constexpr int kCount = 7;
-  constexpr double kBeyond = 1.25, kLargest = 3;
-  const double low = std::min(1.0, estimated) / kBeyond, high = std::min(kLargest, std::max(1.0, estimated) * kBeyond);
+  constexpr double kBeyond = 1.25;
+  const double low = std::min(1.0, estimated) / kBeyond, high = std::min(largest, std::max(1.0, estimated) * kBeyond);
   std::vector<double> out;
   for (int k = 0; k < kCount; ++k) out.push_back(low * std::pow(high / low, double(k) / (kCount - 1)));
   return out;
@@ -47,7 +47,7 @@ std::vector<Size> sizes_of(double information) {
 }
 
 Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double log_prior)
-    : rotated_(model, at_scale_one(h)), scales_(scales_between(h.scale)) {
+    : rotated_(model, at_scale_one(h)), scales_(scales_between(h.scale, model.largest_scale)) {
   shape_ = kPriorShape + 0.5 * double(rotated_.rank() + rotated_.rest_dof());
   precision_.resize(rotated_.rank(), static_cast<Eigen::Index>(scales_.size()));
   const double density = log_density(model, at_scale_one(h));

@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/base/ids.hpp"
@@ -71,6 +72,7 @@ class Likelihood {
       log_noise += 2 * moments_[g].rows * std::log(h.noise(g));
       prior += std::pow(std::log(h.noise(g)) / kNoisePrior, 2);
     }
+    if (h.scale > model_.largest_scale) return -std::numeric_limits<double>::infinity();
     prior += std::pow(std::log(h.scale) / model_.scale_spread, 2);
     double log_scale = 0;
     for (Eigen::Index k = 0; k < model_.random.cols(); ++k) {
@@ -260,6 +262,7 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
   for (const Matrix& function : m.uneven) out.uneven.push_back(function(kept, Eigen::all));
   out.random_group = m.random_group;
   out.scale_spread = m.scale_spread;
+  out.largest_scale = m.largest_scale;
   out.noise_um = m.noise_um(kept);
   out.noise_groups = m.noise_groups;
   Eigen::Index before = -2;

@@ -131,6 +131,7 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"next_measurement", array(d.next_measurement, next)},
       {"otherwise", d.otherwise.empty() ? Json() : Json(d.otherwise)},
       {"baseline", d.touches > 0 ? baseline(d.baseline) : Json()},
+      {"times_known_uncertainty", d.beyond_known ? Json(number(*d.beyond_known)) : Json()},
       {"length_beyond_mpe", d.beyond ? Json{{"length_mm", number(d.beyond->length_mm)}, {"error_um", number(1e3 * d.beyond->error_mm)}, {"mpe_um", number(1e3 * d.beyond->mpe_mm)}} : Json()},
       {"rivals", d.judged && d.touches > 0 ? rivals(d.rivals) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) { return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}}; })}};

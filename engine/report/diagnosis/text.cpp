@@ -26,6 +26,8 @@ std::string first_sentence(const Diagnosis& d) {
   if (d.verdict == Verdict::no_mismatch && d.beyond)
     return fmt::format("Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
                        1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
+  if (d.verdict == Verdict::no_mismatch && d.beyond_known)
+    return fmt::format("This is not the machine that its file knows, or it has changed as a whole: it differs by {:.1f} times what was uncertain of it.", *d.beyond_known);
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format("The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d), machine, chance(d.p_value));
   return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d), machine, chance(d.p_value));
@@ -117,7 +119,7 @@ std::string value_table(const Diagnosis& d) {
 std::string baseline_line(const Diagnosis& d) {
   if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
-  std::string out = fmt::format("baseline: {}; errors of the machine {:.2f} times the specification's, noise {:.2f} um", b.known ? "known machine" : "specification", b.geometry_scale, b.noise_um);
+  std::string out = fmt::format("baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale, b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification", b.noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
   if (!b.outliers.empty()) out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches", fmt::join(b.outliers, ", "));
   return out + "\n";
