@@ -38,8 +38,8 @@ constexpr EffectParameter kPretravelLobingParameters[] = {
     {.name = "phase_deg",
      .unit = "deg",
      .help =
-         "azimuth of one of the three soft directions about the body's axis, from x of the head's "
-         "last link; repeats after 120 degrees",
+         "azimuth of one of the three soft directions, towards which the surface pushes the tip, about "
+         "the body's axis from x of the head's last link; repeats after 120 degrees",
      .typical = 0,
      .low = -180,
      .high = 180},
