@@ -85,9 +85,55 @@ Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed,
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+/// Length errors of candidates, as a factor on e_max changes them: known + factor * drawn. Errors grow in proportion to e_max;
+/// only the known squarenesses, which every candidate shares, do not.
+struct ScalableErrors {
+  LengthErrors known;
+  std::vector<LengthErrors> drawn;
+};
+
+ScalableErrors scalable_errors(const Machine& machine, const Lines& lines, std::uint64_t seed,
+                               int first, int candidates, int threads) {
+  Machine known_only = machine;
+  for (ComponentSpec& component : known_only.components) component.e_max = 0;
+  ScalableErrors out{draw_batch(known_only, lines, seed, 0, 1).errors.front(),
+                     std::vector<LengthErrors>(candidates)};
+  on_threads((candidates + kBatch - 1) / kBatch, threads, [&](int b) {
+    const int from = b * kBatch;
+    Batch batch = draw_batch(machine, lines, seed, static_cast<std::uint32_t>(first + from),
+                             std::min(kBatch, candidates - from));
+    for (std::size_t i = 0; i < batch.errors.size(); ++i) {
+      for (std::size_t k = 0; k < lines.size(); ++k)
+        for (int m = 0; m < kLengthsPerLine; ++m) batch.errors[i][k][m] -= out.known[k][m];
+      out.drawn[from + i] = std::move(batch.errors[i]);
+    }
+  });
+  return out;
+}
+
+double share_accepted(const Specification& spec, const Lines& lines, const ScalableErrors& errors,
+                      double factor) {
+  int accepted = 0;
+  for (const LengthErrors& drawn : errors.drawn) {
+    const double v = indicator(lines, errors.known, drawn, factor);
+    accepted += v >= spec.v_min && v <= spec.v_max;
+  }
+  return double(accepted) / double(errors.drawn.size());
+}
+
+// From 1/100 to 100 in steps of 2 %.
+constexpr int kFactorSteps = 466;
+double factor_of(int step) { return 0.01 * std::pow(1.02, step); }
+
+/// What a factor on e_max would change, as part of a sentence.
+std::string effect_of(const SuggestedFactor& best) {
+  return fmt::format("by {:.2g}, then about {:.0f} % are accepted", best.factor,
+                     100 * best.share_accepted);
+}
+
 [[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts,
                           int threads) {
-  const SuggestedFactor best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
+  const auto best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
   throw UserError(diagnostic(
       Code::E0415,
       fmt::format("only {} of {} virtual machines of \"{}\" satisfy its specification: {} fail the "
@@ -95,10 +141,9 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share);
                   counts.used, counts.generated, machine.name,
                   percent(double(counts.failed_mpe) / double(counts.generated)),
                   percent(double(counts.too_small) / double(counts.generated))),
-      best.share_accepted > 0 ? fmt::format("multiply every e_max by {:.2g}: then {} are accepted",
-                                            best.factor, percent(best.share_accepted))
-                              : "no factor on e_max helps: check the MPE, the offsets and the "
-                                "squarenesses of the machine file"));
+      best ? "multiply every e_max " + effect_of(*best)
+           : "no factor on e_max helps: check the MPE, the offsets and the "
+             "squarenesses of the machine file"));
 }
 
 }  // namespace
@@ -155,54 +200,37 @@ VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t see
 std::optional<Diagnostic> screening_warning(const Machine& machine, const ScreeningCounts& counts,
                                             std::uint64_t seed, int threads) {
   if (counts.share_accepted() >= 0.5) return std::nullopt;
-  const SuggestedFactor best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
-  return diagnostic(Code::W0416,
-                    fmt::format("only {} of the virtual machines of \"{}\" satisfy its "
-                                "specification: {} fail the MPE, {} have errors too "
-                                "small for it",
-                                percent(counts.share_accepted()), machine.name,
-                                percent(double(counts.failed_mpe) / double(counts.generated)),
-                                percent(double(counts.too_small) / double(counts.generated))),
-                    fmt::format("the e_max of the machine file fit its specification badly: "
-                                "multiplied by {:.2f}, {} would pass",
-                                best.factor, percent(best.share_accepted)));
+  const auto best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
+  return diagnostic(
+      Code::W0416,
+      fmt::format("only {} of the virtual machines of \"{}\" satisfy its specification: {} fail the "
+                  "MPE, {} have errors too small for it",
+                  percent(counts.share_accepted()), machine.name,
+                  percent(double(counts.failed_mpe) / double(counts.generated)),
+                  percent(double(counts.too_small) / double(counts.generated))),
+      fmt::format("the e_max of the machine file fit its specification badly: {}",
+                  best ? "multiply every one " + effect_of(*best) : "no factor on them helps"));
 }
 
-SuggestedFactor suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,
-                                     int threads) {
+std::optional<SuggestedFactor> suggest_e_max_factor(const Machine& machine, std::uint64_t seed,
+                                                    int candidates, int threads) {
   const Lines lines = test_lines(machine);
   const Specification& spec = machine.specification;
-  // Errors grow in proportion to e_max; only the known squarenesses, which every candidate shares,
-  // do not.
-  Machine known_only = machine;
-  for (ComponentSpec& component : known_only.components) component.e_max = 0;
-  const LengthErrors known = draw_batch(known_only, lines, seed, 0, 1).errors.front();
-
-  const int batches = (candidates + kBatch - 1) / kBatch;
-  std::vector<Batch> drawn(batches);
-  on_threads(batches, threads, [&](int b) {
-    drawn[b] = draw_batch(machine, lines, seed, static_cast<std::uint32_t>(b * kBatch),
-                          std::min(kBatch, candidates - b * kBatch));
-    for (LengthErrors& errors : drawn[b].errors)
-      for (std::size_t k = 0; k < lines.size(); ++k)
-        for (int m = 0; m < kLengthsPerLine; ++m) errors[k][m] -= known[k][m];
+  const ScalableErrors chosen_with = scalable_errors(machine, lines, seed, 0, candidates, threads);
+  std::vector<double> share(kFactorSteps);
+  on_threads(kFactorSteps, threads, [&](int step) {
+    share[step] = share_accepted(spec, lines, chosen_with, factor_of(step));
   });
-
-  // From 1/100 to 100 in steps of 2 %.
-  constexpr int kSteps = 466;
-  std::vector<double> share(kSteps);
-  const auto factor_of = [](int step) { return 0.01 * std::pow(1.02, step); };
-  on_threads(kSteps, threads, [&](int step) {
-    int accepted = 0;
-    for (const Batch& batch : drawn)
-      for (const LengthErrors& errors : batch.errors) {
-        const double v = indicator(lines, known, errors, factor_of(step));
-        accepted += v >= spec.v_min && v <= spec.v_max;
-      }
-    share[step] = double(accepted) / candidates;
-  });
-  const auto best = std::max_element(share.begin(), share.end());
-  return {factor_of(static_cast<int>(best - share.begin())), *best};
+  const auto [fewest, most] = std::minmax_element(share.begin(), share.end());
+  if (*fewest == *most) return std::nullopt;
+  const auto enough = std::find_if(share.rbegin(), share.rend(),
+                                   [](double s) { return s >= kEnoughAccepted; });
+  const bool largest = enough != share.rend();
+  const double factor = factor_of(
+      static_cast<int>((largest ? enough.base() - 1 : most) - share.begin()));
+  const ScalableErrors fresh =
+      scalable_errors(machine, lines, seed, candidates, candidates, threads);
+  return SuggestedFactor{factor, share_accepted(spec, lines, fresh, factor), largest};
 }
 
 }  // namespace abbe

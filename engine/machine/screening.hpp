@@ -48,10 +48,16 @@ std::optional<Diagnostic> screening_warning(const Machine&, const ScreeningCount
 
 /// Candidates enough for a factor good to some percent: with them the share accepted is known to 1 %.
 inline constexpr int kSuggestionCandidates = 2000;
-/// The factor on all e_max for which the share accepted is largest, from `candidates` candidates.
+/// Accepted by a factor that is good enough. Where better machines pass without limit, or with a generous one, every smaller factor
+/// is as good or better, and only the largest that still does says something of the machine.
+inline constexpr double kEnoughAccepted = 0.95;
 struct SuggestedFactor {
-  double factor = 1, share_accepted = 0;
+  double factor = 1;
+  double share_accepted = 0;  ///< of as many fresh candidates: that of the candidates it was chosen with is the luckiest of many
+  bool largest = false;       ///< the largest factor with which kEnoughAccepted are accepted; else the one with which most are
 };
-SuggestedFactor suggest_e_max_factor(const Machine&, std::uint64_t seed, int candidates, int threads);
+/// A factor on all e_max, between 1/100 and 100, from `candidates` candidates. None when no factor makes a difference: none of them
+/// lets a candidate pass, or the machine has no errors to multiply.
+std::optional<SuggestedFactor> suggest_e_max_factor(const Machine&, std::uint64_t seed, int candidates, int threads);
 
 }  // namespace abbe

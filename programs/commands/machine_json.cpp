@@ -130,6 +130,13 @@ Json line_json(const LineReport& report) {
            {{"median", report.median}, {"p95", report.p95}, {"largest", report.largest}}}};
 }
 
+Json suggestion_json(const std::optional<SuggestedFactor>& suggested) {
+  if (!suggested) return nullptr;
+  return {{"factor", suggested->factor},
+          {"share_accepted", suggested->share_accepted},
+          {"largest", suggested->largest}};
+}
+
 }  // namespace
 
 Json length_mpe_json(const LengthMpe& mpe) {
@@ -199,8 +206,7 @@ std::string screening_json(const ScreeningReport& report) {
          {"failed_mpe", c.failed_mpe},
          {"too_small", c.too_small},
          {"share_accepted", c.share_accepted()}}},
-       {"suggested_e_max_factor",
-        {{"factor", report.suggested.factor}, {"share_accepted", report.suggested.share_accepted}}},
+       {"suggested_e_max_factor", suggestion_json(report.suggested)},
        {"lines", lines},
        {"probe", probe},
        {"messages", messages(report.messages)}});

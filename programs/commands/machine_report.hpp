@@ -37,7 +37,7 @@ struct ScreeningReport {
   ScreeningCounts counts;
   std::vector<LineReport> lines;
   std::vector<ProbeCheck> probe;
-  SuggestedFactor suggested;
+  std::optional<SuggestedFactor> suggested;
   std::vector<Diagnostic> messages;
 };
 /// "5 um + 5 um/m", "5 um + 5 um/m, at most 12 um".

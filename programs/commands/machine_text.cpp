@@ -177,6 +177,16 @@ std::string lines_text(const std::vector<LineReport>& lines) {
   return out;
 }
 
+std::string factor_text(const std::optional<SuggestedFactor>& suggested) {
+  if (!suggested) return "\n  no factor on e_max from 0.01 to 100 makes a difference\n";
+  const std::string which = suggested->largest
+                                ? fmt::format("largest factor on e_max with which {:g} % are accepted",
+                                              100 * kEnoughAccepted)
+                                : "best factor on e_max";
+  return fmt::format("\n  {}: {:.2f}, accepts about {:.0f} %\n", which, suggested->factor,
+                     100 * suggested->share_accepted);
+}
+
 std::string probe_text(const std::vector<ProbeCheck>& checks) {
   if (checks.empty()) return "";
   std::string out =
@@ -213,9 +223,7 @@ std::string screening_text(const ScreeningReport& report) {
                     counts.used, counts);
   out += count_line("failed the MPE", counts.failed_mpe, counts);
   out += count_line("errors too small", counts.too_small, counts);
-  out += fmt::format("\n  best factor on e_max: {:.2f}, accepts {:.1f} %\n",
-                     report.suggested.factor, 100 * report.suggested.share_accepted);
-  return out + lines_text(report.lines) + probe_text(report.probe);
+  return out + factor_text(report.suggested) + lines_text(report.lines) + probe_text(report.probe);
 }
 
 }  // namespace abbe

@@ -33,7 +33,26 @@ class Machine(harness.Case):
         self.assertTrue(0.34 < counts["share_accepted"] < 0.42, counts)
         self.assertEqual(counts["used"] + counts["failed_mpe"] + counts["too_small"], counts["generated"])
         self.assertEqual([m["code"] for m in screening["messages"]], ["W0416"])
-        self.assertGreater(screening["suggested_e_max_factor"]["share_accepted"], 0.6)
+        suggested = screening["suggested_e_max_factor"]
+        self.assertTrue(0.6 < suggested["share_accepted"] < 0.75 and not suggested["largest"], suggested)
+        self.assertIn(f"about {100 * suggested['share_accepted']:.0f} % are accepted", screening["messages"][0]["help"])
+
+    def with_specification(self, **specification):
+        machine = json.loads(self.machine("init", "mine"))
+        machine["specification"].update(specification)
+        return self.write("mine.json", json.dumps(machine))
+
+    def test_without_an_upper_v_the_factor_is_the_largest_that_is_good_enough(self):
+        path = self.with_specification(v_max="unlimited")
+        suggested = self.machine_json("screen", path, "--machines", "100")["suggested_e_max_factor"]
+        self.assertTrue(suggested["largest"] and abs(suggested["share_accepted"] - 0.95) < 0.03, suggested)
+        machine = json.loads(path.read_text())
+        for name, component in machine["geometry"]["components"].items():
+            component["e_max"] *= suggested["factor"]
+        path.write_text(json.dumps(machine))
+        again = self.machine_json("screen", path, "--machines", "1000", "--seed", "5")
+        self.assertAlmostEqual(again["machines"]["share_accepted"], suggested["share_accepted"], delta=0.03)   # 3 standard errors
+        self.assertIn("largest factor on e_max with which 95 % are accepted", self.machine("screen", path, "--machines", "100"))
 
     def test_screening_does_not_depend_on_threads(self):
         one, two = (self.machine_json("screen", "precision-500", "--machines", "200", "--threads", t) for t in ("1", "2"))
