@@ -54,12 +54,25 @@ Machine read_machine(const std::string& name_or_path) {
 std::string machine_text(const std::string& name_or_path) { return std::string(machine_source(name_or_path).text()); }
 
 std::vector<Diagnostic> machine_warnings(const Machine& machine) {
-  if (machine.offsets_not_given.empty()) return {};
-  return {diagnostic(Code::W0417,
-                     fmt::format("machine \"{}\" gives no scale position for {}: they are taken for zero",
-                                 machine.name, fmt::join(machine.offsets_not_given, ", ")),
-                     "measure where the scales are and give \"offsets_mm\": without them "
-                     "measurements far from the scales seem too good")};
+  std::vector<Diagnostic> warnings;
+  if (!machine.offsets_not_given.empty())
+    warnings.push_back(
+        diagnostic(Code::W0417,
+                   fmt::format("machine \"{}\" gives no scale position for {}: they are taken for zero",
+                               machine.name, fmt::join(machine.offsets_not_given, ", ")),
+                   "measure where the scales are and give \"offsets_mm\": without them "
+                   "measurements far from the scales seem too good"));
+  const Specification& spec = machine.specification;
+  if (spec.shorter_than_standard())
+    warnings.push_back(diagnostic(
+        Code::W0419,
+        fmt::format("the longest test length of \"{}\" is {:g} of its line, but ISO 10360-2 asks "
+                    "for {:g} or more",
+                    machine.name, spec.longest_share, Specification::kLeastLongestShare),
+        fmt::format("leave \"longest_share\" out, which is {:g}: a test over short lengths accepts "
+                    "machines that the standard's test rejects",
+                    Specification::kLeastLongestShare)));
+  return warnings;
 }
 
 }  // namespace abbe

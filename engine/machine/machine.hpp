@@ -53,13 +53,17 @@ struct LengthMpe {
 
 /// What the maker states, and how virtual machines are screened with it (engine/machine/acceptance).
 struct Specification {
+  /// ISO 10360-2: the longest length is at least this share of its line (2009), of the space diagonal (2001).
+  static constexpr double kLeastLongestShare = 0.66;
+
   std::string standard;                ///< "ISO 10360-2:2001"
   LengthMpe mpe;                       ///< E of the 2001 edition, E0 of the 2009 edition
   std::optional<LengthMpe> e150_mpe;   ///< 2009 edition: tip 150 mm off the axis of the ram
   std::optional<double> r0_mpl_mm;     ///< 2009 edition: range of three repeats of a length
   std::optional<double> form_mpe_mm, size_mpe_mm;  ///< ISO 10360-5, one stylus: P_Form.Sph.1x25, P_Size.Sph.1x25
   double v_min = 1, v_max = 2;         ///< accepted range of the performance indicator v (paper eq. 19)
-  double longest_share = 0.66;         ///< longest test length as a share of the line through the volume
+  double longest_share = kLeastLongestShare;  ///< longest test length as a share of the line through the volume
+  bool shorter_than_standard() const { return longest_share < kLeastLongestShare; }
 };
 
 struct HeadSpec {
@@ -138,7 +142,8 @@ std::string machine_text(const std::string& name_or_path);
 /// Names of the shipped machines, in alphabetical order.
 std::vector<std::string> shipped_machines();
 
-/// What is suspect in a machine that can be used: scale positions that are not given, so that Abbe errors are wrong.
+/// What is suspect in a machine that can be used: scale positions that are not given, so that Abbe errors are wrong; test lengths
+/// shorter than the standard asks for, so that worse machines pass.
 std::vector<Diagnostic> machine_warnings(const Machine&);
 
 /// Parses the text of a machine file; `file` names it in messages. Throws UserError as read_machine does.

@@ -192,7 +192,7 @@ void read_specification(JsonObject object, Specification& spec) {
                  fmt::format("v_min is {:g} and v_max {:g}: no machine lies between", spec.v_min,
                              spec.v_max),
                  "v = min |MPE / error|; the usual range is 1 to 2");
-  spec.longest_share = object.number_or("longest_share", 0.66, kPositiveShare);
+  spec.longest_share = object.number_or("longest_share", Specification::kLeastLongestShare, kPositiveShare);
 }
 
 void read_head(JsonObject object, HeadSpec& head) {

@@ -177,6 +177,14 @@ std::string lines_text(const std::vector<LineReport>& lines) {
   return out;
 }
 
+/// Over shorter lines it is no test of the standard.
+std::string test_name(const Specification& spec) {
+  return spec.shorter_than_standard()
+             ? fmt::format("virtual test over {:g} of each line, shorter than {} asks for",
+                           spec.longest_share, spec.standard)
+             : fmt::format("virtual test after {}", spec.standard);
+}
+
 std::string factor_text(const std::optional<SuggestedFactor>& suggested) {
   if (!suggested) return "\n  no factor on e_max from 0.01 to 100 makes a difference\n";
   const std::string which = suggested->largest
@@ -216,8 +224,8 @@ std::string screening_text(const ScreeningReport& report) {
   const Specification& spec = report.machine.specification;
   const ScreeningCounts& counts = report.counts;
   std::string out = fmt::format(
-      "{}: virtual test after {}, {} lengths, MPE(l) = {}, seed {}\n\n", report.machine.name,
-      spec.standard, kLengthsPerLine * report.lines.size(), length_mpe_text(spec.mpe), report.seed);
+      "{}: {}, {} lengths, MPE(l) = {}, seed {}\n\n", report.machine.name, test_name(spec),
+      kLengthsPerLine * report.lines.size(), length_mpe_text(spec.mpe), report.seed);
   out += fmt::format("  {:<34} {:>8}\n", "virtual machines drawn", counts.generated);
   out += count_line(fmt::format("accepted ({:g} <= v <= {:g})", spec.v_min, spec.v_max),
                     counts.used, counts);

@@ -54,6 +54,14 @@ class Machine(harness.Case):
         self.assertAlmostEqual(again["machines"]["share_accepted"], suggested["share_accepted"], delta=0.03)   # 3 standard errors
         self.assertIn("largest factor on e_max with which 95 % are accepted", self.machine("screen", path, "--machines", "100"))
 
+    def test_lengths_shorter_than_the_standard_s_are_reported(self):
+        for share, warned in ((0.659, True), (0.66, False), (0.8, False)):
+            path = self.with_specification(longest_share=share)
+            for action in ("show", "screen"):
+                done = self.abbe("machine", action, path)
+                self.assertEqual("W0419" in done.stderr, warned, (share, action, done.stderr))
+            self.assertEqual("virtual test after ISO 10360-2:2001" in done.stdout, not warned, done.stdout)
+
     def test_screening_does_not_depend_on_threads(self):
         one, two = (self.machine_json("screen", "precision-500", "--machines", "200", "--threads", t) for t in ("1", "2"))
         self.assertEqual(one, two)

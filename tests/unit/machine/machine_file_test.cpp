@@ -250,6 +250,17 @@ TEST_CASE("a machine without scale positions is usable, with a warning that name
     CHECK(machine_warnings(read_machine(name)).empty());
 }
 
+TEST_CASE("test lengths shorter than those of the standard are suspect") {
+  Machine machine = read_machine("coord3-mc16");
+  machine.specification.longest_share = 0.5;
+  const std::vector<Diagnostic> found = machine_warnings(machine);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].code == Code::W0419);
+  CHECK(found[0].message.find("0.5 of its line, but ISO 10360-2 asks for 0.66") != std::string::npos);
+  machine.specification.longest_share = 0.66;
+  CHECK(machine_warnings(machine).empty());
+}
+
 TEST_CASE("a specification of 2009 states E150, R0 and what the probe does on a sphere") {
   const Machine m = parse_machine("m.json", small_file("", R"("standard": "ISO 10360-2:2009",
     "mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 3}, "e150_mpe": {"a_um": 2.5, "k_um_per_m": 4}, "r0_mpl_um": 1.8,
