@@ -176,9 +176,9 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
   if (operand) command->add_option(operand, o->machine, "machine file or name")->required();
   if (o->action == "screen") {
     add_number(command, "--machines", o->machines, "how many accepted machines to draw (default 1000)")->type_name("N");
-    add_number(command, "--seed", o->seed, "of the random numbers (default 1)")->type_name("S");
     add_threads(command, o->threads);
   }
+  if (o->action == "screen" || o->action == "show") add_number(command, "--seed", o->seed, "of the random numbers (default 1)")->type_name("S");
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
 }
 
@@ -186,7 +186,7 @@ void add_machine(CLI::App& app, Chosen& chosen) {
   CLI::App* machine = app.add_subcommand("machine", "list, show, screen or begin machine files");
   machine->require_subcommand(1);
   add_machine_action(machine, chosen, "list", "the shipped machines", nullptr);
-  add_machine_action(machine, chosen, "show", "what a machine file says, with all defaults", "MACHINE");
+  add_machine_action(machine, chosen, "show", "what a machine file says, with all defaults, and one virtual machine of it", "MACHINE");
   add_machine_action(machine, chosen, "screen", "how many virtual machines satisfy the specification", "MACHINE");
   add_machine_action(machine, chosen, "init", "write a machine file to start from", "NAME");
 }

@@ -53,6 +53,8 @@ int show(const MachineOptions& options) {
   report.machine = usable_machine(options.machine);
   report.seed = options.seed;
   report.drawn = screened_machines(report.machine, options.seed, 1, thread_count(options.threads));
+  report.lines = test_lines(report.machine);
+  report.tested = virtual_acceptance_test(report.machine, report.drawn.geometry[0]);
   report.messages = machine_warnings(report.machine);
   if (options.format != "json") print_messages(report.messages);
   print_result(options.format == "json" ? machine_report_json(report)

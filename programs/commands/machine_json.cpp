@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "engine/machine/error_state.hpp"
 #include "programs/commands/machine_report.hpp"
 
 namespace abbe {
@@ -115,8 +116,7 @@ std::string dump(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-Json line_json(const LineReport& report) {
-  const TestLine& line = report.line;
+Json test_line_json(const TestLine& line) {
   Json mpe_um = Json::array();
   for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
   return {{"name", line.name},
@@ -125,9 +125,44 @@ Json line_json(const LineReport& report) {
           {"direction", triple_json(line.direction)},
           {"tip_mm", triple_json(line.tip_mm)},
           {"length_mm", line.length_mm},
-          {"mpe_um", mpe_um},
-          {"error_over_mpe",
-           {{"median", report.median}, {"p95", report.p95}, {"largest", report.largest}}}};
+          {"mpe_um", mpe_um}};
+}
+
+Json line_json(const LineReport& report) {
+  Json out = test_line_json(report.line);
+  out["error_over_mpe"] = {
+      {"median", report.median}, {"p95", report.p95}, {"largest", report.largest}};
+  return out;
+}
+
+/// The test of the drawn machine, line by line.
+Json tested_lines_json(const MachineReport& report) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < report.lines.size(); ++k) {
+    Json line = test_line_json(report.lines[k]);
+    for (const double error_mm : report.tested.error_mm[k])
+      line["error_um"].push_back(error_mm * 1e3);
+    out.push_back(line);
+  }
+  return out;
+}
+
+/// d of the drawn machine over its volume: each component nested by the readings of x, y, z.
+Json error_state_json(const MachineReport& report) {
+  constexpr int kReadings = 11;
+  const ErrorState state =
+      error_state(report.machine, report.drawn.geometry[0], kTestTip, kReadings);
+  Json out{{"tip_mm", triple_json(state.tip_mm)}};
+  for (int axis = 0; axis < 3; ++axis)
+    out[fmt::format("reading_{}_mm", kAxisNames[axis])] = state.reading_mm[axis];
+  for (int axis = 0; axis < 3; ++axis) {
+    Json& d_um = out[fmt::format("d_{}_um", kAxisNames[axis])];
+    for (int ix = 0; ix < kReadings; ++ix)
+      for (int iy = 0; iy < kReadings; ++iy)
+        for (int iz = 0; iz < kReadings; ++iz)
+          d_um[ix][iy].push_back(1e3 * state.at(ix, iy, iz)[axis]);
+  }
+  return out;
 }
 
 Json suggestion_json(const std::optional<SuggestedFactor>& suggested) {
@@ -182,6 +217,8 @@ std::string machine_report_json(const MachineReport& report) {
        {"virtual_machine",
         {{"seed", report.seed}, {"candidate", report.drawn.index[0]}, {"v", report.drawn.v[0]}}},
        {"components", components},
+       {"error_state", error_state_json(report)},
+       {"lines", tested_lines_json(report)},
        {"messages", messages(report.messages)}});
 }
 

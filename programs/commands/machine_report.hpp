@@ -20,8 +20,16 @@ struct MachineReport {
   Machine machine;
   std::uint64_t seed = 1;
   VirtualMachines drawn;  ///< one
+  std::vector<TestLine> lines;
+  TestResult tested;  ///< of the drawn machine, on `lines`
   std::vector<Diagnostic> messages;
 };
+/// The value without the sign of what is shown as zero with two decimals.
+double shown(double value);
+/// d at home, in the middle and at the end of each travel (paper, Fig. 6).
+std::string error_state_text(const MachineReport&);
+/// The errors of all test lengths against the MPE, a plot for each test (paper, Fig. 7).
+std::string length_test_text(const MachineReport&);
 std::string machine_report_text(const MachineReport&);
 std::string machine_report_json(const MachineReport&);
 

@@ -125,9 +125,6 @@ std::string sparkline(const std::vector<double>& values) {
   return out;
 }
 
-/// Without the sign of what is shown as zero.
-double shown(double value) { return std::fabs(value) < 0.005 ? 0 : value; }
-
 std::string curves_text(const MachineReport& report) {
   constexpr int kColumns = 48;
   const Machine& machine = report.machine;
@@ -217,7 +214,8 @@ std::string length_mpe_text(const LengthMpe& mpe) {
 std::string machine_report_text(const MachineReport& report) {
   const Machine& machine = report.machine;
   return machine.name + "\n" + axes_text(machine) + components_text(machine) +
-         equipment_text(machine) + curves_text(report);
+         equipment_text(machine) + curves_text(report) + error_state_text(report) +
+         length_test_text(report);
 }
 
 std::string screening_text(const ScreeningReport& report) {
