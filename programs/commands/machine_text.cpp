@@ -57,6 +57,12 @@ std::string components_text(const Machine& machine) {
                            machine.squareness_awz_rad * 1e6);
 }
 
+/// Of the performance indicator: "1 <= v <= 2", "v >= 1".
+std::string accepted_range(const Specification& spec) {
+  return std::isfinite(spec.v_max) ? fmt::format("{:g} <= v <= {:g}", spec.v_min, spec.v_max)
+                                   : fmt::format("v >= {:g}", spec.v_min);
+}
+
 /// What a specification may state beyond E0, a line for each.
 std::string limits_text(const Specification& spec) {
   std::string out;
@@ -76,9 +82,9 @@ std::string equipment_text(const Machine& machine) {
   const HeadSpec& head = machine.head;
   const Vec3 sd_um = 1e3 * machine.probe.sd_mm;
   std::string out = fmt::format(
-      "\nSpecification  {}: MPE(l) = {}; accepted {:g} <= v <= {:g}; lines over {:g} of the "
+      "\nSpecification  {}: MPE(l) = {}; accepted {}; lines over {:g} of the "
       "travel\n",
-      spec.standard, length_mpe_text(spec.mpe), spec.v_min, spec.v_max, spec.longest_share);
+      spec.standard, length_mpe_text(spec.mpe), accepted_range(spec), spec.longest_share);
   out += limits_text(spec);
   out += fmt::format(
       "Head           {}: l_r {:g} mm; repeatability A {:.3g}, B {:.3g} arcsec; turned {:g} deg\n",
@@ -225,8 +231,7 @@ std::string screening_text(const ScreeningReport& report) {
       "{}: {}, {} lengths, MPE(l) = {}, seed {}\n\n", report.machine.name, test_name(spec),
       kLengthsPerLine * report.lines.size(), length_mpe_text(spec.mpe), report.seed);
   out += fmt::format("  {:<34} {:>8}\n", "virtual machines drawn", counts.generated);
-  out += count_line(fmt::format("accepted ({:g} <= v <= {:g})", spec.v_min, spec.v_max),
-                    counts.used, counts);
+  out += count_line(fmt::format("accepted ({})", accepted_range(spec)), counts.used, counts);
   out += count_line("failed the MPE", counts.failed_mpe, counts);
   out += count_line("errors too small", counts.too_small, counts);
   return out + factor_text(report.suggested) + lines_text(report.lines) + probe_text(report.probe);

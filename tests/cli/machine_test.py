@@ -152,7 +152,10 @@ class Machine(harness.Case):
         path.write_text(json.dumps(machine))
         again = self.machine_json("screen", path, "--machines", "1000", "--seed", "5")
         self.assertAlmostEqual(again["machines"]["share_accepted"], suggested["share_accepted"], delta=0.03)   # 3 standard errors
-        self.assertIn("largest factor on e_max with which 95 % are accepted", self.machine("screen", path, "--machines", "100"))
+        text = self.machine("screen", path, "--machines", "100")
+        self.assertIn("largest factor on e_max with which 95 % are accepted", text)
+        self.assertIn("accepted (v >= 1)", text)
+        self.assertIn("accepted v >= 1;", self.machine("show", path))
 
     def test_lengths_shorter_than_the_standard_s_are_reported(self):
         for share, warned in ((0.659, True), (0.66, False), (0.8, False)):
