@@ -81,6 +81,11 @@ class Figures(harness.Case):
         self.assertIn("W0416", done.stdout)   # the paper's machine: fewer than half pass
         self.assertNotIn("\x1b", done.stdout + done.stderr)
 
+    def test_limits_are_shown_as_they_are_written(self):
+        self.write("fine.dmi", LENGTH.replace("-0.01,0.01", "-0.00045,0.00004"))
+        done = self.abbe("run", "fine.dmi", "--machines", 50)
+        self.assertIn("  99.99955  100.00004  ", done.stdout)
+
     def test_a_page_beside_the_table(self):
         done = self.abbe("run", "length.dmi", "--machines", 200, "--report", "page.html")
         self.assertEqual(done.stdout, self.abbe("run", "length.dmi", "--machines", 200).stdout)

@@ -28,8 +28,8 @@ std::string characteristics(const RunReport& r) {
   for (const CharacteristicReport& c : r.characteristics) {
     const int decimals = decimals_for(c.summary.u);
     std::vector<std::string> cells{std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals), decimal(c.summary.u, decimals),
-                                   decimal(c.lcl, decimals, true), decimal(c.ucl, decimals, true), decimal(c.lower, kFewestDecimals),
-                                   decimal(c.upper, kFewestDecimals), conforms(c)};
+                                   decimal(c.lcl, decimals, true), decimal(c.ucl, decimals, true), decimal(c.lower, decimals_of(c.lower)),
+                                   decimal(c.upper, decimals_of(c.upper)), conforms(c)};
     for (std::size_t k = 0; k < contributors.size(); ++k) cells.push_back(share_of(c, k));
     rows += html_row(cells);
   }

@@ -76,6 +76,13 @@ int decimals_for(double u) {
   return std::clamp(1 - exponent, kFewestDecimals, kMostDecimals);
 }
 
+int decimals_of(std::optional<double> limit) {
+  constexpr double kRounding = 1e-9;
+  int decimals = kFewestDecimals;
+  while (limit && decimals < kMostDecimals && std::fabs(std::stod(decimal(limit, decimals)) - *limit) > kRounding) ++decimals;
+  return decimals;
+}
+
 std::string decimal(std::optional<double> value, int decimals, bool sign) {
   if (!value) return "-";
   const double shown = std::fabs(*value) < 0.5 * std::pow(10.0, -decimals) ? 0.0 : *value;

@@ -15,6 +15,9 @@ inline constexpr int kFewestDecimals = 4, kMostDecimals = 9;
 /// Decimals that show two significant digits of u. Below 1 pm it is the rounding of coordinates.
 int decimals_for(double u);
 
+/// Decimals that show a tolerance limit to 1 pm, as the program states it.
+int decimals_of(std::optional<double> limit);
+
 /// "12.340", or with its sign "+12.340"; "-" where there is none, and no "-0.0000".
 std::string decimal(std::optional<double> value, int decimals, bool sign = false);
 

@@ -31,8 +31,11 @@ std::vector<Table::Column> columns(const std::vector<std::string>& contributors)
 
 std::string characteristics_table(const RunReport& r) {
   if (r.characteristics.empty()) return "No characteristic was evaluated.\n";
-  int most = 0;
-  for (const auto& c : r.characteristics) most = std::max(most, decimals_for(c.summary.u));
+  int most = 0, most_of_limits = kFewestDecimals;
+  for (const auto& c : r.characteristics) {
+    most = std::max(most, decimals_for(c.summary.u));
+    most_of_limits = std::max({most_of_limits, decimals_of(c.lower), decimals_of(c.upper)});
+  }
   const std::vector<std::string> contributors = contributor_names(r);
   Table table(columns(contributors));
   for (const auto& c : r.characteristics) {
@@ -45,8 +48,8 @@ std::string characteristics_table(const RunReport& r) {
                                    aligned(c.summary.u, decimals, most),
                                    aligned(c.lcl, decimals, most, true),
                                    aligned(c.ucl, decimals, most, true),
-                                   aligned(c.lower, kFewestDecimals, most),
-                                   aligned(c.upper, kFewestDecimals, most),
+                                   aligned(c.lower, decimals_of(c.lower), most_of_limits),
+                                   aligned(c.upper, decimals_of(c.upper), most_of_limits),
                                    conforms(c)};
     for (std::size_t k = 0; k < contributors.size(); ++k) cells.push_back(share_of(c, k));
     table.add(std::move(cells));

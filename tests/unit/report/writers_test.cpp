@@ -243,9 +243,22 @@ TEST_CASE("figures are rounded to two digits of u and decimal points stand below
   fine.occurrence = 2;
   const std::string text = written("text", r);
   CHECK(text.find("  41  END1, END2  LEN (DISTB)     mm    500.0000   0.0020   -0.0040   +0.0042   "
-                  "499.9900   500.0100     99.8 %      62 %   0 %   38 %\n") != std::string::npos);
+                  "499.9900  500.0100    99.8 %      62 %   0 %   38 %\n") != std::string::npos);
   CHECK(text.find("  41  END1, END2  LEN (DISTB) #2  mm    500.00000  0.00010  -0.00019  +0.00000  "
-                  "  -        500.0100          -         -     -      -\n") != std::string::npos);
+                  "  -       500.0100         -         -     -      -\n") != std::string::npos);
+}
+
+TEST_CASE("tolerance limits have the decimals that they need") {
+  RunReport r = report();
+  r.characteristics.resize(2, length());
+  r.characteristics[0].lower = 499.99955, r.characteristics[0].upper = 500.00004;
+  r.characteristics[1].lower = 1.0 / 60, r.characteristics[1].upper = 500.1 + 1e-13;
+  const std::string text = written("text", r), page = written("html", r);
+  INFO(text);
+  CHECK(text.find("  499.99955      500.00004        99.8 %  ") != std::string::npos);
+  CHECK(text.find("    0.016666667  500.1000         99.8 %  ") != std::string::npos);
+  for (const char* limit : {">499.99955<", ">500.00004<", ">0.016666667<", ">500.1000<"})
+    CHECK(page.find(limit) != std::string::npos);
 }
 
 TEST_CASE("a row that rests on some of the machines says of how many") {
