@@ -42,6 +42,24 @@ CharacteristicReport::CoverageInterval interval_of(const Samples& samples, doubl
   return {coverage, s.symmetric, s.shortest};
 }
 
+/// Decides on the value of the error-free machine, in the unit of the report. `values` are judged
+/// against the common limits. A zone has no lower limit, but begins at 0.
+CharacteristicReport::Decision decision_on(const CharacteristicReport& report,
+                                           const std::vector<double>& values, double factor) {
+  std::vector<double> errors = values;
+  for (double& e : errors) e = e * factor - *report.reference;
+  const double upper = *report.upper, begin = report.lower.value_or(0);
+  const Interval& interval = report.summary.symmetric;
+  CharacteristicReport::Decision d;
+  d.verdict = decide(*report.reference, errors, report.lower, upper);
+  d.guard_band = guard_band(errors, report.lower, upper);
+  if (d.guard_band && upper - *d.guard_band < begin) d.guard_band.reset();
+  if (d.guard_band) d.upper = upper - *d.guard_band;
+  if (d.guard_band && report.lower) d.lower = *report.lower + *d.guard_band;
+  d.tolerance_to_uncertainty = (upper - begin) / ((interval.high - interval.low) / 2);
+  return d;
+}
+
 /// Machines that stopped and have no value here.
 int stopped_before(const Samples& samples, const std::vector<Trap>& traps) {
   return static_cast<int>(std::count_if(traps.begin(), traps.end(), [&](const Trap& t) {
@@ -76,9 +94,12 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   }
   report.lower = scaled(samples.limits.lower, factor);
   report.upper = scaled(samples.limits.upper, factor);
-  if (report.lower || report.upper)
-    report.conformance_probability = conformance_probability(
-        against_common_limits(samples), samples.limits.lower, samples.limits.upper);
+  if (report.lower || report.upper) {
+    const std::vector<double> judged = against_common_limits(samples);
+    report.conformance_probability =
+        conformance_probability(judged, samples.limits.lower, samples.limits.upper);
+    if (report.upper && report.reference) report.decision = decision_on(report, judged, factor);
+  }
   report.evaluated = static_cast<int>(samples.value.size());
   report.trapped = stopped_before(samples, run.traps);
   report.elsewhere = run.machines - report.evaluated - report.trapped;

@@ -15,6 +15,7 @@
 #include "engine/base/diagnostic.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/run/run.hpp"
+#include "engine/stats/decision.hpp"
 #include "engine/stats/histogram.hpp"
 #include "engine/stats/summary.hpp"
 
@@ -41,6 +42,14 @@ struct CharacteristicReport {
   std::optional<CoverageInterval> interval;
   std::optional<double> lower, upper;  ///< tolerance limits of the value
   std::optional<double> conformance_probability;
+  /// What the reference, taken for a measured value, proves (engine/stats/decision.hpp).
+  struct Decision {
+    Conformity verdict = Conformity::undecided;
+    std::optional<double> guard_band;    ///< none: no value conforms
+    std::optional<double> lower, upper;  ///< acceptance limits, where the tolerance has limits
+    double tolerance_to_uncertainty = 0; ///< over half of the 95 % interval; a zone begins at 0
+  };
+  std::optional<Decision> decision;      ///< none without limits or without a reference
   struct Contribution {
     std::string name;
     double share = 0;

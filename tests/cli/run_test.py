@@ -10,7 +10,7 @@ from harness import LENGTH
 
 KEYS = {"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost", "traps", "influences", "messages"}
 CHARACTERISTIC_KEYS = {"feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal", "reference", "mean", "u", "lcl", "ucl",
-                       "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "contributions", "trapped", "evaluated"}
+                       "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "decision", "contributions", "trapped", "evaluated"}
 
 
 class Figures(harness.Case):
@@ -48,6 +48,18 @@ class Figures(harness.Case):
         self.assertAlmostEqual(length["lcl"], values[12] - length["reference"], delta=1e-12)
         low, high = length["tolerance_limits"]
         self.assertEqual(length["conformance_probability"], sum(low <= v <= high for v in values) / 500)
+        decision, y = length["decision"], length["reference"]
+        errors = sorted(v - y for v in values)
+        def proven(y):   # both ways round: the true value is y - e, and y + e where errors grow with it
+            return all(sum(low <= y + sign * e <= high for e in errors) >= 475 for sign in (1, -1))
+        accepted = decision["acceptance_limits"]
+        self.assertEqual((decision["rule"], decision["probability"], decision["verdict"]), ("ISO 14253-1:2017", 0.95, "conforms"))
+        self.assertAlmostEqual(decision["guard_band"], max(errors[474], -errors[25]), delta=1e-12)
+        self.assertAlmostEqual(accepted[0] - low, decision["guard_band"], delta=1e-12)
+        self.assertAlmostEqual(high - accepted[1], decision["guard_band"], delta=1e-12)
+        self.assertEqual([proven(y) for y in (accepted[0] - 1e-7, accepted[0] + 1e-9, y, accepted[1] - 1e-9, accepted[1] + 1e-7)],
+                         [False, True, True, True, False])
+        self.assertAlmostEqual(decision["tolerance_to_uncertainty"], 2 * (high - low) / (values[487] - values[12]), delta=1e-9)
         self.assertAlmostEqual(sum(length["contributions"].values()), 1, delta=1e-12)
         self.assertEqual(length["contributions"]["head"], 0)   # one head position: indexing shifts both touches alike
         self.assertAlmostEqual(length["reference"], 100, delta=1e-9)
@@ -79,19 +91,22 @@ class Figures(harness.Case):
         self.assertIn("Monte Carlo error of u:", done.stdout)
         self.assertRegex(done.stdout, r"\nestimated cycle time (\d+ min )?\d+ s\n")
         self.assertIn("W0416", done.stdout)   # the paper's machine: fewer than half pass
+        self.assertRegex(done.stdout, r"\n +16  A, B +LEN \(DISTB\)  mm +100\.0000  99\.99\d\d to 100\.00\d\d  conforms +\d+\.\d\n")
+        self.assertIn("ISO 14253-1:2017 (95 %)", done.stdout)
         self.assertNotIn("\x1b", done.stdout + done.stderr)
 
     def test_limits_are_shown_as_they_are_written(self):
         self.write("fine.dmi", LENGTH.replace("-0.01,0.01", "-0.00045,0.00004"))
         done = self.abbe("run", "fine.dmi", "--machines", 50)
         self.assertIn("  99.99955  100.00004  ", done.stdout)
+        self.assertRegex(done.stdout, r"  none +undecided +\d")
 
     def test_a_page_beside_the_table(self):
         done = self.abbe("run", "length.dmi", "--machines", 200, "--report", "page.html")
         self.assertEqual(done.stdout, self.abbe("run", "length.dmi", "--machines", 200).stdout)
         page = (self.folder / "page.html").read_text()
         self.assertTrue(page.startswith("<!DOCTYPE html>") and page.endswith("</html>\n"))
-        for told in ("A, B: LEN (DISTB)", "<svg", "200 virtual machines used of", "not modelled"):
+        for told in ("A, B: LEN (DISTB)", "<svg", "Decisions", "conforms", "200 virtual machines used of", "not modelled"):
             self.assertIn(told, page)
         self.assertEqual(page, self.abbe("run", "length.dmi", "--machines", 200, "--format", "html").stdout)
         self.refused("E0616", "run", "length.dmi", "--report", "length.dmi")

@@ -36,6 +36,16 @@ std::string characteristics(const RunReport& r) {
   return html_table(rows) + fmt::format("<p class=\"note\">{}</p>\n", escaped(report_legend(r)));
 }
 
+std::string decisions(const RunReport& r) {
+  const std::string titles = html_row({"line", "characteristic", "unit", "value", "accepted", "verdict", "T/U"}, "th");
+  std::string rows;
+  for (const CharacteristicReport& c : r.characteristics)
+    if (c.decision)
+      rows += html_row({std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals_for(c.summary.u)), accepted(c, *c.decision),
+                        std::string(name(c.decision->verdict)), tolerance_to_uncertainty(*c.decision)});
+  return rows.empty() ? "" : "<h2>Decisions</h2>\n" + html_table(titles + rows) + fmt::format("<p class=\"note\">{}</p>\n", escaped(decision_legend()));
+}
+
 /// Deviations from the value of the error-free machine, or from the mean where it has none, in um or seconds of arc.
 std::string distribution(const CharacteristicReport& c) {
   const bool length = c.unit == "mm";
@@ -91,7 +101,7 @@ std::string influences(const RunReport& r) {
 std::string write_html(const RunReport& r) {
   const std::string remarks = report_remarks(r);
   return html_page("Uncertainty of " + r.program,
-                   "<h1>Measurement uncertainty</h1>\n" + html_paragraphs(report_header(r)) + "<h2>Characteristics</h2>\n" + characteristics(r) + distributions(r) +
+                   "<h1>Measurement uncertainty</h1>\n" + html_paragraphs(report_header(r)) + "<h2>Characteristics</h2>\n" + characteristics(r) + decisions(r) + distributions(r) +
                        intervals(r) + budgets(r) + (remarks.empty() ? "" : "<h2>Remarks</h2>\n" + html_paragraphs(remarks)) + influences(r) +
                        fmt::format("<p class=\"note\">abbe {}; GUM, JCGM 101 and 106.</p>\n", escaped(r.version)));
 }

@@ -25,6 +25,15 @@ Json budget(const std::vector<CharacteristicReport::BudgetLine>& lines) {
   return out;
 }
 
+Json decision(const CharacteristicReport::Decision& d) {
+  return {{"rule", kDecisionRule},
+          {"probability", kProvenProbability},
+          {"guard_band", number(d.guard_band)},
+          {"acceptance_limits", d.guard_band ? pair(d.lower, d.upper) : Json()},
+          {"verdict", name(d.verdict)},
+          {"tolerance_to_uncertainty", number(d.tolerance_to_uncertainty)}};
+}
+
 Json characteristic(const CharacteristicReport& c) {
   const Summary& s = c.summary;
   Json out = {{"feature", c.features},
@@ -49,6 +58,7 @@ Json characteristic(const CharacteristicReport& c) {
                 {"ucl", number(s.high_error)}}},
               {"tolerance_limits", pair(c.lower, c.upper)},
               {"conformance_probability", number(c.conformance_probability)},
+              {"decision", c.decision ? decision(*c.decision) : Json()},
               {"contributions", contributions(c)},
               {"trapped", c.trapped},
               {"evaluated", c.evaluated}};

@@ -150,6 +150,22 @@ std::string report_legend(const RunReport& r) {
       100 * worst);
 }
 
+std::string accepted(const CharacteristicReport& c, const CharacteristicReport::Decision& d) {
+  if (!d.guard_band) return "none";
+  const int decimals = decimals_for(c.summary.u);
+  return (d.lower ? decimal(d.lower, decimals) + " to " : "up to ") + decimal(d.upper, decimals);
+}
+
+std::string tolerance_to_uncertainty(const CharacteristicReport::Decision& d) {
+  return std::isfinite(d.tolerance_to_uncertainty) ? fmt::format("{:.1f}", d.tolerance_to_uncertainty) : "-";
+}
+
+std::string decision_legend() {
+  return fmt::format("accepted: the values that prove conformity by {} ({:g} %), the tolerance limits less a guard band from the simulated\n"
+                     "errors; verdict: on the value; T/U: tolerance over expanded uncertainty (half of the 95 % interval).",
+                     kDecisionRule, 100 * kProvenProbability);
+}
+
 std::string budget_legend() {
   return "source: acting alone, shares below 0.1 % left out; then the touches of features that coordinate systems are built from\n"
          "(alignment) against the others (feature).";

@@ -36,6 +36,12 @@ std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicR
 /// Share of conforming machines: "99.8 %"; and of how many, where a condition sent some past it.
 std::string conforms(const CharacteristicReport&);
 
+/// The values that prove conformity: "9.9952 to 10.0048", of a zone "up to 0.0039", "none".
+std::string accepted(const CharacteristicReport&, const CharacteristicReport::Decision&);
+
+/// Tolerance over expanded uncertainty: "12.3".
+std::string tolerance_to_uncertainty(const CharacteristicReport::Decision&);
+
 /// Words with commas between them.
 std::string joined(const std::vector<std::string>& words);
 
@@ -48,6 +54,8 @@ std::vector<std::string> contributor_names(const RunReport&);
 std::string report_header(const RunReport&);
 /// What the columns of the table are.
 std::string report_legend(const RunReport&);
+/// What the columns of the decisions are; no newline at the end.
+std::string decision_legend();
 /// What the lines of a budget are; no newline at the end.
 std::string budget_legend();
 /// Machines that stopped, characteristics that were lost, messages without a place in a file; those with one are shown when the program is

@@ -20,6 +20,13 @@ std::string aligned(std::optional<double> value, int decimals, int most, bool si
   return decimal(value, decimals, sign) + std::string(static_cast<std::size_t>(after), ' ');
 }
 
+/// Decimals of the figures with the most.
+int most_decimals(const RunReport& r) {
+  int most = 0;
+  for (const auto& c : r.characteristics) most = std::max(most, decimals_for(c.summary.u));
+  return most;
+}
+
 std::vector<Table::Column> columns(const std::vector<std::string>& contributors) {
   using enum Table::Align;
   std::vector<Table::Column> list{
@@ -31,11 +38,10 @@ std::vector<Table::Column> columns(const std::vector<std::string>& contributors)
 
 std::string characteristics_table(const RunReport& r) {
   if (r.characteristics.empty()) return "No characteristic was evaluated.\n";
-  int most = 0, most_of_limits = kFewestDecimals;
-  for (const auto& c : r.characteristics) {
-    most = std::max(most, decimals_for(c.summary.u));
+  const int most = most_decimals(r);
+  int most_of_limits = kFewestDecimals;
+  for (const auto& c : r.characteristics)
     most_of_limits = std::max({most_of_limits, decimals_of(c.lower), decimals_of(c.upper)});
-  }
   const std::vector<std::string> contributors = contributor_names(r);
   Table table(columns(contributors));
   for (const auto& c : r.characteristics) {
@@ -55,6 +61,24 @@ std::string characteristics_table(const RunReport& r) {
     table.add(std::move(cells));
   }
   return table.to_text();
+}
+
+/// What is proven of the characteristics that have limits; nothing when none has.
+std::string decision_table(const RunReport& r) {
+  using enum Table::Align;
+  Table table({{"line"}, {"feature", left}, {"tolerance", left}, {"unit", left}, {"value"},
+               {"accepted", left}, {"verdict", left}, {"T/U"}});
+  const int most = most_decimals(r);
+  bool any = false;
+  for (const auto& c : r.characteristics) {
+    if (!c.decision) continue;
+    any = true;
+    table.add({std::to_string(c.line), joined(c.features), tolerance_name(c), c.unit,
+               aligned(c.reference, decimals_for(c.summary.u), most), accepted(c, *c.decision),
+               std::string(name(c.decision->verdict)), tolerance_to_uncertainty(*c.decision)});
+  }
+  if (!any) return "";
+  return "\n" + table.to_text() + "\n" + decision_legend() + "\n";
 }
 
 /// The budgets, one source a line, the largest first; nothing when none was asked for.
@@ -94,7 +118,7 @@ std::string interval_table(const RunReport& r) {
 
 std::string write_text(const RunReport& r) {
   std::string out = report_header(r) + "\n" + characteristics_table(r);
-  if (!r.characteristics.empty()) out += report_legend(r) + interval_table(r) + budget_table(r);
+  if (!r.characteristics.empty()) out += report_legend(r) + decision_table(r) + interval_table(r) + budget_table(r);
   const std::string remarks = report_remarks(r);
   if (!remarks.empty()) out += "\n" + remarks;
   return out + report_bounds(r);

@@ -52,6 +52,41 @@ TEST_CASE("limits are relative to the error-free value, conformance is a share")
   CHECK(c.elsewhere == 3);
 }
 
+TEST_CASE("the decision on the error-free value goes by the errors around it") {
+  // Errors from 0.5005 to 1.4995 um: 95 % of them are not above 1.4495 um.
+  const RunResult run = run_of({samples(0, 500, {499.998, 500.001}, ramp(500.001, 1e-6))}, 1000);
+  const CharacteristicReport::Decision d =
+      characteristic_reports(length_and_angle(), run, {}).at(0).decision.value();
+  CHECK(d.guard_band.value() == doctest::Approx(1.4495e-3).epsilon(1e-9));
+  CHECK(d.lower.value() == doctest::Approx(499.9994495).epsilon(1e-12));
+  CHECK(d.upper.value() == doctest::Approx(499.9995505).epsilon(1e-12));
+  CHECK(d.verdict == Conformity::undecided);  // half of 500 + e, and every 500 - e, are inside
+  CHECK(d.tolerance_to_uncertainty == doctest::Approx(3e-3 / 475e-6).epsilon(1e-9));
+}
+
+TEST_CASE("decisions are in the unit of the report; a zone begins at 0") {
+  const auto decision = [](double upper) {
+    const RunResult run = run_of({samples(1, 0, {{}, upper * kDegree}, ramp(0.5 * kDegree, 1e-3 * kDegree))}, 1000);
+    return characteristic_reports(length_and_angle(), run, {}).at(0).decision.value();
+  };
+  CHECK(decision(2).guard_band.value() == doctest::Approx(0.9495).epsilon(1e-9));
+  CHECK(decision(2).upper.value() == doctest::Approx(1.0505).epsilon(1e-9));
+  CHECK_FALSE(decision(2).lower);
+  CHECK(decision(2).verdict == Conformity::conforms);
+  CHECK(decision(2).tolerance_to_uncertainty == doctest::Approx(2 / 0.475).epsilon(1e-9));
+  CHECK(decision(0.9).verdict == Conformity::undecided);
+  CHECK_FALSE(decision(0.9).guard_band);  // it would leave values below 0 only
+}
+
+TEST_CASE("where every machine has limits of its own, the decision goes by them") {
+  RunResult run = run_of({samples(0, 0, {{}, 1e-3}, ramp(0, 1e-6))}, 1000);
+  const auto decision = [&] { return characteristic_reports(length_and_angle(), run, {}).at(0).decision.value(); };
+  CHECK(decision().guard_band.value() == doctest::Approx(449.5e-6).epsilon(1e-9));
+  // Each limit follows its machine's value: by how much it is kept does not vary.
+  for (const double v : run.samples[0].value) run.samples[0].own_limits.push_back({{}, 1e-3 + v});
+  CHECK(decision().guard_band.value() < 1e-12);
+}
+
 TEST_CASE("angles leave in degrees") {
   const RunResult run = run_of(
       {samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))},
@@ -79,6 +114,7 @@ TEST_CASE("shares of variance sum to one and ignore rounding") {
   CHECK(contribution(c, "probe")->share == doctest::Approx(0.2).epsilon(1e-6));
   CHECK(contribution(c, "head")->share == 0);  // u = 3e-11 mm is rounding
   CHECK_FALSE(c.conformance_probability);      // no limits, no probability
+  CHECK_FALSE(c.decision);
 }
 
 TEST_CASE("when nothing varies every share is zero, not NaN") {
@@ -130,6 +166,7 @@ TEST_CASE("without a reference there is nothing that limits could be relative to
   CHECK_FALSE(c.ucl);
   CHECK(c.summary.symmetric.high == 500.2);
   CHECK(c.conformance_probability.has_value());
+  CHECK_FALSE(c.decision);
 }
 
 TEST_CASE("the same labels again in the same line are further occurrences") {

@@ -29,6 +29,7 @@ CharacteristicReport length() {
   c.lcl = -0.0040, c.ucl = 0.0042;
   c.lower = 499.99, c.upper = 500.01;
   c.conformance_probability = 0.998;
+  c.decision = {Conformity::conforms, 0.0034, 499.9934, 500.0066, 4.878};
   c.contributions = {{"geometry", 0.62}, {"head", 0.0}, {"probe", 0.38}};
   return c;
 }
@@ -90,7 +91,7 @@ TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   CHECK(keys(c) == std::vector<std::string>{
                        "feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal",
                        "reference", "mean", "u", "lcl", "ucl", "interval95", "monte_carlo_error",
-                       "tolerance_limits", "conformance_probability", "contributions", "trapped",
+                       "tolerance_limits", "conformance_probability", "decision", "contributions", "trapped",
                        "evaluated"});
   CHECK(c["feature"] == Json{"END1", "END2"});
   CHECK(c["u"] == 0.00203);
@@ -99,6 +100,12 @@ TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   CHECK(c["monte_carlo_error"] ==
         Json{{"mean", 6.4e-5}, {"u", 4.5e-5}, {"lcl", 1.7e-4}, {"ucl", 1.8e-4}});
   CHECK(c["tolerance_limits"] == Json{499.99, 500.01});
+  CHECK(c["decision"] == Json{{"rule", "ISO 14253-1:2017"},
+                              {"probability", 0.95},
+                              {"guard_band", 0.0034},
+                              {"acceptance_limits", {499.9934, 500.0066}},
+                              {"verdict", "conforms"},
+                              {"tolerance_to_uncertainty", 4.878}});
   CHECK(c["contributions"] == Json{{"geometry", 0.62}, {"head", 0.0}, {"probe", 0.38}});
   CHECK(j["lost"][0] ==
         Json{{"line", 77}, {"feature", "BORE"}, {"reason", "the statement has errors"}});
@@ -147,6 +154,12 @@ TEST_CASE("the text report reads at a glance") {
         "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of "
         "the variance.\n"
         "Monte Carlo error of u: 2.2 % (standard error, the largest of the table).\n"
+        "\n"
+        "line  feature     tolerance    unit     value  accepted              verdict   T/U\n"
+        "  41  END1, END2  LEN (DISTB)  mm    500.0000  499.9934 to 500.0066  conforms  4.9\n"
+        "\n"
+        "accepted: the values that prove conformity by ISO 14253-1:2017 (95 %), the tolerance limits less a guard band from the simulated\n"
+        "errors; verdict: on the value; T/U: tolerance over expanded uncertainty (half of the 95 % interval).\n"
         "\n"
         "1 of 1000 machines stopped at line 12: endless loop\n"
         "2 of 1000 machines stopped at line 84: no points\n"
@@ -238,7 +251,7 @@ TEST_CASE("figures are rounded to two digits of u and decimal points stand below
   CharacteristicReport& fine = r.characteristics[1];
   fine.summary.u = 0.0000996;  // two digits: 0.00010
   fine.lcl = -0.00019, fine.ucl = -0.000001;
-  fine.lower = std::nullopt, fine.conformance_probability = std::nullopt;
+  fine.lower = std::nullopt, fine.conformance_probability = std::nullopt, fine.decision = std::nullopt;
   fine.contributions.clear();
   fine.occurrence = 2;
   const std::string text = written("text", r);
@@ -259,6 +272,30 @@ TEST_CASE("tolerance limits have the decimals that they need") {
   CHECK(text.find("    0.016666667  500.1000         99.8 %  ") != std::string::npos);
   for (const char* limit : {">499.99955<", ">500.00004<", ">0.016666667<", ">500.1000<"})
     CHECK(page.find(limit) != std::string::npos);
+}
+
+TEST_CASE("decisions: zones, limits that no value meets, and rows without one") {
+  RunReport r = report();
+  r.characteristics.resize(4, length());
+  CharacteristicReport &zone = r.characteristics[1], &narrow = r.characteristics[2];
+  zone.reference = 0, zone.lower = std::nullopt, zone.decision = {Conformity::undecided, 0.0046, {}, 0.0004, 2.44};
+  narrow.decision = {Conformity::does_not_conform, {}, {}, {}, std::numeric_limits<double>::infinity()};
+  r.characteristics[3].decision = std::nullopt;
+  const std::string text = written("text", r), page = written("html", r);
+  INFO(text);
+  CHECK(text.find("    0.0000  up to 0.0004          undecided         2.4\n") != std::string::npos);
+  CHECK(text.find("  500.0000  none                  does not conform    -\n") != std::string::npos);
+  CHECK(page.find("<h2>Decisions</h2>") != std::string::npos);
+  CHECK(page.find("<td>up to 0.0004</td><td>undecided</td>") != std::string::npos);
+  const Json c = Json::parse(written("json", r))["characteristics"];
+  CHECK(c[1]["decision"]["acceptance_limits"] == Json{nullptr, 0.0004});
+  CHECK(c[2]["decision"]["acceptance_limits"].is_null());
+  CHECK(c[2]["decision"]["guard_band"].is_null());
+  CHECK(c[2]["decision"]["tolerance_to_uncertainty"].is_null());
+  CHECK(c[3]["decision"].is_null());
+  for (CharacteristicReport& each : r.characteristics) each.decision = std::nullopt;
+  CHECK(written("text", r).find("verdict") == std::string::npos);
+  CHECK(written("html", r).find("Decisions") == std::string::npos);
 }
 
 TEST_CASE("a row that rests on some of the machines says of how many") {
