@@ -3,7 +3,7 @@
 // figures contain), and bounds on those that are not propagated.
 //
 // An influence is in one of three states:
-//   modelled      its effect varies from virtual machine to virtual machine: it is in u and limits
+//   modelled      it acts on the virtual machines of the run: it is in u and limits
 //   bounded       it is in no figure, but someone who can know has stated its greatest error
 //   not modelled  it is in no figure, and nothing is known of it
 //

@@ -51,20 +51,19 @@ bool describes(std::string_view pattern, std::string_view effect) {
   return pattern.ends_with('.') ? effect.starts_with(pattern) : effect == pattern;
 }
 
-bool described(const Row& row, const Machine& machine, const Workpiece* workpiece) {
+bool described(const Row& row, const Machine& machine, const std::vector<char>& acted,
+               const Workpiece* workpiece) {
   if (workpiece && row.described_by && row.described_by(*workpiece)) return true;
-  return std::any_of(
-      machine.effects.begin(), machine.effects.end(), [&](const EffectSetting& effect) {
-        return std::any_of(row.effects.begin(), row.effects.end(), [&](std::string_view pattern) {
-          return describes(pattern, effect.name);
-        });
-      });
+  for (std::size_t k = 0; k < machine.effects.size(); ++k)
+    for (const std::string_view pattern : row.effects)
+      if (acted[k] && describes(pattern, machine.effects[k].name)) return true;
+  return false;
 }
 
 bool modelled(const InfluenceQuantity& quantity, const Machine& machine,
-              const Workpiece* workpiece) {
+              const std::vector<char>& acted, const Workpiece* workpiece) {
   return quantity.always_modelled || std::any_of(rows().begin(), rows().end(), [&](const Row& row) {
-           return row.name == quantity.name && described(row, machine, workpiece);
+           return row.name == quantity.name && described(row, machine, acted, workpiece);
          });
 }
 
@@ -83,12 +82,13 @@ const InfluenceBound* bound_on(std::string_view name, const Machine& machine,
 
 }  // namespace
 
-Declaration declare_influences(const Machine& machine, const Workpiece* workpiece) {
+Declaration declare_influences(const Machine& machine, const std::vector<char>& acted,
+                               const Workpiece* workpiece) {
   Declaration out;
   for (const InfluenceQuantity& quantity : influence_quantities()) {
     Influence influence{std::string(quantity.name), "not modelled"};
     const InfluenceBound* bound = bound_on(quantity.name, machine, workpiece);
-    if (modelled(quantity, machine, workpiece)) {
+    if (modelled(quantity, machine, acted, workpiece)) {
       influence.status = "modelled";
       if (bound)
         out.messages.push_back(

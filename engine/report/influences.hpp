@@ -16,9 +16,11 @@ struct Declaration {
   std::vector<Diagnostic> messages;   ///< bounds on what is modelled (W0434)
 };
 
-/// The declaration for a machine and, when there is one, a workpiece file. An influence that is not
-/// modelled by itself is when the machine file switches on an effect that describes it, or the
-/// workpiece file describes it; else it is bounded when one of the two states a bound.
-Declaration declare_influences(const Machine&, const Workpiece* workpiece = nullptr);
+/// The declaration for a run on a machine and, when there is one, a workpiece file. An influence that
+/// is not modelled by itself is when an effect of the machine file that describes it moved a touch
+/// (`acted`: RunResult), or the workpiece file describes it; else it is bounded when one of the two
+/// states a bound.
+Declaration declare_influences(const Machine&, const std::vector<char>& acted,
+                               const Workpiece* workpiece = nullptr);
 
 }  // namespace abbe

@@ -153,6 +153,7 @@ class StudyRun {
     }
     study_.result.machines += part.machines;
     study_.result.touches += part.touches;
+    add_acted(part.acted, study_.result.acted);
     add_to_trials(part);
   }
 
@@ -215,13 +216,14 @@ class StudyRun {
     report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics =
         characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
-    Declaration declaration = declare_influences(machine_, options_.workpiece);
+    Declaration declaration = declare_influences(machine_, study_.result.acted, options_.workpiece);
     report.influences = std::move(declaration.influences);
     std::move(declaration.messages.begin(), declaration.messages.end(),
               std::back_inserter(report.messages));
     report.traps = study_.result.traps;
     add_unreached();
     warn_of_parting();
+    warn_of_idle_effects();
     warn_of_few_machines();
     warn_of_screening();
     if (study_.result.samples.empty())
@@ -263,6 +265,21 @@ class StudyRun {
     if (parted > kShown)
       message(Code::W0619, fmt::format("{} characteristics in all are conditional results", parted),
               "`abbe run --format json` says of each how many machines `evaluated` it");
+  }
+
+  /// Effects of the machine file of which nothing is in any figure: an expansion at 20 degrees C, a
+  /// size of 0.
+  void warn_of_idle_effects() {
+    const std::vector<std::string> names = effect_names(machine_.effects);
+    const bool corrected = options_.effect_use == EffectUse::corrected;
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (study_.result.acted[k]) continue;
+      message(Code::W0615,
+              fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
+              fmt::format("`abbe explain {}` says on what it depends, and which of its sizes are 0 unless given; temperatures and loads "
+                          "come from a workpiece file{}",
+                          machine_.effects[k].name, corrected ? "; of a corrected effect only the uncertainty remains" : ""));
+    }
   }
 
   /// Beyond each end of an interval must be some values, or its ends are those of the sample.

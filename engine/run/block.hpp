@@ -86,6 +86,7 @@ struct Block {
   int machines = 0;
   GeometryBlock geometry;
   EffectSet::LaneParameters effects;
+  EffectSet::Acted acted;
   std::vector<Part::Draw> parts;      ///< by machine
   std::uint64_t touches = 0;
 

@@ -79,6 +79,9 @@ double checked_value(const EffectParameter& p, const EffectSetting::Value& given
   return value;
 }
 
+/// Whether d shows: only along the normal, and not below the rounding of coordinates of about a metre.
+bool shows(double along_normal_mm) { return std::fabs(along_normal_mm) >= 1e-9; }
+
 /// `count` standard normal numbers for every machine: [draw][machine].
 std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vector<std::uint32_t>& machine, std::uint32_t stream,
                                    std::uint32_t site, const std::vector<std::uint32_t>& visit) {
@@ -248,18 +251,18 @@ struct EffectSet::Sum {
 };
 
 void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std::uint64_t seed, std::uint32_t site,
-                    TouchBatch& batch) const {
+                    TouchBatch& batch, Acted& acted) const {
   if (group.slots.empty()) return;
   std::vector<int> anywhere, by_reading;
   for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) (needs_raw_reading(*active_[e].effect) ? by_reading : anywhere).push_back(e);
-  if (!anywhere.empty()) add_alike(anywhere, group, lanes, seed, site, batch);
+  if (!anywhere.empty()) add_alike(anywhere, group, lanes, seed, site, batch, acted);
   if (by_reading.empty()) return;
   find_contact(batch);
-  add_alike(by_reading, group, lanes, seed, site, batch);
+  add_alike(by_reading, group, lanes, seed, site, batch, acted);
 }
 
 void EffectSet::add_alike(const std::vector<int>& which, const Group& group, const LaneParameters& lanes, std::uint64_t seed,
-                          std::uint32_t site, TouchBatch& batch) const {
+                          std::uint32_t site, TouchBatch& batch, Acted& acted) const {
   Sum sum(group, batch, lanes.lanes);
   for (const int e : which) {
     const Active& a = active_[e];
@@ -269,16 +272,16 @@ void EffectSet::add_alike(const std::vector<int>& which, const Group& group, con
       draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
     const bool own_scenes = needs_raw_reading(*a.effect) || (sees_temperatures(a) && !group.temperatures.empty());
     if (a.linear && !own_scenes)
-      add_linear(a, lanes.weights[e], draws, sum);
+      add_linear(a, lanes.weights[e], draws, sum, acted[e]);
     else
-      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, batch, sum);
+      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, batch, sum, acted[e]);
   }
   auto& [x, y, z] = sum.error.column;
   add_weighted(sum.n, sum.terms, x.data(), y.data(), z.data());
   for (int i = 0; i < sum.n; ++i) batch.error.set(group.slots[i], batch.error.get(group.slots[i]) + sum.error.get(i));
 }
 
-void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, const std::vector<double>& draws, Sum& sum) {
+void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, const std::vector<double>& draws, Sum& sum, char& acted) {
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
   const int terms = std::max(1, a.effect->draws);
   ABBE_CHECK(terms <= kMostNumbers);
@@ -295,13 +298,15 @@ void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, 
         for (int i = 0; i < sum.n; ++i) product[i] *= draws[static_cast<std::size_t>(j) * sum.n + i];
         weight = sum.keep(std::move(product));
       }
+      const double along = dot(sum.group.scene->normal, vector);
+      for (int i = 0; i < sum.n && !acted; ++i) acted = shows(along * weight[i]);
       sum.terms.push_back({vector, weight});
     }
   }
 }
 
 void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch& batch,
-                            Sum& sum) {
+                            Sum& sum, char& acted) {
   const std::size_t parameters = a.value.size(), numbers = a.effect->draws;
   ABBE_CHECK(parameters <= kMostNumbers && numbers <= kMostNumbers);
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
@@ -319,7 +324,9 @@ void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, c
     }
     for (std::size_t p = 0; p < parameters; ++p) values[p] = theta[p * sum.lanes + sum.lane[i]];
     for (std::size_t j = 0; j < numbers; ++j) z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
-    sum.error.set(i, sum.error.get(i) + a.effect->displace(scene, values, z) - estimate);
+    const Vec3 d = a.effect->displace(scene, values, z);
+    if (!acted) acted = shows(dot(scene.normal, d - estimate));
+    sum.error.set(i, sum.error.get(i) + d - estimate);
   }
 }
 

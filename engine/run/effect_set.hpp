@@ -52,9 +52,12 @@ class EffectSet {
     std::vector<std::uint32_t> indexings;    ///< by slot of the group: which indexing event the head is in
     std::vector<Temperatures> temperatures;  ///< by slot of the group; empty: all have those of the scene
   };
-  /// Adds effect `k` (every effect when k < 0) to the errors of a group, which hold all errors but those of the effects. `site`: the
-  /// ordinal of the touch.
-  void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
+  /// By effect, 0 or 1: whether it has moved a touch along its normal by more than rounding.
+  using Acted = std::vector<char>;
+  Acted none_acted() const { return Acted(active_.size()); }
+  /// Adds effect `k` (every effect when k < 0) to the errors of a group, which hold all errors but those of the effects, and notes in
+  /// `acted` which of them moved a touch. `site`: the ordinal of the touch.
+  void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&, Acted& acted) const;
 
   /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation of each of its unknowns.
   Vec3 estimate(const RecordedTouch&) const;
@@ -83,12 +86,14 @@ class EffectSet {
   struct Sum;                ///< of the effects on one group
   static bool is_linear(const Active&);
   static bool sees_temperatures(const Active&);
-  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&) const;
+  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&,
+                 Acted&) const;
   static std::vector<Component> components_of(const Active&);
   static std::vector<double> weights(const Active&, const std::vector<double>& theta, const std::vector<double>& machine_draws,
                                      int lanes);
-  static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&);
-  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch&, Sum&);
+  static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&, char& acted);
+  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch&, Sum&,
+                          char& acted);
 
   std::vector<Active> active_;
 };

@@ -68,7 +68,8 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.visits.assign(visits_.count, 0);
 
   const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);
-  Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index), {}, 0};
+  Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index),
+              effects_.none_acted(), {}, 0};
   for (int i = 0; i < count; ++i) {
     block.lanes[i].machine_index = index[i];
     if (part_.given()) block.parts.push_back(part_.draw({options_.seed, index[i]}));

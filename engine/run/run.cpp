@@ -33,6 +33,7 @@ struct BlockResult {
   std::vector<LaneResult> lanes;
   std::map<Key, Value> elsewhere;  ///< what the error-free machine does not evaluate, on the twin of the first machine that did
   std::uint64_t touches = 0;
+  EffectSet::Acted acted;
 };
 
 BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
@@ -63,6 +64,7 @@ BlockResult run_block(const Executor& executor, const plan::Plan& plan, const Vi
   executor.run(block);
   BlockResult result;
   result.touches = block.touches;
+  result.acted = std::move(block.acted);
   for (int i = 0; i < count; ++i) {
     keep_elsewhere(block, block.lanes[i], referenced, result.elsewhere);
     result.lanes.push_back(kept(block.lanes[i], plan));
@@ -175,6 +177,10 @@ const Samples* counterpart(const std::vector<Samples>& samples, std::size_t inde
   return found == other.samples.end() ? nullptr : &*found;
 }
 
+void add_acted(const std::vector<char>& of_some, std::vector<char>& of_all) {
+  for (std::size_t k = 0; k < of_all.size(); ++k) of_all[k] |= of_some[k];
+}
+
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
                    const SourceFile& source) {
   Executor executor(plan, machine, options, source);
@@ -183,6 +189,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
 
   RunResult result;
   result.machines = machines.size();
+  result.acted.assign(machine.effects.size(), 0);
   result.reference_outputs = std::move(reference_ran.outputs);
   result.cycle_time_s = reference.motion->time_s();
   std::set<Key> referenced;
@@ -191,6 +198,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   std::uint32_t machine_number = 0;
   for (BlockResult& block : run_blocks(executor, plan, machines, options, referenced)) {
     result.touches += block.touches;
+    add_acted(block.acted, result.acted);
     for (BlockResult::LaneResult& lane : block.lanes) {
       auto own_limits = lane.own_limits.begin();
       for (const BlockResult::Kept& v : lane.values) {

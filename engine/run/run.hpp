@@ -88,6 +88,7 @@ struct RunResult {
   int machines = 0;
   std::vector<OutputRecord> reference_outputs;  ///< of the error-free machine
   std::uint64_t touches = 0;      ///< executed on virtual machines
+  std::vector<char> acted;        ///< by effect of the machine file, 0 or 1: whether it moved one of them (EffectSet::Acted)
   double cycle_time_s = 0;        ///< of the program on the error-free machine (motion.hpp)
 };
 
@@ -98,6 +99,9 @@ RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& mac
 
 /// What another run of the same plan has of the evaluation that is entry `index` in `samples`; nullptr when no machine made it there.
 const Samples* counterpart(const std::vector<Samples>& samples, std::size_t index, const RunResult& other);
+
+/// Joins RunResult::acted of some machines to that of others, of the same machine file.
+void add_acted(const std::vector<char>& of_some, std::vector<char>& of_all);
 
 /// What the program had in force at a touch.
 struct TouchAim {

@@ -77,7 +77,7 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     group->second.scene = &scene;
     if (own_temperatures) set_temperatures(scene.temperature, group->second);
     effects.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.noise_seed(),
-                executor.site_[operation], touch_batch);
+                executor.site_[operation], touch_batch, block.acted);
   }
 }
 

@@ -223,6 +223,20 @@ class Effects(harness.Case):
         # The same numbers in both would give 2. Three standard errors from so many machines.
         self.assertAlmostEqual(two["u"] / one["u"], 2 ** 0.5, delta=0.05)
 
+    def test_an_effect_that_moves_no_touch_models_nothing(self):
+        """Sizes of 0, and an expansion at 20 degrees C."""
+        self.write("idle.json", with_effects([{"name": "thermal.drift"}, {"name": "thermal.part_expansion", "parameters": {"cte_error_ppm_per_K": 5}},
+                                              {"name": "probe.tip_radius", "parameters": {"amplitude_um": {"value": 0, "u": 0.5}}}]))
+        self.write("warm.json", json.dumps({"schema": "abbe.workpiece/1", "name": "warm", "material": {"cte_ppm_per_K": 11.5},
+                                            "temperature": {"part_C": 22}}))
+        def told(*options):
+            report = self.run_json("length.dmi", "--machine", "idle.json", "--machines", 50, *options)
+            status = {i["name"]: i["status"] for i in report["influences"]}
+            return ([m["message"].split(":")[0] for m in report["messages"] if m["code"] == "W0615"],
+                    [status[name] for name in ("thermal drift", "part temperature", "tip size and form")])
+        self.assertEqual(told(), (["thermal.drift", "thermal.part_expansion"], ["not modelled", "not modelled", "modelled"]))
+        self.assertEqual(told("--workpiece", "warm.json"), (["thermal.drift"], ["not modelled", "modelled", "modelled"]))
+
     def test_another_word_is_refused(self):
         self.assertIn("corrected", self.refused("E0609", "run", "length.dmi", "--effects", "removed"))
 
@@ -298,7 +312,7 @@ class Refusals(harness.Case):
         self.assertIn({"name": "thermal drift", "status": "bounded", "at_most_um": 0.3, "source": "drift test"}, report["influences"])
         self.assertIn("Bounds on influences", self.abbe("machine", "show", "m.json").stdout)
         self.assertEqual(json.loads(self.abbe("machine", "show", "m.json", "--format", "json").stdout)["bounds"], machine["bounds"])
-        machine["effects"] = [{"name": "thermal.drift"}]
+        machine["effects"] = [{"name": "thermal.drift", "parameters": {"amplitude_um": 2}}]
         self.write("m.json", json.dumps(machine))
         self.assertIn("W0434", self.abbe("run", "length.dmi", "--machine", "m.json", "--machines", 20).stdout)
 

@@ -184,9 +184,10 @@ TEST_CASE("the same labels again in the same line are further occurrences") {
   CHECK(reports[3].occurrence == 1);
 }
 
-TEST_CASE("influences are declared; an effect of the machine file makes its influence modelled") {
-  const auto status = [](const Machine& machine, const std::string& name) {
-    for (const Influence& influence : declare_influences(machine).influences)
+TEST_CASE("influences are declared; an effect that acts makes its influence modelled") {
+  std::vector<char> acted;
+  const auto status = [&](const Machine& machine, const std::string& name) {
+    for (const Influence& influence : declare_influences(machine, acted).influences)
       if (influence.name == name) return influence.status;
     return std::string("missing");
   };
@@ -198,8 +199,12 @@ TEST_CASE("influences are declared; an effect of the machine file makes its infl
   CHECK(status(machine, "part temperature") == "not modelled");
   CHECK(status(machine, "vibration and outliers") == "not modelled");
   machine.effects = {{"thermal.part_expansion", {}}, {"noise.outliers", {}}};
-  CHECK(status(machine, "part temperature") == "modelled");
+  acted = {0, 1};
+  CHECK(status(machine, "part temperature") == "not modelled");
   CHECK(status(machine, "vibration and outliers") == "modelled");
+  acted = {1, 0};
+  CHECK(status(machine, "part temperature") == "modelled");
+  CHECK(status(machine, "vibration and outliers") == "not modelled");
   CHECK(status(machine, "thermal drift") == "not modelled");
 }
 
@@ -218,8 +223,9 @@ TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpi
   machine.bounds = {{"thermal drift", 0.0003, "drift test"}, {"fixturing", 0.002, "machine"}};
   Workpiece workpiece;
   workpiece.bounds = {{"fixturing", 0.001, "task"}};
+  std::vector<char> acted;
   const auto find = [&](const char* name) {
-    for (const Influence& influence : declare_influences(machine, &workpiece).influences)
+    for (const Influence& influence : declare_influences(machine, acted, &workpiece).influences)
       if (influence.name == name) return influence;
     return Influence{};
   };
@@ -229,10 +235,13 @@ TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpi
   CHECK(find("fixturing").at_most_um == doctest::Approx(1));
   CHECK(find("fixturing").source == "task");
   CHECK(find("operator").status == "not modelled");
-  CHECK(declare_influences(machine, &workpiece).messages.empty());
+  CHECK(declare_influences(machine, acted, &workpiece).messages.empty());
   machine.effects = {{"thermal.cycle", {}}};
+  acted = {0};
+  CHECK(find("thermal drift").status == "bounded");
+  acted = {1};
   CHECK(find("thermal drift").status == "modelled");
-  const auto messages = declare_influences(machine, &workpiece).messages;
+  const auto messages = declare_influences(machine, acted, &workpiece).messages;
   REQUIRE(messages.size() == 1);
   CHECK(messages[0].code == Code::W0434);
 }
@@ -244,10 +253,10 @@ TEST_CASE("everything that an effect can do belongs to an influence") {
       "machine.ram_droop", "machine.map_scallops", "machine.step", "probe.cosine_error", "probe.step"};
   for (const Effect* effect : effects()) {
     Machine machine;
-    const auto before = declare_influences(machine).influences;
+    const auto before = declare_influences(machine, {}).influences;
     machine.effects = {{std::string(effect->name), {}}};
     int changed = 0;
-    const auto after = declare_influences(machine).influences;
+    const auto after = declare_influences(machine, {1}).influences;
     for (std::size_t i = 0; i < after.size(); ++i) changed += after[i].status != before[i].status;
     CAPTURE(std::string(effect->name));
     CHECK(changed == (of_the_model.contains(effect->name) ? 0 : 1));

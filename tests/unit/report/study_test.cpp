@@ -166,6 +166,44 @@ TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncer
         doctest::Approx(corrected.contributions.back().share).epsilon(1e-9));
 }
 
+TEST_CASE("an effect that moves no touch is told, and no influence counts as modelled by it") {
+  Machine with = machine();
+  with.effects = {{"thermal.part_expansion", {{"cte_error_ppm_per_K", {5, 1, ""}}}},  // at 20 degrees C
+                  {"probe.tip_radius", {{"amplitude_um", {2, 0, ""}}}},
+                  {"machine.scale", {{"scale_um_per_m", {10, 1, ""}}, {"axis", {0, 0, "x"}}}}};  // the length lies along y
+  StudyOptions options = few(400);
+  const auto idle = [&] {
+    std::vector<std::string> told;
+    for (const Diagnostic& d : run_study(length_plan(), with, options, length_source()).report.messages)
+      if (d.code == Code::W0615) told.push_back(d.message.substr(0, d.message.find(':')));
+    return told;
+  };
+  const auto status = [&](std::string_view name) {
+    for (const Influence& i : run_study(length_plan(), with, options, length_source()).report.influences)
+      if (i.name == name) return i.status;
+    return std::string("missing");
+  };
+  CHECK(idle() == std::vector<std::string>{"thermal.part_expansion", "machine.scale"});
+  CHECK(status("part temperature") == "not modelled");
+  CHECK(status("tip size and form") == "modelled");
+  options.effect_use = EffectUse::corrected;  // nothing is left of a certain size
+  CHECK(idle() == std::vector<std::string>{"thermal.part_expansion", "probe.tip_radius", "machine.scale"});
+  CHECK(status("tip size and form") == "not modelled");
+}
+
+TEST_CASE("what acts only on machines of a later block acts in the study") {
+  Machine with = machine();
+  with.effects = {{"noise.outliers", {{"share", {1.0 / 20'000, 0, ""}}}}};
+  StudyOptions options = few(0);
+  options.digits = 2;
+  options.seed = 10;  // one at which the first block has no outlier and the second has
+  const auto acted = [&] { return run_study(length_plan(), with, options, length_source()).result.acted; };
+  options.max_blocks = 1;
+  REQUIRE(acted() == std::vector<char>{0});
+  options.max_blocks = 2;
+  CHECK(acted() == std::vector<char>{1});
+}
+
 TEST_CASE("settings that make no sense are refused") {
   CHECK_THROWS_AS(run_study(length_plan(), machine(), few(1), length_source()), UserError);  // E0603
   StudyOptions options = few(100);

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "engine/lanes/random.hpp"
@@ -116,20 +118,27 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
     const TouchScene where = random_scene(random);
     Case all = case_of(where, lanes, machines);
     all.group.scene = &all.scene;
-    set.add(-1, all.group, drawn, kSeed, kSite, all.batch);
+    EffectSet::Acted together = set.none_acted();
+    set.add(-1, all.group, drawn, kSeed, kSite, all.batch, together);
     std::vector<Vec3> total(lanes.size());
     double largest = 0;
     for (int k = 0; k < set.size(); ++k) {
       CAPTURE(set.effect(k).name);
       Case one = case_of(where, lanes, machines);
       one.group.scene = &one.scene;
-      set.add(k, one.group, drawn, kSeed, kSite, one.batch);
+      EffectSet::Acted acted = set.none_acted();
+      set.add(k, one.group, drawn, kSeed, kSite, one.batch, acted);
+      bool moved = false;
       for (int slot = 0; slot < one.batch.n; ++slot) {
         const Vec3 expected = plain(set, k, drawn, one, slot, use == EffectUse::corrected ? &settings[k] : nullptr);
         CHECK(norm(one.batch.error.get(slot) - expected) <= 1e-15 * std::fmax(1, norm(expected)));
         if (!sees_reading(set.effect(k))) total[slot] += expected;
         largest = std::fmax(largest, norm(expected));
+        moved = moved || std::fabs(dot(where.normal, expected)) > 1e-9;
       }
+      CHECK((acted[k] != 0) == moved);
+      CHECK(std::count(acted.begin(), acted.end(), 1) == (moved ? 1 : 0));
+      if (!sees_reading(set.effect(k))) CHECK(together[k] == acted[k]);
     }
     for (int slot = 0; slot < all.batch.n; ++slot) {
       const Vec3 others = total[slot];
@@ -165,7 +174,8 @@ TEST_CASE("effect set: a machine has the same errors in any block, to the bit") 
     std::iota(lanes.begin(), lanes.end(), 0);
     Case c = case_of(where, lanes, machines);
     c.group.scene = &c.scene;
-    set.add(-1, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch);
+    EffectSet::Acted acted = set.none_acted();
+    set.add(-1, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch, acted);
     return c.batch.error;
   };
   const Columns3 whole = errors(100, kMachines), left = errors(100, 4), right = errors(104, kMachines - 4);
@@ -194,7 +204,8 @@ TEST_CASE("effect set: two settings of one effect draw their own numbers, and th
     const EffectSet set(settings, EffectUse::left_in, "test");
     Case c = case_of(where, lanes, machines);
     c.group.scene = &c.scene;
-    set.add(k, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch);
+    EffectSet::Acted acted = set.none_acted();
+    set.add(k, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch, acted);
     return c.batch.error;
   };
   for (const char* name : {"machine.scale", "noise.vibration", "head.reindexing", "head.axis_errors"}) {
@@ -208,4 +219,20 @@ TEST_CASE("effect set: two settings of one effect draw their own numbers, and th
       CHECK(norm(second.get(i) - first.get(i)) > 0);
     }
   }
+}
+
+TEST_CASE("effect set: an effect acts once it moves a touch along its normal") {
+  const auto machines = machines_from(100, kMachines);
+  const EffectSet set({{"machine.scale", {{"axis", {0, 0, "x"}}, {"scale_um_per_m", {10, 0, ""}}}}}, EffectUse::left_in, "test");
+  const auto acted = [&](EffectSet::Acted before, const Vec3& normal) {
+    Case c = case_of({}, {0, 1}, machines);
+    c.scene.reading = {500, 500, 500};
+    c.scene.normal = normal;
+    c.group.scene = &c.scene;
+    set.add(-1, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch, before);
+    return before[0] != 0;
+  };
+  CHECK_FALSE(acted({0}, {0, 1, 0}));
+  CHECK(acted({0}, {1, 0, 0}));
+  CHECK(acted({1}, {0, 1, 0}));  // earlier touches count
 }
