@@ -282,16 +282,16 @@ class StudyRun {
     }
   }
 
-  /// Beyond each end of an interval must be some values, or its ends are those of the sample.
+  /// Beyond each end of an interval must be some values, or its ends are those of the sample. LCL and
+  /// UCL have their coverage whatever else is asked for.
   void warn_of_few_machines() {
-    constexpr double kBeyond = 20;
-    if (!options_.coverage || study_.result.machines * (1 - *options_.coverage) >= kBeyond) return;
+    constexpr double kOfLimits = 0.95, kBeyond = 20;
+    const double coverage = std::max(kOfLimits, options_.coverage.value_or(kOfLimits));
+    if (study_.result.machines * (1 - coverage) >= kBeyond) return;
     message(Code::W0435,
-            fmt::format("{} machines are few for a coverage of {:g}", study_.result.machines,
-                        *options_.coverage),
+            fmt::format("{} machines are few for {:g} % limits", study_.result.machines, 100 * coverage),
             fmt::format("ask for --machines {:.0f} or more; JCGM 101, 7.2.2 recommends {:.0f}",
-                        std::ceil(kBeyond / (1 - *options_.coverage)),
-                        std::ceil(1e4 / (1 - *options_.coverage))));
+                        std::ceil(kBeyond / (1 - coverage)), std::ceil(1e4 / (1 - coverage))));
   }
 
   void warn_of_screening() {

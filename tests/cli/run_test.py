@@ -290,16 +290,19 @@ class Refusals(harness.Case):
 
     def test_an_interval_of_another_coverage(self):
         self.write("length.dmi", LENGTH)
-        report = self.run_json("length.dmi", "--machines", 100, "--coverage", "0.5")
+        report = self.run_json("length.dmi", "--machines", 400, "--coverage", "0.5")
         length = report["characteristics"][0]
         low, high = length["interval"]["symmetric"]
         self.assertEqual(length["interval"]["coverage"], 0.5)
         self.assertTrue(length["interval95"]["symmetric"][0] < low < high < length["interval95"]["symmetric"][1])
         self.assertNotIn("W0435", [m["code"] for m in report["messages"]])
-        few = self.abbe("run", "length.dmi", "--machines", 100, "--coverage", "0.99").stdout
+        few = self.abbe("run", "length.dmi", "--machines", 400, "--coverage", "0.99").stdout
         self.assertIn("W0435", few)
         self.assertIn("--machines 2000", few)
         self.assertIn("shortest 99 %", few)
+        few = self.abbe("run", "length.dmi", "--machines", 399).stdout
+        self.assertIn("399 machines are few for 95 % limits", few)
+        self.assertIn("--machines 400 or more", few)
         self.assertIn("99 % is 0.99", self.refused("E0603", "run", "length.dmi", "--machines", 20, "--coverage", "99"))
         self.refused("E0603", "run", "length.dmi", "--machines", 20, "--coverage", "0")
 

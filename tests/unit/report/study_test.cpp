@@ -204,6 +204,20 @@ TEST_CASE("what acts only on machines of a later block acts in the study") {
   CHECK(acted() == std::vector<char>{1});
 }
 
+TEST_CASE("limits from few machines are told, those of the coverage asked for and those of 95 %") {
+  const auto told = [](int machines, std::optional<double> coverage) {
+    StudyOptions options = few(machines);
+    options.coverage = coverage;
+    return has(run_study(length_plan(), machine(), options, length_source()).report.messages, Code::W0435);
+  };
+  CHECK(told(399, {}));
+  CHECK_FALSE(told(400, {}));
+  CHECK(told(399, 0.5));
+  CHECK_FALSE(told(400, 0.5));
+  CHECK(told(400, 0.99));
+  CHECK_FALSE(told(2000, 0.99));
+}
+
 TEST_CASE("settings that make no sense are refused") {
   CHECK_THROWS_AS(run_study(length_plan(), machine(), few(1), length_source()), UserError);  // E0603
   StudyOptions options = few(100);
