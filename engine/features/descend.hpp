@@ -3,7 +3,15 @@
 //   descend  Levenberg-Marquardt in double: safe from far away (Marquardt 1963; More 1978 for the scaling by columns)
 //   polish   Newton with the exact Hessian in extended precision: converges quadratically also when the residuals are large,
 //            where Gauss-Newton would creep, and tells a minimum from a saddle
+//
+// On a short arc a larger radius and an axis farther away are nearly the same change, and to solve for the two of them is hopeless
+// long before the points leave the element open. So here the first size changes with the surface held where it is next to the
+// points, which leaves its curvature as the unknown (as in Lukacs, Marshall, Martin: Geometric least-squares fitting of spheres,
+// cylinders, cones and tori, RECCAD 1997).
 #pragma once
+
+#include <algorithm>
+#include <iterator>
 
 #include "engine/features/cloud.hpp"
 #include "engine/features/revolution.hpp"
@@ -34,17 +42,54 @@ bool meaningful(const Placed<Real>& s) {
   return true;
 }
 
+/// How many of the first unknowns are shifts that hold the surface: all directions for a sphere, across the axis for the others.
+template <class Profile>
+inline constexpr int kHolds = Profile::kShape == Shape::sphere ? 3 : 2;
+template <class Profile>
+inline constexpr int kFirstSize = kUnknowns<Profile> - Profile::kSizes;
+
+/// The shifts by which the surface stays where it is next to the mean of the points when size[0] grows by 1.
+template <class Profile, class Real>
+struct Hold {
+  Real shift[kHolds<Profile>];
+  explicit Hold(const Placed<Real>& s) {
+    constexpr Real mean[3] = {0, 0, 0};
+    Real q[3], away2 = Real(1e-300);  // with the mean on the axis nothing holds the surface, and the element is round
+    s.coordinates(mean, q);
+    for (int i = 0; i < kHolds<Profile>; ++i) away2 += q[i] * q[i];
+    Real away = std::sqrt(away2);
+    if constexpr (Profile::kShape == Shape::cone) away *= std::cos(s.size[1]);
+    for (int i = 0; i < kHolds<Profile>; ++i) shift[i] = -q[i] / away;
+  }
+  /// From derivatives for a change of the size alone to such with the surface held.
+  void apply(Real (&row)[kUnknowns<Profile> + 1]) const {
+    for (int i = 0; i < kHolds<Profile>; ++i) row[kFirstSize<Profile>] += shift[i] * row[i];
+  }
+};
+
+/// Takes a step in the unknowns so defined.
+template <class Profile, class Real>
+void move_held_by(Placed<Real>& s, const Real (&step)[kUnknowns<Profile>]) {
+  const Hold<Profile, Real> hold(s);
+  Real free[kUnknowns<Profile>];
+  std::copy(std::begin(step), std::end(step), free);
+  for (int i = 0; i < kHolds<Profile>; ++i) free[i] += hold.shift[i] * step[kFirstSize<Profile>];
+  move_by<Profile>(s, free);
+}
+
 /// Gauss-Newton equations J^T J x = -J^T d.
 template <class Profile, class Real>
 SymmetricSystem<Real, kUnknowns<Profile>> normal_equations(const Points<Real>& points, const Placed<Real>& s) {
   constexpr int N = kUnknowns<Profile>;
   SymmetricSystem<Real, N> system;
+  const Hold<Profile, Real> hold(s);
   Real ready[3] = {};
   Profile::prepare(s.size, ready);
   for (const auto& point : points) {
     Real q[3], row[N + 1];
     s.coordinates(point.data(), q);
     distance_row<Profile>(q[0], q[1], q[2], ready, row);
+    hold.apply(row);
     for (int i = 0; i < N; ++i) {
       for (int j = 0; j <= i; ++j) system.a[i][j] += row[i] * row[j];
       system.b[i] -= row[i] * row[N];
@@ -81,6 +126,8 @@ SymmetricSystem<Real, kUnknowns<Profile>> newton_equations(const Points<Real>& p
   SymmetricSystem<Real, N> system;
   Jet<Real, N> zero[N];
   for (int i = 0; i < N; ++i) zero[i] = Jet<Real, N>::unknown(0, i);
+  const Hold<Profile, Real> hold(s);
+  for (int i = 0; i < kHolds<Profile>; ++i) zero[i].gradient[kFirstSize<Profile>] = hold.shift[i];
   for (const auto& point : points) {
     Real q[3];
     s.coordinates(point.data(), q);
@@ -104,6 +151,11 @@ Real step_length(const SymmetricSystem<Real, N>& gauss, const Real (&step)[N], s
   return length;
 }
 
+template <class Real>
+Real distance_from_origin(const Placed<Real>& s) {
+  return std::sqrt(s.p[0] * s.p[0] + s.p[1] * s.p[1] + s.p[2] * s.p[2]);
+}
+
 /// Levenberg-Marquardt from `s`; returns the sum of squares reached.
 template <class Profile>
 double descend(const Points<double>& points, double extent, Placed<double>& s, int iterations) {
@@ -120,7 +172,7 @@ double descend(const Points<double>& points, double extent, Placed<double>& s, i
       double step[N];
       if (!solve_positive_definite(damped, step, 1e-15)) continue;
       Placed<double> trial = s;
-      move_by<Profile>(trial, step);
+      move_held_by<Profile>(trial, step);
       anchor_near<Profile>(trial, origin);
       const double reached = meaningful<Profile>(trial) ? sum_of_squares<Profile>(points, trial) : INFINITY;
       const double length = step_length(gauss, step, points.size());
@@ -147,10 +199,11 @@ bool polish(const Points<Extended>& points, Extended extent, Placed<Extended>& s
     if (!minimum && !solve_positive_definite(gauss, step, least_pivot)) return false;
     const Extended length = step_length(gauss, step, points.size());
     if (!(length < extent)) return false;
-    move_by<Profile>(s, step);
+    move_held_by<Profile>(s, step);
     anchor_near<Profile>(s, origin);
     if (!meaningful<Profile>(s)) return false;
-    if (length < 1e-18L * extent || (length >= before && length < 1e-14L * extent)) return minimum;
+    const Extended reach = std::max(extent, distance_from_origin(s));  // what the differences that make a distance are rounded to
+    if (length < 1e-18L * reach || (length >= before && length < 1e-14L * reach)) return minimum;
     before = length;
   }
   return false;

@@ -97,7 +97,7 @@ bool different(const Placed<Extended>& a, const Placed<Extended>& b, Extended ex
   const Extended cosine =
       a.axes[2][0] * b.axes[2][0] + a.axes[2][1] * b.axes[2][1] + a.axes[2][2] * b.axes[2][2];
   const bool tilted = std::fabs(cosine) < 1 - 1e-8L;
-  return tilted || std::fabs(a.size[0] - b.size[0]) > 1e-4L * extent;
+  return tilted || std::fabs(a.size[0] - b.size[0]) > 1e-4L * std::max(extent, a.size[0]);
 }
 
 /// Whether a sum of squares is the best one but for a share of it and the rounding of the coordinates.

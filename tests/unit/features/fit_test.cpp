@@ -164,3 +164,42 @@ TEST_CASE("flat points have no best ball") {
   const FitProblem rough = problem_on(some_element(Shape::plane), Shape::plane, 40, 1e-3);
   CHECK(code_of({Shape::sphere, rough.points, {}}) == "not_converged");
 }
+
+namespace {
+
+/// The n-th large surface, with any direction; it passes through the origin.
+Element large(double radius, int n) {
+  const Vec3 axis = unit(Vec3{between("i", n, -1, 1), between("j", n, -1, 1), between("k", n, -1, 1)});
+  return {.point = -radius * cross(axis, any_perpendicular(axis)), .direction = axis, .size = radius};
+}
+
+/// A patch of it at the origin: `width` mm along the arc and across it.
+FitProblem shallow(Shape shape, double radius, double width, int n, int points, double noise) {
+  const Vec3 x = large(radius, n).direction, y = any_perpendicular(x), z = cross(x, y);
+  FitProblem problem{shape, {}, {}};
+  for (int i = 0; i < points; ++i) {
+    const double along = between("along", 1000 * n + i, -0.5, 0.5) * width, across = between("across", 1000 * n + i, -0.5, 0.5) * width;
+    const double angle = along / radius, tilt = shape == Shape::sphere ? across / radius : 0;
+    const double height = shape == Shape::cylinder ? across : radius * std::sin(tilt);
+    const double out = radius * std::cos(tilt) + noise * (2 * random_at("rough", 1000 * n + i) - 1);
+    problem.points.push_back(height * x + out * (std::sin(angle) * y + std::cos(angle) * z) - radius * z);
+  }
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("short arcs without errors give the element itself") {
+  for (const Shape shape : {Shape::circle, Shape::sphere, Shape::cylinder})
+    for (const double radius : {1000.0, 5000.0})
+      for (const double width : {0.04, 0.02, 0.01, 0.003})
+        for (int n = 0; n < 5; ++n) {
+          CAPTURE(feature_kind(shape).word);
+          CAPTURE(radius);
+          CAPTURE(width);
+          const FitSolution s = fit_points(shallow(shape, radius, width * radius, n, 25, 0));
+          REQUIRE_FALSE(s.error);
+          // Coordinates are rounded to 1e-16 of the radius; the radius shows in them as the height of the arc.
+          CHECK(std::fabs(s.element.size - radius) < 1e-15 * radius / (width * width / 8));
+        }
+}
