@@ -4,8 +4,10 @@
 // Precision: every lane works about the mean of its own points and in the frame of its own surface, and the system is scaled
 // to unit diagonal. The normal equations square the condition number of the step only; the answer is where the gradient
 // vanishes, and its accuracy is that of the distances.
-// Convergence: the remaining error is estimated from the contraction of the steps, s kappa / (1 - kappa). A lane is frozen when
-// that is below rounding, so that more iterations for its neighbours do not change it.
+// Convergence is judged by how far a step moves the surface at the points, not by the unknowns: on a short arc the radius and the
+// place of the axis change together by far more than the size of the feature, and the surface hardly moves. The remaining error
+// is estimated from the contraction of the steps, s kappa / (1 - kappa). A lane is frozen when that is below rounding, so that
+// more iterations for its neighbours do not change it.
 #pragma once
 
 #include <algorithm>
@@ -96,12 +98,14 @@ class LaneFit {
       state_[l] = State::lost;
       return;
     }
-    double size = 0;  // how far the step moves the surface at the points, mm, unknown by unknown
-    for (int i = 0; i < N; ++i)
-      size = std::max(size, std::fabs(by[i]) * std::sqrt(s.a[i][i] / block_.columns->points));
+    double squares = 0;  // of the distances by which the step moves the surface at the points: |J by|^2 = by . b
+    for (int i = 0; i < N; ++i) squares += by[i] * s.b[i];
+    const double size = std::sqrt(std::max(squares, 0.0) / block_.columns->points);
+    const double radius = surface_[l].size[0];
     move_by<Profile>(surface_[l], by);
+    const bool too_far = !(surface_[l].size[0] > 0.5 * radius);  // the distances are not linear in the radius that far
     anchor_near<Profile>(surface_[l], kOrigin);
-    judge(l, size);
+    too_far ? void(state_[l] = State::lost) : judge(l, size);
   }
 
   void judge(int l, double size) {

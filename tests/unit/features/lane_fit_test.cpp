@@ -68,6 +68,42 @@ TEST_CASE("a lane that Gauss-Newton cannot settle from the start is fitted all t
   }
 }
 
+TEST_CASE("short arcs over lanes: each lane its own minimum, and the spread that the linearised model gives") {
+  const Element truth{.point = {120, -80, 45}, .direction = unit(Vec3{0.3, -0.5, 0.8}), .size = 1000};
+  const Vec3 x = any_perpendicular(truth.direction), y = cross(truth.direction, x);
+  constexpr int lanes = 400, points = 7;
+  constexpr double noise = 1e-3;  // mm, largest
+  for (const double arc : {1.0, 2.0, 4.0}) {
+    CAPTURE(arc);
+    Batch batch{points, lanes, std::vector<double>(3 * points * lanes)};
+    double s2 = 0, s4 = 0;  // sums of v^2 and v^4: d = ... + (1 - cos v) dR, about its mean
+    for (int t = 0; t < points; ++t) {
+      const double v = arc * kPi / 180 * (t / 6.0 - 0.5), height = 1 - std::cos(v);
+      s2 += height, s4 += height * height;
+      for (int l = 0; l < lanes; ++l) {
+        const double out = truth.size + noise * (2 * random_at("short arc", t * lanes + l) - 1);
+        const Vec3 p = truth.point + out * (std::cos(v) * x + std::sin(v) * y);
+        for (int k = 0; k < 3; ++k) batch.set(t, k, l, p[k]);
+      }
+    }
+    const FeatureKind& kind = feature_kind(Shape::circle);
+    const BatchFit fitted = fit_batch(kind, batch, truth);
+    const double expected = noise / std::sqrt(3.0) / std::sqrt(s4 - s2 * s2 / points);
+    double sum = 0, squares = 0;
+    for (int l = 0; l < lanes; ++l) {
+      REQUIRE(fitted.failure[l] == nullptr);
+      const double off = fitted.element[l].size - truth.size;
+      sum += off, squares += off * off;
+      const FitSolution alone = fit_points({Shape::circle, batch.lane(l), truth.direction});
+      REQUIRE_FALSE(alone.error);
+      CHECK(std::fabs(fitted.element[l].size - alone.element.size) < 1e-8 * expected);
+      const BatchFit single = fit_batch(kind, batch.part(l, 1), truth);
+      CHECK(same_bits(single.element[0], fitted.element[l]));
+    }
+    CHECK(std::sqrt((squares - sum * sum / lanes) / (lanes - 1)) == doctest::Approx(expected).epsilon(0.1));
+  }
+}
+
 TEST_CASE("a lane without a solution says why and does not disturb its neighbours") {
   const FeatureKind& kind = feature_kind(Shape::cylinder);
   const Element truth = some_element(Shape::cylinder);
