@@ -149,11 +149,23 @@ std::vector<Minimum> minima(const Cloud& cloud, const std::vector<Descent>& reac
   return found;
 }
 
+/// The sum of squares that ever larger radii come near to: that of the best plane, of a circle that of the best line, of a torus also
+/// that of the best cylinder. Where no minimum is below it, the best element is infinitely large.
+Extended limit_cost(Shape shape, const Cloud& cloud, const Points<double>& sampled) {
+  const Extended across = cloud.spread.along[shape == Shape::circle ? 1 : 2];
+  const Extended flat = static_cast<Extended>(cloud.exact.size()) * across * across;
+  if (shape != Shape::torus) return flat;
+  const auto straight =
+      minima<CylinderProfile>(cloud, descents<CylinderProfile>(cloud, starts(Shape::cylinder, sampled, cloud.spread, {}), sampled));
+  return straight.empty() ? flat : std::min(flat, straight.front().cost);
+}
+
 template <class Profile>
 FitSolution solve_revolution(const Cloud& cloud, const std::vector<Placed<double>>& list, const Points<double>& sampled) {
   const std::vector<Minimum> found = minima<Profile>(cloud, descents<Profile>(cloud, list, sampled));
   if (found.empty()) return failed("not_converged");
   const Minimum& best = found.front();
+  if (rival(cloud, limit_cost(Profile::kShape, cloud, sampled), best.cost, 1e-9L)) return failed("not_converged");
   for (const Minimum& other : found)
     if (rival(cloud, other.cost, best.cost, 1e-9L) && different(best.surface, other.surface, cloud.extent()))
       return failed("not_unique");

@@ -59,6 +59,11 @@ class ShortArcs(harness.Case):
         circle = json.loads(self.abbe("fit", "circle", "points.csv", "--format", "json").stdout)
         self.assertAlmostEqual(circle["radius"], RADIUS, delta=1e-7)
 
+    def test_a_straight_tube_is_no_torus(self):
+        points = "".join(f"{20 * math.cos(2.4 * i)!r},{20 * math.sin(2.4 * i)!r},{0.7 * i!r}\n" for i in range(60))
+        self.write("points.csv", "x,y,z\n" + points)
+        self.assertIn("not_converged", self.refused("E0505", "fit", "torus", "points.csv"))
+
 
 if __name__ == "__main__":
     harness.main()

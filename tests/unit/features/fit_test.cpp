@@ -187,6 +187,14 @@ FitProblem shallow(Shape shape, double radius, double width, int n, int points, 
   return problem;
 }
 
+/// A wavy plane, the same from both sides.
+FitProblem wave(Shape shape) {
+  FitProblem problem{shape, {}, {}};
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j) problem.points.push_back({3.0 * i, 3.0 * j, 0.05 * std::sin(3.0 * i) + 0.03 * std::sin(2.0 * j)});
+  return problem;
+}
+
 }  // namespace
 
 TEST_CASE("short arcs without errors give the element itself") {
@@ -202,4 +210,13 @@ TEST_CASE("short arcs without errors give the element itself") {
           // Coordinates are rounded to 1e-16 of the radius; the radius shows in them as the height of the arc.
           CHECK(std::fabs(s.element.size - radius) < 1e-15 * radius / (width * width / 8));
         }
+}
+
+TEST_CASE("points whose best element is infinitely large are refused") {
+  for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::cone}) CHECK(code_of(wave(shape)) == "not_converged");
+  FitProblem line{Shape::circle, {}, {}};
+  for (int i = -5; i <= 5; ++i) line.points.push_back({1.0 * i, 0.1 * std::sin(1.0 * i), 0});
+  CHECK(code_of(line) == "not_converged");
+  const FitProblem tube = problem_on(some_element(Shape::cylinder), Shape::cylinder, 60, 0);
+  CHECK(code_of({Shape::torus, tube.points, {}}) == "not_converged");
 }
