@@ -17,6 +17,9 @@ Placed<double> frame_along(const Vec3& axis) { return placed(Shape::cylinder, {.
 /// Least squares of m x = b, in the columns' own scales.
 VectorXd least_squares(const MatrixXd& m, const VectorXd& b) { return m.colPivHouseholderQr().solve(b); }
 
+Vec3 vec(const Extended (&d)[3]) { return {double(d[0]), double(d[1]), double(d[2])}; }
+Vec3 vec(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
+
 /// Algebraic circle (dimension 2: rows x, y) or sphere (3): |q|^2 = 2 c q + k, linear in c and k (Kasa 1976).
 struct Ball {
   double centre[3] = {};
@@ -57,6 +60,65 @@ Starts ball_starts(Placed<double> frame, const Points<double>& points, int dimen
     Placed<double> s = frame;
     shift(s, farther * ball.centre[0], farther * ball.centre[1], farther * ball.centre[2]);
     s.size[0] = farther * ball.radius;
+    list.push_back(s);
+  }
+  return list;
+}
+
+/// On a shallow arc (dimension 2) or cap (3) the heights over the chord grow with the square of the distance, over 2 radii. Unlike
+/// the algebraic ball it takes all errors to be those of the heights, as they are there: the radius is right however flat it is.
+Placed<double> shallow_ball(const Points<double>& points, const Spread<Extended>& spread, int dimension, Placed<double> frame) {
+  const Vec3 normal = vec(spread.direction[dimension - 1]);
+  MatrixXd m(points.size(), dimension + 1);
+  VectorXd height(points.size());
+  for (int i = 0; i < m.rows(); ++i) {
+    double chord2 = 0;
+    for (int k = 0; k < dimension - 1; ++k) {
+      m(i, k) = dot(vec(points[i]), vec(spread.direction[k]));
+      chord2 += m(i, k) * m(i, k);
+    }
+    m(i, dimension - 1) = chord2;
+    m(i, dimension) = 1;
+    height[i] = dot(vec(points[i]), normal);
+  }
+  const VectorXd f = least_squares(m, height);
+  const double signed_radius = 1 / (2 * f[dimension - 1]);
+  for (int k = 0; k < 3; ++k) frame.p[k] = (f[dimension] + signed_radius) * normal[k];
+  frame.size[0] = std::fabs(signed_radius);
+  return frame;
+}
+
+/// A narrow patch looks like a quadric over its plane.
+struct Patch {
+  Vec3 normal, principal[2];   ///< unit
+  double curvature[2] = {};    ///< along the principal directions, 1/mm; positive towards the normal
+};
+Patch patch_of(const Points<double>& points, const Spread<Extended>& spread) {
+  const Vec3 x = vec(spread.direction[0]), y = vec(spread.direction[1]), n = vec(spread.direction[2]);
+  const double length = double(spread.along[0]), width = double(spread.along[1]);
+  MatrixXd m(points.size(), 6);
+  VectorXd height(points.size());
+  for (int i = 0; i < m.rows(); ++i) {
+    const Vec3 p = vec(points[i]);
+    const double u = dot(p, x) / length, v = dot(p, y) / width;
+    m.row(i) << 1, u, v, u * u, 2 * u * v, v * v;
+    height[i] = dot(p, n);
+  }
+  const VectorXd f = least_squares(m, height);
+  const double a = 2 * f[3] / (length * length), b = 2 * f[4] / (length * width), c = 2 * f[5] / (width * width);
+  const double turn = 0.5 * std::atan2(2 * b, a - c), half = std::hypot((a - c) / 2, b);
+  const Vec3 first = std::cos(turn) * x + std::sin(turn) * y;
+  return {n, {first, cross(n, first)}, {(a + c) / 2 + half, (a + c) / 2 - half}};
+}
+
+/// The cylinders that turn as the patch does in one principal direction, and not at all in the other.
+Starts shallow_cylinders(const Patch& patch) {
+  Starts list;
+  for (const int turns : {0, 1}) {
+    Placed<double> s = frame_along(patch.principal[1 - turns]);
+    const double signed_radius = 1 / patch.curvature[turns];
+    for (int k = 0; k < 3; ++k) s.p[k] = signed_radius * patch.normal[k];
+    s.size[0] = std::fabs(signed_radius);
     list.push_back(s);
   }
   return list;
@@ -147,8 +209,6 @@ Starts quartic_torus(const Points<double>& points) {
   return {s};
 }
 
-Vec3 vec(const Extended (&d)[3]) { return {double(d[0]), double(d[1]), double(d[2])}; }
-
 /// Directions all over the half sphere, about 10 degrees apart (Fibonacci lattice).
 void add_lattice(std::vector<Vec3>& axes) {
   constexpr int count = 200;
@@ -159,28 +219,13 @@ void add_lattice(std::vector<Vec3>& axes) {
   }
 }
 
-/// A narrow patch looks like z = (a x^2 + 2 b x y + c y^2) / 2 over its plane. The axis of a surface of revolution lies in the
-/// plane of the normal and of one of the two principal directions there (it is the other one's plane that turns).
-void add_patch_axes(std::vector<Vec3>& axes, const Points<double>& points, const Spread<Extended>& spread) {
-  const Vec3 x = vec(spread.direction[0]), y = vec(spread.direction[1]), n = vec(spread.direction[2]);
-  if (points.size() < 6) return;
-  MatrixXd m(points.size(), 6);
-  VectorXd height(points.size());
-  for (int i = 0; i < m.rows(); ++i) {
-    const Vec3 p{points[i][0], points[i][1], points[i][2]};
-    const double u = dot(p, x) / double(spread.along[0]), v = dot(p, y) / double(spread.along[1]);
-    m.row(i) << 1, u, v, u * u, 2 * u * v, v * v;
-    height[i] = dot(p, n);
-  }
-  const VectorXd f = least_squares(m, height);
-  const double a = f[3] / double(spread.along[0] * spread.along[0]), c = f[5] / double(spread.along[1] * spread.along[1]);
-  const double b = f[4] / double(spread.along[0] * spread.along[1]);
-  const double turn = 0.5 * std::atan2(2 * b, a - c);
-  const Vec3 first = std::cos(turn) * x + std::sin(turn) * y, second = cross(n, first);
-  for (const Vec3& along : {first, second})
+/// The axis of a surface of revolution lies, at a narrow patch, in the plane of the normal and of one of the two principal
+/// directions (it is the other one's plane that turns).
+void add_patch_axes(std::vector<Vec3>& axes, const Patch& patch) {
+  for (const Vec3& along : patch.principal)
     for (int step = 0; step < 24; ++step) {
       const double tilt = kPi * step / 24;
-      axes.push_back(std::cos(tilt) * along + std::sin(tilt) * n);
+      axes.push_back(std::cos(tilt) * along + std::sin(tilt) * patch.normal);
     }
 }
 
@@ -236,11 +281,17 @@ Points<double> sample(const Points<double>& points, int count) {
 
 std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, const Spread<Extended>& spread,
                                    const std::optional<Vec3>& normal) {
-  if (shape == Shape::circle) return ball_starts(frame_along(*normal), points, 2);
-  if (shape == Shape::sphere) return ball_starts(Placed<double>{}, points, 3);
+  if (shape == Shape::circle || shape == Shape::sphere) {
+    const int dimension = shape == Shape::circle ? 2 : 3;
+    const Placed<double> frame = normal ? frame_along(*normal) : Placed<double>{};
+    Starts list = ball_starts(frame, points, dimension);
+    list.push_back(shallow_ball(points, spread, dimension, frame));
+    return list;
+  }
   std::vector<Vec3> axes;
   for (const auto& d : spread.direction) axes.push_back(vec(d));
-  add_patch_axes(axes, points, spread);
+  const bool has_patch = points.size() >= 6;
+  if (has_patch) add_patch_axes(axes, patch_of(points, spread));
   add_lattice(axes);
   const auto along_all = [&](const std::vector<Vec3>& list, auto start_along) {
     Starts along;
@@ -254,6 +305,8 @@ std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, co
     return kept;
   }
   keep_best<CylinderProfile>(along_all(axes, cylinder_along), points, 8 * few, 0.2 / few, kept);
+  if (has_patch)
+    for (const Placed<double>& shallow : shallow_cylinders(patch_of(points, spread))) kept.push_back(shallow);
   if (shape == Shape::cylinder) return kept;
   const double extent = double(spread.along[0]);
   if (kept.size() > 8) kept.resize(8);

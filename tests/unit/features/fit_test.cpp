@@ -160,11 +160,6 @@ TEST_CASE("an answer that is one of several is no answer") {
   CHECK(code_of({Shape::cone, problem_on(some_element(Shape::cylinder), Shape::cylinder, 40, 0).points, {}}) == "no_apex");
 }
 
-TEST_CASE("flat points have no best ball") {
-  const FitProblem rough = problem_on(some_element(Shape::plane), Shape::plane, 40, 1e-3);
-  CHECK(code_of({Shape::sphere, rough.points, {}}) == "not_converged");
-}
-
 namespace {
 
 /// The n-th large surface, with any direction; it passes through the origin.
@@ -195,6 +190,8 @@ FitProblem wave(Shape shape) {
   return problem;
 }
 
+double plane_rms(const FitProblem& problem) { return fit_points({Shape::plane, problem.points, {}}).rms; }
+
 }  // namespace
 
 TEST_CASE("short arcs without errors give the element itself") {
@@ -212,6 +209,22 @@ TEST_CASE("short arcs without errors give the element itself") {
         }
 }
 
+TEST_CASE("no start is better than the truth on shallow, rough patches") {
+  for (const Shape shape : {Shape::circle, Shape::sphere, Shape::cylinder})
+    for (const double noise : {1e-3, 1e-2, 5e-2})
+      for (int n = 0; n < 10; ++n) {
+        const FitProblem problem = shallow(shape, 1000, 20, n, 25, noise);
+        CAPTURE(feature_kind(shape).word);
+        CAPTURE(noise);
+        CAPTURE(n);
+        const FitSolution global = fit_points(problem), local = fit_points_from(problem, large(1000, n));
+        REQUIRE_FALSE(global.error);
+        REQUIRE_FALSE(local.error);
+        CHECK(global.rms <= local.rms * (1 + 1e-9));
+        CHECK(global.rms < 1.2 * noise / std::sqrt(3.0));
+      }
+}
+
 TEST_CASE("points whose best element is infinitely large are refused") {
   for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::cone}) CHECK(code_of(wave(shape)) == "not_converged");
   FitProblem line{Shape::circle, {}, {}};
@@ -219,4 +232,14 @@ TEST_CASE("points whose best element is infinitely large are refused") {
   CHECK(code_of(line) == "not_converged");
   const FitProblem tube = problem_on(some_element(Shape::cylinder), Shape::cylinder, 60, 0);
   CHECK(code_of({Shape::torus, tube.points, {}}) == "not_converged");
+}
+
+TEST_CASE("rough planes have a best ball and a best cylinder, large ones") {
+  const FitProblem rough = problem_on(some_element(Shape::plane), Shape::plane, 40, 1e-3);
+  for (const Shape shape : {Shape::sphere, Shape::cylinder}) {
+    const FitSolution s = fit_points({shape, rough.points, {}});
+    REQUIRE_FALSE(s.error);
+    CHECK(s.rms < plane_rms(rough));
+    CHECK(s.element.size > 1e4);
+  }
 }
