@@ -209,14 +209,31 @@ Starts quartic_torus(const Points<double>& points) {
   return {s};
 }
 
-/// Directions all over the half sphere, about 10 degrees apart (Fibonacci lattice).
+/// The n-th of `count` directions spread over the half sphere (Fibonacci lattice).
+Vec3 lattice_direction(int n, int count) {
+  const double turn = kPi * (3 - std::sqrt(5.0)) * n, z = (n + 0.5) / count, r = std::sqrt(1 - z * z);
+  return {r * std::cos(turn), r * std::sin(turn), z};
+}
+
+/// Directions all over the half sphere, about 10 degrees apart.
 void add_lattice(std::vector<Vec3>& axes) {
   constexpr int count = 200;
-  const double golden = kPi * (3 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i) axes.push_back(lattice_direction(i, count));
+}
+
+/// Rough points of a part of a torus have minima that no start near the points' own shape leads to: tori of all directions and sizes
+/// whose tube passes near the points, not chosen by how well they fit.
+Starts scattered_tori(double extent, int count) {
+  Starts list;
   for (int i = 0; i < count; ++i) {
-    const double z = (i + 0.5) / count, r = std::sqrt(1 - z * z);
-    axes.push_back({r * std::cos(golden * i), r * std::sin(golden * i), z});
+    Placed<double> s = frame_along(lattice_direction(i, count));
+    s.size[0] = extent * std::pow(2, i % 5 - 1);
+    s.size[1] = extent * (i % 2 ? 1 : 0.4);
+    const double turn = 2 * kPi * (i % 7) / 7;
+    shift(s, s.size[0] * std::cos(turn), s.size[0] * std::sin(turn), 0);
+    list.push_back(s);
   }
+  return list;
 }
 
 /// The axis of a surface of revolution lies, at a narrow patch, in the plane of the normal and of one of the two principal
@@ -316,6 +333,7 @@ std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, co
   keep_best<TorusProfile>(along_all(axes, torus_along), points, 16 * few, 0.15 / few, kept);
   keep_best<TorusProfile>(along_all(ring_axes(spread), torus_along), points, 12 * few, 0, kept);
   keep_best<TorusProfile>(bent_tubes(tubes, extent), points, 24 * few, 0.15 / few, kept);
+  for (const Placed<double>& torus : scattered_tori(extent, points.size() < 64 ? 256 : 64)) kept.push_back(torus);
   return kept;
 }
 

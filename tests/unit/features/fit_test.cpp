@@ -192,6 +192,18 @@ FitProblem wave(Shape shape) {
 
 double plane_rms(const FitProblem& problem) { return fit_points({Shape::plane, problem.points, {}}).rms; }
 
+/// A start somewhere near the points, of any direction and size.
+Element random_start(const FitProblem& problem, int n) {
+  const FitSolution ball = fit_points({Shape::point, problem.points, {}});
+  double extent = 0;
+  for (const Vec3& p : problem.points) extent = std::max(extent, norm(p - ball.element.point));
+  const Vec3 axis = unit(Vec3{between("axis x", n, -1, 1), between("axis y", n, -1, 1), between("axis z", n, -1, 1)});
+  const double size = extent * std::pow(10, between("size", n, -0.5, 1)), turn = between("turn", n, 0, 2 * kPi);
+  const Vec3 x = any_perpendicular(axis), away = std::cos(turn) * x + std::sin(turn) * cross(axis, x);
+  return {.point = ball.element.point + size * away, .direction = axis, .size = size,
+          .minor_size = extent * std::pow(10, between("tube", n, -1, 0.3))};
+}
+
 }  // namespace
 
 TEST_CASE("short arcs without errors give the element itself") {
@@ -241,5 +253,21 @@ TEST_CASE("rough planes have a best ball and a best cylinder, large ones") {
     REQUIRE_FALSE(s.error);
     CHECK(s.rms < plane_rms(rough));
     CHECK(s.element.size > 1e4);
+  }
+}
+
+TEST_CASE("no start is better on rough parts of tori") {
+  for (int n = 0; n < 6; ++n) {
+    Element e = some_element(Shape::torus);
+    e.minor_size = e.size * between("minor", n, 0.3, 0.6);
+    const FitProblem problem = problem_on(e, Shape::torus, 16 + 4 * n, 0.1 * e.size, {.turn = 1.5, .tube = 3});
+    const FitSolution global = fit_points(problem);
+    REQUIRE_FALSE(global.error);
+    for (int k = 0; k < 150; ++k) {
+      CAPTURE(n);
+      CAPTURE(k);
+      const FitSolution local = fit_points_from(problem, random_start(problem, 1000 * n + k));
+      if (!local.error) CHECK(global.rms <= local.rms * (1 + 1e-9));
+    }
   }
 }
