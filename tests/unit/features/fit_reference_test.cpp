@@ -71,5 +71,5 @@ TEST_CASE("reference cases") {
       check_values(j["expected"], solution, j["tolerance_mm"], j["tolerance_rad"], j.value("tolerance_apex_mm", 0.0));
     }
   }
-  CHECK(cases == 57);
+  CHECK(cases == 63);
 }
