@@ -48,22 +48,29 @@ inline constexpr int kHolds = Profile::kShape == Shape::sphere ? 3 : 2;
 template <class Profile>
 inline constexpr int kFirstSize = kUnknowns<Profile> - Profile::kSizes;
 
-/// The shifts by which the surface stays where it is next to the mean of the points when size[0] grows by 1.
+/// A torus far from its centre: its tilts, too, turn about the mean of the points.
+template <class Profile>
+inline constexpr bool kLifts = Profile::kAlong && Profile::kTilt;
+
+/// The shifts by which the surface stays where it is next to the mean of the points when size[0] grows by 1. With a tilt of a torus
+/// goes the shift along the axis that leaves the mean where it is.
 template <class Profile, class Real>
 struct Hold {
   Real shift[kHolds<Profile>];
+  Real mean[3];  ///< of the points, frame of the surface; across the axis also the lift for a tilt
   explicit Hold(const Placed<Real>& s) {
-    constexpr Real mean[3] = {0, 0, 0};
-    Real q[3], away2 = Real(1e-300);  // with the mean on the axis nothing holds the surface, and the element is round
-    s.coordinates(mean, q);
-    for (int i = 0; i < kHolds<Profile>; ++i) away2 += q[i] * q[i];
+    constexpr Real origin[3] = {0, 0, 0};
+    s.coordinates(origin, mean);
+    Real away2 = Real(1e-300);  // with the mean on the axis nothing holds the surface, and the element is round
+    for (int i = 0; i < kHolds<Profile>; ++i) away2 += mean[i] * mean[i];
     Real away = std::sqrt(away2);
     if constexpr (Profile::kShape == Shape::cone) away *= std::cos(s.size[1]);
-    for (int i = 0; i < kHolds<Profile>; ++i) shift[i] = -q[i] / away;
+    for (int i = 0; i < kHolds<Profile>; ++i) shift[i] = -mean[i] / away;
   }
-  /// From derivatives for a change of the size alone to such with the surface held.
+  /// From derivatives for a change of one unknown alone to such with the surface held.
   void apply(Real (&row)[kUnknowns<Profile> + 1]) const {
     for (int i = 0; i < kHolds<Profile>; ++i) row[kFirstSize<Profile>] += shift[i] * row[i];
+    if constexpr (kLifts<Profile>) row[3] += mean[0] * row[2], row[4] += mean[1] * row[2];
   }
 };
 
@@ -74,7 +81,14 @@ void move_held_by(Placed<Real>& s, const Real (&step)[kUnknowns<Profile>]) {
   Real free[kUnknowns<Profile>];
   std::copy(std::begin(step), std::end(step), free);
   for (int i = 0; i < kHolds<Profile>; ++i) free[i] += hold.shift[i] * step[kFirstSize<Profile>];
-  move_by<Profile>(s, free);
+  if constexpr (kLifts<Profile>) {  // all the way, not to first order: a sector of a large torus rolls far about itself
+    Real q[3];
+    for (int k = 0; k < 3; ++k) q[k] = hold.mean[k] - free[k], free[k] = 0;
+    move_by<Profile>(s, free);
+    for (int i = 0; i < 3; ++i) s.p[i] = -q[0] * s.axes[0][i] - q[1] * s.axes[1][i] - q[2] * s.axes[2][i];
+  } else {
+    move_by<Profile>(s, free);
+  }
 }
 
 /// Gauss-Newton equations J^T J x = -J^T d.
@@ -128,6 +142,7 @@ SymmetricSystem<Real, kUnknowns<Profile>> newton_equations(const Points<Real>& p
   for (int i = 0; i < N; ++i) zero[i] = Jet<Real, N>::unknown(0, i);
   const Hold<Profile, Real> hold(s);
   for (int i = 0; i < kHolds<Profile>; ++i) zero[i].gradient[kFirstSize<Profile>] = hold.shift[i];
+  if constexpr (kLifts<Profile>) zero[2].gradient[3] = hold.mean[0], zero[2].gradient[4] = hold.mean[1];
   for (const auto& point : points) {
     Real q[3];
     s.coordinates(point.data(), q);

@@ -156,24 +156,39 @@ Placed<double> torus_along(const Vec3& axis, const Points<double>& points) {
   return s;
 }
 
+/// A cylinder bent to a torus: `turn` says in which direction of its frame the centre lies.
+Placed<double> bent(const Placed<double>& tube, double major_radius, double turn) {
+  const double c = std::cos(turn), s = std::sin(turn);
+  Placed<double> torus = tube;
+  double axis[3];
+  for (int k = 0; k < 3; ++k) axis[k] = c * tube.axes[1][k] - s * tube.axes[0][k];
+  torus.size[0] = major_radius;
+  torus.size[1] = tube.size[0];
+  shift(torus, major_radius * c, major_radius * s, 0);
+  for (int k = 0; k < 3; ++k) torus.axes[0][k] = tube.axes[2][k];
+  point_axis(torus, axis);
+  return torus;
+}
+
 /// A sector of a torus is a bent cylinder: the tubes of the cylinders given, bent to several radii in several directions.
 Starts bent_tubes(const Starts& cylinders, double extent) {
   Starts list;
   for (const Placed<double>& tube : cylinders)
     for (const double bend : {0.7, 1.2, 2.0, 4.0, 10.0})
-      for (int turn = 0; turn < 16; ++turn) {
-        const double angle = kPi * turn / 8, c = std::cos(angle), s = std::sin(angle);
-        Placed<double> torus = tube;
-        double axis[3];
-        for (int k = 0; k < 3; ++k) axis[k] = c * tube.axes[1][k] - s * tube.axes[0][k];
-        torus.size[0] = bend * extent + tube.size[0];
-        torus.size[1] = tube.size[0];
-        shift(torus, torus.size[0] * c, torus.size[0] * s, 0);
-        for (int k = 0; k < 3; ++k) torus.axes[0][k] = tube.axes[2][k];
-        point_axis(torus, axis);
-        list.push_back(torus);
-      }
+      for (int turn = 0; turn < 16; ++turn) list.push_back(bent(tube, bend * extent + tube.size[0], kPi * turn / 8));
   return list;
+}
+
+/// A short sector of a large torus: the axis of the cylinder departs from its line with the square of the height, which the
+/// distances of the points from the cylinder show.
+Placed<double> slightly_bent(const Placed<double>& tube, const Points<double>& points) {
+  const MatrixXd q = coordinates_in(tube, points);
+  const VectorXd rho = q.leftCols(2).rowwise().norm(), h = q.col(2);
+  const MatrixXd radial = q.leftCols(2).array().colwise() / rho.array();
+  MatrixXd m(q.rows(), 7);
+  m << radial, radial.array().colwise() * h.array(), radial.array().colwise() * h.array().square(), VectorXd::Ones(q.rows());
+  const VectorXd x = least_squares(m, rho.array() - tube.size[0]);
+  return bent(tube, 1 / (2 * std::hypot(x[4], x[5])), std::atan2(x[5], x[4]));
 }
 
 /// A torus is the quartic |q|^4 = |q|^2 (l q) + q M q + v q + k: linear in 13 coefficients, of which l = 4 c gives the centre and
@@ -333,6 +348,7 @@ std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, co
   keep_best<TorusProfile>(along_all(axes, torus_along), points, 16 * few, 0.15 / few, kept);
   keep_best<TorusProfile>(along_all(ring_axes(spread), torus_along), points, 12 * few, 0, kept);
   keep_best<TorusProfile>(bent_tubes(tubes, extent), points, 24 * few, 0.15 / few, kept);
+  for (const Placed<double>& tube : tubes) kept.push_back(slightly_bent(tube, points));
   for (const Placed<double>& torus : scattered_tori(extent, points.size() < 64 ? 256 : 64)) kept.push_back(torus);
   return kept;
 }

@@ -271,3 +271,29 @@ TEST_CASE("no start is better on rough parts of tori") {
     }
   }
 }
+
+TEST_CASE("short sectors of large tori") {
+  for (const double radius : {300.0, 1000.0, 3000.0, 10000.0})
+    for (const double noise : {0.0, 1e-3}) {
+      Element e = some_element(Shape::torus);
+      e.size = radius, e.minor_size = 20;
+      const FitProblem problem = problem_on(e, Shape::torus, 60, noise, {.turn = 40 / radius});
+      CAPTURE(radius);
+      CAPTURE(noise);
+      const FitSolution s = fit_points(problem), local = fit_points_from(problem, e);
+      REQUIRE_FALSE(s.error);
+      REQUIRE_FALSE(local.error);
+      CHECK(s.rms <= local.rms * (1 + 1e-9) + 1e-15 * radius);
+      CHECK(std::fabs(s.element.size / radius - 1) < (noise > 0 ? 1e-5 * radius : 1e-6));
+    }
+}
+
+TEST_CASE("a rough straight tube has a best torus, a large one") {
+  const FitProblem tube = problem_on(some_element(Shape::cylinder), Shape::cylinder, 60, 1e-2);
+  const FitSolution straight = fit_points(tube), bent = fit_points({Shape::torus, tube.points, {}});
+  REQUIRE_FALSE(straight.error);
+  REQUIRE_FALSE(bent.error);
+  CHECK(bent.rms < straight.rms);
+  CHECK(bent.element.size > 1000);
+  CHECK(bent.element.minor_size == doctest::Approx(straight.element.size).epsilon(1e-3));
+}
