@@ -5,6 +5,10 @@
 // find it (language.md section 4), so every virtual machine needs to know what an error-free machine that took the same path
 // through the program would have seen: its twin. All machines start with the reference as their twin; where machines of one
 // twin part at a condition on measured values, the twin is cloned and follows each group.
+//
+// A workpiece or a recording says that the true part is not the nominal one. Then every twin has a *nominal* lane beside it:
+// an error-free machine that measures the nominal part on the twin's path. It says where the program meant features, datums
+// and touches to be: coordinate systems built on measured features move with the true part, what is nominal does not.
 #pragma once
 
 #include <cstdint>
@@ -50,13 +54,14 @@ struct FeatureState {
   Element nominal;                    ///< twins, and machines where it varies with them
   Rigid defined_in;                   ///< X_WD at the definition
   std::vector<Vec3> touched;          ///< points of the last measurement, of features whose touches are evaluated
-  std::vector<Target> meant;          ///< the same for targets; twins only
+  std::vector<Target> meant;          ///< the same for targets; nominal lanes only
 };
 
 struct Lane {
   int pc = 0;
   bool running = true;
   int twin = 0;                       ///< lane of the error-free machine that shares this lane's path; a twin's own
+  int nominal = 0;                    ///< twins only: the nominal lane beside it; a nominal lane's own, and where the part is nominal
   std::uint32_t machine_index = 0;    ///< keys the random numbers; unused on twins
   Rigid X_WD;                         ///< current coordinate system
   plan::SensorId sensor;
@@ -68,7 +73,7 @@ struct Lane {
   bool temperature_compensation = false;
   std::uint64_t fuel_used = 0;
   std::vector<Vec3> points;           ///< of the measurement it is in: surface points, or tip centres without compensation; W
-  std::vector<Target> targets;        ///< of the same measurement; twins only
+  std::vector<Target> targets;        ///< of the same measurement; nominal lanes only
   std::vector<FeatureState> features; ///< by slot (engine/plan/lifetimes.hpp): those that are alive
   std::optional<Motion> motion;       ///< twins only: their machines move with them
   TouchMotion last_touch;             ///< twins only
@@ -91,7 +96,9 @@ struct Block {
   std::uint64_t touches = 0;
 
   int reference() const { return machines; }
-  bool is_twin(int lane) const { return lane >= machines; }
+  bool is_twin(int lane) const { return lane >= machines; }   ///< nominal lanes are twins too: of the nominal part
+  bool is_nominal(int lane) const { return is_twin(lane) && lanes[lane].nominal == lane; }
+  bool part_is_nominal() const { return lanes[reference()].nominal == reference(); }
 };
 
 }  // namespace abbe

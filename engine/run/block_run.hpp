@@ -53,6 +53,7 @@ class BlockRun {
   void gather_lowest();
   void trap(int lane, std::string reason);
   Lane& twin_of(const Lane& lane) { return block.lanes[lane.twin]; }
+  Lane& nominal_lane_of(const Lane& lane) { return block.lanes[twin_of(lane).nominal]; }
   double value(const Lane&, const plan::Operand&) const;
   Vec3 value(const Lane&, const plan::Point&) const;
   Outcome<double> evaluate(const Lane&, const plan::Expression&) const;
@@ -60,7 +61,7 @@ class BlockRun {
   Arguments filled(const Lane&, const Arguments&, const std::vector<plan::VaryingNumber>&) const;
   /// What the lane knows of a feature that the operation names. Writing another feature's state does not move it.
   FeatureState& state(Lane&, plan::FeatureId);
-  /// As FEAT defined it, in the lane's D; where the lanes share the nominal, as it lies in the error-free D.
+  /// As FEAT defined it, in the lane's D; where the lanes share the nominal, as it lies in the D of the nominal part.
   Element nominal_of(Lane&, plan::FeatureId);
   /// How often the lane has executed this operation before; counts it.
   int visit(Lane&);
@@ -103,6 +104,8 @@ class BlockRun {
   void fit_machines(plan::FeatureId, FitCriterion, std::size_t points);
   /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.
   void part_twins(Outcomes& condition);
+  /// Another lane like that twin, and its nominal lane behind it. Returns the twin's.
+  int clone_twin(int twin);
 };
 
 }  // namespace abbe

@@ -127,26 +127,39 @@ void BlockRun::part_twins(Outcomes& condition) {
   const std::vector<int> before = active;
   for (const int t : before) {
     if (!block.is_twin(t) || !block.lanes[t].running) continue;
+    if (block.is_nominal(t) && !block.part_is_nominal()) continue;  // goes where its twin goes
+    const int nominal = block.lanes[t].nominal;
     std::vector<int> going[2];
     for (const int i : before)
       if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].twin == t) going[condition[i] != 0].push_back(i);
     // The reference decides by itself; any other twin exists only for its machines and goes where they go.
     if (t != block.reference()) {
       if (going[0].empty() && going[1].empty()) {
-        block.lanes[t].running = false;
+        block.lanes[t].running = block.lanes[nominal].running = false;
         continue;
       }
       condition[t] = going[0].empty();
     }
+    condition[nominal] = condition[t];
     const std::vector<int>& parting = going[condition[t] == 0];
     if (parting.empty()) continue;
-    const int clone = static_cast<int>(block.lanes.size());
-    block.lanes.push_back(Lane(block.lanes[t]));
-    block.lanes.back().twin = clone;
-    condition.push_back(condition[t] == 0);
-    active.push_back(clone);
+    const bool other_way = condition[t] == 0;
+    const int clone = clone_twin(t);
     for (const int i : parting) block.lanes[i].twin = clone;
+    for (int i = clone; i < static_cast<int>(block.lanes.size()); ++i) {
+      condition.push_back(other_way);
+      active.push_back(i);
+    }
   }
+}
+
+int BlockRun::clone_twin(int t) {
+  const int clone = static_cast<int>(block.lanes.size()), nominal = block.lanes[t].nominal;
+  block.lanes.push_back(Lane(block.lanes[t]));
+  if (nominal != t) block.lanes.push_back(Lane(block.lanes[nominal]));
+  const int last = static_cast<int>(block.lanes.size()) - 1;
+  for (int i = clone; i <= last; ++i) block.lanes[i].twin = i, block.lanes[i].nominal = last;
+  return clone;
 }
 
 }  // namespace abbe

@@ -9,8 +9,8 @@ namespace abbe {
 Element BlockRun::nominal_of(Lane& lane, plan::FeatureId feature) {
   const FeatureState& own = state(lane, feature);
   if (own.own_nominal) return inverse(lane.X_WD) * own.nominal;
-  Lane& twin = twin_of(lane);
-  return inverse(twin.X_WD) * state(twin, feature).nominal;
+  Lane& nominal = nominal_lane_of(lane);
+  return inverse(nominal.X_WD) * state(nominal, feature).nominal;
 }
 
 namespace {
@@ -128,14 +128,14 @@ void BlockRun::operator()(const plan::RecallFrame& recall) {
 }
 
 std::vector<TouchedPoint> BlockRun::touches_of(Lane& lane, plan::FeatureId feature) {
-  Lane& twin = twin_of(lane);
+  Lane& nominal = nominal_lane_of(lane);
   const std::vector<Vec3>& points = state(lane, feature).touched;
-  const std::vector<Target>& meant = state(twin, feature).meant;
-  const Rigid X_DW = inverse(lane.X_WD), X_DW_true = inverse(twin.X_WD);
+  const std::vector<Target>& meant = state(nominal, feature).meant;
+  const Rigid X_DW = inverse(lane.X_WD), X_DW_nominal = inverse(nominal.X_WD);
   std::vector<TouchedPoint> touches;
   touches.reserve(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) {
-    touches.push_back({X_DW * points[k], X_DW_true * meant[k].point, X_DW_true.R * meant[k].normal});
+    touches.push_back({X_DW * points[k], X_DW_nominal * meant[k].point, X_DW_nominal.R * meant[k].normal});
   }
   return touches;
 }
@@ -172,12 +172,12 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
   std::vector<Shape> shapes, datum_shapes;
   for (const auto id : features) shapes.push_back(acts_as(plan[id].kind->shape));
   for (const auto id : datums) datum_shapes.push_back(acts_as(plan[id].kind->shape));
-  std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()), true_datums(datums.size());
+  std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()), nominal_datums(datums.size());
 
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
-    Lane& twin = twin_of(lane);
-    const Rigid X_DW = inverse(lane.X_WD), X_DW_true = inverse(twin.X_WD);
+    Lane& nominal = nominal_lane_of(lane);
+    const Rigid X_DW = inverse(lane.X_WD), X_DW_nominal = inverse(nominal.X_WD);
     for (std::size_t k = 0; k < features.size(); ++k) {
       const Element* element = actual(i, features[k]);
       if (!element) return "";
@@ -188,7 +188,7 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
       const Element* element = actual(i, datums[k]);
       if (!element) return "";
       datum_actuals[k] = X_DW * *element;
-      true_datums[k] = X_DW_true * state(twin, datums[k]).actual;
+      nominal_datums[k] = X_DW_nominal * state(nominal, datums[k]).actual;
     }
     std::vector<TouchedPoint> touches, second_touches;
     if (needs_touches(*tolerance.kind, tolerance.arguments)) {
@@ -197,7 +197,7 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
     }
     const Arguments arguments = filled(lane, tolerance.arguments, tolerance.varying);
     const Outcome<double> made = tolerance.kind->evaluate(
-        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, true_datums, touches, second_touches});
+        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, nominal_datums, touches, second_touches});
     if (!made) return made.failure;
     const auto limits = widened(i, def, tolerance.kind->limits(arguments, nominals));
     if (!limits) return "";

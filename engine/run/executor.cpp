@@ -68,13 +68,19 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   start.visits.assign(visits_.count, 0);
 
   const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);
-  Block block{std::vector<Lane>(count + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index),
+  const bool part_is_nominal = !part_.given() && !options_.recorded;
+  const int nominal = part_is_nominal ? count : count + 1;
+  Block block{std::vector<Lane>(nominal + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index),
               effects_.none_acted(), {}, 0};
   for (int i = 0; i < count; ++i) {
     block.lanes[i].machine_index = index[i];
     if (part_.given()) block.parts.push_back(part_.draw({options_.seed, index[i]}));
   }
-  block.lanes[count].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
+  for (int i = count; i <= nominal; ++i) {
+    block.lanes[i].twin = i;
+    block.lanes[i].nominal = nominal;
+    block.lanes[i].motion = Motion(machine_.home_offset() + options_.placement_mm, default_motion(machine_));
+  }
   return block;
 }
 
@@ -146,9 +152,13 @@ void BlockRun::trap(int index, std::string reason) {
   lane.running = false;
   lane.trap = {operation, std::move(reason)};
   if (!block.is_twin(index)) return;
-  // Without an error-free machine on its path a virtual machine does not know where the part is.
-  for (int i = 0; i < block.machines; ++i)
-    if (block.lanes[i].twin == index) trap(i, block.lanes[index].trap.reason);
+  // Without an error-free machine on its path a virtual machine does not know where the part is, without a nominal lane a twin
+  // does not know where it was meant to be. A nominal lane without its twin has no path.
+  const auto depends = [&](int i) { return block.is_twin(i) ? block.lanes[i].nominal == index : block.lanes[i].twin == index; };
+  const std::string why = block.lanes[index].trap.reason;
+  for (int i = 0; i < static_cast<int>(block.lanes.size()); ++i)
+    if (i != index && depends(i)) trap(i, why);
+  block.lanes[block.lanes[index].nominal].running = false;
 }
 
 double BlockRun::value(const Lane& lane, const plan::Operand& operand) const {

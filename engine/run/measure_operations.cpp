@@ -143,7 +143,8 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
     normal = lane.X_WD.R * unit(normal_D);
     point = lane.X_WD * value(lane, touch.point);
   }
-  if (executor.options_.recorded) {
+  const bool on_nominal_part = block.is_nominal(index);
+  if (executor.options_.recorded && !on_nominal_part) {
     const auto recorded = executor.recorded_surface(touch.feature, twin.points.size(), surface, unit(true_normal), sensor.radius_mm);
     if (!recorded)
       return trap(index, "the recording has no touch " + std::to_string(twin.points.size() + 1) + " of '" + executor.plan_[touch.feature].label + "'"), false;
@@ -163,7 +164,7 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   touch_batch.machine[slot] = lane.machine_index;
   touch_batch.visit[slot] = visit(lane);
   R_WR[slot] = sensor.R_WR;
-  if (executor.part_.given()) put_on_part(touch, twin, slot);
+  if (executor.part_.given() && !on_nominal_part) put_on_part(touch, twin, slot);
   return true;
 }
 
@@ -207,7 +208,7 @@ void BlockRun::operator()(const plan::Touch& touch) {
     const double offset = touch_batch.travel[i] - (lane.compensation ? touch_batch.radius[i] : 0.0);
     lane.points.push_back(touch_batch.commanded.get(i) + offset * touch_batch.normal.get(i));
     if (observed) observe_touch(touch, i);
-    if (!block.is_twin(touch_batch.lane[i])) continue;
+    if (!block.is_nominal(touch_batch.lane[i])) continue;
     // Without compensation the points reported are centres of the tip.
     Target target = targets[static_cast<std::size_t>(i)];
     if (!lane.compensation) target.point += touch_batch.radius[i] * target.normal;
@@ -313,7 +314,7 @@ void BlockRun::keep_touches(plan::FeatureId feature) {
     Lane& lane = block.lanes[i];
     FeatureState& of = state(lane, feature);
     of.touched = lane.points;
-    if (block.is_twin(i)) of.meant = lane.targets;
+    if (block.is_nominal(i)) of.meant = lane.targets;
   }
 }
 

@@ -2,7 +2,7 @@
 // 2 |deviation| (ISO 5458).
 //
 // The deviation is the location of the feature in the datum reference frame of this machine's
-// datums, minus that of the nominal in the frame of the true datums; datums not named leave the
+// datums, minus that of the nominal in the frame of the nominal datums; datums not named leave the
 // freedoms of the current coordinate system.
 //
 // - slots, rectangles, ellipses: their centre
@@ -58,10 +58,10 @@ Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) 
   if (in.datums.empty()) return {2 * deviation(flat, in.shapes[0], in.actual[0], in.nominal[0])};
   const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
   if (!frame) return no_value(frame.failure);
-  const Outcome<Rigid> true_frame = datum_reference_frame(in.datum_shapes, in.true_datums);
-  if (!true_frame) return no_value(true_frame.failure);
+  const Outcome<Rigid> nominal_frame = datum_reference_frame(in.datum_shapes, in.nominal_datums);
+  if (!nominal_frame) return no_value(nominal_frame.failure);
   return {2 * deviation(flat, in.shapes[0], inverse(frame.value) * in.actual[0],
-                        inverse(true_frame.value) * in.nominal[0])};
+                        inverse(nominal_frame.value) * in.nominal[0])};
 }
 
 }  // namespace

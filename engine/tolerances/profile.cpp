@@ -34,9 +34,9 @@ Outcome<double> profile(const Arguments& arguments, const EvaluationInput& in) {
   if (!in.datums.empty()) {
     const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
     if (!frame) return no_value(frame.failure);
-    const Outcome<Rigid> true_frame = datum_reference_frame(in.datum_shapes, in.true_datums);
-    if (!true_frame) return no_value(true_frame.failure);
-    own = inverse(frame.value), meant = inverse(true_frame.value);
+    const Outcome<Rigid> nominal_frame = datum_reference_frame(in.datum_shapes, in.nominal_datums);
+    if (!nominal_frame) return no_value(nominal_frame.failure);
+    own = inverse(frame.value), meant = inverse(nominal_frame.value);
   }
   const double middle = 0.5 * (arguments.number("lower") + arguments.number("upper"));
   double farthest = 0;

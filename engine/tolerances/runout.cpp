@@ -44,9 +44,9 @@ Outcome<std::vector<Reading>> readings(const EvaluationInput& in) {
   if (!axis) return Made::failed("a run-out needs a datum with an axis");
   const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
   if (!frame) return Made::failed(frame.failure);
-  const Outcome<Rigid> true_frame = datum_reference_frame(in.datum_shapes, in.true_datums);
-  if (!true_frame) return Made::failed(true_frame.failure);
-  const Rigid own = inverse(frame.value), meant = inverse(true_frame.value);
+  const Outcome<Rigid> nominal_frame = datum_reference_frame(in.datum_shapes, in.nominal_datums);
+  if (!nominal_frame) return Made::failed(nominal_frame.failure);
+  const Rigid own = inverse(frame.value), meant = inverse(nominal_frame.value);
   const bool axial = in.shapes[0] == Shape::plane;
   Made made;
   for (const TouchedPoint& touch : in.touches) {

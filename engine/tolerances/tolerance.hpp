@@ -17,18 +17,19 @@ enum class Unit { mm, rad };
 /// One touch of a measured feature, and where the program meant it to be.
 struct TouchedPoint {
   Vec3 actual;    ///< as this machine measured it, in its own D
-  Vec3 nominal;   ///< where the program put the surface, in the error-free D
-  Vec3 normal;    ///< out of the material there, in the error-free D
+  Vec3 nominal;   ///< where the program put the surface, in the nominal D
+  Vec3 normal;    ///< out of the material there, in the nominal D
 };
 
-/// What one evaluation on one lane sees. D is the coordinate system current at the OUTPUT or EVAL statement.
+/// What one evaluation on one lane sees. D is the coordinate system current at the OUTPUT or EVAL statement; the nominal D is
+/// the one that an error-free machine has there on the nominal part, whatever the true part is like.
 struct EvaluationInput {
   std::span<const Shape> shapes;          ///< of the features, in the order in which OUTPUT names them, then of the reference
   std::span<const Element> actual;        ///< as this machine measured them, in its own D
-  std::span<const Element> nominal;       ///< as FEAT defined them, in the error-free D
+  std::span<const Element> nominal;       ///< as FEAT defined them, in the nominal D
   std::span<const Shape> datum_shapes;    ///< of the datums, in the order in which the tolerance names them
   std::span<const Element> datums;        ///< as this machine measured them, in its own D
-  std::span<const Element> true_datums;   ///< as the error-free machine measured them, in the error-free D
+  std::span<const Element> nominal_datums;  ///< as an error-free machine measures them on the nominal part, in the nominal D
   std::span<const TouchedPoint> touches = {};  ///< of the first feature, for kinds that ask for them; none of a constructed feature
   std::span<const TouchedPoint> second_touches = {};  ///< of the second feature, or of the reference
 };

@@ -1,4 +1,4 @@
-// One evaluation written out: features with their nominals, datums with their true ones, arguments.
+// One evaluation written out: features with their nominals, datums with their nominal ones, arguments.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ struct Evaluation {
   const ToleranceKind* kind;
   Arguments arguments;
   std::vector<Shape> shapes, datum_shapes;
-  std::vector<Element> actual, nominal, datums, true_datums;
+  std::vector<Element> actual, nominal, datums, nominal_datums;
   std::vector<TouchedPoint> touches, second_touches;
 
   explicit Evaluation(const char* word) : kind(find_tolerance_kind(word)) { REQUIRE(kind); }
@@ -31,15 +31,15 @@ struct Evaluation {
     return *this;
   }
   Evaluation& feature(Shape shape, const Element& both) { return feature(shape, both, both); }
-  Evaluation& datum(Shape shape, const Element& as_measured, const Element& as_true) {
+  Evaluation& datum(Shape shape, const Element& as_measured, const Element& as_nominal) {
     arguments.add_feature("datum", static_cast<int>(datums.size()));
-    datum_shapes.push_back(shape), datums.push_back(as_measured), true_datums.push_back(as_true);
+    datum_shapes.push_back(shape), datums.push_back(as_measured), nominal_datums.push_back(as_nominal);
     return *this;
   }
   Evaluation& datum(Shape shape, const Element& both) { return datum(shape, both, both); }
 
   Outcome<double> outcome() const {
-    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, true_datums, touches, second_touches});
+    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, nominal_datums, touches, second_touches});
   }
   double value() const {
     const Outcome<double> made = outcome();

@@ -1,0 +1,119 @@
+"""Tolerances of a part that is not nominal, because a workpiece file or a recording says so: what is nominal stays where the program
+put it, whatever the true part is like."""
+import harness
+
+HEAD = """$$! place 800 500 -400
+DMISMN/'a block with a bore',5.2
+UNITS/MM,ANGDEC
+S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4
+SNSLCT/S(P)
+"""
+
+
+def measured(kind, label, touches):
+    lines = [f"PTMEAS/CART,{','.join(f'{x:.6f}' for x in touch)}\n" for touch in touches]
+    return f"MEAS/{kind},F({label}),{len(lines)}\n" + "".join(lines) + "ENDMES\n"
+
+
+def plane(label, corners, normal):
+    nominal = ",".join(str(x) for x in corners[0] + normal)
+    return f"F({label})=FEAT/PLANE,CART,{nominal}\n" + measured("PLANE", label, [c + normal for c in corners])
+
+
+BORE = "F(H)=FEAT/CIRCLE,INNER,CART,50,40,-5,0,0,1,20\n"
+BORE_TOUCHES = measured("CIRCLE", "H", [(60, 40, -5, -1, 0, 0), (50, 50, -5, 0, -1, 0), (40, 40, -5, 1, 0, 0), (50, 30, -5, 0, 1, 0)])
+DATUMS = (plane("A", [(0, 0, 0), (100, 0, 0), (100, 80, 0), (0, 80, 0)], (0, 0, 1))
+          + plane("B", [(0, 0, -5), (100, 0, -5), (100, 0, -15), (0, 0, -15)], (0, -1, 0))
+          + plane("C", [(0, 0, -5), (0, 80, -5), (0, 80, -15), (0, 0, -15)], (-1, 0, 0))
+          + "DATDEF/FA(A),DAT(A)\nDATDEF/FA(B),DAT(B)\nDATDEF/FA(C),DAT(C)\n")
+ALIGNMENT = "D(R)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),-YDIR,YORIG,DAT(C),XORIG\n"
+BACK = plane("U", [(0, 80, -5), (100, 80, -5), (100, 80, -15), (0, 80, -15)], (0, 1, 0))
+TOLERANCES = """T(POS)=TOL/POS,2D,0.1,DAT(A),DAT(B),DAT(C)
+T(PLAIN)=TOL/POS,2D,0.1
+T(Y)=TOL/CORTOL,YAXIS,-0.05,0.05
+T(FROM_B)=TOL/DISTWRT,NOMINL,40,-0.05,0.05,FA(B),YAXIS
+T(PROFILE)=TOL/PROFS,-0.05,0.05,DAT(A),DAT(B),DAT(C)
+T(POS_U)=TOL/POS,3D,0.1,DAT(A),DAT(B),DAT(C)
+"""
+OUTPUT = "OUTPUT/FA(H),TA(POS),TA(PLAIN),TA(Y),TA(FROM_B)\nOUTPUT/FA(U),TA(PROFILE),TA(POS_U)\n"
+OFFSET_B = '{"schema": "abbe.workpiece/1", "name": "B stands out", "surfaces": {"B": {"offset_um": 100}}}'
+
+# B lies 0.1 mm further out: bore and back lie 0.1 mm too far from it, and twice that is their deviation in the frame of A, B and C.
+FAR_FROM_B = {"POS": 0.2, "FROM_B": 40.1, "PROFILE": 0.2, "POS_U": 0.2}
+
+
+class TruePart(harness.Case):
+    def program(self, *parts):
+        return self.write("part.dmi", HEAD + "".join(parts) + "ENDFIL\n")
+
+    def references(self, *options):
+        report = self.run_json("part.dmi", "--machines", 40, *options)
+        return {c["tolerance"]: c["reference"] for c in report["characteristics"]}
+
+    def recording(self, deviation):
+        """Of the program, with every touch that deviation(feature, touch) off its target, along the normal. mm"""
+        self.abbe("record", "part.dmi", "-o", "plain.csv")
+
+        def moved(row):
+            off = deviation(row["feature"], int(row["touch"]))
+            return row | {x: repr(float(row["t" + x]) + float(row["n" + x]) * off) for x in "xyz"}
+        return self.changed(self.folder / "plain.csv", moved, "true.csv")
+
+    def assert_close(self, found, expected, delta=1e-6):
+        for name, value in expected.items():
+            self.assertAlmostEqual(found[name], value, delta=delta, msg=name)
+
+    def true_parts(self):
+        """B further out by 0.1 mm, said in two ways."""
+        self.write("b.json", OFFSET_B)
+        return ("--workpiece", "b.json"), ("--recording", self.recording(lambda feature, touch: 0.1 if feature == "B" else 0))
+
+    def test_a_feature_is_judged_from_where_the_true_datum_lies(self):
+        self.program(DATUMS, BORE, BORE_TOUCHES, BACK, TOLERANCES, OUTPUT)
+        for part in self.true_parts():
+            self.assert_close(self.references(*part), FAR_FROM_B | {"PLAIN": 0, "Y": 0})
+
+    def test_what_a_coordinate_system_on_the_datums_puts_follows_them(self):
+        # The workpiece lies where PTMEAS says in the system that stands on B: bore and back are 40 and 80 mm from it.
+        self.program(DATUMS, ALIGNMENT, BORE, BORE_TOUCHES, BACK, TOLERANCES, OUTPUT)
+        workpiece, recording = self.true_parts()
+        self.assert_close(self.references(*workpiece), {"POS": 0, "PLAIN": 0, "Y": 0, "FROM_B": 40, "PROFILE": 0, "POS_U": 0})
+        # The recording has them where the machine found them, 0.1 mm further from B. A recorded point counts along the normal only: two of
+        # the bore's touches slide 0.1 mm along it, which moves the centre by some nm.
+        self.assert_close(self.references(*recording), FAR_FROM_B | {"PLAIN": 0.2, "Y": 0.1}, delta=1e-5)
+
+    def test_a_nominal_stays_in_its_system_when_the_datums_are_measured(self):
+        # Bore and nominal are defined before the system is set on B. Where B was found moves no nominal: the bore is 40.1 mm from it.
+        self.program(BORE, BORE_TOUCHES, BACK, DATUMS, ALIGNMENT, TOLERANCES, OUTPUT)
+        for part in self.true_parts():
+            self.assert_close(self.references(*part), FAR_FROM_B | {"PLAIN": 0.2, "Y": 0.1})
+
+    def test_machines_that_take_another_path_know_what_is_nominal_there(self):
+        # On the nominal part nothing would be evaluated: B lies at -0.1 mm. Noise then sends half of the machines each way.
+        self.program(DATUMS, BORE, BORE_TOUCHES, BACK, TOLERANCES,
+                     "DECL/LOCAL,REAL,BY,HX\nBY=OBTAIN/FA(B),5\nHX=OBTAIN/FA(H),5\nIF/(BY.LT.-0.05)\nIF/(HX.GT.50)\n", OUTPUT,
+                     "ELSE\n", OUTPUT, "ENDIF\nENDIF\n")
+        for part in self.true_parts():
+            report = self.run_json("part.dmi", "--machines", 40, *part)
+            found = [c for c in report["characteristics"] if c["tolerance"] == "POS"]
+            self.assertEqual(len(found), 2)
+            self.assertEqual(sum(c["evaluated"] for c in found), 40)
+            for c in found:
+                self.assertGreater(c["evaluated"], 0)
+                self.assertAlmostEqual(c["mean"], 0.2, delta=0.02)
+
+    def test_a_profile_holds_recorded_touches_against_their_targets(self):
+        # Touches 0.5, 0.3, 0.4 and 0.2 mm outside the nominal surface: the zone about it that holds them is 2 x 0.5 mm wide, about the
+        # middle of -0.02 and 0.06 it is 2 x (0.5 - 0.02) mm.
+        top = plane("T", [(0, 0, 20), (100, 0, 20), (100, 80, 20), (0, 80, 20)], (0, 0, 1))
+        self.program(DATUMS, top, "T(S)=TOL/PROFS,-0.05,0.05\nT(L)=TOL/PROFL,-0.02,0.06\nT(SA)=TOL/PROFS,-0.05,0.05,DAT(A)\n",
+                     "OUTPUT/FA(T),TA(S),TA(L),TA(SA)\n")
+        recording = self.recording(lambda feature, touch: (0.5, 0.3, 0.4, 0.2)[touch - 1] if feature == "T" else 0)
+        report = self.run_json("part.dmi", "--machines", 40, "--recording", recording)
+        self.assert_close({c["tolerance"]: c["reference"] for c in report["characteristics"]}, {"S": 1.0, "L": 0.96, "SA": 1.0})
+        for c in report["characteristics"]:
+            self.assertEqual(c["conformance_probability"], 0)
+
+
+if __name__ == "__main__":
+    harness.main()
