@@ -25,6 +25,8 @@ struct Construction {
                                 const Element& nominal, const Arguments&);
   /// A line or axis stands for a point: that nearest to the nominal point of its feature. Its element comes with that as `point`.
   bool axes_are_points = false;
+  /// The result lies midway between two faces and reaches as far as their touches do.
+  bool lies_between = false;
 };
 
 std::span<const Construction* const> constructions();

@@ -54,6 +54,7 @@ struct FeatureState {
   Element nominal;                    ///< twins, and machines where it varies with them
   Rigid defined_in;                   ///< X_WD at the definition
   std::vector<Vec3> touched;          ///< points of the last measurement, of features whose touches are evaluated
+  std::vector<Vec3> faces;            ///< the same of the faces that a median plane was constructed between
   std::vector<Target> meant;          ///< the same for targets; nominal lanes only
 };
 

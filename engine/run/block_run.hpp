@@ -98,6 +98,8 @@ class BlockRun {
   Outcome<Target> pattern_target(Lane&, const plan::Touch&);
   void keep_touches(plan::FeatureId);
   std::vector<TouchedPoint> touches_of(Lane&, plan::FeatureId);
+  /// Touches of the faces that a median plane lies between, in the lane's D; none of other features.
+  std::vector<Vec3> faces_of(Lane&, plan::FeatureId);
   /// The limits as the actual sizes on this lane widen them; nothing after trapping it.
   std::optional<ToleranceLimits> widened(int lane, const plan::CharacteristicDef&, ToleranceLimits);
   void fit_twins(plan::FeatureId, FitCriterion);

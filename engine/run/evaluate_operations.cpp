@@ -18,6 +18,15 @@ namespace {
 /// The point of a line or axis that is nearest to q.
 Vec3 foot_on_axis(const Element& axis, const Vec3& q) { return axis.point + dot(q - axis.point, axis.direction) * axis.direction; }
 
+/// The touches of both faces; none when it is not known how far one of them reaches.
+std::vector<Vec3> faces_between(const FeatureState& a, const FeatureState& b) {
+  std::vector<Vec3> both = a.touched.empty() ? a.faces : a.touched;
+  const std::vector<Vec3>& others = b.touched.empty() ? b.faces : b.touched;
+  if (both.empty() || others.empty()) return {};
+  both.insert(both.end(), others.begin(), others.end());
+  return both;
+}
+
 }  // namespace
 
 void BlockRun::operator()(const plan::Construct& construct) {
@@ -41,9 +50,12 @@ void BlockRun::operator()(const plan::Construct& construct) {
     if (!made) return made.failure;
     Element element = made.value;
     if (shape == Shape::line) element.second = nominal.second;  // the normal of its surface
+    std::vector<Vec3> faces;
+    if (construct.method->lies_between) faces = faces_between(state(lane, construct.from[0]), state(lane, construct.from[1]));
     FeatureState& result = state(lane, construct.result);
     result.actual = lane.X_WD * element;
     result.touched.clear();
+    result.faces = std::move(faces);
     result.has_actual = true;
     return "";
   });
@@ -140,6 +152,14 @@ std::vector<TouchedPoint> BlockRun::touches_of(Lane& lane, plan::FeatureId featu
   return touches;
 }
 
+std::vector<Vec3> BlockRun::faces_of(Lane& lane, plan::FeatureId feature) {
+  const Shape shape = executor.plan_[feature].kind->shape;
+  const FeatureState& of = state(lane, feature);
+  std::vector<Vec3> faces = acts_as(shape) == Shape::plane && shape != Shape::plane ? of.touched : of.faces;
+  for (Vec3& p : faces) p = inverse(lane.X_WD) * p;
+  return faces;
+}
+
 std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::CharacteristicDef& def, ToleranceLimits limits) {
   const plan::Plan& plan = executor.plan_;
   Lane& lane = block.lanes[i];
@@ -191,13 +211,15 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
       nominal_datums[k] = X_DW_nominal * state(nominal, datums[k]).actual;
     }
     std::vector<TouchedPoint> touches, second_touches;
+    std::vector<Vec3> faces;
     if (needs_touches(*tolerance.kind, tolerance.arguments)) {
       touches = touches_of(lane, features.front());
+      faces = faces_of(lane, features.front());
       if (features.size() > 1) second_touches = touches_of(lane, features[1]);
     }
     const Arguments arguments = filled(lane, tolerance.arguments, tolerance.varying);
     const Outcome<double> made = tolerance.kind->evaluate(
-        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, nominal_datums, touches, second_touches});
+        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, nominal_datums, touches, second_touches, faces});
     if (!made) return made.failure;
     const auto limits = widened(i, def, tolerance.kind->limits(arguments, nominals));
     if (!limits) return "";

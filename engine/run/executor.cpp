@@ -18,6 +18,11 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
     for (const plan::FeatureId f : c.features) keeps_touches_[f.value] = 1;
     for (const int f : tolerance.arguments.features("reference")) keeps_touches_[f] = 1;
   }
+  for (auto op = plan.operations.rbegin(); op != plan.operations.rend(); ++op) {
+    const auto* construct = std::get_if<plan::Construct>(&op->action);
+    if (!construct || !construct->method->lies_between || !keeps_touches_[construct->result.value]) continue;
+    for (const plan::FeatureId f : construct->from) keeps_touches_[f.value] = 1;
+  }
   for (const plan::SensorDef& def : plan.sensors) {
     sensors_.push_back(resolve_sensor(def, machine, source));
     sensors_.back().ordinal = stylus_ordinal(sensors_.back(), {sensors_.begin(), sensors_.end() - 1});

@@ -42,6 +42,12 @@ bool have_one_normal(std::span<const TouchedPoint> touches) {
   });
 }
 
+std::vector<Vec3> actual_points(std::span<const TouchedPoint> touches) {
+  std::vector<Vec3> points;
+  for (const TouchedPoint& touch : touches) points.push_back(touch.actual);
+  return points;
+}
+
 }  // namespace
 
 bool are_of_one_face(std::span<const TouchedPoint> touches) {
@@ -50,22 +56,33 @@ bool are_of_one_face(std::span<const TouchedPoint> touches) {
   });
 }
 
-double range_along(const Vec3& w, std::span<const TouchedPoint> touches) {
-  double low = dot(w, touches[0].actual), high = low;
-  for (const TouchedPoint& touch : touches) {
-    const double height = dot(w, touch.actual);
-    low = std::min(low, height), high = std::max(high, height);
-  }
+double range_along(const Vec3& w, std::span<const Vec3> points) {
+  double low = dot(w, points[0]), high = low;
+  for (const Vec3& p : points) low = std::min(low, dot(w, p)), high = std::max(high, dot(w, p));
   return high - low;
+}
+
+double range_along(const Vec3& w, std::span<const TouchedPoint> touches) { return range_along(w, actual_points(touches)); }
+
+std::vector<Vec3> points_of_plane(const EvaluationInput& in) {
+  if (in.faces.empty()) return actual_points(in.touches);
+  const Element& plane = in.actual[0];
+  std::vector<Vec3> feet;
+  for (const Vec3& p : in.faces) feet.push_back(p - dot(p - plane.point, plane.direction) * plane.direction);
+  return feet;
+}
+
+std::optional<Vec3> section_normal(std::span<const TouchedPoint> touches, const Vec3& v) {
+  if (!have_one_normal(touches)) return std::nullopt;
+  const Vec3 across = perpendicular_part(touches[0].normal, v);
+  if (norm(across) < kOneNormal) return std::nullopt;
+  return unit(across);
 }
 
 double straightness(const EvaluationInput& in) {
   const Element& line = in.actual[0];
-  const double diameter = line.high - line.low;
-  if (!have_one_normal(in.touches)) return diameter;
-  const Vec3 across = perpendicular_part(in.touches[0].normal, line.direction);
-  if (norm(across) < kOneNormal) return diameter;  // touched along itself: no section
-  return range_along(unit(across), in.touches);
+  const std::optional<Vec3> across = section_normal(in.touches, line.direction);
+  return across ? range_along(*across, in.touches) : line.high - line.low;
 }
 
 extern const ToleranceKind flatness_tolerance{

@@ -7,14 +7,19 @@
 //
 // A measured plane: the zone is two parallel planes, exactly at a to the datum, about the touches.
 // Their normal is w = cos a v + sin a p with p the part of u across v; the value is the range of
-// the touches along w. Where the zone may turn about v (sin a > 0) it follows the fitted plane.
+// the touches along w. Where the zone may turn about v (sin a > 0) it follows the fitted plane. Of a
+// median plane the zone holds the touches of its faces, each at its foot on the median plane.
 //
-// Everything else: with L the extent (length of an axis, diameter of the area of a constructed plane,
-// or of a median plane, whose touches lie on two faces) and f the spread of the residuals of a plane
-// or the straightness of a line, the value is L s + f, where s = |cos a |u x v| - sin a |u v|| is the
-// sine of what the direction is off. For an axis that shall stand on a plane or run along an axis the
-// zone is a cylinder, else it is two parallel planes. An axis is straight by construction: f = 0 for
-// cylinders and cones.
+// A measured line: the zone is two parallel planes about the touches as well, with the normal
+// w = sin a v - cos a p. A line that shall run along v (a = 0) has two parallel lines about it, in the
+// section that v and the normal of the surface span; an axis, which has no such section, a cylinder
+// along v about the middle of the fitted axis.
+//
+// Everything else: with L the extent (length of an axis, diameter of the area of a constructed plane)
+// and f the spread of the residuals of a constructed plane or line, the value is L s + f, where
+// s = |cos a |u x v| - sin a |u v|| is the sine of what the direction is off. For an axis that shall
+// stand on a plane or run along an axis the zone is a cylinder, else it is two parallel planes. An axis
+// is straight by construction: f = 0 for cylinders and cones.
 //
 // MMC and LMC leave the value and widen the zone: material.hpp.
 #include <algorithm>
@@ -41,6 +46,7 @@ struct Inclination {
   double cosine, sine;
 };
 constexpr Inclination kAlong{1, 0}, kAcross{0, 1};
+constexpr double kAlongTheDatum = 1e-9;  ///< sine of an angle that was written as 0 or 90 degrees
 using Wanted = Inclination (*)(const Arguments&, bool same_kind);
 
 // Two planes, or two axes, are parallel when their directions are; a plane and an axis when they
@@ -62,6 +68,22 @@ Vec3 zone_normal(const Vec3& u, const Vec3& datum, Inclination wanted) {
   return length > 0 ? wanted.cosine * v + (wanted.sine / length) * across : u;
 }
 
+/// The zone that holds the touches of a line whose zone is at `wanted` to the datum.
+double line_zone(const EvaluationInput& in, const Vec3& datum, Inclination wanted) {
+  const Element& line = in.actual[0];
+  const Vec3 v = dot(line.direction, datum) < 0 ? -datum : datum;
+  if (wanted.sine > kAlongTheDatum) {
+    const Vec3 across = perpendicular_part(line.direction, v);
+    const Vec3 p = norm(across) > 0 ? unit(across) : any_perpendicular(v);
+    return range_along(wanted.sine * v - wanted.cosine * p, in.touches);
+  }
+  if (const std::optional<Vec3> normal = section_normal(in.touches, v)) return range_along(*normal, in.touches);
+  const Vec3 middle = line.point + 0.5 * (line.begin + line.end) * line.direction;
+  double radius = 0;
+  for (const TouchedPoint& touch : in.touches) radius = std::max(radius, norm(perpendicular_part(touch.actual - middle, v)));
+  return 2 * radius;
+}
+
 template <Wanted wanted_for>
 Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in) {
   const Element& feature = in.actual[0];
@@ -70,13 +92,14 @@ Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in
   const bool plane = in.shapes[0] == Shape::plane, line = in.shapes[0] == Shape::line;
   const Inclination wanted = wanted_for(arguments, plane == (in.datum_shapes[0] == Shape::plane));
   const Vec3 u = feature.direction, v = in.datums[0].direction;
-  if (plane && are_of_one_face(in.touches)) return {range_along(zone_normal(u, v, wanted), in.touches)};
+  if (plane)
+    if (const std::vector<Vec3> points = points_of_plane(in); !points.empty()) return {range_along(zone_normal(u, v, wanted), points)};
+  if (line && !in.touches.empty()) return {line_zone(in, v, wanted)};
   const double extent = feature.end - feature.begin;
-  if (!(extent > 0))
-    return no_value("the extent of the feature is not known, so that its orientation has no zone");
+  if (!(extent > 0)) return no_value(kUnknownExtent);
   const double slope =
       std::fabs(wanted.cosine * norm(cross(u, v)) - wanted.sine * std::fabs(dot(u, v)));
-  const double form = plane ? feature.high - feature.low : line ? straightness(in) : 0;
+  const double form = plane || line ? feature.high - feature.low : 0;
   return {extent * slope + form};
 }
 
@@ -85,7 +108,7 @@ Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in
 extern const ToleranceKind perpendicularity_tolerance{
     .word = "PERP",
     .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "perpendicularity to a datum: of a plane the zone that holds its touches, of an axis over its measured length",
+    .help = "perpendicularity to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q1)=TOL/PERP,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/PERP; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -100,7 +123,7 @@ extern const ToleranceKind perpendicularity_tolerance{
 extern const ToleranceKind parallelism_tolerance{
     .word = "PARLEL",
     .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "parallelism to a datum: of a plane the zone that holds its touches, of an axis over its measured length",
+    .help = "parallelism to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q2)=TOL/PARLEL,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/PARLEL; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -116,7 +139,7 @@ extern const ToleranceKind angularity_tolerance{
     .word = "ANGLR",
     .signature =
         "angle:angle,zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "angularity: at a given angle to a datum; of a plane the zone that holds its touches, of an axis over its measured length",
+    .help = "angularity: at a given angle to a datum; of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q3)=TOL/ANGLR,30,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/ANGLR; ISO 1101:2017, clause 17",
     .unit = Unit::mm,

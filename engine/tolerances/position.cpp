@@ -10,8 +10,8 @@
 //   two: the zone holds the whole axis (ISO 1101:2017, clause 17)
 // - 2D, other features: their centre, in the plane across the nominal direction (a sphere: across z)
 // - 3D, features with a centre: in space
-// - 3D, planes: a zone of parallel planes about the nominal, with the rim of the measured area and
-//   the outermost touches in it
+// - 3D, planes: a zone of parallel planes about the nominal, with the touches in it (of a median plane:
+//   as in form.hpp; of a constructed plane: the rim of the area that it was made of)
 //
 // MMC and LMC, on the feature or on datums, leave the value and widen the zone: material.hpp.
 #include <algorithm>
@@ -19,11 +19,13 @@
 
 #include "engine/features/alignment.hpp"
 #include "engine/tolerances/common.hpp"
+#include "engine/tolerances/form.hpp"
 
 namespace abbe {
 namespace {
 
 bool is_flat_zone(const Arguments& arguments) { return arguments.text("space") == "2D"; }
+bool is_space_zone(const Arguments& arguments) { return !is_flat_zone(arguments); }
 
 const char* located(const Arguments& arguments, Shapes shapes) {
   if (arguments.features("datum").size() > 3) return "a position has at most three datums";
@@ -40,28 +42,41 @@ double axis_deviation(const Element& actual, const Element& nominal) {
   return std::max(from_nominal_axis(actual.begin), from_nominal_axis(actual.end));
 }
 
-double plane_deviation(const Element& actual, const Element& nominal) {
+/// `points` as the actual plane, in the frame of the datums.
+double plane_deviation(std::span<const Vec3> points, const Element& nominal) {
+  double farthest = 0;
+  for (const Vec3& p : points) farthest = std::max(farthest, std::fabs(dot(p - nominal.point, nominal.direction)));
+  return farthest;
+}
+
+double rim_deviation(const Element& actual, const Element& nominal) {
   const double middle = dot(actual.point - nominal.point, nominal.direction);
   const double rim = actual.end * norm(cross(actual.direction, nominal.direction));
   return std::max(std::fabs(middle + rim + actual.high), std::fabs(middle - rim + actual.low));
 }
 
-double deviation(bool flat, Shape shape, const Element& actual, const Element& nominal) {
-  if (has_axis(shape) && !has_centre(shape)) return axis_deviation(actual, nominal);
+/// `own` takes the machine's D to the frame of its datums, in which `nominal` is given.
+Outcome<double> zone_about(bool flat, const EvaluationInput& in, const Rigid& own, const Element& nominal) {
+  const Shape shape = in.shapes[0];
+  const Element actual = own * in.actual[0];
+  if (has_axis(shape) && !has_centre(shape)) return {2 * axis_deviation(actual, nominal)};
   const Vec3 d = actual.point - nominal.point;
-  if (flat) return norm(perpendicular_part(d, is_spot(shape) ? Vec3{0, 0, 1} : nominal.direction));
-  return shape == Shape::plane ? plane_deviation(actual, nominal) : norm(d);
+  if (flat) return {2 * norm(perpendicular_part(d, is_spot(shape) ? Vec3{0, 0, 1} : nominal.direction))};
+  if (shape != Shape::plane) return {2 * norm(d)};
+  std::vector<Vec3> points = points_of_plane(in);
+  for (Vec3& p : points) p = own * p;
+  if (!points.empty()) return {2 * plane_deviation(points, nominal)};
+  return actual.end > 0 ? Outcome<double>{2 * rim_deviation(actual, nominal)} : no_value(kUnknownExtent);
 }
 
 Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) {
   const bool flat = is_flat_zone(arguments);
-  if (in.datums.empty()) return {2 * deviation(flat, in.shapes[0], in.actual[0], in.nominal[0])};
+  if (in.datums.empty()) return zone_about(flat, in, {}, in.nominal[0]);
   const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
   if (!frame) return no_value(frame.failure);
   const Outcome<Rigid> nominal_frame = datum_reference_frame(in.datum_shapes, in.nominal_datums);
   if (!nominal_frame) return no_value(nominal_frame.failure);
-  return {2 * deviation(flat, in.shapes[0], inverse(frame.value) * in.actual[0],
-                        inverse(nominal_frame.value) * in.nominal[0])};
+  return zone_about(flat, in, inverse(frame.value), inverse(nominal_frame.value) * in.nominal[0]);
 }
 
 }  // namespace
@@ -82,6 +97,7 @@ extern const ToleranceKind true_position_tolerance{
     .nominal = no_deviation,
     .limits = zone_limits,
     .evaluate = position,
+    .wants_touches = is_space_zone,
 };
 
 }  // namespace abbe

@@ -32,6 +32,7 @@ struct EvaluationInput {
   std::span<const Element> nominal_datums;  ///< as an error-free machine measures them on the nominal part, in the nominal D
   std::span<const TouchedPoint> touches = {};  ///< of the first feature, for kinds that ask for them; none of a constructed feature
   std::span<const TouchedPoint> second_touches = {};  ///< of the second feature, or of the reference
+  std::span<const Vec3> faces = {};       ///< touches of the faces that the first feature, a median plane, lies between, in its own D
 };
 
 struct ToleranceLimits {

@@ -114,6 +114,25 @@ class TruePart(harness.Case):
         for c in report["characteristics"]:
             self.assertEqual(c["conformance_probability"], 0)
 
+    def slot(self, lean_mm):
+        """Touches of both faces of a slot at x = +-5 mm, y from 0 to 100, z from -10 to 0, that lean by that much over the depth."""
+        corners = [(0, 0), (100, 0), (100, -10), (0, -10)]
+        return [[(side * 5 + lean_mm * (z + 5) / 10, y, z, -side, 0, 0) for y, z in corners] for side in (1, -1)]
+
+    def test_a_median_plane_is_looked_at_where_its_faces_were_touched(self):
+        # The slot leans by 10 um over its depth, 5 um to each side of x = 0: a zone of 10 um holds its median plane. The feet of touches
+        # 5 mm beside it lie 5 mm x 0.001 further up or down, which makes 10.01 um.
+        right, left = self.slot(0.010)
+        wall = plane("W", [(0, 0, 0), (0, 100, 0), (0, 100, -10), (0, 0, -10)], (1, 0, 0)) + "DATDEF/FA(W),DAT(W)\n"
+        tolerances = "T(SYM)=TOL/SYM,0.05,DAT(W)\nT(PERP)=TOL/PERP,0.05,DAT(A)\nT(PARLEL)=TOL/PARLEL,0.05,DAT(W)\nT(POS)=TOL/POS,3D,0.05\n"
+        expected = {"SYM": 0.010, "PERP": 0.010, "PARLEL": 0.010, "POS": 0.010}
+        measured_slot = "F(S)=FEAT/PARPLN,INNER,MIDPL,CART,0,50,-5,1,0,0,10\n" + measured("PARPLN", "S", right + left)
+        faces = ("F(R)=FEAT/PLANE,CART,5,50,-5,-1,0,0\n" + measured("PLANE", "R", right) + "F(L)=FEAT/PLANE,CART,-5,50,-5,1,0,0\n"
+                 + measured("PLANE", "L", left) + "F(S)=FEAT/PLANE,CART,0,50,-5,1,0,0\nCONST/PLANE,F(S),MIDPL,FA(R),FA(L)\n")
+        for slot in (measured_slot, faces):
+            self.program(DATUMS, wall, slot, tolerances, "OUTPUT/FA(S),TA(SYM),TA(PERP),TA(PARLEL),TA(POS)\n")
+            self.assert_close(self.references(), expected, delta=2e-5)
+
 
 if __name__ == "__main__":
     harness.main()

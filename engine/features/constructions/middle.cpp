@@ -84,6 +84,7 @@ extern const Construction mid_plane_method{
     .source = "ISO 22093:2011, CONST MIDPL",
     .applies = middle_plane_applies,
     .construct = middle_plane,
+    .lies_between = true,
 };
 
 }  // namespace abbe

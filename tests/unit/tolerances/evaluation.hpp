@@ -17,6 +17,7 @@ struct Evaluation {
   std::vector<Shape> shapes, datum_shapes;
   std::vector<Element> actual, nominal, datums, nominal_datums;
   std::vector<TouchedPoint> touches, second_touches;
+  std::vector<Vec3> faces;
 
   explicit Evaluation(const char* word) : kind(find_tolerance_kind(word)) { REQUIRE(kind); }
 
@@ -39,7 +40,7 @@ struct Evaluation {
   Evaluation& datum(Shape shape, const Element& both) { return datum(shape, both, both); }
 
   Outcome<double> outcome() const {
-    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, nominal_datums, touches, second_touches});
+    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, nominal_datums, touches, second_touches, faces});
   }
   double value() const {
     const Outcome<double> made = outcome();

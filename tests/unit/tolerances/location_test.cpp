@@ -67,8 +67,18 @@ TEST_CASE("Symmetry about a median plane and about an axis") {
   bore.feature(Shape::cylinder, spanning(at({0.01, 5, 0}, {1e-3, 0, 1}), -5, 30)).datum(Shape::plane, middle);
   CHECK(bore.value() == Approx(2 * (0.01 + 0.03)).epsilon(1e-5));
   Evaluation key("SYM");
-  key.feature(Shape::plane, at({10.05, 8, 3}, {1, 0, 0})).datum(Shape::cylinder, kBore);
+  key.feature(Shape::plane, spanning(at({10.05, 8, 3}, {1, 0, 0}), -10, 10)).datum(Shape::cylinder, kBore);
   CHECK(key.value() == Approx(0.10));
+  // Faces at x = +-5 that lean by 1e-3 and stand 0.002 beside the middle, touched from y = -4 to 10: at the far end the median plane is
+  // 0.002 + 10 x 1e-3 from it.
+  Evaluation faces("SYM");
+  faces.feature(Shape::plane, spanning(at({0.002, 0, 0}, {1, -1e-3, 0}), -10, 10)).datum(Shape::plane, middle);
+  for (const double side : {5.0, -5.0})
+    for (const double y : {-4.0, 10.0}) faces.faces.push_back(Vec3{0.002 + 1e-3 * y, y, 0} + side * unit({1, -1e-3, 0}));
+  CHECK(faces.value() == Approx(2 * (0.002 + 10 * 1e-3)).epsilon(1e-5));
+  Evaluation anywhere("SYM");
+  anywhere.feature(Shape::plane, at({0.01, 0, 0}, {1, 0, 0})).datum(Shape::plane, middle);
+  CHECK(anywhere.failure() == "the extent of the feature is not known, so that it has no zone");
   Evaluation wrong("SYM");
   wrong.feature(Shape::circle, at({})).datum(Shape::cylinder, kBore);
   CHECK(wrong.failure().starts_with("about an axis only a median plane"));

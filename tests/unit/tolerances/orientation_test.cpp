@@ -95,7 +95,7 @@ TEST_CASE("Orientations that cannot be evaluated") {
           "an orientation tolerance is for planes, lines, cylinders and cones");
     CHECK(Evaluation(word).feature(Shape::plane, kUp).refusal().empty());
     CHECK(Evaluation(word).feature(Shape::plane, kUp).datum(Shape::plane, kUp).failure() ==
-          "the extent of the feature is not known, so that its orientation has no zone");
+          "the extent of the feature is not known, so that it has no zone");
     CHECK(Evaluation(word)
               .feature(Shape::plane, spanning(kUp, -1, 1))
               .datum(Shape::point, kUp)
@@ -151,16 +151,40 @@ TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
         "a point or a sphere has no direction to make an angle with");
 }
 
-TEST_CASE("The touches of two faces are not those of their median plane") {
-  Evaluation e("PARLEL");
-  e.feature(Shape::plane, spanning(at({}), -30, 30)).datum(Shape::plane, kUp);
-  for (const double side : {5.0, -5.0}) e.touches.push_back({{0, 0, side}, {0, 0, side}, {0, 0, -side / 5}});
-  CHECK(e.value() == Approx(0).scale(1));
+TEST_CASE("The zone of a median plane holds the touches of its faces where they lie on it") {
+  // A slot 10 wide, 100 long and 10 deep whose median plane leans by 0.01 over its depth: the zone is 0.01 wide, and not 0.1, which it
+  // would be of a disc as long as the slot.
+  const Vec3 normal = unit({1, 0, -1e-3});
+  for (const char* word : {"PARLEL", "PERP"}) {
+    Evaluation e(word);
+    const bool parallel = e.kind->word == "PARLEL";
+    e.feature(Shape::plane, spanning(at({}, normal), -50, 50)).datum(Shape::plane, parallel ? at({}, {1, 0, 0}) : at({}));
+    for (const double side : {5.0, -5.0})
+      for (const double y : {-50.0, 50.0})
+        for (const double z : {-5.0, 5.0}) e.faces.push_back(Vec3{1e-3 * z, y, z} + side * normal);
+    CHECK(e.value() == Approx(0.01).epsilon(1e-5));
+  }
 }
 
-TEST_CASE("A line of a surface adds the straightness of its section") {
-  Evaluation e("PARLEL");
-  e.feature(Shape::line, spread(spanning(at({}, {1, 0, 0}), -10, 10), -0.007, 0.007)).datum(Shape::plane, kUp);
-  for (const double y : {-0.006, 0.004}) e.touches.push_back({{0, 0, y}, {}, {0, 0, 1}});
-  CHECK(e.value() == Approx(0.01));
+TEST_CASE("The zone of a measured line holds its touches") {
+  auto zone = [](const char* word, const Vec3& along, const Vec3& normal, const Element& datum, Shape shape, std::vector<Vec3> touches, double angle = 0) {
+    Evaluation e(word);
+    e.number("angle", angle).feature(Shape::line, spread(spanning(at({}, along), -20, 20), -1, 1)).datum(shape, datum);
+    for (const Vec3& p : touches) e.touches.push_back({p, p, normal});
+    return e.value();
+  };
+  // Heights 0, 4, 12, 12 and 12 um: least squares put the line at a slope of 0.32 um/mm, but planes 12 um apart hold the touches.
+  const std::vector<Vec3> heights{{0, -20, 0}, {0, -10, 0.004}, {0, 0, 0.012}, {0, 10, 0.012}, {0, 20, 0.012}};
+  const Vec3 rising = {0, 1, 3.2e-4}, up{0, 0, 1};
+  CHECK(zone("PARLEL", rising, up, kUp, Shape::plane, heights) == Approx(0.012));
+  CHECK(zone("PERP", rising, up, kUp, Shape::cylinder, heights) == Approx(0.012));
+  // Along an axis, in the section of the surface; and across a plane.
+  CHECK(zone("PARLEL", rising, up, kAlongY, Shape::cylinder, heights) == Approx(0.012));
+  CHECK(zone("PERP", rising, up, kAlongY, Shape::plane, heights) == Approx(0.012));
+  // Sideways it is nominal, but a surface along the datum's normal is no section: a cylinder about the middle (0, 0, 0) of the line.
+  CHECK(zone("PARLEL", rising, {0, 1, 0}, kAlongY, Shape::cylinder, heights) == Approx(0.024));
+  // 30 degrees to the plane, on a slope; the touches lie 0, 3, -1 um beside it.
+  const double c = std::cos(kPi / 6), s = 0.5;
+  const std::vector<Vec3> slope{{0, 0, 0}, {-0.003 * s, 0, 0.003 * c}, {20 * c + 0.001 * s, 0, 20 * s - 0.001 * c}};
+  CHECK(zone("ANGLR", {c, 0, s}, {-s, 0, c}, kUp, Shape::plane, slope, kPi / 6) == Approx(0.004));
 }

@@ -49,14 +49,21 @@ TEST_CASE("An axis is out of position by its worse end") {
 TEST_CASE("A plane is out of position by its worst corner") {
   const Element nominal = at({0, 0, 50});
   CHECK(position("3D")
-            .feature(Shape::plane, spread(at({7, 8, 50.02}), -0.001, 0.005), nominal)
+            .feature(Shape::plane, spread(spanning(at({7, 8, 50.02}), -9, 9), -0.001, 0.005), nominal)
             .value() == Approx(0.05));
   CHECK(position("3D")
-            .feature(Shape::plane, spread(at({7, 8, 49.98}), -0.001, 0.005), nominal)
+            .feature(Shape::plane, spread(spanning(at({7, 8, 49.98}), -9, 9), -0.001, 0.005), nominal)
             .value() == Approx(0.042));
   const Element tilted = spanning(at({0, 0, 50.01}, {1e-3, 0, 1}), -20, 20);
   CHECK(position("3D").feature(Shape::plane, tilted, nominal).value() ==
         Approx(0.06).epsilon(1e-5));
+  CHECK(position("3D").feature(Shape::plane, at({0, 0, 50.01}), nominal).failure() == "the extent of the feature is not known, so that it has no zone");
+  // Touched over 100 x 20 mm, 5 um low along one long side and 5 um high along the other: the zone of +-5 um holds it.
+  Evaluation touched = position("3D");
+  touched.feature(Shape::plane, spanning(at({0, 0, 50}, {0, -5e-4, 1}), -51, 51), nominal);
+  for (const double x : {-50.0, 50.0})
+    for (const double y : {-10.0, 10.0}) touched.touches.push_back({{x, y, 50 + 5e-4 * y}, {x, y, 50}, {0, 0, 1}});
+  CHECK(touched.value() == Approx(0.010));
   CHECK(position("2D").feature(Shape::plane, nominal).refusal() ==
         "the position of a plane is written 3D");
 }
