@@ -1,10 +1,11 @@
 #include "programs/program_study.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/run/check_plan.hpp"
 #include "engine/run/placement.hpp"
 #include "programs/thread_count.hpp"
 
@@ -63,6 +64,22 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
                                  "record machine coordinates (without the line '# frame: part'); `abbe diagnose` carries part coordinates over, `abbe run` does not"));
   }
   return in;
+}
+
+void leave_out_what_has_no_value(CompiledProgram& program, const StudyInputs& in) {
+  plan::Plan& plan = program.compilation.plan;
+  RunOptions options;
+  options.workpiece = in.workpiece ? &*in.workpiece : nullptr;
+  options.recorded = in.recording ? &*in.recording : nullptr;
+  while (const auto found = evaluation_without_value(plan, in.machine, options, program.source)) {
+    plan::Operation& operation = plan.operations[static_cast<std::size_t>(found->operation)];
+    const plan::CharacteristicDef& lost = plan[std::get<plan::Evaluate>(operation.action).characteristic];
+    std::vector<std::string> features;
+    for (const plan::FeatureId f : lost.features) features.push_back(plan[f].label);
+    program.compilation.lost.push_back(
+        {lost.line, fmt::format("{}", fmt::join(features, ", ")), fmt::format("TA({}): {}", plan[lost.tolerance].label, found->reason)});
+    operation.action = plan::Jump{found->operation + 1};
+  }
 }
 
 Study study_program(const CompiledProgram& program, const StudySettings& settings, const StudyInputs& in, const Progress& progress) {

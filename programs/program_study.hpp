@@ -73,6 +73,9 @@ struct StudyInputs {
 /// Reads each of them once. Throws UserError as read_machine, read_workpiece and read_recording do.
 StudyInputs read_inputs(const CompiledProgram&, const StudySettings&);
 
+/// Takes the evaluations out of the program that give no value even on an error-free machine; `lost` then says why.
+void leave_out_what_has_no_value(CompiledProgram&, const StudyInputs&);
+
 /// Studies a compiled program. Throws UserError: the error-free machine cannot run the program.
 Study study_program(const CompiledProgram&, const StudySettings&, const StudyInputs&, const Progress& progress = {});
 

@@ -125,15 +125,23 @@ struct ReferenceRun {
   std::vector<OutputRecord> outputs;
 };
 
-/// Runs the error-free machine alone and refuses what no machine could do.
-ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+/// Runs the error-free machine alone.
+std::pair<Lane, Executor::Observed> run_alone(const Executor& executor) {
   Block block = executor.make_block({}, 0, 0);
   Executor::Observed observed = executor.observe(block);
-  Lane lane = std::move(block.lanes[block.reference()]);
+  return {std::move(block.lanes[block.reference()]), std::move(observed)};
+}
+
+bool evaluates(const plan::Operation& operation) { return std::holds_alternative<plan::Evaluate>(operation.action); }
+
+/// Runs the error-free machine alone and refuses what no machine could do.
+ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+  auto [lane, observed] = run_alone(executor);
   if (!lane.trap.reason.empty()) {
-    throw UserError(diagnostic_at(source, plan.operations[lane.trap.operation].span, Code::E0304,
-                                  "not even an error-free machine can go on here: " + lane.trap.reason,
-                                  "correct the statement; `abbe check` lists everything that it finds in the program"));
+    const plan::Operation& stopped = plan.operations[lane.trap.operation];
+    throw UserError(diagnostic_at(source, stopped.span, Code::E0304, "not even an error-free machine can go on here: " + lane.trap.reason,
+                                  evaluates(stopped) ? "correct the statement; `abbe run --only-valid` leaves this characteristic out"
+                                                     : "correct the statement"));
   }
   check_travel(observed.stops, plan, machine, source);
   executor.know(std::move(observed.fits));
@@ -221,6 +229,13 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
 void check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source) {
   Executor executor(plan, machine, options, source);
   reference_run(executor, plan, machine, source);
+}
+
+std::optional<NoValue> evaluation_without_value(const plan::Plan& plan, const Machine& machine, const RunOptions& options,
+                                                const SourceFile& source) {
+  const LaneTrap trap = run_alone(Executor(plan, machine, options, source)).first.trap;
+  if (trap.reason.empty() || !evaluates(plan.operations[trap.operation])) return std::nullopt;
+  return NoValue{trap.operation, trap.reason};
 }
 
 MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,

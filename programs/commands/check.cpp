@@ -1,5 +1,5 @@
-// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Only the error-free machine runs them, and
-// only on a machine that the program names.
+// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Only the error-free machine runs them, on
+// the machine that the program names. Where it names none, the default machine shows what no machine can do.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -19,8 +19,17 @@ void add_at(const UserError& error, const SourceFile& source, Span directive, Si
     sink.add(d.span ? d : diagnostic_at(source, directive, d.code, d.message, d.help));
 }
 
-/// What a run would refuse on the machine and of the workpiece that the program names. Of a program that leaves its machine to the
-/// command line nothing more can be said.
+/// What an error-free machine cannot do, whatever the machine is: travels and sensors are those of the machine that the command line will name.
+void check_on_any_machine(const CompiledProgram& program, const RunOptions& options, Sink& sink) {
+  try {
+    check_plan(program.compilation.plan, read_machine(kDefaultMachine), options, program.source);
+  } catch (const UserError& error) {
+    for (const Diagnostic& d : error.diagnostics())
+      if (d.code == Code::E0304) sink.add(d);
+  }
+}
+
+/// What a run would refuse on the machine and of the workpiece that the program names.
 void check_on_machine(const CompiledProgram& program, Sink& sink) {
   const lang::Directives& asked = program.compilation.directives;
   const plan::Plan& plan = program.compilation.plan;
@@ -30,12 +39,12 @@ void check_on_machine(const CompiledProgram& program, Sink& sink) {
   } catch (const UserError& error) {
     return add_at(error, program.source, asked.workpiece_span, sink);
   }
-  if (!asked.machine) return;
+  RunOptions options;
+  options.workpiece = workpiece ? &*workpiece : nullptr;
+  if (!asked.machine) return check_on_any_machine(program, options, sink);
   try {
     const Machine machine = read_machine(machine_name(program, std::nullopt));
     for (const Diagnostic& d : machine_warnings(machine)) sink.add(diagnostic_at(program.source, asked.machine_span, d.code, d.message, d.help));
-    RunOptions options;
-    options.workpiece = workpiece ? &*workpiece : nullptr;
     const Placement found = asked.place_mm ? Placement{*asked.place_mm, {}} : find_placement(plan, machine, program.source);
     if (found.message) sink.add(*found.message);
     options.placement_mm = found.shift_mm;

@@ -29,11 +29,12 @@ void refuse_errors(const CompiledProgram& program) {
 
 int run_command(const RunCommandOptions& options) {
   const ReportWriter* writer = find_report_writer(options.format);
-  const CompiledProgram program = compile_program(options.request.program, options.request.answers);
+  CompiledProgram program = compile_program(options.request.program, options.request.answers);
   print_messages(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
   const StudyInputs inputs = read_inputs(program, options.request.settings);
   refuse_overwriting(inputs.files, files_given({options.report, options.csv, options.dmo}));
+  if (options.request.only_valid) leave_out_what_has_no_value(program, inputs);
 
   ProgressLine line;
   const Study study = study_program(program, options.request.settings, inputs,

@@ -24,6 +24,15 @@ class Check(harness.Case):
         self.assertEqual(self.told(outside), [("E0302", 10), ("E0302", 14)])
         self.assertEqual(self.told("$$! place -7200 0 0\n" + outside, code=0), [])
 
+    def test_what_not_even_an_error_free_machine_can_evaluate(self):
+        # A plane through a point has no extent, so that its orientation has no zone. Any machine shows it.
+        constructed = "F(M)=FEAT/PLANE,CART,0,0,0,1,0,0\nF(N)=FEAT/PLANE,CART,0,0,0,1,0,0\nMEAS/PLANE,F(M),3\nPTMEAS/CART,0,0,0,1,0,0\nPTMEAS/CART,0,9,0,1,0,0\nPTMEAS/CART,0,0,9,1,0,0\nENDMES\nCONST/PLANE,F(N),PARTO,FA(M),THRU,FA(A)\nT(PA)=TOL/PARLEL,0.1,FA(M)\nOUTPUT/FA(N),TA(PA)\nENDFIL\n"
+        program = harness.LENGTH.replace("ENDFIL\n", constructed).replace("XORIG,800", "XORIG,8000")
+        line = program[:program.index("OUTPUT/FA(N)")].count("\n") + 1
+        self.assertEqual(self.told(program), [("E0304", line)])
+        help_text = json.loads(self.abbe("check", "program.dmi", "--format", "json", code=1).stdout)["messages"][0]["help"]
+        self.assertIn("--only-valid", help_text)
+
     def test_files_that_directives_name(self):
         self.assertEqual(self.told("$$ about it\n$$! machine coord3-mc61\n" + harness.LENGTH), [("E0411", 2)])
         self.assertEqual(self.told("$$! workpiece none.json\n" + harness.LENGTH), [("E0601", 1)])

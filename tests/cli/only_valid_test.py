@@ -63,6 +63,23 @@ class OnlyValid(harness.Case):
         lost, = self.run_json("cone.dmi", "--only-valid", "--machines", 20)["lost"]
         self.assertIn(f"<- line {self.first + 1}: this MEAS has no PTMEAS", lost["reason"])
 
+    def test_what_no_machine_can_evaluate_is_lost_alone(self):
+        # A plane through a point has no extent, so that its orientation has no zone.
+        face = "F(M)=FEAT/PLANE,CART,0,0,0,-1,0,0\nMEAS/PLANE,F(M),3\n" + "".join(f"PTMEAS/CART,0,{y},{z},-1,0,0\n" for y, z in ((0, 0), (9, 0), (0, 9)))
+        constructed = ("ENDMES\nF(N)=FEAT/PLANE,CART,0,0,0,-1,0,0\nCONST/PLANE,F(N),PARTO,FA(M),THRU,FA(A)\nT(PA)=TOL/PARLEL,0.1,FA(M)\nT(FL)=TOL/FLAT,0.1\n"
+                       "OUTPUT/FA(N),TA(PA)\nOUTPUT/FA(M),TA(FL)\nENDFIL\n")
+        program = LENGTH.replace("ENDFIL\n", face + constructed)
+        self.write("extent.dmi", program)
+        self.assertIn("--only-valid", self.refused("E0304", "run", "extent.dmi", "--machines", 20))
+        report = self.run_json("extent.dmi", "--only-valid", "--machines", 20)
+        self.assertEqual([c["tolerance"] for c in report["characteristics"]], ["LEN", "FL"])
+        line = program[:program.index("OUTPUT/FA(N)")].count("\n") + 1
+        self.assertEqual(report["lost"], [{"line": line, "feature": "N",
+                                           "reason": "TA(PA): the extent of the feature is not known, so that it has no zone"}])
+        # Nothing else changes: the lengths are those of the program without it.
+        self.write("sound.dmi", LENGTH)
+        self.assertEqual(report["characteristics"][0]["u"], self.run_json("sound.dmi", "--machines", 20)["characteristics"][0]["u"])
+
     def test_each_mistake_is_reported_once_at_its_place(self):
         done = self.abbe("check", "found.dmi", code=1)
         places = [line.split(":")[1] + line.split()[2] for line in done.stderr.splitlines() if line.startswith("found.dmi:")]
