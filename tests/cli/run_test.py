@@ -18,6 +18,20 @@ class Figures(harness.Case):
         super().setUp()
         self.write("length.dmi", LENGTH)
 
+    def test_a_zone_of_0_sets_no_limit(self):
+        # B is touched 0.02 mm beside its nominal: out of position by 2 x 0.02 mm.
+        far = LENGTH.replace("PTMEAS/CART,100,", "PTMEAS/CART,100.02,").replace("ENDFIL\n", "T(ANY)=TOL/POS,3D,0,RFS\nT(SOME)=TOL/POS,3D,0.01,RFS\nOUTPUT/FA(B),TA(ANY),TA(SOME)\nENDFIL\n")
+        self.write("far.dmi", far)
+        report = self.run_json("far.dmi", "--machines", 20, "--dmo", "far.dmo")
+        found = {c["tolerance"]: c for c in report["characteristics"]}
+        self.assertAlmostEqual(found["ANY"]["reference"], 0.04, delta=1e-9)
+        self.assertIsNone(found["ANY"]["conformance_probability"])
+        self.assertEqual(found["SOME"]["conformance_probability"], 0)
+        lines = (self.folder / "far.dmo").read_text().splitlines()
+        status = {label: next(line for line in lines if line.startswith(f"TA({label})")) for label in ("ANY", "SOME")}
+        self.assertIn("INTOL", status["ANY"])
+        self.assertIn("OUTOL", status["SOME"])
+
     def test_json_has_the_published_keys(self):
         report = self.run_json("length.dmi", "--machines", 200)
         self.assertEqual(report["schema"], "abbe.run/1")
