@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/utf8.hpp"
 
 namespace abbe {
 
@@ -49,25 +50,15 @@ SourceFile read_source(const std::string& path) {
 
 namespace {
 
-/// How many bytes the character that begins with this byte has; 0: none begins so.
-int utf8_length(unsigned char first) { return first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0; }
-
-/// Where the first byte stands that is no UTF-8 (RFC 3629); the size when there is none. Overlong forms, surrogates and what lies beyond U+10FFFF are none.
+/// Where the first byte stands that is no UTF-8; the size when there is none.
 std::size_t first_foreign(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  for (std::size_t at = 0; at < text.size();) {
-    const int length = utf8_length(byte(at));
-    if (length == 0 || at + static_cast<std::size_t>(length) > text.size()) return at;
-    for (int k = 1; k < length; ++k)
-      if ((byte(at + static_cast<std::size_t>(k)) & 0xC0) != 0x80) return at;
-    if (length > 2) {
-      const int head = byte(at) << 8 | byte(at + 1);
-      const bool overlong = (head & 0xFFE0) == 0xE080 || (head & 0xFFF0) == 0xF080;
-      if (overlong || (head & 0xFFE0) == 0xEDA0 || head >= 0xF490) return at;
-    }
-    at += static_cast<std::size_t>(length);
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const Character c = utf8_character(text, at);
+    if (c.bytes == 0) return at;
+    at += c.bytes;
   }
-  return text.size();
+  return at;
 }
 
 /// Windows-1252 above 0x7F; it is Latin-1 but for these. Bytes without a character stay the control characters that they are in Latin-1.
@@ -75,12 +66,6 @@ char32_t windows_1252(unsigned char byte) {
   constexpr char32_t kPunctuation[32] = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
                                          0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
   return byte >= 0x80 && byte < 0xA0 ? kPunctuation[byte - 0x80] : byte;
-}
-
-void append_utf8(std::string& out, char32_t c) {
-  if (c >= 0x800) out += static_cast<char>(0xE0 | c >> 12);
-  if (c >= 0x80) out += static_cast<char>(c >= 0x800 ? 0x80 | (c >> 6 & 0x3F) : 0xC0 | c >> 6);
-  out += static_cast<char>(c >= 0x80 ? 0x80 | (c & 0x3F) : c);
 }
 
 std::string from_windows_1252(std::string_view text) {
