@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "engine/base/utf8.hpp"
+
 namespace abbe {
 
 const std::vector<CodeInfo>& all_codes() {
@@ -45,12 +47,20 @@ std::string_view word_for(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
 
-/// Spaces up to the caret, with tabs kept so that the caret stands under the text.
-std::string indent_like(std::string_view line, int columns) {
+/// A blank for each character before a byte of the line, with tabs kept so that the caret stands under the text.
+std::string indent_like(std::string_view line, std::size_t bytes) {
   std::string out;
-  for (int i = 0; i < columns; ++i)
-    out += static_cast<std::size_t>(i) < line.size() && line[i] == '\t' ? '\t' : ' ';
+  for (std::size_t at = 0; at < std::min(bytes, line.size()); at += character_at(line, at).bytes)
+    out += line[at] == '\t' ? '\t' : ' ';
   return out;
+}
+
+/// Columns count bytes; carets stand under characters.
+std::string carets(const Diagnostic& d) {
+  const std::string_view line = d.source_line;
+  const std::size_t begin = std::min(static_cast<std::size_t>(d.place.column - 1), line.size());
+  const std::size_t under = count_characters(line.substr(begin, static_cast<std::size_t>(d.caret_length)));
+  return indent_like(line, begin) + std::string(std::max<std::size_t>(under, 1), '^');
 }
 
 }  // namespace
@@ -60,8 +70,7 @@ std::string render(const Diagnostic& d) {
   if (!d.file.empty()) out += d.span ? fmt::format("{}:{}:{}: ", d.file, d.place.line, d.place.column) : d.file + ": ";
   out += fmt::format("{} {}: {}\n", word_for(d.severity()), info(d.code).name, d.message);
   if (d.span) {
-    out += fmt::format("  {}\n  {}{}\n", d.source_line, indent_like(d.source_line, d.place.column - 1),
-                       std::string(d.caret_length, '^'));
+    out += fmt::format("  {}\n  {}\n", d.source_line, carets(d));
   }
   if (!d.help.empty()) out += "  help: " + d.help + "\n";
   return out;

@@ -23,6 +23,11 @@ TEST_CASE("a message shows its line, with the caret under the word") {
   CHECK(render(diagnostic(Code::W0416, "few")) == "warning W0416: few\n");
 }
 
+TEST_CASE("the caret stands under the characters, not under their bytes") {
+  const SourceFile source("p", "F(äö)=FÄAT");
+  CHECK(render(diagnostic_at(source, {8, 13}, Code::E0110, "x")) == "p:1:9: error E0110: x\n  F(äö)=FÄAT\n        ^^^^\n");
+}
+
 TEST_CASE("a caret stays on its line") {
   const SourceFile source("p", "ab\ncd");
   CHECK(diagnostic_at(source, {1, 5}, Code::E0401, "x").caret_length == 1);
