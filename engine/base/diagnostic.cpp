@@ -124,12 +124,14 @@ bool same_letters(std::string_view a, std::string_view b) {
 
 std::string nearest_word(std::string_view word, const std::vector<std::string_view>& candidates) {
   constexpr int kTooFar = 3;
+  constexpr std::size_t kLongest = 256;  // nobody slips in a longer word, and the time goes with the square
   std::string_view best;
   std::pair least{kTooFar, false};
   for (const std::string_view candidate : candidates) {
+    const std::size_t longer = std::max(word.size(), candidate.size()), shorter = std::min(word.size(), candidate.size());
+    if (longer > kLongest || longer - shorter >= static_cast<std::size_t>(kTooFar)) continue;
     const std::pair distance{edit_distance(word, candidate), !same_letters(word, candidate)};
-    const int longest = static_cast<int>(std::max(word.size(), candidate.size()));
-    if (distance < least && 3 * distance.first <= longest) best = candidate, least = distance;
+    if (distance < least && 3 * distance.first <= static_cast<int>(longer)) best = candidate, least = distance;
   }
   return std::string(best);
 }

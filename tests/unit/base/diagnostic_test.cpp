@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
+
 namespace abbe {
 
 TEST_CASE("places count lines and columns from 1, whatever ends a line") {
@@ -32,6 +34,15 @@ TEST_CASE("a caret stays on its line") {
   const SourceFile source("p", "ab\ncd");
   CHECK(diagnostic_at(source, {1, 5}, Code::E0401, "x").caret_length == 1);
   CHECK(diagnostic_at(source, {5, 5}, Code::E0401, "x").caret_length == 1);
+}
+
+TEST_CASE("a word of a megabyte is near to nothing, at once") {
+  const std::string word(1'000'000, 'A');
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string other(1'000'000, 'B');
+  for (int k = 0; k < 200; ++k) CHECK(nearest_word(word, {"GOTO", "MEAS", other}).empty());
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
+  CHECK(nearest_word("GOTTO", {"GOTO", "MEAS"}) == "GOTO");
 }
 
 TEST_CASE("messages are sorted by place; only errors count as errors") {
