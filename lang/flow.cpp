@@ -33,6 +33,16 @@ void Flow::count() {
   throw TooLong{};
 }
 
+void Flow::deepen() {
+  if (nesting_ > kMaximumDepth) {  // the program itself is not nested
+    lowering_.error(Code::E0126, lowering_.statement->span, fmt::format("blocks and calls are nested deeper than {}", kMaximumDepth),
+                    "write the inner blocks as macros that are called one after the other, or as cases of one SELECT");
+    failed_control();
+    throw TooLong{};
+  }
+  ++nesting_;
+}
+
 void Flow::failed_control() {
   if (lowering_.flow_doubt.empty()) lowering_.flow_doubt = lowering_.blame();
 }
@@ -40,6 +50,7 @@ void Flow::failed_control() {
 /// Lowers the lines [begin, end), which are those of the block that line `level` opens. Returns where a jump leads to that
 /// leaves them.
 Flow::Jump Flow::range(int begin, int end, int level) {
+  const Deeper inside(*this);
   const std::vector<Interval> intervals = moving_intervals(level);
   for (int at = begin; at < end && lowering_.reachable;) {
     if (const auto moving = region_at(at, intervals)) {

@@ -30,6 +30,9 @@ struct TooLong {};
 inline constexpr int kMaximumStatements = 200'000;
 /// How deep macros and modules may call each other.
 inline constexpr int kMaximumCalls = 32;
+/// How deep blocks, cases of a SELECT and what macros and modules hold may be nested in all, so that no input can exhaust the
+/// stack. `kMaximumNesting` of the parser does the same for parentheses.
+inline constexpr int kMaximumDepth = 256;
 /// A DO with more turns than this is a loop of the plan: its labels cannot be computed then.
 inline constexpr int kMaximumTurns = 1000;
 
@@ -58,6 +61,17 @@ class Flow {
     std::optional<State> passed;   ///< what held when it was lowered
     std::vector<State> arrivals;   ///< of jumps forward to it
   };
+  /// Counts how deep what is lowered is nested, while it lives. Throws TooLong.
+  class Deeper {
+   public:
+    explicit Deeper(Flow& flow) : flow_(flow) { flow_.deepen(); }
+    ~Deeper() { --flow_.nesting_; }
+    Deeper(const Deeper&) = delete;
+    Deeper& operator=(const Deeper&) = delete;
+
+   private:
+    Flow& flow_;
+  };
   struct Module {
     std::unique_ptr<SourceFile> file;
     std::vector<LogicalLine> lines;
@@ -67,6 +81,7 @@ class Flow {
   Jump range(int begin, int end, int level);
   Step step(int at);
   void count();
+  void deepen();
   std::optional<Match> matched(const RawStatement&);
   void failed_control();
   void ordinary(const Line&);
@@ -120,7 +135,7 @@ class Flow {
   std::vector<int> positions_;       ///< of labels, operations; -1 before they are placed
   std::map<std::string, Macro> macros_;
   std::map<std::string, Module> modules_;  ///< by path
-  int statements_ = 0, calls_ = 0, depth_ = 0;
+  int statements_ = 0, calls_ = 0, depth_ = 0, nesting_ = 0;
   bool again_ = false;  ///< there are more moving jumps than were known
 };
 

@@ -180,6 +180,7 @@ Flow::Step Flow::choice(int at) {
 
 /// The first of cases[first..] that suits, or the fallback.
 Flow::Jump Flow::choose(const std::vector<int>& cases, std::size_t first, int fallback, const Value& value) {
+  const Deeper inside(*this);
   const auto body = [&](int at) { return range(at + 1, (*routine_)[at].partner, at); };
   for (; first < cases.size(); ++first) {
     const int at = cases[first];
