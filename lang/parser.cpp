@@ -51,14 +51,19 @@ struct number : seq<opt<sign>, unsigned_number> {};
 struct word : seq<opt<sign>, star<digit>, letter, star<sor<letter, digit>>> {};
 struct label_value : seq<label_kind, blanks, one<'('>, label_name, one<')'>> {};
 struct ends_itself : sor<quoted, label_value> {};
-struct needs_blank : seq<sor<unsigned_number, word>, at<sor<blank, eof, one<'\''>>>> {};
+struct one_more_number;
+struct numbers : seq<unsigned_number, star<one_more_number>> {};
+struct needs_blank : seq<sor<numbers, word>, at<sor<blank, eof, one<'\''>>>> {};
 struct value : sor<ends_itself, needs_blank> {};
 struct first_value : sor<ends_itself, seq<opt<sign>, needs_blank>> {};
 struct only_number : seq<number, eof> {};
 struct only_word : seq<word, eof> {};
 struct only_label : seq<label_kind, blanks, one<'('>, label_name, one<')'>, eof> {};
 struct only_text : seq<quoted, eof> {};
-struct several : seq<first_value, plus<blanks, value>, blanks, eof> {};
+// A sign that follows blanks and touches a digit is that of a number of its own; `0 - 1` and `A -1` are differences.
+struct one_more_number : seq<plus<blank>, sign, unsigned_number> {};
+struct several_numbers : seq<opt<sign>, unsigned_number, plus<one_more_number>> {};
+struct several : seq<sor<seq<first_value, plus<blanks, value>>, several_numbers>, blanks, eof> {};
 // clang-format on
 
 /// Offsets into the text that was parsed.

@@ -159,6 +159,7 @@ Routine make_routine(const SourceFile& file, std::vector<LogicalLine> text, Lowe
 
 namespace {
 
+bool is_sign(char c) { return c == '+' || c == '-'; }
 bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 /// Copies one line, with actuals in place of dummies.
@@ -177,7 +178,7 @@ class Replacer {
       if (k < 0)
         copy(at, end);
       else
-        out_.append_instead(replacement(static_cast<std::size_t>(k), token.front() == '\''), from_.span(at, end));
+        out_.append_instead(replacement(static_cast<std::size_t>(k), token.front() == '\'', at > 0 && is_sign(text_[at - 1])), from_.span(at, end));
       at = end;
     }
     return std::move(out_);
@@ -207,13 +208,14 @@ class Replacer {
   }
 
   /// In a label a text loses its quotes; an expression keeps its worth whatever stands beside it.
-  std::string replacement(std::size_t k, bool quoted) const {
+  std::string replacement(std::size_t k, bool quoted, bool after_sign) const {
     const RawArgument& a = actuals_[k];
     using K = RawArgument::Kind;
     if (a.kind == K::text) return label_ ? a.text : fmt::format("'{}'", a.text);
     const bool grouped = a.kind == K::expression && a.text.starts_with('(') && a.text.find(')') == a.text.size() - 1;
     if (grouped && quoted) return label_ ? a.text.substr(1, a.text.size() - 2) : fmt::format("'{}'", a.text.substr(1, a.text.size() - 2));
-    const bool guarded = !label_ && ((a.kind == K::expression && !grouped) || (a.kind == K::number && a.text.front() == '-'));
+    const bool signs = a.kind == K::number && (is_sign(a.text.front()) || after_sign);  // `X -Y` is no list of two numbers
+    const bool guarded = !label_ && ((a.kind == K::expression && !grouped) || signs);
     return guarded ? fmt::format("({})", a.text) : a.text;
   }
 

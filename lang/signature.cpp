@@ -389,10 +389,13 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
         fmt::format("{} ends where argument {} should be {}", what, number, expected), see);
   }
   const RawArgument& written = arguments[mismatch.argument];
-  if (written.kind == RawArgument::Kind::several)
+  if (written.kind == RawArgument::Kind::several) {
+    const bool difference = written.text.find_first_of("+-", 1) != std::string::npos;
     return diagnostic_at(source, written.span, Code::E0105,
                          fmt::format("a comma is missing in '{}'", written.text),
-                         "arguments are separated by commas", with_commas(written.text));
+                         fmt::format("arguments are separated by commas{}", difference ? "; a sum has blanks on both sides of its sign, or none" : ""),
+                         with_commas(written.text));
+  }
   if (expected.empty())
     return diagnostic_at(source, written.span, Code::E0108,
                          fmt::format("{} takes no argument {} ('{}')", what, number, written.text),

@@ -55,6 +55,16 @@ TEST_CASE("kinds of arguments") {
   CHECK(kind_of("1 2") == Kind::several);
   CHECK(kind_of("F(A)4") == Kind::several);
   CHECK(kind_of("'a' 4.0") == Kind::several);
+  CHECK(kind_of("0.00 -1.000") == Kind::several);
+  CHECK(kind_of("-1 +2") == Kind::several);
+  CHECK(kind_of("1 2 -3") == Kind::several);
+  CHECK(kind_of("CART 1 -2") == Kind::several);
+  CHECK(kind_of("1-2") == Kind::expression);
+  CHECK(kind_of("1 - 2") == Kind::expression);
+  CHECK(kind_of("1- 2") == Kind::expression);
+  CHECK(kind_of("A -1") == Kind::expression);
+  CHECK(kind_of("(1 -2)") == Kind::expression);
+  CHECK(kind_of("1 -2*A") == Kind::expression);
   CHECK(kind_of("1+2") == Kind::expression);
   CHECK(kind_of("X .LT. 3") == Kind::expression);
   CHECK(kind_of("(1,2)") == Kind::expression);
