@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace abbe::lang {
 
@@ -135,7 +137,38 @@ std::optional<Match> Lowering::match(std::string_view text, const RawStatement& 
     }
     v.column = evaluated(v.value->parts[0]);
   }
+  warn_of_lengths(std::get<Match>(result));
   return std::move(std::get<Match>(result));
+}
+
+namespace {
+
+/// Whether these three values of a match are the components i, j and k of one direction, as signatures name them, and known.
+bool is_direction(std::span<const MatchedValue> v) {
+  const std::string& i = v[0].name;
+  const std::size_t at = i.find('i');
+  if (at == std::string::npos || i.size() > 2) return false;
+  const auto is_component = [&](const MatchedValue& value, char letter) {
+    std::string name = i;
+    name[at] = letter;
+    return value.name == name && value.type == ValueType::number && !value.column.valid();
+  };
+  return is_component(v[0], 'i') && is_component(v[1], 'j') && is_component(v[2], 'k');
+}
+
+}  // namespace
+
+/// A direction is divided by its length, so a number too many or too few before it would go unnoticed.
+void Lowering::warn_of_lengths(const Match& match) {
+  constexpr double kSlack = 0.01;  // programs write directions with two decimals
+  for (std::size_t at = 0; at + 2 < match.values.size(); ++at) {
+    const auto v = std::span(match.values).subspan(at, 3);
+    if (!is_direction(v)) continue;
+    const double length = norm(Vec3{v[0].number, v[1].number, v[2].number});
+    if (length > 0 && std::fabs(length - 1) > kSlack)
+      warn(Code::W0260, v[0].span, fmt::format("the direction {:g},{:g},{:g} has length {:.4g}", v[0].number, v[1].number, v[2].number, length),
+           "directions have length 1; it is divided by its length. Is a number missing, or one too many?");
+  }
 }
 
 std::vector<plan::VaryingNumber> Lowering::varying(const Match& match) {

@@ -216,6 +216,7 @@ class Lowering : public State {
   std::string blame() const;
 
  private:
+  void warn_of_lengths(const Match&);
   template <class Meaning>
   const Meaning* find(const Symbols::Labels<Meaning>&, std::string_view kind, const LabelRef& label,
                       std::string_view next_step);
