@@ -109,6 +109,7 @@ class Compiler {
 
   void lower(const Statement& statement, const RawStatement& raw, const Match& match) {
     statement.lower(lowering_, raw, match);
+    if (!lowering_.failed) settle(lowering_, raw);
     if (lowering_.failed || raw.arguments.empty() || raw.label) return;
     // For VALUE: what the statement sets, in the units of the program.
     const auto text = [&](const RawArgument& a) {

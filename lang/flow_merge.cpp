@@ -61,6 +61,7 @@ void merge(State& into, const State& other) {
   into.home_known |= other.home_known;
   for (const auto doubt : {&State::frame_doubt, &State::unit_doubt, &State::sensor_doubt, &State::flow_doubt})
     if ((into.*doubt).empty()) into.*doubt = other.*doubt;
+  into.setting_doubts.insert(other.setting_doubts.begin(), other.setting_doubts.end());
   const SharedMap<std::string, std::string> settings = into.settings;
   other.settings.differences(settings, [&](const std::string& word, const std::string* theirs, const std::string& ours) {
     if (!theirs || *theirs != ours) into.settings.erase(word);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "lang/statement.hpp"
+
 namespace abbe::lang {
 
 namespace {
@@ -53,7 +55,28 @@ void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_
   }
 }
 
+/// Words that say how touches are made, compensated and fitted; the first argument of some says what of several things they set.
+bool is_setting(std::string_view word) {
+  return one_of(word, {"PRCOMP", "TECOMP", "FLY", "MODE", "SNSMNT", "SNSET", "FEDRAT", "ACLRAT", "GEOALG"});
+}
+std::string setting_of(const RawStatement& raw, std::string_view word) {
+  const bool several = one_of(word, {"SNSET", "FEDRAT", "ACLRAT", "GEOALG"}) && !raw.arguments.empty();
+  return several ? fmt::format("{}/{}", word, upper(raw.arguments.front().text)) : std::string(word);
+}
+
+/// Words that decide which statements run: without this one, what follows may not be run, or something else before it.
+bool decides(std::string_view word) {
+  const Statement* statement = find_statement(word);
+  return word == "DMESW" || (statement && statement->control != Control::none);
+}
+
 }  // namespace
+
+void settle(Lowering& lowering, const RawStatement& raw) {
+  const std::string setting = setting_of(raw, raw.word);
+  const bool all = setting == "GEOALG/ALL";
+  std::erase_if(lowering.setting_doubts, [&](const auto& doubt) { return doubt.first == setting || (all && doubt.first.starts_with("GEOALG")); });
+}
 
 void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view word) {
   const std::string reason = lowering.blame();
@@ -66,7 +89,10 @@ void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view wor
   const bool recalls_frame = word == "RECALL" && label_argument(lowering, raw, "D", "DA");
   if (one_of(word, {"DATSET", "TRANS", "ROTATE"}) || recalls_frame) lowering.frame_doubt = reason;
   if (word == "UNITS") lowering.unit_doubt = reason;
-  if (word == "SNSLCT") lowering.sensor_doubt = reason;
+  const bool selects = word == "SNSLCT" || (word == "CALIB" && label_argument(lowering, raw, "S", "SA"));
+  if (selects) lowering.sensor_doubt = reason;
+  if (is_setting(word)) lowering.setting_doubts.emplace(setting_of(raw, word), reason);
+  if (decides(word) && lowering.flow_doubt.empty()) lowering.flow_doubt = reason;
   if (one_of(word, {"OUTPUT", "EVAL"}) &&
       std::none_of(lowering.out.lost.begin(), lowering.out.lost.end(),
                    [&](const Lost& l) { return l.line == raw.line; })) {

@@ -1,5 +1,5 @@
 // What a statement with an error takes away (see lowering.hpp): labels, the measurement it stands
-// in, the coordinate system, the units, the sensor, characteristics.
+// in, the coordinate system, the units, the sensor, settings, what follows, characteristics.
 #pragma once
 
 #include "lang/lowering.hpp"
@@ -8,5 +8,7 @@ namespace abbe::lang {
 
 /// `word` is the statement that was meant: the one written, or for a misspelt word the nearest.
 void follow_up(Lowering&, const RawStatement&, std::string_view word);
+/// A setting without an error ends the doubt about what it sets.
+void settle(Lowering&, const RawStatement&);
 
 }  // namespace abbe::lang

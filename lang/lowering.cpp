@@ -384,4 +384,14 @@ std::string Lowering::doubt() const {
   return sensor_doubt.empty() ? "" : chain("the sensor is in doubt", sensor_doubt);
 }
 
+std::string Lowering::measuring_doubt() const {
+  if (std::string general = doubt(); !general.empty()) return general;
+  const bool points_given = measuring && measuring->touches > 0;
+  for (const auto& [setting, reason] : setting_doubts) {
+    if (setting == "SNSMNT" || (setting == "MODE" && points_given)) continue;  // of sensors defined after it; of default touches
+    return chain(fmt::format("what {} sets is in doubt", setting), reason);
+  }
+  return "";
+}
+
 }  // namespace abbe::lang

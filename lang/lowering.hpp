@@ -11,6 +11,9 @@
 //   - an error inside MEAS..ENDMES spoils the feature that is measured there
 //   - an error in a statement that sets the coordinate system, the units or the sensor casts a
 //     *doubt* on everything measured and evaluated until the next statement that sets it completely
+//   - an error in a setting, which says how touches are made, compensated or fitted, casts one on
+//     what is measured until the next statement that sets the same
+//   - an error in a word of control casts one on all that follows
 // An OUTPUT or EVAL of something spoilt or in doubt is entered in Compilation::lost with the line
 // to blame.
 #pragma once
@@ -108,6 +111,7 @@ struct State {
   std::optional<Mount> mount;
   std::vector<std::string> modes;  ///< MODE, in order of preference
   std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
+  std::map<std::string, std::string> setting_doubts;  ///< reasons, by the setting: PRCOMP, GEOALG/CIRCLE
   std::string flow_doubt;  ///< an error in a statement of control: which statements run is unknown from there on
   Variables variables;
   SharedMap<std::string, std::string> settings;  ///< what VALUE reads: last argument of a setting as written, by its word
@@ -212,6 +216,8 @@ class Lowering : public State {
 
   /// The first doubt that holds now and why, or "".
   std::string doubt() const;
+  /// The same for what is measured here.
+  std::string measuring_doubt() const;
   /// Why the current statement failed, as the cause of what follows from it: "line 12: MESSAGE".
   std::string blame() const;
 

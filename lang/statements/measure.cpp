@@ -20,10 +20,16 @@ namespace abbe::lang {
 
 namespace {
 
+/// What holds where a touch is made and where the feature is fitted decides whether the measurement can be relied on.
+void doubt_what_is_measured(Lowering& lowering) {
+  OpenMeasure& block = *lowering.measuring;
+  if (block.spoilt.empty()) block.spoilt = lowering.measuring_doubt();
+}
+
 /// The block ends here, whether by ENDMES or because the program forgot it.
 void close_block(Lowering& lowering) {
-  OpenMeasure block = *std::exchange(lowering.measuring, std::nullopt);
-  if (block.spoilt.empty()) block.spoilt = lowering.doubt();
+  doubt_what_is_measured(lowering);
+  const OpenMeasure block = *std::exchange(lowering.measuring, std::nullopt);
   auto& operations = lowering.out.plan.operations;
   if (block.spoilt.empty()) {
     const auto criterion = lowering.criteria.find(lowering.out.plan[block.feature].kind->shape);
@@ -123,6 +129,7 @@ void touch(Lowering& lowering, const RawStatement& raw, const Match& match) {
                           "put it between MEAS/kind,F(name),count and ENDMES");
   OpenMeasure& block = *lowering.measuring;
   ++block.touches;
+  doubt_what_is_measured(lowering);
   if (!lowering.sensor_selected && lowering.sensor_doubt.empty() && block.touches == 1)
     lowering.error(Code::E0207, raw.word_span, "missing sensor: no sensor is selected here",
                    "select one with SNSLCT/S(name) before measuring");

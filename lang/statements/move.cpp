@@ -27,9 +27,12 @@ void go_by(Lowering& lowering, const Match& match) {
 }
 
 void go(Lowering& lowering, const RawStatement& raw, const Match& match) {
-  if (const MatchedValue* turn = match.find("turn"))
-    return lowering.error(Code::E0256, turn->span, fmt::format("GOTO does not turn the head here: {} and what follows it cannot be used", turn->text),
-                          "define a sensor for every orientation with SNSDEF and turn the head with SNSLCT");
+  if (const MatchedValue* turn = match.find("turn")) {
+    lowering.error(Code::E0256, turn->span, fmt::format("GOTO does not turn the head here: {} and what follows it cannot be used", turn->text),
+                   "define a sensor for every orientation with SNSDEF and turn the head with SNSLCT");
+    lowering.sensor_doubt = lowering.blame();
+    return;
+  }
   if (match.used < raw.arguments.size())
     return lowering.error(Code::E0108, raw.arguments[match.used].span, "GOTO has an argument too many", "for example: GOTO/10,20,30");
   if (match.has("distance")) return go_by(lowering, match);

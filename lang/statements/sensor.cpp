@@ -80,6 +80,8 @@ void fixed(Lowering& lowering, const Match& match, plan::SensorDef& def, bool ca
 }
 
 void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  if (const auto doubt = lowering.setting_doubts.find("SNSMNT"); doubt != lowering.setting_doubts.end())
+    return lowering.fail(chain("what SNSMNT sets is in doubt", doubt->second));
   plan::SensorDef def;
   def.label = raw.label->name;
   def.span = raw.span;
