@@ -286,11 +286,24 @@ int evaluations_of(const plan::Plan& plan, const Expectation& e) {
 
 std::span<const DirectiveHelp> directives() { return kDirectives; }
 
+namespace {
+
+bool is_directive(const LogicalLine& line) { return line.comment && line.comment->text().starts_with('!'); }
+
+}  // namespace
+
 void read_directives(const LogicalLine& line, Lowering& lowering) {
-  if (line.comment && line.comment->text().starts_with('!'))
+  if (is_directive(line))
     DirectiveReader(*line.comment, lowering,
                     lowering.source.place(line.comment->file_offset(0)).line)
         .read();
+}
+
+void refuse_directives(const LogicalLine& line, Lowering& lowering) {
+  if (!is_directive(line)) return;
+  const JoinedText& comment = *line.comment;
+  lowering.add(diagnostic_at(*lowering.file, comment.span(0, comment.text().size()), Code::E0127, "a directive stands in the program, not in a module",
+                             fmt::format("move it to '{}'", lowering.source.name())));
 }
 
 void check_expectations(Lowering& lowering) {

@@ -20,6 +20,8 @@ std::span<const DirectiveHelp> directives();
 
 /// Reads a comment if it is a directive; every mistake goes to the sink.
 void read_directives(const LogicalLine&, Lowering&);
+/// A directive in a module is an error: what it asks for is asked of the program.
+void refuse_directives(const LogicalLine&, Lowering&);
 /// Expectations about tolerances that nothing evaluates are errors.
 void check_expectations(Lowering&);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "lang/directives.hpp"
 #include "lang/flow.hpp"
 #include "lang/lines.hpp"
 
@@ -147,6 +148,7 @@ void Flow::run_module(const RawArgument& name, bool only_macros) {
   const std::string where = fmt::format("(read in line {} of '{}')", raw.line, lowering_.file->name());
   const SourceFile* caller = std::exchange(lowering_.file, found->file.get());
   std::string call = std::exchange(lowering_.call, where);
+  for (const LogicalLine& line : found->lines) refuse_directives(line, lowering_);
   Routine body = make_routine(*found->file, found->lines, lowering_);
   lowering_.call = std::move(call);
   lowering_.file = caller;

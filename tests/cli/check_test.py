@@ -42,6 +42,14 @@ class Check(harness.Case):
         self.write("part.json", '{"schema": "abbe.workpiece/1", "name": "part", "surfaces": {"C": {"offset_um": 3}}}')
         self.assertEqual(self.told("$$! machine coord3-mc16\n$$! workpiece part.json\n" + harness.LENGTH), [("E0423", 1)])
 
+    def test_directives_stand_in_the_program_not_in_a_module(self):
+        self.write("module.dmi", "DMISMD/'module',5.2\n$$! wibble 1\nGOTO/1,2,3 $$! expect TA(LEN) u >= 5\n$$ no directive\nENDFIL\n")
+        includes = harness.LENGTH.replace("UNITS", "INCLUD/DMIS,'module.dmi'\nUNITS")
+        self.assertEqual(self.told(includes), [("E0127", 2), ("E0127", 3)])
+        self.assertIn("module.dmi:2:", self.abbe("check", "program.dmi", code=1).stderr)
+        self.assertEqual(self.told(includes.replace("UNITS", "INCLUD/DMIS,'module.dmi'\nUNITS")), [("E0127", 2), ("E0127", 3)])
+        self.assertEqual(self.told(includes.replace("INCLUD/DMIS", "EXTFIL/DMIS")), [("E0127", 2), ("E0127", 3)])
+
     def test_what_such_a_machine_lacks(self):
         machine = json.loads(self.abbe("machine", "init", "mine").stdout)
         del machine["offsets_mm"]
