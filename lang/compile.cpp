@@ -23,6 +23,7 @@ class Compiler {
  public:
   Compiler(const SourceFile& source, Sink& sink, const CompileOptions& options) : lowering_(source, sink) {
     for (const auto& [name, answer] : options.answers) lowering_.answers[upper(name)] = answer;
+    lowering_.only_valid = options.only_valid;
   }
 
   /// Throws Restart (flow.hpp).
@@ -52,6 +53,7 @@ class Compiler {
     } else if (is_standard_word(raw.word)) {
       if (!outside(raw)) {
         not_supported(raw.word, raw.word_span);
+        if (raw.word == "PAMEAS" && lowering_.measuring) lowering_.measuring->scan = {raw.span, raw.line};
         if (raw.label) lowering_.skipped_labels.insert(raw.label->kind);
       }
     } else {
@@ -148,7 +150,7 @@ class Compiler {
     if (!lowering_.reported_words.insert(what).second) return;
     lowering_.warn(Code::W0121, span,
                    fmt::format("{} is not supported yet and is skipped wherever it stands", what),
-                   "results are those of a program without it");
+                   what == "PAMEAS" ? "its MEAS has the touches of its PTMEAS, or else the default ones" : "results are those of a program without it");
   }
 
   /// Reports the word; the word that was probably meant, or "".

@@ -50,6 +50,7 @@ struct Compilation {
 /// What a compilation needs to know beyond the program.
 struct CompileOptions {
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in any case; they win over directives
+  bool only_valid = false;  ///< what can only be guessed is lost too: default touches in the place of a scan
 };
 
 /// Never throws on a user's text: every mistake goes to the sink, and what can be used is used. Modules are read from the

@@ -74,6 +74,7 @@ struct OpenMeasure {
   int line = 0;
   std::string spoilt;  ///< why the measurement is of no use; empty while it is
   bool varies = false;  ///< how many touches it has depends on what is measured
+  std::optional<std::pair<Span, int>> scan;  ///< PAMEAS: place and line
   std::optional<plan::Point> displaced;  ///< RMEAS: by how much the touches lie beside their points
 };
 
@@ -199,6 +200,7 @@ class Lowering : public State {
   int parted = 0;                    ///< conditions that machines may have decided differently here
   int parting = 0;                   ///< counts the places where machines part while all were together
   int looping = 0;                   ///< loops around here whose turns differ from machine to machine
+  bool only_valid = false;           ///< CompileOptions
   bool second_program = false;       ///< the program has ended and another begins in the same file
 
   bool skipping = false;                              ///< DMESW/OFF

@@ -27,10 +27,10 @@ std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std:
   return read_workpiece(beside(program.source.name(), *asked));
 }
 
-CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers) {
+CompiledProgram compile_program(const std::string& path, const lang::CompileOptions& options) {
   Sink sink;
   SourceFile source = read_text(path, sink);
-  lang::Compilation compilation = lang::compile(source, sink, {answers});
+  lang::Compilation compilation = lang::compile(source, sink, options);
   return {std::move(source), std::move(compilation), sink.sorted(), sink.has_errors()};
 }
 

@@ -45,7 +45,7 @@ struct CompiledProgram {
   std::vector<Diagnostic> messages;
   bool has_errors = false;
 };
-CompiledProgram compile_program(const std::string& path, const std::map<std::string, std::string>& answers = {});
+CompiledProgram compile_program(const std::string& path, const lang::CompileOptions& = {});
 
 /// A file that another file names: its path is as seen from that one.
 std::string beside(const std::string& file, const std::string& path);

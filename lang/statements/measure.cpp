@@ -177,6 +177,11 @@ void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
   }
 }
 
+void warn_of_scan(Lowering& lowering, const OpenMeasure& block) {
+  lowering.warn(Code::W0261, block.scan->first, fmt::format("{} default touches stand for this scan, which is not supported yet", block.declared),
+                "the feature is touched at its default points, not along the path; give PTMEAS, or leave out what needs it with --only-valid");
+}
+
 void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
   if (!lowering.measuring)
     return lowering.error(Code::E0206, raw.word_span, "ENDMES without a MEAS",
@@ -184,8 +189,11 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
   OpenMeasure& block = *lowering.measuring;
   if (block.feature.valid() && block.spoilt.empty() && (!block.varies || block.touches == 0)) {
     const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
-    if (block.touches == 0) {
+    if (block.touches == 0 && block.scan && lowering.only_valid) {
+      block.spoilt = fmt::format("line {}: its scan is not supported yet", block.scan->second);
+    } else if (block.touches == 0) {
       measure_by_pattern(lowering, block);
+      if (block.scan && !lowering.failed) warn_of_scan(lowering, block);
     } else if (block.touches < kind.minimum_points) {
       lowering.error(Code::E0211, block.span,
                      fmt::format("{} touches, but a {} needs at least {}", block.touches, kind.word,

@@ -60,7 +60,7 @@ struct Checked {
 };
 
 Checked check(const std::string& path, const std::map<std::string, std::string>& answers) {
-  CompiledProgram program = compile_program(path, answers);
+  CompiledProgram program = compile_program(path, {answers});
   Sink sink;
   for (const Diagnostic& d : program.messages) sink.add(d);
   if (!program.has_errors) check_on_machine(program, sink);

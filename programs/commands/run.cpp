@@ -29,7 +29,7 @@ void refuse_errors(const CompiledProgram& program) {
 
 int run_command(const RunCommandOptions& options) {
   const ReportWriter* writer = find_report_writer(options.format);
-  CompiledProgram program = compile_program(options.request.program, options.request.answers);
+  CompiledProgram program = compile_program(options.request.program, {options.request.answers, options.request.only_valid});
   print_messages(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
   const StudyInputs inputs = read_inputs(program, options.request.settings);

@@ -85,7 +85,7 @@ void fail_unreadable(TestSuite& suite, const Errors& errors,
 }
 
 TestSuite test_program(const std::string& path, const TestOptions& options, ProgressLine& progress) {
-  const CompiledProgram program = compile_program(path, options.answers);
+  const CompiledProgram program = compile_program(path, {options.answers});
   const auto& expectations = program.compilation.directives.expectations;
   const Errors errors = errors_of(program);
   TestSuite suite{path, {}};

@@ -7,7 +7,7 @@
 namespace abbe {
 
 CompiledProgram usable_program(const std::string& path, const std::map<std::string, std::string>& answers) {
-  CompiledProgram program = compile_program(path, answers);
+  CompiledProgram program = compile_program(path, {answers});
   print_messages(program.messages);
   if (program.has_errors)
     throw UserError(diagnostic(Code::E0604, fmt::format("'{}' has errors and was not run", program.source.name()),

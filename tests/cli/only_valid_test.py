@@ -80,6 +80,23 @@ class OnlyValid(harness.Case):
         self.write("sound.dmi", LENGTH)
         self.assertEqual(report["characteristics"][0]["u"], self.run_json("sound.dmi", "--machines", 20)["characteristics"][0]["u"])
 
+    def test_default_touches_do_not_stand_for_a_scan(self):
+        scan = "P(1)=PATH/ARC,CART,0,0,0,0,0,1,25,0,360\nF(K)=FEAT/CIRCLE,INNER,CART,50,0,0,0,0,1,50\nMEAS/CIRCLE,F(K),40\nPAMEAS/P(1),0,0,-1\nENDMES\nT(N)=TOL/DIAM,-0.1,0.1\nOUTPUT/FA(K),TA(N)\nENDFIL\n"
+        self.write("scan.dmi", LENGTH.replace("ENDFIL\n", scan))
+        report = self.run_json("scan.dmi", "--machines", 20)
+        self.assertEqual([c["tolerance"] for c in report["characteristics"]], ["LEN", "N"])
+        self.assertIn("40 default touches stand for this scan", next(m["message"] for m in report["messages"] if m["code"] == "W0261"))
+        report = self.run_json("scan.dmi", "--only-valid", "--machines", 20)
+        self.assertEqual([c["tolerance"] for c in report["characteristics"]], ["LEN"])
+        self.assertEqual([lost["reason"] for lost in report["lost"]], [f"TA(N): FA(K) is not measured <- line {self.first + 3}: its scan is not supported yet"])
+        self.assertNotIn("W0261", [m["code"] for m in report["messages"]])
+
+    def test_what_a_jump_that_cannot_be_read_takes_away(self):
+        self.write("jump.dmi", LENGTH.replace("OUTPUT/", "JUMPTOO/(END)\nOUTPUT/").replace("ENDFIL", "(END)\nENDFIL"))
+        report = self.run_json("jump.dmi", "--only-valid", "--machines", 20)
+        lost, = report["lost"]
+        self.assertEqual(lost["reason"], f"TA(LEN): it is not known whether this is run <- line {self.first - 1}: JUMPTOO is not a word of DMIS")
+
     def test_each_mistake_is_reported_once_at_its_place(self):
         done = self.abbe("check", "found.dmi", code=1)
         places = [line.split(":")[1] + line.split()[2] for line in done.stderr.splitlines() if line.startswith("found.dmi:")]
