@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+
+#include "engine/base/utf8.hpp"
 #include "lang/directives.hpp"
 #include "lang/flow.hpp"
 #include "lang/follow_up.hpp"
@@ -17,6 +21,10 @@ namespace {
 constexpr std::size_t kLongestLabel = 64;
 /// Free text begins with short words that are near to a word of DMIS by chance.
 constexpr std::size_t kShortestSlip = 4;
+
+bool in_label(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80 || std::string_view("_-.+").find(c) != std::string_view::npos;
+}
 
 /// Drives the statements of one file through lookup, signature and lowering.
 class Compiler {
@@ -124,11 +132,19 @@ class Compiler {
     if (raw.arguments.size() > 1) lowering_.settings.set(raw.word + "," + upper(raw.arguments.front().text), text(raw.arguments.back()));
   }
 
-  bool label_fits(const Statement& statement, const RawStatement& raw) {
-    if (raw.label && raw.label->name.size() > kLongestLabel)
-      lowering_.warn(Code::W0123, raw.label->span,
-                     fmt::format("this label has {} characters", raw.label->name.size()),
+  void check_name(const LabelRef& label) {
+    if (const std::size_t characters = count_characters(label.name); characters > kLongestLabel)
+      lowering_.warn(Code::W0123, label.span,
+                     fmt::format("this label has {} characters", characters),
                      fmt::format("a controller may refuse more than {}", kLongestLabel));
+    const auto foreign = std::find_if_not(label.name.begin(), label.name.end(), in_label);
+    if (foreign != label.name.end() && !label.kind.empty())
+      lowering_.warn(Code::W0128, label.span, fmt::format("the label {} holds '{}'", written(label), *foreign),
+                     "a controller may refuse it; labels are made of letters, digits and _ - . +");
+  }
+
+  bool label_fits(const Statement& statement, const RawStatement& raw) {
+    if (raw.label && raw.usable) check_name(*raw.label);
     const std::string given = !raw.label ? "" : raw.label->kind.empty() ? "=" : raw.label->kind;
     if (statement.label == "*" || given == statement.label) {
       if (!raw.label || !raw.label->name.empty()) return true;
