@@ -25,6 +25,15 @@ Normal out_of_round(Shape shape, const Element& e, const Vec3& point) {
   return {shape == Shape::cone ? std::cos(e.angle) * out - std::sin(e.angle) * e.direction : out};
 }
 
+/// Away from the nearest point of the centre line of the tube.
+Normal out_of_tube(const Element& e, const Vec3& point) {
+  const Vec3 across = perpendicular_part(point - e.point, e.direction);
+  if (norm(across) == 0) return Normal::failed("the point lies on the axis of the torus: give the vector in PTMEAS");
+  const Vec3 out = point - (e.point + e.size * unit(across));
+  if (norm(out) == 0) return Normal::failed("the point lies in the middle of the tube: give the vector in PTMEAS");
+  return {unit(out)};
+}
+
 }  // namespace
 
 Outcome<Vec3> nominal_normal(Shape shape, const Element& nominal, bool inner, const Vec3& point) {
@@ -36,11 +45,11 @@ Outcome<Vec3> nominal_normal(Shape shape, const Element& nominal, bool inner, co
     case Shape::line:
       if (norm(nominal.second) > 0) return {nominal.second};
       return Normal::failed("a touch on a line needs the vector of the surface in PTMEAS");
-    case Shape::torus: return Normal::failed("a touch on a torus needs the vector of the surface in PTMEAS");
     case Shape::surface: return Normal::failed("a touch on a GSURF needs the vector of the surface in PTMEAS");
     case Shape::slot:
     case Shape::rectangle:
     case Shape::ellipse: out = {out_of_outline(shape, nominal, point)}; break;
+    case Shape::torus: out = out_of_tube(nominal, point); break;
     case Shape::parallel_planes:
     case Shape::symmetry_plane:
       out = {dot(point - nominal.point, nominal.direction) < 0 ? -nominal.direction : nominal.direction};

@@ -74,6 +74,15 @@ PatternTouch on_sphere(const Element& e, bool inner, int k, int n) {
   return {e.point + e.size * out, out};
 }
 
+/// By turns on three circles of the half of the tube that the axis points out of: its ridge, its outside and its inside. The inside is turned
+/// by half a step, so that seven touches, three of them on the ridge, determine the torus.
+PatternTouch on_torus(const Element& e, int k, int n) {
+  const int circle = k % 3, on_this = (n - circle + 2) / 3;
+  const Vec3 away = Across(e.direction).at(2 * kPi * (k / 3 + (circle == 2 ? 0.5 : 0)) / on_this);
+  const Vec3 out = circle == 0 ? e.direction : circle == 1 ? away : -away;
+  return {e.point + e.size * away + e.minor_size * out, out};
+}
+
 PatternTouch on_ellipse(const Element& e, int k, int n) {
   const double angle = 2 * kPi * k / n, c = std::cos(angle), s = std::sin(angle);
   const Vec3 across = cross(e.direction, e.second);
@@ -119,13 +128,13 @@ Outcome<PatternTouch> pattern_touch(Shape shape, const Element& e, bool inner, i
     case Shape::arc: touch = on_arc(e, index, count); break;
     case Shape::cylinder: touch = on_cylinder(e, index, count); break;
     case Shape::sphere: touch = on_sphere(e, inner, index, count); break;
+    case Shape::torus: touch = on_torus(e, index, count); break;
     case Shape::ellipse: touch = on_ellipse(e, index, count); break;
     case Shape::slot:
     case Shape::rectangle: touch = on_sides(shape, e, index, count); break;
     case Shape::parallel_planes:
     case Shape::symmetry_plane: touch = on_faces(e, index, count); break;
     case Shape::cone:
-    case Shape::torus:
     case Shape::surface: return Outcome<PatternTouch>::failed("its nominal does not say where its surface begins and ends");
   }
   if (inner) touch.normal = -touch.normal;
@@ -146,13 +155,13 @@ std::string_view pattern_help(Shape shape) {
       return "two sections, three from 12 touches on, evenly round, every other one turned by a quarter of a step; from 10 % to 90 % of the "
              "length, or of 20 mm about the point";
     case Shape::sphere: return "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees";
+    case Shape::torus: return "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside turned by half a step";
     case Shape::ellipse: return "round it at equal steps of its parameter, the first on the major axis";
     case Shape::slot:
     case Shape::rectangle: return "by turns on the two long sides and the two ends, evenly within each";
     case Shape::parallel_planes:
     case Shape::symmetry_plane: return "by turns on the two faces, on each as on a plane";
     case Shape::cone:
-    case Shape::torus:
     case Shape::surface: return "";
   }
   return "";
