@@ -87,8 +87,8 @@ double straightness(const EvaluationInput& in) {
 
 extern const ToleranceKind flatness_tolerance{
     .word = "FLAT",
-    .signature = "zone:length",
-    .help = "flatness: spread of the touches about the fitted plane",
+    .signature = "zone:length,[ unit_zone:length,unit_a:length,unit_b:length ]",
+    .help = "flatness: spread of the touches about the fitted plane; a second zone per unit of area is not evaluated",
     .example = "T(F1)=TOL/FLAT,0.05",
     .source = "ISO 1101:2017, clause 17; ISO 12781-1 (LSPL)",
     .unit = Unit::mm,
@@ -101,7 +101,7 @@ extern const ToleranceKind flatness_tolerance{
 
 extern const ToleranceKind straightness_tolerance{
     .word = "STRGHT",
-    .signature = "zone:length,[ RFS ]",
+    .signature = "zone:length," ABBE_MATERIAL,
     .help =
         "straightness: width of the zone about the fitted line that holds the touches: in the section "
         "of a surface two parallel lines, of an axis a cylinder",

@@ -13,6 +13,8 @@ using plan::MotionSetting;
 
 void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match) {
   const std::string word = match.text("setting");
+  if (const MatchedValue* surface = match.find("surface"))
+    return lowering.warn(Code::W0122, surface->span, fmt::format("{} of a surface is skipped", word), "nothing depends on it: collisions are not looked for");
   const MotionSetting setting = word == "APPRCH"   ? MotionSetting::approach
                                 : word == "SEARCH" ? MotionSetting::search
                                 : word == "RETRCT" ? MotionSetting::retract
@@ -22,6 +24,14 @@ void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match
 }
 
 constexpr double kInch = 25.4;
+
+/// DEFALT, HIGH or LOW: the machine file gives one figure, which is its greatest and its usual one.
+void set_level(Lowering& lowering, MotionSetting setting, const MatchedValue& level) {
+  if (level.text != "DEFALT")
+    lowering.warn(Code::W0122, level.span, fmt::format("how much {} is, no machine file says", level.text),
+                  "the machine's own figure is used; give a number, or per cent of it with PCENT");
+  lowering.emit(plan::SetMotion{setting, 100, true});
+}
 
 /// What says how fast the machine moves divides lengths.
 bool moves(Lowering& lowering, const Match& match, std::string_view what) {
@@ -33,21 +43,23 @@ bool moves(Lowering& lowering, const Match& match, std::string_view what) {
 
 void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
   if (!match.has("speed")) return;  // ROTVEL: of a rotary table, which is not here
-  if (!moves(lowering, match, "a speed")) return;
   const std::string what = match.text("speed"), unit = match.text("unit");
   const MotionSetting setting = what == "POSVEL"   ? MotionSetting::positioning_speed
                                 : what == "MESVEL" ? MotionSetting::measuring_speed
                                                    : MotionSetting::scan_speed;
+  if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
+  if (!moves(lowering, match, "a speed")) return;
   const double mm = unit == "MPM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
   const double seconds = unit.ends_with("PM") ? 60 : 1;
   lowering.emit(plan::SetMotion{setting, match.number("value") * mm / seconds, unit == "PCENT"});
 }
 
 void set_acceleration(Lowering& lowering, const RawStatement&, const Match& match) {
-  if (!moves(lowering, match, "an acceleration")) return;
   const MotionSetting setting = match.text("acceleration") == "POSACL"
                                     ? MotionSetting::positioning_acceleration
                                     : MotionSetting::measuring_acceleration;
+  if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
+  if (!moves(lowering, match, "an acceleration")) return;
   const std::string unit = match.text("unit");
   const double mm = unit == "MPMM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
   const double square_seconds = unit == "MPMM" || unit == "IPMM" ? 3600 : 1;
@@ -70,17 +82,19 @@ extern const Statement kSnset, kFedrat, kAclrat, kFly, kPrcomp;
 const Statement kSnset = {
     "SNSET",
     "",
-    "( setting:APPRCH|SEARCH|RETRCT|CLRSRF|DEPTH, distance:length ; setting:CLRSRF|DEPTH, OFF )",
+    "( setting:APPRCH|SEARCH|RETRCT|CLRSRF|DEPTH, distance:length ; setting:CLRSRF|DEPTH, OFF ; "
+    "setting:CLRSRF|DEPTH, surface:feature, [ distance:length ] )",
     "Distances of a touch: from where it starts (APPRCH), how far it searches (SEARCH), how far it "
-    "retracts (RETRCT).",
+    "retracts (RETRCT). CLRSRF and DEPTH, which keep clear of surfaces, are skipped.",
     "SNSET/APPRCH,5.0",
     "ISO 22093, SNSET",
     set_sensor_path};
 const Statement kFedrat = {
     "FEDRAT",
     "",
-    "( speed:POSVEL|MESVEL|SCNVEL, unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; ROTVEL, ... )",
-    "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed. "
+    "( speed:POSVEL|MESVEL|SCNVEL, ( unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; level:DEFALT|HIGH|LOW ) ; ROTVEL, ... )",
+    "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed; "
+    "DEFALT: that speed. "
     "ROTVEL, of a rotary table, is skipped.",
     "FEDRAT/POSVEL,MPM,1.8",
     "ISO 22093, FEDRAT",
@@ -88,8 +102,8 @@ const Statement kFedrat = {
 const Statement kAclrat = {
     "ACLRAT",
     "",
-    "acceleration:POSACL|MESACL, unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number",
-    "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2 or per cent.",
+    "acceleration:POSACL|MESACL, ( unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number ; level:DEFALT|HIGH|LOW )",
+    "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2, per cent or the machine's own (DEFALT).",
     "ACLRAT/MESACL,MMPSS,100",
     "ISO 22093, ACLRAT",
     set_acceleration};

@@ -46,6 +46,8 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   std::optional<Match> rest =
       lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used, Varying::taken);
   if (!rest) return;
+  if (const MatchedValue* unit = rest->find("unit_zone"))
+    lowering.warn(Code::W0122, unit->span, "the zone per unit of area is not evaluated", "the value and its uncertainty are of the flatness of the whole surface");
   note_redefinition(lowering, raw, *kind, *rest);
   auto instances = std::make_shared<std::map<std::vector<int>, plan::ToleranceId>>();
   lowering.symbols.tolerances.set(upper(raw.label->name),
