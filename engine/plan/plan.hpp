@@ -167,8 +167,9 @@ struct RecallFrame { FrameId frame; };
 struct Evaluate { CharacteristicId characteristic; };
 /// OUTPUT of a coordinate system: its pose goes to the result file.
 struct OutputFrame { FrameId frame; };
-/// OUTPUT: these features, in the current frame, and what was evaluated of them just before go to the result file.
-struct Output { std::vector<FeatureId> features; std::vector<CharacteristicId> characteristics; };
+/// OUTPUT: these features, in the current frame, and what was evaluated of them just before go to the result file. `also`: SA(l), R(l), P(l)
+/// as written, which are only repeated there.
+struct Output { std::vector<FeatureId> features; std::vector<CharacteristicId> characteristics; std::vector<std::string> also = {}; };
 /// What OBTAIN can read of a measured feature, in the current frame. First vectors, a component each: its point (mm), its direction, the
 /// ends of its touches along it, the vector that turns it and the third one square to both, the apex of a cone, the foci of an
 /// ellipse, the points of two opposite faces. Then numbers: mm or rad.
@@ -199,6 +200,7 @@ struct Operation {
 
 struct Plan {
   std::string name;   ///< DMISMN text or the file name
+  std::string result_name;  ///< FILNAM text; empty: the program gives none
   std::vector<Operation> operations;
   std::vector<FeatureDef> features;
   std::vector<SensorDef> sensors;

@@ -176,6 +176,7 @@ class ActionText {
     std::string out = "output";
     for (const FeatureId f : o.features) out += fmt::format(" {}", name(f));
     for (const CharacteristicId c : o.characteristics) out += fmt::format(" {}", plan_[plan_[c].tolerance].label);
+    for (const std::string& label : o.also) out += fmt::format(" {}", label);
     return out;
   }
   std::string operator()(const OutputFrame& o) const {

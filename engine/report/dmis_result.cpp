@@ -1,6 +1,7 @@
 #include "engine/report/dmis_result.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,13 @@ std::string decimal(double value) {
 }
 
 std::string numbers(const Vec3& v) { return decimal(v.x) + ", " + decimal(v.y) + ", " + decimal(v.z); }
+
+/// A quote inside a text is written twice.
+std::string dmis_text(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  return out + "'";
+}
 
 double degrees(double rad) { return rad * 180 / kPi; }
 
@@ -109,10 +117,11 @@ class ResultText {
       return;
     }
     const auto& what = std::get<plan::Output>(action);
-    std::string echo = "OUTPUT/";
-    for (std::size_t k = 0; k < what.features.size(); ++k) echo += fmt::format("{}FA({})", k ? ", " : "", plan_[what.features[k]].label);
-    for (const auto& v : record.values) echo += fmt::format(", TA({})", plan_[plan_[v.characteristic].tolerance].label);
-    text += echo + "\n";
+    std::vector<std::string> echo;
+    for (const plan::FeatureId f : what.features) echo.push_back(fmt::format("FA({})", plan_[f].label));
+    for (const auto& v : record.values) echo.push_back(fmt::format("TA({})", plan_[plan_[v.characteristic].tolerance].label));
+    echo.insert(echo.end(), what.also.begin(), what.also.end());
+    text += fmt::format("OUTPUT/{}\n", fmt::join(echo, ", "));
     for (std::size_t k = 0; k < what.features.size(); ++k) {
       const plan::FeatureDef& def = plan_[what.features[k]];
       const std::string arguments = feature_arguments(def, record.features[k]);
@@ -148,7 +157,7 @@ class ResultText {
 
 std::string dmis_result(const plan::Plan& plan, const std::vector<OutputRecord>& records, std::span<const CharacteristicReport> reports) {
   ResultText result(plan, reports);
-  result.text = fmt::format("FILNAM/'{}'\nUNITS/MM, ANGDEC\n", plan.name);
+  result.text = fmt::format("FILNAM/{}\nUNITS/MM, ANGDEC\n", dmis_text(plan.result_name.empty() ? plan.name : plan.result_name));
   for (const OutputRecord& record : records) result.add(record);
   return result.text + "ENDFIL\n";
 }

@@ -1,5 +1,5 @@
-// The result file of a machine in the form of ISO 22093: what each OUTPUT statement reports, features as FA, tolerances as TA,
-// coordinate systems as DA.
+// The result file of a machine in the form of ISO 22093: under the name that FILNAM gives it, or else that of the program, what each
+// OUTPUT statement reports, features as FA, tolerances as TA, coordinate systems as DA. Sensors and reports are only named.
 //
 // Coordinates are in the system current at the OUTPUT statement, lengths mm, angles decimal degrees, whatever the program's own units.
 // FA repeats the form of FEAT with the actual values. TA of a tolerance with one value is `word[,qualifier],value,INTOL|OUTOL`;

@@ -15,6 +15,8 @@ void no_effect(Lowering& lowering, const RawStatement& raw, const Match&) {
                 "the results are those without it");
 }
 
+void name_result(Lowering& lowering, const RawStatement&, const Match& match) { lowering.out.plan.result_name = match.text("name"); }
+
 void read_file(Lowering& lowering, const RawStatement& raw, const Match&) {
   lowering.error(Code::E0258, raw.span, "READ takes values from a file of the real machine, which is not here",
                  "give the values with ASSIGN, or ask for them: X=PROMPT/'text' and --answer X=VALUE");
@@ -34,10 +36,10 @@ extern const Statement kFilnam, kDisply, kText, kDevice, kOpen, kClose, kVform, 
 const Statement kFilnam = {"FILNAM",
                            "",
                            "name:text, [ version:number ]",
-                           "Names the result file. Skipped.",
+                           "Names the result file: what --dmo writes begins with it.",
                            "FILNAM/'results',5.2",
                            "ISO 22093, FILNAM",
-                           skip};
+                           name_result};
 const Statement kDisply = {"DISPLY",
                            "",
                            "...",

@@ -112,12 +112,20 @@ void evaluate(Lowering& lowering, const RawStatement& raw,
   lowering.emit(plan::Evaluate{id});
 }
 
+/// What the result file repeats of an OUTPUT without knowing more of it: sensors, and labels of reports and of what identifies the part.
+std::vector<std::string> only_named(const Match& match) {
+  std::vector<std::string> labels;
+  for (const MatchedValue& v : match.values)
+    if (v.type == ValueType::sensor || v.type == ValueType::label) labels.push_back(written(v.label));
+  return labels;
+}
+
 /// What goes to the result file: the features, and the characteristics evaluated from `first` on.
-void emit_output(Lowering& lowering, const std::vector<plan::FeatureId>& features, std::size_t first) {
-  plan::Output out{features, {}};
+void emit_output(Lowering& lowering, const std::vector<plan::FeatureId>& features, std::size_t first, const Match& match) {
+  plan::Output out{features, {}, only_named(match)};
   for (std::size_t k = first; k < lowering.out.plan.characteristics.size(); ++k)
     out.characteristics.push_back({static_cast<int>(k)});
-  lowering.emit(out);
+  if (!features.empty() || !out.also.empty()) lowering.emit(out);
 }
 
 /// "A, B" as written, for what is lost.
@@ -181,8 +189,7 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
     if (!any_failed) first_failure = lowering.failure;
     any_failed = true;
   }
-  if (raw.word == "OUTPUT" && !features.empty() && !features_failed)
-    emit_output(lowering, features, first_characteristic);
+  if (raw.word == "OUTPUT" && !features_failed) emit_output(lowering, features, first_characteristic, match);
   if (tolerances.empty() && any_failed)
     lowering.out.lost.push_back({raw.line, feature, first_failure});
   lowering.failed = any_failed;
@@ -207,7 +214,7 @@ const Statement kOutput = {
     "( feature:feature, { feature:feature }, { tolerance:tolerance } ; frame:frame ; sensor:sensor "
     "; report:label ), { report:label }",
     "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty. What "
-    "identifies the part or the report, P(1) of PARTID, is skipped as the statement that names it is.",
+    "identifies the part or the report, P(1) of PARTID, is only repeated in the result file, as a sensor is.",
     "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
     "ISO 22093, OUTPUT",
     output};

@@ -32,6 +32,17 @@ class Figures(harness.Case):
         self.assertIn("INTOL", status["ANY"])
         self.assertIn("OUTOL", status["SOME"])
 
+    def test_the_result_file_has_the_name_of_filnam_and_repeats_what_output_names(self):
+        self.abbe("run", "length.dmi", "--machines", 20, "--dmo", "plain.dmo")
+        self.assertEqual((self.folder / "plain.dmo").read_text().splitlines()[0], "FILNAM/'a length'")
+        self.write("named.dmi", LENGTH.replace("UNITS", "FILNAM/'the result''s name',4.0\nR(1)=REPORT/DATE\nUNITS")
+                   .replace("ENDFIL", "OUTPUT/SA(P)\nOUTPUT/FA(A),FA(B),TA(LEN),R(1)\nENDFIL"))
+        self.abbe("run", "named.dmi", "--machines", 20, "--dmo", "named.dmo")
+        lines = (self.folder / "named.dmo").read_text().splitlines()
+        self.assertEqual(lines[0], "FILNAM/'the result''s name'")
+        self.assertEqual([line for line in lines if line.startswith("OUTPUT/")],
+                         ["OUTPUT/FA(A), FA(B), TA(LEN)", "OUTPUT/SA(P)", "OUTPUT/FA(A), FA(B), TA(LEN), R(1)"])
+
     def test_json_has_the_published_keys(self):
         report = self.run_json("length.dmi", "--machines", 200)
         self.assertEqual(report["schema"], "abbe.run/1")
