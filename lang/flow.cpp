@@ -136,7 +136,7 @@ RawStatement Flow::with_labels(const RawStatement& raw) {
 /// `begin`: where in the statement's text the label begins, or a place before it.
 void Flow::resolve(LabelRef& label, std::size_t begin) {
   const std::string& code = lowering_.statement->code->text();
-  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80; };
   std::string out;
   for (std::size_t at = 0; at < label.name.size() && !lowering_.failed;) {
     if (label.name[at] != '@') {

@@ -160,7 +160,7 @@ Routine make_routine(const SourceFile& file, std::vector<LogicalLine> text, Lowe
 namespace {
 
 bool is_sign(char c) { return c == '+' || c == '-'; }
-bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80; }
 
 /// Copies one line, with actuals in place of dummies.
 class Replacer {
