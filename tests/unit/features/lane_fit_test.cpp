@@ -1,7 +1,6 @@
 // The fits over lanes: independent of how lanes are put into batches, and equal to the fits of single lanes.
 #include <doctest/doctest.h>
 
-#include <chrono>
 #include <vector>
 
 #include "engine/features/feature.hpp"
