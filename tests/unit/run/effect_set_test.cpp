@@ -26,9 +26,9 @@ enum class UncertainParameters { nothing, sizes, everything };
 EffectSetting setting_of(const Effect& effect, UncertainParameters uncertain) {
   EffectSetting setting{std::string(effect.name), {}};
   for (const EffectParameter& p : effect.parameters) {
-    const double value = p.choices.empty() ? 0.5 * (p.typical + p.standard) : p.standard;
+    const double value = !p.is_code() ? 0.5 * (p.typical + p.standard) : p.standard;
     const bool doubtful =
-        uncertain == UncertainParameters::everything ? p.choices.empty() : uncertain == UncertainParameters::sizes && p.linear;
+        uncertain == UncertainParameters::everything ? !p.is_code() : uncertain == UncertainParameters::sizes && p.linear;
     const double u = doubtful ? 1e-3 * (p.high - p.low) : 0;
     setting.parameters[std::string(p.name)] = {std::clamp(value, p.low, p.high), u, ""};
   }
