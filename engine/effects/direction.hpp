@@ -36,7 +36,7 @@ inline constexpr EffectParameter kElevationParameter{
 
 /// Whether a parameter is such a direction, and not a choice of axes only.
 constexpr bool is_direction(const EffectParameter& p) {
-  return p.name == kDirectionParameter.name && p.choices.size() == std::size(kDirectionChoices);
+  return p.name == kDirectionParameter.name && p.choices.size() == std::size(kDirectionChoices) && p.choices.back() == kDirectionChoices[3];
 }
 
 /// The unit vector that the three parameters at `theta` name.
