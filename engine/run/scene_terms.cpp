@@ -30,10 +30,8 @@ void set_structure(const Machine& machine, TouchScene& scene) {
     scene.lever_mm[k] = lever.at(scene.reading, scene.stylus.tip_from_mount_mm);
     scene.side[k] = lever.sign;
   }
-  // The bridge carries the last horizontal axis of the ram.
-  for (const Axis axis : machine.ram_chain)
-    if (axis != Axis::z) scene.on_bridge = static_cast<int>(axis);
-  scene.on_table = 1 - scene.on_bridge;
+  // A table that moves along y has its guide under it, and leaves the bridge to x.
+  if (machine[Axis::y].table_side && !machine[Axis::x].table_side) scene.on_table = 1, scene.on_bridge = 0;
 }
 
 }  // namespace abbe

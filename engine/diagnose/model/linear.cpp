@@ -5,7 +5,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/base/ids.hpp"
@@ -72,7 +71,6 @@ class Likelihood {
       log_noise += 2 * moments_[g].rows * std::log(h.noise(g));
       prior += std::pow(std::log(h.noise(g)) / kNoisePrior, 2);
     }
-    if (h.scale > model_.largest_scale) return -std::numeric_limits<double>::infinity();
     prior += std::pow(std::log(h.scale) / model_.scale_spread, 2);
     double log_scale = 0;
     for (Eigen::Index k = 0; k < model_.random.cols(); ++k) {

@@ -36,7 +36,7 @@ struct LinearModel {
   Vector noise_um;                  ///< standard deviation of a row as the machine file states it
   std::vector<int> noise_group;     ///< by row
   int noise_groups = 1;
-  double largest_scale = 3;         ///< of group 0: whatever asks for more is no machine of this specification, or not the known one
+  double largest_scale = 3;         ///< of group 0 that is believed: whatever asks for more is no machine of this specification, or not the known one
   double scale_spread = 0.7;        ///< of the logarithm of the scale of group 0: how far a machine's errors may be from the specification's
   std::vector<char> follows;        ///< by row: measured right after the row before, with the same stylus
 };

@@ -179,14 +179,6 @@ TEST_CASE("scale, noise and correlation are found again") {
   CHECK(correlated.correlation < 0.75);
 }
 
-TEST_CASE("no scale above the largest is estimated") {
-  LinearModel m = model_of(400, 5, 1, 0, 3);
-  m.largest_scale = 2;
-  const Hyperparameters h = estimate(m);
-  CHECK(h.scale <= 2);
-  CHECK(h.scale > 1.5);
-}
-
 TEST_CASE("unknowns that the rows do not determine do no harm") {
   LinearModel m = model_of(80, 1, 1, 0, 5);
   m.free.conservativeResize(Eigen::NoChange, 5);
