@@ -263,6 +263,7 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   tell("retract_mm", observed.retracts_mm, length);
   if (options.workpiece) tell("temperature_compensation", observed.compensations, [](bool on) { return on ? "on" : "off"; });
   record.outputs = std::move(observed.outputs);
+  record.acted = std::move(block.acted);
   return record;
 }
 

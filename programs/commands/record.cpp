@@ -53,19 +53,11 @@ EffectSetting effect_setting(const std::string& text) {
   return setting;
 }
 
-bool same_positions(const Recording& a, const Recording& b) {
-  return std::equal(a.rows.begin(), a.rows.end(), b.rows.begin(), b.rows.end(),
-                    [](const RecordingRow& x, const RecordingRow& y) { return x.position_mm == y.position_mm; });
-}
-
-/// Warns of effects without which the same machine would have reported the same: an expansion at 20 degrees C, a head that does not turn.
-template <class Record>
-void tell_idle(const std::vector<std::string>& with, const Machine& machine, const Recording& recording, Record record) {
+/// Warns of effects that did nothing: an expansion at 20 degrees C, a head that does not turn.
+void tell_idle(const std::vector<std::string>& with, const Machine& machine, const std::vector<char>& acted) {
   const std::size_t own = machine.effects.size() - with.size();
   for (std::size_t k = 0; k < with.size(); ++k) {
-    Machine without = machine;
-    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(own + k));
-    if (!same_positions(record(without).recording, recording)) continue;
+    if (acted[own + k]) continue;
     print_messages({diagnostic(Code::W0615, fmt::format("--with {}: it moves no touch of this program", with[k]),
                                fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file", machine.effects[own + k].name))});
   }
@@ -95,8 +87,7 @@ int record_command(const RecordOptions& options) {
   run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
-  const auto recorded = [&](const Machine& as) { return record_plan(plan, as, one, run, program.source); };
-  MachineRecord record = recorded(machine);
+  MachineRecord record = record_plan(plan, machine, one, run, program.source);
   auto& metadata = record.recording.metadata;
   const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
                                                         {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
@@ -104,7 +95,7 @@ int record_command(const RecordOptions& options) {
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);
   write_whole(options.output, to_csv(record.recording));
   if (options.dmo) write_whole(*options.dmo, dmis_result(plan, record.outputs));
-  tell_idle(options.with, machine, record.recording, recorded);
+  tell_idle(options.with, machine, record.acted);
   return kDone;
 }
 
