@@ -41,6 +41,9 @@ class DiagnoseRuns(harness.Case):
         other = self.known("other.csv", code=1)
         self.assertGreater(other["times_known_uncertainty"], 3)
         self.assertIn("W0720", [m["code"] for m in other["messages"]])
+        told = self.abbe("diagnose", "other.csv", "--known", "known.json").stdout
+        self.assertIn("not the machine that its file knows", told)
+        self.assertNotIn("That does not mean that nothing is there", told)
 
     def known(self, recording, code):
         return json.loads(self.abbe("diagnose", recording, "--known", "known.json", "--fail-on-mismatch", "--format", "json", code=code).stdout)

@@ -42,8 +42,9 @@ std::string second_sentence(const Diagnosis& d) {
     if (d.smallest_detectable.empty()) return "";
     const auto best = std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
                                        [](const Detectable& a, const Detectable& b) { return a.detect_um < b.detect_um; });
-    return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).",
-                       d.judged ? "That does not mean that nothing is there: the table says" : "The table says", best->detect_um, best->effect);
+    const char* const but = !d.judged ? "The table says" : d.beyond || d.beyond_known ? "No effect of the catalogue was found that makes it: the table says"
+                                                                                     : "That does not mean that nothing is there: the table says";
+    return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but, best->detect_um, best->effect);
   }
   if (doubtful(d)) parts.push_back(fmt::format("But what it leaves would come by chance in {} of recordings: something else is at work, beside it or instead.", chance(*d.adequacy_p)));
   if (d.verdict == Verdict::cannot_judge) parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
