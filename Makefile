@@ -5,7 +5,7 @@ PYTHON ?= python3
 CLANG  ?= clang++-14
 SECONDS_EACH ?= 300
 
-.PHONY: all setup build run test sanitize fuzz figures evidence clean
+.PHONY: all setup build run test format sanitize fuzz figures evidence clean
 all: build
 
 setup:            ## installs the Debian packages that are missing
@@ -20,6 +20,10 @@ run: build        ## the paper's gauge blocks: our Table 3 beside the paper's
 
 test: build       ## every test
 	@ctest --test-dir $(BUILD) --output-on-failure -j $(JOBS)
+
+format:           ## lays out the C++ files as .clang-format says; needs clang-format 14
+	@command -v clang-format-14 >/dev/null || { echo "make format needs clang-format 14: apt-get install clang-format-14"; exit 1; }
+	@find engine lang programs tests -name '*.cpp' -o -name '*.hpp' | xargs clang-format-14 -i
 
 sanitize: setup   ## ten times as many random and damaged programs under sanitizers as in `make test`
 	@cmake -S . -B $(BUILD) -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null

@@ -6,12 +6,10 @@ namespace abbe::lang {
 
 std::span<const Block> blocks() {
   static constexpr std::array table = {
-      Block{"MEAS", "", "ENDMES"},       Block{"RMEAS", "", "ENDMES"},
-      Block{"CALIB", "", "ENDMES"},      Block{"GOTARG", "", "ENDGO"},
-      Block{"MACRO", "", "ENDMAC"},      Block{"IF", "ELSE", "ENDIF"},
-      Block{"DO", "", "ENDDO"},          Block{"SELECT", "", "ENDSEL"},
-      Block{"CASE", "", "ENDCAS"},       Block{"DFTCAS", "", "ENDCAS"},
-      Block{"XTERN", "", "ENDXTN"},      Block{"CRGDEF", "", "ENDCRG"},
+      Block{"MEAS", "", "ENDMES"},       Block{"RMEAS", "", "ENDMES"},  Block{"CALIB", "", "ENDMES"},
+      Block{"GOTARG", "", "ENDGO"},      Block{"MACRO", "", "ENDMAC"},  Block{"IF", "ELSE", "ENDIF"},
+      Block{"DO", "", "ENDDO"},          Block{"SELECT", "", "ENDSEL"}, Block{"CASE", "", "ENDCAS"},
+      Block{"DFTCAS", "", "ENDCAS"},     Block{"XTERN", "", "ENDXTN"},  Block{"CRGDEF", "", "ENDCRG"},
       Block{"SIMREQT", "", "ENDSIMREQT"}};
   return table;
 }

@@ -23,7 +23,8 @@ constexpr std::size_t kLongestLabel = 64;
 constexpr std::size_t kShortestSlip = 4;
 
 bool in_label(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80 || std::string_view("_-.+").find(c) != std::string_view::npos;
+  return std::isalnum(static_cast<unsigned char>(c)) || static_cast<unsigned char>(c) >= 0x80 ||
+      std::string_view("_-.+").find(c) != std::string_view::npos;
 }
 
 /// Drives the statements of one file through lookup, signature and lowering.
@@ -91,8 +92,7 @@ class Compiler {
     const bool asks = raw.word == "OUTPUT" || raw.word == "EVAL";
     if (lowering_.second_program && asks) lowering_.fail("it belongs to a second program in the file");
     if (!lowering_.second_program && !after_end_reported_) {
-      lowering_.warn(Code::W0224, raw.word_span,
-                     fmt::format("the program ended in line {}", lowering_.end_line),
+      lowering_.warn(Code::W0224, raw.word_span, fmt::format("the program ended in line {}", lowering_.end_line),
                      "move ENDFIL to the end; what follows it is ignored");
       after_end_reported_ = true;
     }
@@ -103,12 +103,10 @@ class Compiler {
     const bool switches = statement.word == "DMESW", begins = statement.word == "DMISMN";
     if (!switches && !begins && outside(raw)) return;
     if (raw.missing_slash && statement.signature.empty())
-      return lowering_.error(Code::E0108, *raw.missing_slash,
-                             fmt::format("{} takes no arguments", statement.word),
+      return lowering_.error(Code::E0108, *raw.missing_slash, fmt::format("{} takes no arguments", statement.word),
                              "a comment begins with $$", "");
     if (raw.missing_slash)
-      return lowering_.error(Code::E0115, *raw.missing_slash,
-                             fmt::format("expected '/' after {}", statement.word),
+      return lowering_.error(Code::E0115, *raw.missing_slash, fmt::format("expected '/' after {}", statement.word),
                              fmt::format("for example: {}", statement.example),
                              fmt::format("/{}", lowering_.file->text(*raw.missing_slash)));
     if (!label_fits(statement, raw) || lowering_.failed) return;
@@ -125,17 +123,21 @@ class Compiler {
     const auto text = [&](const RawArgument& a) {
       for (const MatchedValue& v : match.values)
         if (v.span == a.span && v.type <= ValueType::integer && a.kind != RawArgument::Kind::number)
-          return fmt::format("{}", v.number / (v.type == ValueType::length ? lowering_.units.mm_per_unit : v.type == ValueType::angle ? lowering_.units.rad_per_unit : 1));
+          return fmt::format("{}",
+                             v.number /
+                                 (v.type == ValueType::length      ? lowering_.units.mm_per_unit
+                                      : v.type == ValueType::angle ? lowering_.units.rad_per_unit
+                                                                   : 1));
       return a.text;
     };
     lowering_.settings.set(raw.word, text(raw.arguments.front()));
-    if (raw.arguments.size() > 1) lowering_.settings.set(raw.word + "," + upper(raw.arguments.front().text), text(raw.arguments.back()));
+    if (raw.arguments.size() > 1)
+      lowering_.settings.set(raw.word + "," + upper(raw.arguments.front().text), text(raw.arguments.back()));
   }
 
   void check_name(const LabelRef& label) {
     if (const std::size_t characters = count_characters(label.name); characters > kLongestLabel)
-      lowering_.warn(Code::W0123, label.span,
-                     fmt::format("this label has {} characters", characters),
+      lowering_.warn(Code::W0123, label.span, fmt::format("this label has {} characters", characters),
                      fmt::format("a controller may refuse more than {}", kLongestLabel));
     const auto foreign = std::find_if_not(label.name.begin(), label.name.end(), in_label);
     if (foreign != label.name.end() && !label.kind.empty())
@@ -148,14 +150,13 @@ class Compiler {
     const std::string given = !raw.label ? "" : raw.label->kind.empty() ? "=" : raw.label->kind;
     if (statement.label == "*" || given == statement.label) {
       if (!raw.label || !raw.label->name.empty()) return true;
-      lowering_.error(Code::E0109, raw.label->span, "this label is empty",
-                      "write a name between the parentheses");
+      lowering_.error(Code::E0109, raw.label->span, "this label is empty", "write a name between the parentheses");
       return false;
     }
     lowering_.error(Code::E0109, raw.label ? raw.label->span : raw.word_span,
-                    statement.label.empty()
-                        ? fmt::format("{} takes no label", statement.word)
-                    : statement.label == "=" ? fmt::format("{} needs a variable before it: X={}/...", statement.word, statement.word)
+                    statement.label.empty() ? fmt::format("{} takes no label", statement.word)
+                        : statement.label == "="
+                        ? fmt::format("{} needs a variable before it: X={}/...", statement.word, statement.word)
                         : fmt::format("{} needs a label {}(name)", statement.word, statement.label),
                     fmt::format("for example: {}", statement.example));
     return false;
@@ -164,9 +165,9 @@ class Compiler {
   /// Each word is named once: a program may use it a thousand times.
   void not_supported(const std::string& what, Span span) {
     if (!lowering_.reported_words.insert(what).second) return;
-    lowering_.warn(Code::W0121, span,
-                   fmt::format("{} is not supported yet and is skipped wherever it stands", what),
-                   what == "PAMEAS" ? "its MEAS has the touches of its PTMEAS, or else the default ones" : "results are those of a program without it");
+    lowering_.warn(Code::W0121, span, fmt::format("{} is not supported yet and is skipped wherever it stands", what),
+                   what == "PAMEAS" ? "its MEAS has the touches of its PTMEAS, or else the default ones"
+                                    : "results are those of a program without it");
   }
 
   /// Reports the word; the word that was probably meant, or "".
@@ -174,8 +175,7 @@ class Compiler {
     std::vector<std::string_view> words(standard_words().begin(), standard_words().end());
     const std::string near = nearest_word(raw.word, words);
     if (raw.missing_slash && (near.empty() || raw.word.size() < kShortestSlip)) {
-      lowering_.error(Code::E0101, raw.span,
-                      fmt::format("'{}' is not a statement", lowering_.file->text(raw.span)),
+      lowering_.error(Code::E0101, raw.span, fmt::format("'{}' is not a statement", lowering_.file->text(raw.span)),
                       "a statement is WORD/argument,argument; a comment begins with $$");
       lowering_.failed = false;  // free text takes nothing away
       return "";
@@ -192,15 +192,14 @@ class Compiler {
     const Span last{end > 0 ? end - 1 : 0, end};
     if (lowering_.measuring) {
       const OpenMeasure& block = *lowering_.measuring;
-      lowering_.sink.add(diagnostic_at(lowering_.source, block.span, Code::E0205,
-                                       "this MEAS has no ENDMES",
+      lowering_.sink.add(diagnostic_at(lowering_.source, block.span, Code::E0205, "this MEAS has no ENDMES",
                                        "end the measurement with ENDMES"));
     }
     if (lowering_.external_files)
-      lowering_.sink.add(diagnostic_at(lowering_.source, *lowering_.external_files, Code::E0117, "this XTERN has no ENDXTN", "end the list of external files with ENDXTN"));
+      lowering_.sink.add(diagnostic_at(lowering_.source, *lowering_.external_files, Code::E0117,
+                                       "this XTERN has no ENDXTN", "end the list of external files with ENDXTN"));
     if (lowering_.begin_line == 0 && !lowering_.out.plan.operations.empty())
-      lowering_.warn(Code::W0226, {0, 1}, "the program has no DMISMN",
-                     "begin it with DMISMN/'name',5.2");
+      lowering_.warn(Code::W0226, {0, 1}, "the program has no DMISMN", "begin it with DMISMN/'name',5.2");
     if (lowering_.end_line == 0 && (lowering_.begin_line != 0 || empty))
       lowering_.warn(Code::W0225, last, "the program has no ENDFIL", "end it with ENDFIL");
     check_expectations(lowering_);

@@ -13,13 +13,13 @@ namespace abbe::lang {
 
 /// One `$$! expect` line.
 struct Expectation {
-  std::string subject;       ///< tolerance label, or "accepted" (share of machines that passed the screening)
-  std::string feature;       ///< set when the line names a feature too: expect FA(x) TA(t) ...
-  int occurrence = 0;        ///< 0: every evaluation of that tolerance; else that one
-  std::string quantity;      ///< u, u95, lcl, ucl, mean, value, conformance
-  std::optional<double> low, high;   ///< between a b; >= a; <= b
+  std::string subject;              ///< tolerance label, or "accepted" (share of machines that passed the screening)
+  std::string feature;              ///< set when the line names a feature too: expect FA(x) TA(t) ...
+  int occurrence = 0;               ///< 0: every evaluation of that tolerance; else that one
+  std::string quantity;             ///< u, u95, lcl, ucl, mean, value, conformance
+  std::optional<double> low, high;  ///< between a b; >= a; <= b
   int line = 0;
-  std::string text;          ///< the directive as written
+  std::string text;  ///< the directive as written
 };
 
 /// What the comments that start with `$$!` ask for.
@@ -30,7 +30,7 @@ struct Directives {
   std::optional<std::string> workpiece;
   Span machine_span, workpiece_span;
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in upper case
-  std::optional<Vec3> place_mm;      ///< where the program's machine coordinate system lies in W
+  std::optional<Vec3> place_mm;                ///< where the program's machine coordinate system lies in W
   std::vector<Expectation> expectations;
 };
 
@@ -41,7 +41,7 @@ struct Lost {
 };
 
 struct Compilation {
-  plan::Plan plan;           ///< of the statements without errors
+  plan::Plan plan;  ///< of the statements without errors
   Directives directives;
   std::vector<Lost> lost;
   std::vector<std::string> modules;  ///< files that INCLUD, EXTFIL and CALL read
@@ -53,8 +53,8 @@ struct CompileOptions {
   bool only_valid = false;  ///< what can only be guessed is lost too: default touches in the place of a scan
 };
 
-/// Never throws on a user's text: every mistake goes to the sink, and what can be used is used. Modules are read from the
-/// folder of the file.
+/// Never throws on a user's text: every mistake goes to the sink, and what can be used is used. Modules are
+/// read from the folder of the file.
 Compilation compile(const SourceFile&, Sink&, const CompileOptions& = {});
 
 }  // namespace abbe::lang

@@ -15,21 +15,16 @@ namespace abbe::lang {
 namespace {
 
 constexpr std::array kDirectives = {
-    DirectiveHelp{"machine", "machine NAME",
-                  "machine file, or name of a shipped machine; the command line wins"},
+    DirectiveHelp{"machine", "machine NAME", "machine file, or name of a shipped machine; the command line wins"},
     DirectiveHelp{"machines", "machines N", "how many virtual machines"},
     DirectiveHelp{"seed", "seed N", "seed of the random numbers"},
     DirectiveHelp{"workpiece", "workpiece FILE", "true sizes and calibration of the part"},
-    DirectiveHelp{"place", "place X Y Z",
-                  "where the program's machine coordinate system lies in the machine, mm"},
-    DirectiveHelp{"answer", "answer NAME=VALUE",
-                  "what PROMPT gives to the variable NAME; the command line wins"},
-    DirectiveHelp{"expect",
-                  "expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B",
+    DirectiveHelp{"place", "place X Y Z", "where the program's machine coordinate system lies in the machine, mm"},
+    DirectiveHelp{"answer", "answer NAME=VALUE", "what PROMPT gives to the variable NAME; the command line wins"},
+    DirectiveHelp{"expect", "expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B",
                   "an expected result, checked by `abbe test`; also: expect accepted between A B"}};
 
-constexpr std::array<std::string_view, 7> kQuantities = {"u",    "u95",   "lcl",        "ucl",
-                                                         "mean", "value", "conformance"};
+constexpr std::array<std::string_view, 7> kQuantities = {"u", "u95", "lcl", "ucl", "mean", "value", "conformance"};
 
 struct Token {
   std::string text;
@@ -66,8 +61,7 @@ class DirectiveReader {
       const std::size_t begin = text.find_first_not_of(" \t", i);
       if (begin == std::string::npos) break;
       std::size_t end = begin;
-      for (int depth = 0;
-           end < text.size() && (depth > 0 || (text[end] != ' ' && text[end] != '\t')); ++end)
+      for (int depth = 0; end < text.size() && (depth > 0 || (text[end] != ' ' && text[end] != '\t')); ++end)
         depth += text[end] == '(' ? 1 : text[end] == ')' && depth > 0 ? -1 : 0;
       tokens_.push_back({text.substr(begin, end - begin), comment_.span(begin, end), begin});
       i = end;
@@ -75,10 +69,9 @@ class DirectiveReader {
     whole_ = comment_.span(0, text.size());
   }
 
-  [[noreturn]] void mistake(Code code, Span at, std::string message, std::string help,
-                            std::string replacement = "") {
-    lowering_.sink.add(diagnostic_at(lowering_.source, at, code, std::move(message),
-                                     std::move(help), std::move(replacement)));
+  [[noreturn]] void mistake(Code code, Span at, std::string message, std::string help, std::string replacement = "") {
+    lowering_.sink.add(
+        diagnostic_at(lowering_.source, at, code, std::move(message), std::move(help), std::move(replacement)));
     throw Abandoned{};
   }
 
@@ -87,8 +80,7 @@ class DirectiveReader {
   const Token& take(std::string_view directive, std::string_view expected) {
     if (next_ < tokens_.size()) return tokens_[next_++];
     const Span at = tokens_.empty() ? whole_ : tokens_.back().span;
-    mistake(Code::E0114, at,
-            fmt::format("directive '{}' ends where {} is expected", directive, expected),
+    mistake(Code::E0114, at, fmt::format("directive '{}' ends where {} is expected", directive, expected),
             help_for(directive));
   }
 
@@ -102,8 +94,7 @@ class DirectiveReader {
   static std::optional<Number> whole_number(std::string_view digits) {
     if (digits.starts_with('+')) digits.remove_prefix(1);
     Number value{};
-    const auto [end, failure] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, failure] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (failure != std::errc{} || end != digits.data() + digits.size()) return std::nullopt;
     return value;
   }
@@ -117,8 +108,7 @@ class DirectiveReader {
     else
       value = whole_number<Number>(token.text);
     if (!value)
-      mistake(Code::E0114, token.span,
-              fmt::format("directive '{}': '{}' is not {}", directive, token.text, expected),
+      mistake(Code::E0114, token.span, fmt::format("directive '{}': '{}' is not {}", directive, token.text, expected),
               help_for(directive));
     return *value;
   }
@@ -134,8 +124,7 @@ class DirectiveReader {
       const Span at = peek() ? peek()->span : word.span;
       out.machines = number<int>("machines", "a whole number");
       if (*out.machines < 1)
-        mistake(Code::E0114, at, "directive 'machines': at least one machine is needed",
-                help_for("machines"));
+        mistake(Code::E0114, at, "directive 'machines': at least one machine is needed", help_for("machines"));
     } else if (name == "SEED") {
       out.seed = number<std::uint64_t>("seed", "a whole number");
     } else if (name == "WORKPIECE") {
@@ -173,14 +162,12 @@ class DirectiveReader {
     for (const DirectiveHelp& d : kDirectives) words.push_back(d.word);
     const std::string near = nearest_word(word.text, words);
     mistake(Code::E0113, word.span, fmt::format("'{}' is not a directive", word.text),
-            near.empty() ? fmt::format("known: {}", fmt::join(words, " "))
-                         : fmt::format("did you mean {}?", near),
+            near.empty() ? fmt::format("known: {}", fmt::join(words, " ")) : fmt::format("did you mean {}?", near),
             near);
   }
 
   /// "TA(LEN)" to LEN when the kind is one of the two, else nothing.
-  static std::optional<std::string> label(const std::string& token, std::string_view kind,
-                                          std::string_view other) {
+  static std::optional<std::string> label(const std::string& token, std::string_view kind, std::string_view other) {
     const std::size_t open = token.find('(');
     if (open == std::string::npos || !token.ends_with(')')) return std::nullopt;
     const std::string written = upper(token.substr(0, open));
@@ -206,16 +193,14 @@ class DirectiveReader {
     } else if (upper(first->text) == "ACCEPTED" && e.feature.empty()) {
       e.subject = e.quantity = "accepted";
     } else {
-      mistake(
-          Code::E0114, subject_span,
-          fmt::format("directive 'expect': '{}' is neither TA(label) nor accepted", first->text),
-          help_for("expect"));
+      mistake(Code::E0114, subject_span,
+              fmt::format("directive 'expect': '{}' is neither TA(label) nor accepted", first->text),
+              help_for("expect"));
     }
     bounds(e);
     occurrence(e);
     if (const Token* extra = peek())
-      mistake(Code::E0114, extra->span,
-              fmt::format("directive 'expect' takes no '{}' here", extra->text),
+      mistake(Code::E0114, extra->span, fmt::format("directive 'expect' takes no '{}' here", extra->text),
               help_for("expect"));
     lowering_.expectation_spans.push_back(subject_span);
     lowering_.out.directives.expectations.push_back(std::move(e));
@@ -226,8 +211,7 @@ class DirectiveReader {
     ++next_;
     const Span at = peek() ? peek()->span : whole_;
     e.occurrence = number<int>("expect", "a whole number");
-    if (e.occurrence < 1)
-      mistake(Code::E0114, at, "directive 'expect': occurrences count from 1", help_for("expect"));
+    if (e.occurrence < 1) mistake(Code::E0114, at, "directive 'expect': occurrences count from 1", help_for("expect"));
   }
 
   void quantity(Expectation& e) {
@@ -235,11 +219,10 @@ class DirectiveReader {
     e.quantity = token.text;
     if (std::find(kQuantities.begin(), kQuantities.end(), token.text) != kQuantities.end()) return;
     const std::string near = nearest_word(token.text, {kQuantities.begin(), kQuantities.end()});
-    mistake(Code::E0114, token.span,
-            fmt::format("directive 'expect': '{}' is not a quantity", token.text),
-            near.empty() ? fmt::format("one of {}", fmt::join(kQuantities, " "))
-                         : fmt::format("did you mean {}?", near),
-            near);
+    mistake(
+        Code::E0114, token.span, fmt::format("directive 'expect': '{}' is not a quantity", token.text),
+        near.empty() ? fmt::format("one of {}", fmt::join(kQuantities, " ")) : fmt::format("did you mean {}?", near),
+        near);
   }
 
   void bounds(Expectation& e) {
@@ -257,8 +240,7 @@ class DirectiveReader {
       e.high = number<double>("expect", "a number");
     } else {
       mistake(Code::E0114, relation.span,
-              fmt::format("directive 'expect': '{}' is not between, >= or <=", relation.text),
-              help_for("expect"));
+              fmt::format("directive 'expect': '{}' is not between, >= or <=", relation.text), help_for("expect"));
     }
   }
 
@@ -271,14 +253,12 @@ class DirectiveReader {
 };
 
 int evaluations_of(const plan::Plan& plan, const Expectation& e) {
-  return static_cast<int>(std::count_if(
-      plan.characteristics.begin(), plan.characteristics.end(),
-      [&](const plan::CharacteristicDef& c) {
+  return static_cast<int>(
+      std::count_if(plan.characteristics.begin(), plan.characteristics.end(), [&](const plan::CharacteristicDef& c) {
         return upper(plan[c.tolerance].label) == upper(e.subject) &&
-               (e.feature.empty() ||
-                std::any_of(c.features.begin(), c.features.end(), [&](plan::FeatureId f) {
-                  return upper(plan[f].label) == upper(e.feature);
-                }));
+            (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), [&](plan::FeatureId f) {
+                 return upper(plan[f].label) == upper(e.feature);
+               }));
       }));
 }
 
@@ -294,15 +274,14 @@ bool is_directive(const LogicalLine& line) { return line.comment && line.comment
 
 void read_directives(const LogicalLine& line, Lowering& lowering) {
   if (is_directive(line))
-    DirectiveReader(*line.comment, lowering,
-                    lowering.source.place(line.comment->file_offset(0)).line)
-        .read();
+    DirectiveReader(*line.comment, lowering, lowering.source.place(line.comment->file_offset(0)).line).read();
 }
 
 void refuse_directives(const LogicalLine& line, Lowering& lowering) {
   if (!is_directive(line)) return;
   const JoinedText& comment = *line.comment;
-  lowering.add(diagnostic_at(*lowering.file, comment.span(0, comment.text().size()), Code::E0127, "a directive stands in the program, not in a module",
+  lowering.add(diagnostic_at(*lowering.file, comment.span(0, comment.text().size()), Code::E0127,
+                             "a directive stands in the program, not in a module",
                              fmt::format("move it to '{}'", lowering.source.name())));
 }
 
@@ -313,10 +292,10 @@ void check_expectations(Lowering& lowering) {
     if (e.subject == "accepted" && e.quantity == "accepted") continue;
     const int count = evaluations_of(lowering.out.plan, e);
     if (count >= std::max(1, e.occurrence) || !lowering.out.lost.empty()) continue;
-    lowering.sink.add(diagnostic_at(lowering.source, lowering.expectation_spans[i], Code::E0215,
-                                    fmt::format("TA({}) is evaluated {} time{} in this program",
-                                                e.subject, count, count == 1 ? "" : "s"),
-                                    "expect a tolerance that OUTPUT or EVAL names"));
+    lowering.sink.add(diagnostic_at(
+        lowering.source, lowering.expectation_spans[i], Code::E0215,
+        fmt::format("TA({}) is evaluated {} time{} in this program", e.subject, count, count == 1 ? "" : "s"),
+        "expect a tolerance that OUTPUT or EVAL names"));
   }
 }
 

@@ -40,12 +40,14 @@ struct Operator {
   std::string_view text;
   plan::Op2 op;
 };
-constexpr std::array kComparisons = {
-    Operator{".EQ.", plan::Op2::equal}, Operator{".NE.", plan::Op2::not_equal},     Operator{".LT.", plan::Op2::less},
-    Operator{".LE.", plan::Op2::less_equal}, Operator{".GT.", plan::Op2::greater}, Operator{".GE.", plan::Op2::greater_equal}};
+constexpr std::array kComparisons = {Operator{".EQ.", plan::Op2::equal},   Operator{".NE.", plan::Op2::not_equal},
+                                     Operator{".LT.", plan::Op2::less},    Operator{".LE.", plan::Op2::less_equal},
+                                     Operator{".GT.", plan::Op2::greater}, Operator{".GE.", plan::Op2::greater_equal}};
 constexpr std::array<std::string_view, 5> kDotted = {".AND.", ".OR.", ".NOT.", ".TRUE.", ".FALSE."};
 
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80; }
+bool is_letter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+}
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Recursive descent, one function per level of precedence.
@@ -57,8 +59,9 @@ class Reader {
   Value read() {
     Value v = any();
     skip();
-    if (at_ < text_.size()) fail(at_, text_.size(), fmt::format("'{}' does not belong to this expression", text_.substr(at_)),
-                                 "an operator is missing, or one too many is written");
+    if (at_ < text_.size())
+      fail(at_, text_.size(), fmt::format("'{}' does not belong to this expression", text_.substr(at_)),
+           "an operator is missing, or one too many is written");
     return v;
   }
 
@@ -100,23 +103,31 @@ class Reader {
 
   Value any() {
     if (++depth_ > kMaximumNesting + 1)
-      throw Mistake{Code::E0104, at_, at_ + 1, fmt::format("this is nested deeper than {}", kMaximumNesting), "assign parts of it to variables first", ""};
+      throw Mistake{Code::E0104,
+                    at_,
+                    at_ + 1,
+                    fmt::format("this is nested deeper than {}", kMaximumNesting),
+                    "assign parts of it to variables first",
+                    ""};
     Value left = all();
-    for (std::size_t begin = at_; take(".OR.");) left = logical(plan::Op2::logical_or, ".OR.", std::move(left), all(), begin);
+    for (std::size_t begin = at_; take(".OR.");)
+      left = logical(plan::Op2::logical_or, ".OR.", std::move(left), all(), begin);
     --depth_;
     return left;
   }
 
   Value all() {
     Value left = negation();
-    for (std::size_t begin = at_; take(".AND.");) left = logical(plan::Op2::logical_and, ".AND.", std::move(left), negation(), begin);
+    for (std::size_t begin = at_; take(".AND.");)
+      left = logical(plan::Op2::logical_and, ".AND.", std::move(left), negation(), begin);
     return left;
   }
 
   Value logical(plan::Op2 op, std::string_view word, Value left, const Value& right, std::size_t begin) {
     for (const Value* v : {static_cast<const Value*>(&left), &right})
       if (v->type != Type::boolean)
-        fail(begin, at_, fmt::format("{} joins logical values, this is {}", word, name_of(v->type)), "compare first: (A .GT. 1) .AND. (B .LT. 2)");
+        fail(begin, at_, fmt::format("{} joins logical values, this is {}", word, name_of(v->type)),
+             "compare first: (A .GT. 1) .AND. (B .LT. 2)");
     left.parts[0] = combine(op, std::move(left.parts[0]), right.parts[0]);
     return left;
   }
@@ -130,7 +141,8 @@ class Reader {
       any_not = true;
     }
     Value v = comparison();
-    if (any_not && v.type != Type::boolean) fail(begin, at_, fmt::format(".NOT. takes a logical value, this is {}", name_of(v.type)));
+    if (any_not && v.type != Type::boolean)
+      fail(begin, at_, fmt::format(".NOT. takes a logical value, this is {}", name_of(v.type)));
     if (negate) v.parts[0] = combine(plan::Op1::logical_not, std::move(v.parts[0]));
     return v;
   }
@@ -148,7 +160,9 @@ class Reader {
       if (!numbers && (!same || ordered))
         fail(begin, at_, fmt::format("{} cannot compare {} with {}", o.text, name_of(left.type), name_of(right.type)),
              ordered ? "only numbers have an order" : "compare values of the same type");
-      return located(begin, [&] { return Value{Type::boolean, {combine(o.op, std::move(left.parts[0]), right.parts[0])}}; });
+      return located(begin, [&] {
+        return Value{Type::boolean, {combine(o.op, std::move(left.parts[0]), right.parts[0])}};
+      });
     }
     return left;
   }
@@ -193,7 +207,8 @@ class Reader {
 
   Value signed_value(bool negative, Value v, std::size_t begin) {
     if (!negative) return v;
-    if (!v.is_number() && v.type != Type::vector) fail(begin, at_, fmt::format("a sign before {}", name_of(v.type)), "signs belong to numbers");
+    if (!v.is_number() && v.type != Type::vector)
+      fail(begin, at_, fmt::format("a sign before {}", name_of(v.type)), "signs belong to numbers");
     for (plan::Expression& part : v.parts) part = combine(plan::Op1::negate, std::move(part));
     return v;
   }
@@ -220,10 +235,13 @@ class Reader {
     const bool both = left.is_number() && right.is_number();
     const bool vectors = left.type == Type::vector && right.type == Type::vector && (op == add || op == subtract);
     const bool scaled = left.type == Type::vector && right.is_number() && (op == multiply || op == divide);
-    if (op == multiply && left.is_number() && right.type == Type::vector) return arithmetic(op, std::move(right), std::move(left), begin);
+    if (op == multiply && left.is_number() && right.type == Type::vector)
+      return arithmetic(op, std::move(right), std::move(left), begin);
     if (!both && !vectors && !scaled)
       fail(begin, at_, fmt::format("no arithmetic between {} and {}", name_of(left.type), name_of(right.type)),
-           left.type == Type::text || right.type == Type::text ? "VAL(text) makes a number of a text, CONCAT joins texts" : "");
+           left.type == Type::text || right.type == Type::text
+               ? "VAL(text) makes a number of a text, CONCAT joins texts"
+               : "");
     return located(begin, [&] {
       for (std::size_t k = 0; k < left.parts.size(); ++k)
         left.parts[k] = combine(op, std::move(left.parts[k]), right.parts[vectors ? k : 0]);
@@ -248,7 +266,8 @@ class Reader {
     if (is_digit(c) || c == '.') return literal();
     if (is_letter(c)) return named();
     if (c == '\0') fail(begin == 0 ? 0 : begin - 1, begin, "a value is missing at the end of this expression");
-    fail(begin, begin + 1, fmt::format("a value is expected here, not '{}'", c), "a value is a number, a variable, a function or a text");
+    fail(begin, begin + 1, fmt::format("a value is expected here, not '{}'", c),
+         "a value is a number, a variable, a function or a text");
   }
 
   Value quoted() {
@@ -267,8 +286,9 @@ class Reader {
   /// The dot of 3.EQ.X belongs to the operator.
   bool dot_is_operator() const {
     const std::string next = upper(text_.substr(at_, 7));
-    return std::any_of(kComparisons.begin(), kComparisons.end(), [&](const Operator& o) { return next.starts_with(o.text); }) ||
-           std::any_of(kDotted.begin(), kDotted.end(), [&](std::string_view w) { return next.starts_with(w); });
+    return std::any_of(kComparisons.begin(), kComparisons.end(),
+                       [&](const Operator& o) { return next.starts_with(o.text); }) ||
+        std::any_of(kDotted.begin(), kDotted.end(), [&](std::string_view w) { return next.starts_with(w); });
   }
 
   Value literal() {
@@ -314,16 +334,25 @@ class Reader {
       std::vector<std::string_view> words;
       for (const Intrinsic& f : intrinsics()) words.push_back(f.name);
       const std::string near = nearest_word(name, words);
-      throw Mistake{Code::E0119, begin, name_end, fmt::format("{} is not a function", name),
-                    near.empty() ? "`abbe explain` lists the functions" : fmt::format("did you mean {}?", near), near};
+      throw Mistake{Code::E0119,
+                    begin,
+                    name_end,
+                    fmt::format("{} is not a function", name),
+                    near.empty() ? "`abbe explain` lists the functions" : fmt::format("did you mean {}?", near),
+                    near};
     }
     at_ = name_end;
     if (auto v = located(begin, [&] { return names_.variable(name, std::nullopt); })) return std::move(*v);
     const std::string word = upper(name);
     if (word == "TRUE" || word == "FALSE") return boolean(word == "TRUE");
     const std::string near = names_.near(name);
-    throw Mistake{Code::E0230, begin, name_end, fmt::format("{} is no variable here", name),
-                  near.empty() ? fmt::format("declare it and give it a value: DECL/REAL,{0}, then {0}=ASSIGN/...", name) : fmt::format("did you mean {}?", near), near};
+    throw Mistake{Code::E0230,
+                  begin,
+                  name_end,
+                  fmt::format("{} is no variable here", name),
+                  near.empty() ? fmt::format("declare it and give it a value: DECL/REAL,{0}, then {0}=ASSIGN/...", name)
+                               : fmt::format("did you mean {}?", near),
+                  near};
   }
 
   Value element(std::string_view name, std::size_t begin, char close) {
@@ -331,10 +360,17 @@ class Reader {
     const Value index = any();
     if (peek() != close) fail(open, open + 1, fmt::format("this '{}' is not closed", text_[open]));
     ++at_;
-    if (index.type != Type::integer && !(index.type == Type::real && !index.known()) && !(index.type == Type::real && std::floor(index.constant()) == index.constant()))
+    if (index.type != Type::integer && !(index.type == Type::real && !index.known()) &&
+        !(index.type == Type::real && std::floor(index.constant()) == index.constant()))
       fail(open + 1, at_ - 1, fmt::format("an index is a whole number, this is {}", name_of(index.type)));
     auto v = located(begin, [&] { return names_.variable(name, index); });
-    if (!v) throw Mistake{Code::E0230, begin, open, fmt::format("{} is no variable here", name), fmt::format("declare it: DECL/REAL,{}[10]", name), ""};
+    if (!v)
+      throw Mistake{Code::E0230,
+                    begin,
+                    open,
+                    fmt::format("{} is no variable here", name),
+                    fmt::format("declare it: DECL/REAL,{}[10]", name),
+                    ""};
     return std::move(*v);
   }
 
@@ -346,7 +382,8 @@ class Reader {
       ++at_;
       arguments.push_back(any());
     }
-    if (peek() != ')') fail(at_, at_ + 1, fmt::format("the arguments of {} end with ')'", f.name), fmt::format("write {}", f.form));
+    if (peek() != ')')
+      fail(at_, at_ + 1, fmt::format("the arguments of {} end with ')'", f.name), fmt::format("write {}", f.form));
     ++at_;
     return located(begin, [&] { return apply(f, std::move(arguments), names_.texts()); });
   }

@@ -4,8 +4,9 @@
 // .EQ. .NE. .LT. .LE. .GT. .GE.; .NOT.; .AND.; .OR. Division of whole numbers is not cut off; an assignment to an INTGR
 // variable is. Angles of functions are in radians whatever UNITS says.
 //
-// There is no tree: a statement in a loop is lowered once for every turn, with the values of that turn, so reading the text
-// and evaluating it are one pass. What is known folds; the rest becomes a plan expression (value.hpp).
+// There is no tree: a statement in a loop is lowered once for every turn, with the values of that turn, so
+// reading the text and evaluating it are one pass. What is known folds; the rest becomes a plan expression
+// (value.hpp).
 #pragma once
 
 #include <functional>
@@ -42,8 +43,8 @@ using Evaluation = std::variant<Value, Mistake>;
 /// The value of the bytes [begin, end) of a statement's joined text.
 Evaluation evaluate(std::string_view text, std::size_t begin, std::size_t end, Names&);
 
-/// `left op right` of two plan expressions, folded when both are constants; throws Mistake without a place when there is no
-/// result, or when the expression needs more memory than a machine has for it.
+/// `left op right` of two plan expressions, folded when both are constants; throws Mistake without a place
+/// when there is no result, or when the expression needs more memory than a machine has for it.
 plan::Expression combine(plan::Op2, plan::Expression left, const plan::Expression& right);
 plan::Expression combine(plan::Op1, plan::Expression operand);
 

@@ -26,16 +26,19 @@ void Flow::run(Routine& program) {
 
 void Flow::count() {
   if (++statements_ <= kMaximumStatements) return;
-  lowering_.error(Code::E0120, lowering_.statement->span,
-                  fmt::format("this program has more than {} statements when its loops, jumps and macros are written out", kMaximumStatements),
-                  "does a loop or jump near here ever end?");
+  lowering_.error(
+      Code::E0120, lowering_.statement->span,
+      fmt::format("this program has more than {} statements when its loops, jumps and macros are written out",
+                  kMaximumStatements),
+      "does a loop or jump near here ever end?");
   failed_control();
   throw TooLong{};
 }
 
 void Flow::deepen() {
   if (nesting_ > kMaximumDepth) {  // the program itself is not nested
-    lowering_.error(Code::E0126, lowering_.statement->span, fmt::format("blocks and calls are nested deeper than {}", kMaximumDepth),
+    lowering_.error(Code::E0126, lowering_.statement->span,
+                    fmt::format("blocks and calls are nested deeper than {}", kMaximumDepth),
                     "write the inner blocks as macros that are called one after the other, or as cases of one SELECT");
     failed_control();
     throw TooLong{};
@@ -47,8 +50,8 @@ void Flow::failed_control() {
   if (lowering_.flow_doubt.empty()) lowering_.flow_doubt = lowering_.blame();
 }
 
-/// Lowers the lines [begin, end), which are those of the block that line `level` opens. Returns where a jump leads to that
-/// leaves them.
+/// Lowers the lines [begin, end), which are those of the block that line `level` opens. Returns where a jump
+/// leads to that leaves them.
 Flow::Jump Flow::range(int begin, int end, int level) {
   const Deeper inside(*this);
   const std::vector<Interval> intervals = moving_intervals(level);
@@ -102,7 +105,8 @@ std::optional<Match> Flow::matched(const RawStatement& raw) {
   lowering_.failed = false;
   std::optional<Match> match;
   if (raw.missing_slash && !statement.signature.empty())
-    lowering_.error(Code::E0115, *raw.missing_slash, fmt::format("expected '/' after {}", raw.word), fmt::format("for example: {}", statement.example));
+    lowering_.error(Code::E0115, *raw.missing_slash, fmt::format("expected '/' after {}", raw.word),
+                    fmt::format("for example: {}", statement.example));
   else if (!raw.usable)
     lowering_.fail("the statement is not complete");
   else
@@ -114,9 +118,8 @@ std::optional<Match> Flow::matched(const RawStatement& raw) {
 void Flow::ordinary(const Line& line) {
   const auto needs = [](const LabelRef& label) { return label.name.find('@') != std::string::npos; };
   const bool computed = (line.raw.label && needs(*line.raw.label)) ||
-                        std::any_of(line.raw.arguments.begin(), line.raw.arguments.end(), [&](const RawArgument& a) {
-                          return a.kind == RawArgument::Kind::label && needs(a.label);
-                        });
+      std::any_of(line.raw.arguments.begin(), line.raw.arguments.end(),
+                  [&](const RawArgument& a) { return a.kind == RawArgument::Kind::label && needs(a.label); });
   if (!computed) return lower_ordinary_(line.raw);
   const RawStatement resolved = with_labels(line.raw);
   lower_ordinary_(resolved);
@@ -136,7 +139,9 @@ RawStatement Flow::with_labels(const RawStatement& raw) {
 /// `begin`: where in the statement's text the label begins, or a place before it.
 void Flow::resolve(LabelRef& label, std::size_t begin) {
   const std::string& code = lowering_.statement->code->text();
-  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80; };
+  const auto in_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+  };
   std::string out;
   for (std::size_t at = 0; at < label.name.size() && !lowering_.failed;) {
     if (label.name[at] != '@') {
@@ -145,7 +150,8 @@ void Flow::resolve(LabelRef& label, std::size_t begin) {
     }
     std::size_t end = at + 1;
     while (end < label.name.size() && in_name(label.name[end])) ++end;
-    if (end < label.name.size() && label.name[end] == '[') end = std::min(label.name.find(']', end), label.name.size() - 1) + 1;
+    if (end < label.name.size() && label.name[end] == '[')
+      end = std::min(label.name.find(']', end), label.name.size() - 1) + 1;
     begin = code.find('@', begin) + 1;
     RawArgument variable;
     variable.begin = begin;
@@ -158,12 +164,15 @@ void Flow::resolve(LabelRef& label, std::size_t begin) {
 
 std::string Flow::label_text(const LabelRef& label, const Value& value) {
   if (!value.known()) {
-    lowering_.error(Code::E0231, label.span, fmt::format("the label {}({}) depends on a measured value", label.kind, label.name),
+    lowering_.error(Code::E0231, label.span,
+                    fmt::format("the label {}({}) depends on a measured value", label.kind, label.name),
                     "write the statement once for each label, under IF");
   } else if (value.type == Type::integer) {
     return fmt::format("{}", value.constant());
   } else if (value.type != Type::text) {
-    lowering_.error(Code::E0232, label.span, fmt::format("a label is made of CHAR or INTGR, this is {}", name_of(value.type)), "STR(x) makes a text of a number");
+    lowering_.error(Code::E0232, label.span,
+                    fmt::format("a label is made of CHAR or INTGR, this is {}", name_of(value.type)),
+                    "STR(x) makes a text of a number");
   } else {
     const std::string& text = lowering_.texts[value];
     return text.substr(0, text.find_last_not_of(' ') + 1);
@@ -196,8 +205,11 @@ void Flow::finish_plan() {
     int* target = target_of(action);
     if (!target) continue;
     const int label = *target;
-    *target = label == kDropped ? i + 1 : positions_[static_cast<std::size_t>(label)] < 0 ? count : positions_[static_cast<std::size_t>(label)];
-    const bool passes = *target > i && std::none_of(kept.begin() + i + 1, kept.begin() + *target, [](char k) { return k != 0; });
+    *target = label == kDropped                           ? i + 1
+        : positions_[static_cast<std::size_t>(label)] < 0 ? count
+                                                          : positions_[static_cast<std::size_t>(label)];
+    const bool passes =
+        *target > i && std::none_of(kept.begin() + i + 1, kept.begin() + *target, [](char k) { return k != 0; });
     if (std::holds_alternative<plan::Jump>(action) && passes) kept[static_cast<std::size_t>(i)] = 0;
   }
   std::vector<int> moved(operations.size() + 1, 0);

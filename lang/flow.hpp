@@ -1,13 +1,15 @@
 // Control flow: IF, DO, SELECT, JUMPTO, MACRO, CALL and modules, lowered to the plan.
 //
-// The compiler follows the program as a controller would. What it can decide by itself costs nothing at run time: the branch
-// that is taken, the turns of a DO, the body of a macro are written out, so labels may be computed and every turn has features
-// of its own. Where a decision depends on what is measured, virtual machines may part; then both branches are lowered, a loop
-// is lowered once, and jumps of the plan lead the machines (docs/architecture.md, "Running a plan").
+// The compiler follows the program as a controller would. What it can decide by itself costs nothing at run
+// time: the branch that is taken, the turns of a DO, the body of a macro are written out, so labels may be
+// computed and every turn has features of its own. Where a decision depends on what is measured, virtual
+// machines may part; then both branches are lowered, a loop is lowered once, and jumps of the plan lead the
+// machines (docs/architecture.md, "Running a plan").
 //
-// A jump that only some machines take is found while the program is lowered, but what lies between it and its target has to be
-// lowered for parted machines from the start. So lowering goes on to the end, to find as many of these *moving* jumps as can be
-// found, and then the program is lowered again; each time there is at least one more, and a program has finitely many.
+// A jump that only some machines take is found while the program is lowered, but what lies between it and its
+// target has to be lowered for parted machines from the start. So lowering goes on to the end, to find as
+// many of these *moving* jumps as can be found, and then the program is lowered again; each time there is at
+// least one more, and a program has finitely many.
 #pragma once
 
 #include <functional>
@@ -30,8 +32,8 @@ struct TooLong {};
 inline constexpr int kMaximumStatements = 200'000;
 /// How deep macros and modules may call each other.
 inline constexpr int kMaximumCalls = 32;
-/// How deep blocks, cases of a SELECT and what macros and modules hold may be nested in all, so that no input can exhaust the
-/// stack. `kMaximumNesting` of the parser does the same for parentheses.
+/// How deep blocks, cases of a SELECT and what macros and modules hold may be nested in all, so that no input
+/// can exhaust the stack. `kMaximumNesting` of the parser does the same for parentheses.
 inline constexpr int kMaximumDepth = 256;
 /// A DO with more turns than this is a loop of the plan: its labels cannot be computed then.
 inline constexpr int kMaximumTurns = 1000;
@@ -57,9 +59,9 @@ class Flow {
   /// A target that machines jump to while they are parted.
   struct Target {
     int label;
-    VariableNames names;           ///< what may change in its region
-    std::optional<State> passed;   ///< what held when it was lowered
-    std::vector<State> arrivals;   ///< of jumps forward to it
+    VariableNames names;          ///< what may change in its region
+    std::optional<State> passed;  ///< what held when it was lowered
+    std::vector<State> arrivals;  ///< of jumps forward to it
   };
   /// Counts how deep what is lowered is nested, while it lives. Throws TooLong.
   class Deeper {
@@ -91,7 +93,9 @@ class Flow {
   void part();
   void meet() { --lowering_.parted; }
   int new_label();
-  void place(int label) { positions_[static_cast<std::size_t>(label)] = static_cast<int>(lowering_.out.plan.operations.size()); }
+  void place(int label) {
+    positions_[static_cast<std::size_t>(label)] = static_cast<int>(lowering_.out.plan.operations.size());
+  }
   void finish_plan();
 
   // flow_blocks.cpp
@@ -131,8 +135,8 @@ class Flow {
   Moving& moving_;
   std::function<void(const RawStatement&)> lower_ordinary_;
   Routine* routine_ = nullptr;
-  std::map<int, Target> targets_;    ///< of the routine, by line
-  std::vector<int> positions_;       ///< of labels, operations; -1 before they are placed
+  std::map<int, Target> targets_;  ///< of the routine, by line
+  std::vector<int> positions_;     ///< of labels, operations; -1 before they are placed
   std::map<std::string, Macro> macros_;
   std::map<std::string, Module> modules_;  ///< by path
   int statements_ = 0, calls_ = 0, depth_ = 0, nesting_ = 0;

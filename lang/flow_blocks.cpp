@@ -40,7 +40,8 @@ void Flow::check_measurement(const State& other) {
   if (!other.reachable || !lowering_.reachable) return;
   const auto& mine = lowering_.measuring;
   const auto& theirs = other.measuring;
-  const bool same = mine.has_value() == theirs.has_value() && (!mine || mine->first_operation == theirs->first_operation);
+  const bool same =
+      mine.has_value() == theirs.has_value() && (!mine || mine->first_operation == theirs->first_operation);
   if (same) return;
   const OpenMeasure& open = mine ? *mine : *theirs;
   lowering_.failed = false;
@@ -68,7 +69,9 @@ namespace {
 
 bool goes_on(double i, double limit, double step) { return step > 0 ? i <= limit : i >= limit; }
 
-Value number_of(const MatchedValue& v, const Value& known) { return v.column.valid() ? Value{Type::real, {{plan::PushColumn{v.column}}}} : known; }
+Value number_of(const MatchedValue& v, const Value& known) {
+  return v.column.valid() ? Value{Type::real, {{plan::PushColumn{v.column}}}} : known;
+}
 
 }  // namespace
 
@@ -87,8 +90,8 @@ Flow::Step Flow::loop(int at) {
     return {end + 1, std::nullopt};
   }
   const VariableNames names = assigned(at + 1, end);
-  const bool known = !first->column.valid() && !limit->column.valid() && !(step && step->column.valid()) && !names.all &&
-                     names.names.count(variable) == 0;
+  const bool known = !first->column.valid() && !limit->column.valid() && !(step && step->column.valid()) &&
+      !names.all && names.names.count(variable) == 0;
   if (known && (limit->number - first->number) / by < kMaximumTurns)
     return {end + 1, written_out(at, variable, first->number, limit->number, by)};
   rolled(at, variable, *match);
@@ -137,7 +140,8 @@ void Flow::rolled(int at, const std::string& variable, const Match& match) {
   const plan::Expression to = number_of(*limit, number(limit->number)).parts[0];
   const Value by = step ? number_of(*step, number(step->number)) : number(1);
   if (by.known()) {
-    lowering_.emit(plan::JumpUnless{combine(by.constant() > 0 ? Op2::less_equal : Op2::greater_equal, index().parts[0], to), out});
+    lowering_.emit(
+        plan::JumpUnless{combine(by.constant() > 0 ? Op2::less_equal : Op2::greater_equal, index().parts[0], to), out});
   } else {  // (limit - i) step >= 0
     const plan::Expression way = combine(Op2::multiply, combine(Op2::subtract, to, index().parts[0]), by.parts[0]);
     lowering_.emit(plan::JumpUnless{combine(Op2::greater_equal, way, {plan::PushConstant{0}}), out});
@@ -167,7 +171,8 @@ Flow::Step Flow::choice(int at) {
   const auto match = matched((*routine_)[at].raw);
   if (!match) return {end + 1, std::nullopt};
   Value value = *match->find("value")->value;
-  if (!value.known() && value.parts.size() == 1) value.parts[0] = {plan::PushColumn{lowering_.evaluated(value.parts[0])}};
+  if (!value.known() && value.parts.size() == 1)
+    value.parts[0] = {plan::PushColumn{lowering_.evaluated(value.parts[0])}};
   std::vector<int> cases;
   int fallback = -1;
   for (int k = at + 1; k < end; ++k) {
@@ -191,7 +196,8 @@ Flow::Jump Flow::choose(const std::vector<int>& cases, std::size_t first, int fa
       continue;
     }
     const int begin = (*routine_)[at].parent + 1, end = routine_->end_of((*routine_)[at].parent);
-    branch(begin, end, *condition, [&] { return body(at); }, [&] { return choose(cases, first + 1, fallback, value); });
+    branch(
+        begin, end, *condition, [&] { return body(at); }, [&] { return choose(cases, first + 1, fallback, value); });
     return std::nullopt;
   }
   return fallback < 0 ? Jump{} : body(fallback);
@@ -203,9 +209,12 @@ std::optional<plan::Expression> Flow::case_condition(int at, const Value& value)
   if (!match) return std::nullopt;
   std::optional<plan::Expression> any;
   for (const MatchedValue& v : match->values) {
-    const bool comparable = value.type != Type::vector && (v.value->type == value.type || (v.value->is_number() && value.is_number()));
+    const bool comparable =
+        value.type != Type::vector && (v.value->type == value.type || (v.value->is_number() && value.is_number()));
     if (!comparable) {
-      lowering_.error(Code::E0232, v.span, fmt::format("this case is {}, SELECT chooses by {}", name_of(v.value->type), name_of(value.type)), "compare values of one type");
+      lowering_.error(Code::E0232, v.span,
+                      fmt::format("this case is {}, SELECT chooses by {}", name_of(v.value->type), name_of(value.type)),
+                      "compare values of one type");
       failed_control();
       return std::nullopt;
     }

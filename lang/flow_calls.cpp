@@ -30,7 +30,8 @@ void Flow::define_macro(int at) {
   if (!line.raw.label || line.raw.label->kind != "M" || line.partner < 0) {
     lowering_.statement = &line.raw;
     lowering_.failed = false;
-    if (line.partner >= 0) lowering_.error(Code::E0109, line.raw.word_span, "MACRO needs a label M(name)", "for example: M(HOLE)=MACRO/X,Y");
+    if (line.partner >= 0)
+      lowering_.error(Code::E0109, line.raw.word_span, "MACRO needs a label M(name)", "for example: M(HOLE)=MACRO/X,Y");
     return;
   }
   macros_[upper(line.raw.label->name)] = macro_at(*routine_, at);
@@ -40,7 +41,8 @@ void Flow::call(int at) {
   const RawStatement& raw = (*routine_)[at].raw;
   if (!matched(raw)) return;
   if (raw.arguments.empty()) {
-    lowering_.error(Code::E0107, raw.span, "CALL ends where a macro is expected", "write CALL/M(name),argument,argument");
+    lowering_.error(Code::E0107, raw.span, "CALL ends where a macro is expected",
+                    "write CALL/M(name),argument,argument");
     return failed_control();
   }
   const RawArgument* macro = labelled_argument(raw, "M");
@@ -51,7 +53,8 @@ void Flow::call(int at) {
   } else if (external && raw.arguments.size() >= 3 && is_word(raw.arguments[1], "DMIS")) {
     run_module(raw.arguments[2], false);
   } else if (external) {
-    lowering_.warn(Code::W0122, raw.span, "a program outside DMIS is not called here", "the results are those without it");
+    lowering_.warn(Code::W0122, raw.span, "a program outside DMIS is not called here",
+                   "the results are those without it");
   } else {
     lowering_.error(Code::E0240, raw.span, "CALL names no macro", "write CALL/M(name),argument,argument");
     failed_control();
@@ -64,8 +67,12 @@ void Flow::warn_of_variable(const Macro& macro, const std::string& dummy, const 
   if (name.starts_with('(') && name.ends_with(')')) name = name.substr(1, name.size() - 2);
   const Variable* variable = actual.kind == ArgumentKind::text ? nullptr : find_variable(lowering_, name);
   if (variable && variable->type == Type::text)
-    lowering_.warn(Code::W0227, actual.span, fmt::format("M({0}) takes '{1}' as it is written: here the name {2}, not what the variable {2} holds", macro.name, dummy, name),
-                   fmt::format("write '{}' if that is meant; for what the variable holds, MACRO/{} without quotes and F(@{})", name, dummy, dummy));
+    lowering_.warn(
+        Code::W0227, actual.span,
+        fmt::format("M({0}) takes '{1}' as it is written: here the name {2}, not what the variable {2} holds",
+                    macro.name, dummy, name),
+        fmt::format("write '{}' if that is meant; for what the variable holds, MACRO/{} without quotes and F(@{})",
+                    name, dummy, dummy));
 }
 
 void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actuals) {
@@ -75,20 +82,25 @@ void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actual
     std::vector<std::string_view> names;
     for (const auto& [key, macro] : macros_) names.push_back(macro.name);
     const std::string near = nearest_word(label.name, names);
-    lowering_.error(Code::E0240, label.span, fmt::format("there is no macro M({})", label.name),
-                    near.empty() ? "define it: M(name)=MACRO/arguments ... ENDMAC" : fmt::format("did you mean M({})?", near), near.empty() ? "" : fmt::format("M({})", near));
+    lowering_.error(
+        Code::E0240, label.span, fmt::format("there is no macro M({})", label.name),
+        near.empty() ? "define it: M(name)=MACRO/arguments ... ENDMAC" : fmt::format("did you mean M({})?", near),
+        near.empty() ? "" : fmt::format("M({})", near));
     return failed_control();
   }
   const Macro macro = found->second;
   if (macro.dummies.size() != actuals.size()) {
-    lowering_.error(Code::E0240, raw.span, fmt::format("M({}) takes {} argument{}, {} given", macro.name, macro.dummies.size(), macro.dummies.size() == 1 ? "" : "s", actuals.size()),
+    lowering_.error(Code::E0240, raw.span,
+                    fmt::format("M({}) takes {} argument{}, {} given", macro.name, macro.dummies.size(),
+                                macro.dummies.size() == 1 ? "" : "s", actuals.size()),
                     "write one for each argument of its MACRO statement");
     return failed_control();
   }
   for (std::size_t k = 0; k < actuals.size(); ++k)
     if (macro.dummies[k].kind == ArgumentKind::text) warn_of_variable(macro, macro.dummies[k].text, actuals[k]);
   if (depth_ >= kMaximumCalls) {
-    lowering_.error(Code::E0237, raw.span, fmt::format("macros call each other more than {} deep", kMaximumCalls), "does M(" + macro.name + ") call itself without end?");
+    lowering_.error(Code::E0237, raw.span, fmt::format("macros call each other more than {} deep", kMaximumCalls),
+                    "does M(" + macro.name + ") call itself without end?");
     failed_control();
     throw TooLong{};
   }
@@ -112,7 +124,8 @@ void Flow::inside(Routine& routine, std::string where, std::string scope) {
   Routine* saved_routine = std::exchange(routine_, &routine);
   std::map<int, Target> saved_targets = std::exchange(targets_, {});
   std::string saved_call = std::exchange(lowering_.call, std::move(where));
-  if (routine.file != &lowering_.source && !lowering_.place) lowering_.place = std::pair{statement->span, statement->line};
+  if (routine.file != &lowering_.source && !lowering_.place)
+    lowering_.place = std::pair{statement->span, statement->line};
   if (routine.file == &lowering_.source) lowering_.place.reset();
   if (!scope.empty()) lowering_.scopes.push_back(scope);
   ++depth_;
@@ -139,7 +152,8 @@ void Flow::module(int at) {
 void Flow::run_module(const RawArgument& name, bool only_macros) {
   const RawStatement& raw = *lowering_.statement;
   if (depth_ >= kMaximumCalls) {
-    lowering_.error(Code::E0237, raw.span, fmt::format("modules include each other more than {} deep", kMaximumCalls), "does a module include itself?");
+    lowering_.error(Code::E0237, raw.span, fmt::format("modules include each other more than {} deep", kMaximumCalls),
+                    "does a module include itself?");
     failed_control();
     throw TooLong{};
   }
@@ -172,8 +186,10 @@ Flow::Module* Flow::load(const RawArgument& name) {
   if (!fs::is_regular_file(file, ignored)) file = folder / (path + ".dmi");
   if (name.kind != ArgumentKind::text || !fs::is_regular_file(file, ignored)) {
     lowering_.error(Code::E0241, name.span,
-                    name.kind == ArgumentKind::text ? fmt::format("there is no file '{}' beside the program", name.text) : fmt::format("'{}' is no file name", name.text),
-                    name.kind == ArgumentKind::text ? "put the module into the folder of the program" : "write the name of the file in quotes");
+                    name.kind == ArgumentKind::text ? fmt::format("there is no file '{}' beside the program", name.text)
+                                                    : fmt::format("'{}' is no file name", name.text),
+                    name.kind == ArgumentKind::text ? "put the module into the folder of the program"
+                                                    : "write the name of the file in quotes");
     return nullptr;
   }
   Module& module = modules_[file.string()];

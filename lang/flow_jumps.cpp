@@ -1,7 +1,7 @@
 // JUMPTO and its targets.
 //
-// While all machines are together a jump just says where to go on. Where they may be parted, everything between a jump and its
-// target is a *region*: lowered once, with labels at its targets.
+// While all machines are together a jump just says where to go on. Where they may be parted, everything
+// between a jump and its target is a *region*: lowered once, with labels at its targets.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,14 +35,18 @@ Flow::Step Flow::jump(int at) {
     std::vector<std::string_view> names;
     for (const auto& [key, target] : routine_->targets) names.push_back(key);
     const std::string near = nearest_word(name, names);
-    lowering_.error(Code::E0233, raw.span, name.empty() ? "JUMPTO names no target" : fmt::format("there is no target ({})", name),
-                    near.empty() ? "write the target (NAME) alone on a line, and JUMPTO/(NAME)" : fmt::format("did you mean ({})?", near));
+    lowering_.error(Code::E0233, raw.span,
+                    name.empty() ? "JUMPTO names no target" : fmt::format("there is no target ({})", name),
+                    near.empty() ? "write the target (NAME) alone on a line, and JUMPTO/(NAME)"
+                                 : fmt::format("did you mean ({})?", near));
     failed_control();
     return nowhere;
   }
   const int target = found->second;
   if (!routine_->within(at, (*routine_)[target].parent)) {
-    lowering_.error(Code::E0234, raw.span, fmt::format("({}) in line {} stands inside a block that this jump is outside of", name, (*routine_)[target].raw.line),
+    lowering_.error(Code::E0234, raw.span,
+                    fmt::format("({}) in line {} stands inside a block that this jump is outside of", name,
+                                (*routine_)[target].raw.line),
                     "a jump may leave blocks, not enter them");
     failed_control();
     return nowhere;
@@ -63,7 +67,8 @@ Flow::Step Flow::jump(int at) {
   return nowhere;
 }
 
-/// The lines of the block `level` that moving jumps pass, each from the block that the jump stands in to its target or back.
+/// The lines of the block `level` that moving jumps pass, each from the block that the jump stands in to its
+/// target or back.
 std::vector<Flow::Interval> Flow::moving_intervals(int level) const {
   std::vector<Interval> intervals;
   if (moving_.empty()) return intervals;
@@ -71,7 +76,8 @@ std::vector<Flow::Interval> Flow::moving_intervals(int level) const {
     const Line& line = (*routine_)[k];
     if (!moving_.count({routine_->file->name(), line.raw.span.begin})) continue;
     const auto target = routine_->targets.find(upper(target_name(line.raw)));
-    if (target == routine_->targets.end() || (*routine_)[target->second].parent != level || !routine_->within(k, level)) continue;
+    if (target == routine_->targets.end() || (*routine_)[target->second].parent != level || !routine_->within(k, level))
+      continue;
     int top = k;
     while ((*routine_)[top].parent != level) top = (*routine_)[top].parent;
     if ((*routine_)[top].control == Control::otherwise) top = opener_of(top);
@@ -88,7 +94,8 @@ std::optional<Flow::Interval> Flow::region_at(int at, const std::vector<Interval
   for (bool grown = region.has_value(); grown;) {
     grown = false;
     for (const Interval& i : intervals) {
-      if (i.last < region->first || i.first > region->last || (i.first >= region->first && i.last <= region->last)) continue;
+      if (i.last < region->first || i.first > region->last || (i.first >= region->first && i.last <= region->last))
+        continue;
       region = Interval{std::min(i.first, region->first), std::max(i.last, region->last)};
       grown = true;
     }
@@ -103,7 +110,8 @@ int Flow::opener_of(int otherwise) const {
   return otherwise;
 }
 
-/// Lowers the lines of a region once, for machines that may be anywhere in it. `entry`: where they come in, when not at the top.
+/// Lowers the lines of a region once, for machines that may be anywhere in it. `entry`: where they come in,
+/// when not at the top.
 void Flow::region(Interval lines, std::optional<int> entry) {
   lowering_.statement = &(*routine_)[lines.first].raw;
   const VariableNames names = assigned(lines.first, lines.last + 1);
@@ -115,7 +123,8 @@ void Flow::region(Interval lines, std::optional<int> entry) {
   targets_ = outside;
   const int level = (*routine_)[lines.first].parent;
   for (const auto& [name, at] : routine_->targets)
-    if (at >= lines.first && at <= lines.last && (*routine_)[at].parent == level) targets_[at] = {new_label(), names, std::nullopt, {}};
+    if (at >= lines.first && at <= lines.last && (*routine_)[at].parent == level)
+      targets_[at] = {new_label(), names, std::nullopt, {}};
   part();
   ++lowering_.looping;
   if (entry) {
@@ -153,9 +162,11 @@ void Flow::check_same_meaning(const State& passed) {
     now.differences(then, [&](const std::string& name, const auto* is, const auto& was) {
       if (!is || meaning(*is) == meaning(was)) return;
       lowering_.failed = false;
-      lowering_.error(Code::E0238, lowering_.statement->span,
-                      fmt::format("{}({}) was something else on the turn before, and machines take different numbers of turns here", kind, name),
-                      "define it before the loop, or give it another label inside");
+      lowering_.error(
+          Code::E0238, lowering_.statement->span,
+          fmt::format("{}({}) was something else on the turn before, and machines take different numbers of turns here",
+                      kind, name),
+          "define it before the loop, or give it another label inside");
       failed_control();
     });
   };
@@ -163,7 +174,8 @@ void Flow::check_same_meaning(const State& passed) {
   differs(passed.symbols.features, lowering_.symbols.features, "F", id);
   differs(passed.symbols.datums, lowering_.symbols.datums, "DAT", id);
   differs(passed.symbols.sensors, lowering_.symbols.sensors, "S", id);
-  differs(passed.symbols.tolerances, lowering_.symbols.tolerances, "T", [](const ToleranceSymbol& t) { return t.span.begin; });
+  differs(passed.symbols.tolerances, lowering_.symbols.tolerances, "T",
+          [](const ToleranceSymbol& t) { return t.span.begin; });
 }
 
 }  // namespace abbe::lang

@@ -9,7 +9,8 @@ namespace {
 
 /// Labels of either path; one that means different things on them is ambiguous from here on.
 template <class Symbol, class Meaning>
-void merge_labels(Symbols::Labels<Symbol>& into, const Symbols::Labels<Symbol>& other, std::string_view kind, Symbols& symbols, Meaning meaning) {
+void merge_labels(Symbols::Labels<Symbol>& into, const Symbols::Labels<Symbol>& other, std::string_view kind,
+                  Symbols& symbols, Meaning meaning) {
   const Symbols::Labels<Symbol> ours = into;
   ours.differences(other, [&](const std::string& name, const Symbol* mine, const Symbol& theirs) {
     if (!mine)
@@ -63,9 +64,10 @@ void merge(State& into, const State& other) {
     if ((into.*doubt).empty()) into.*doubt = other.*doubt;
   into.setting_doubts.insert(other.setting_doubts.begin(), other.setting_doubts.end());
   const SharedMap<std::string, std::string> settings = into.settings;
-  other.settings.differences(settings, [&](const std::string& word, const std::string* theirs, const std::string& ours) {
-    if (!theirs || *theirs != ours) into.settings.erase(word);
-  });
+  other.settings.differences(settings,
+                             [&](const std::string& word, const std::string* theirs, const std::string& ours) {
+                               if (!theirs || *theirs != ours) into.settings.erase(word);
+                             });
   merge(into.variables, other.variables);
 }
 

@@ -12,13 +12,11 @@ namespace {
 
 /// The name of the first label of these kinds after the statement's word, or nothing. Read off the
 /// text, because a statement with an error may have no arguments, or two in one.
-std::optional<std::string> label_argument(const Lowering& lowering, const RawStatement& raw,
-                                          std::string_view kind, std::string_view other) {
-  const std::string_view text =
-      lowering.file->text({raw.word_span.end, std::max(raw.word_span.end, raw.span.end)});
+std::optional<std::string> label_argument(const Lowering& lowering, const RawStatement& raw, std::string_view kind,
+                                          std::string_view other) {
+  const std::string_view text = lowering.file->text({raw.word_span.end, std::max(raw.word_span.end, raw.span.end)});
   constexpr std::string_view kEnds = "/=,( \t";
-  for (std::size_t open = text.find('('); open != std::string_view::npos;
-       open = text.find('(', open + 1)) {
+  for (std::size_t open = text.find('('); open != std::string_view::npos; open = text.find('(', open + 1)) {
     const std::size_t before = text.find_last_of(kEnds, open == 0 ? 0 : open - 1);
     const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
     const std::string found = upper(text.substr(begin, open - begin));
@@ -29,8 +27,7 @@ std::optional<std::string> label_argument(const Lowering& lowering, const RawSta
 }
 
 /// A measurement of this label cannot be relied on, if the feature is defined.
-void spoil_actual(Lowering& lowering, const std::optional<std::string>& label,
-                  const std::string& reason) {
+void spoil_actual(Lowering& lowering, const std::optional<std::string>& label, const std::string& reason) {
   if (!label) return;
   if (const plan::FeatureId* feature = lowering.symbols.features.find(upper(*label)))
     lowering.actuals.set(feature->value, {false, reason});
@@ -40,8 +37,7 @@ bool one_of(std::string_view word, std::initializer_list<std::string_view> list)
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_view word,
-                       const std::string& reason) {
+void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_view word, const std::string& reason) {
   if (lowering.measuring) {
     if (lowering.measuring->spoilt.empty()) lowering.measuring->spoilt = reason;
   } else if (one_of(word, {"MEAS", "RMEAS", "CALIB"})) {
@@ -55,7 +51,8 @@ void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_
   }
 }
 
-/// Words that say how touches are made, compensated and fitted; the first argument of some says what of several things they set.
+/// Words that say how touches are made, compensated and fitted; the first argument of some says what of
+/// several things they set.
 bool is_setting(std::string_view word) {
   return one_of(word, {"PRCOMP", "TECOMP", "FLY", "MODE", "SNSMNT", "SNSET", "FEDRAT", "ACLRAT", "GEOALG"});
 }
@@ -75,7 +72,9 @@ bool decides(std::string_view word) {
 void settle(Lowering& lowering, const RawStatement& raw) {
   const std::string setting = setting_of(raw, raw.word);
   const bool all = setting == "GEOALG/ALL";
-  std::erase_if(lowering.setting_doubts, [&](const auto& doubt) { return doubt.first == setting || (all && doubt.first.starts_with("GEOALG")); });
+  std::erase_if(lowering.setting_doubts, [&](const auto& doubt) {
+    return doubt.first == setting || (all && doubt.first.starts_with("GEOALG"));
+  });
 }
 
 void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view word) {
@@ -96,8 +95,7 @@ void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view wor
   if (one_of(word, {"OUTPUT", "EVAL"}) &&
       std::none_of(lowering.out.lost.begin(), lowering.out.lost.end(),
                    [&](const Lost& l) { return l.line == raw.line; })) {
-    lowering.out.lost.push_back(
-        {raw.line, label_argument(lowering, raw, "FA", "F").value_or(""), lowering.failure});
+    lowering.out.lost.push_back({raw.line, label_argument(lowering, raw, "FA", "F").value_or(""), lowering.failure});
   }
 }
 

@@ -25,18 +25,14 @@ std::string quoted(std::string_view text) {
 
 std::string written(const RawArgument& argument) {
   switch (argument.kind) {
-    case RawArgument::Kind::text:
-      return quoted(argument.text);
-    case RawArgument::Kind::label:
-      return written(argument.label);
+    case RawArgument::Kind::text: return quoted(argument.text);
+    case RawArgument::Kind::label: return written(argument.label);
     case RawArgument::Kind::word: {
       const std::string word = upper(argument.text);
-      const std::string_view plain =
-          word.starts_with('+') ? std::string_view(word).substr(1) : std::string_view(word);
+      const std::string_view plain = word.starts_with('+') ? std::string_view(word).substr(1) : std::string_view(word);
       return minor_words().contains(plain) ? word : argument.text;  // else perhaps a variable
     }
-    default:
-      return argument.text;
+    default: return argument.text;
   }
 }
 
@@ -71,8 +67,7 @@ std::string_view first_line_end(std::string_view text) {
 
 class Formatter {
  public:
-  explicit Formatter(const SourceFile& source)
-      : source_(source), line_end_(first_line_end(source.text())) {}
+  explicit Formatter(const SourceFile& source) : source_(source), line_end_(first_line_end(source.text())) {}
 
   std::string run() {
     const std::vector<LogicalLine> lines = logical_lines(source_);
@@ -81,8 +76,7 @@ class Formatter {
       one(lines[i]);
     }
     while (!out_.empty() && out_.back().empty()) out_.pop_back();
-    std::string text =
-        source_.text().starts_with(kByteOrderMark) ? std::string(kByteOrderMark) : "";
+    std::string text = source_.text().starts_with(kByteOrderMark) ? std::string(kByteOrderMark) : "";
     for (const std::string& line : out_) text.append(line).append(line_end_);
     return text;
   }
@@ -103,9 +97,7 @@ class Formatter {
     depth_ += nesting.after;
   }
 
-  std::size_t indent() const {
-    return kIndent * static_cast<std::size_t>(std::min(depth_, kDeepest));
-  }
+  std::size_t indent() const { return kIndent * static_cast<std::size_t>(std::min(depth_, kDeepest)); }
 
   void statement(const LogicalLine& line, const RawStatement& raw) {
     std::string current(indent(), ' ');
@@ -133,8 +125,7 @@ class Formatter {
     const int first = source_.place(begin).line;
     for (int number = first; number <= last_line_; ++number) {
       const std::string_view text = source_.line(number);
-      const std::string_view kept =
-          number == first ? text.substr(begin - source_.line_begin(number)) : text;
+      const std::string_view kept = number == first ? text.substr(begin - source_.line_begin(number)) : text;
       out_.push_back((number == first ? before : "") + std::string(without_blanks_at_end(kept)));
     }
   }
@@ -142,8 +133,7 @@ class Formatter {
   void unchanged(const LogicalLine& line) {
     for (int number = line.line; number <= last_line_; ++number) {
       std::string_view text = source_.line(number);
-      if (number == 1 && text.starts_with(kByteOrderMark))
-        text.remove_prefix(kByteOrderMark.size());
+      if (number == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
       out_.emplace_back(text);
     }
   }

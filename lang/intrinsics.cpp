@@ -20,10 +20,16 @@ using plan::Op1, plan::Op2;
 plan::Expression constant_of(double v) { return {plan::PushConstant{v}}; }
 Value real(plan::Expression e) { return {Type::real, {std::move(e)}}; }
 Value whole(plan::Expression e) { return {Type::integer, {std::move(e)}}; }
-plan::Expression times(plan::Expression a, const plan::Expression& b) { return combine(Op2::multiply, std::move(a), b); }
-plan::Expression minus(plan::Expression a, const plan::Expression& b) { return combine(Op2::subtract, std::move(a), b); }
+plan::Expression times(plan::Expression a, const plan::Expression& b) {
+  return combine(Op2::multiply, std::move(a), b);
+}
+plan::Expression minus(plan::Expression a, const plan::Expression& b) {
+  return combine(Op2::subtract, std::move(a), b);
+}
 
-[[noreturn]] void refuse(std::string message, std::string help = "") { throw Mistake{Code::E0119, 0, 0, std::move(message), std::move(help), ""}; }
+[[noreturn]] void refuse(std::string message, std::string help = "") {
+  throw Mistake{Code::E0119, 0, 0, std::move(message), std::move(help), ""};
+}
 
 template <Op1 op>
 Value function(Values& a, Texts&) {
@@ -84,7 +90,8 @@ Value polar(Values& a, Texts&) {
 }
 
 Value temperature(Values&, Texts&) {
-  refuse("QTEMP has no value here: the program's temperature sensors are not simulated", "temperatures stand in the workpiece file");
+  refuse("QTEMP has no value here: the program's temperature sensors are not simulated",
+         "temperatures stand in the workpiece file");
 }
 
 // ---- texts
@@ -92,14 +99,16 @@ Value temperature(Values&, Texts&) {
 /// Cut before it is converted: most numbers are no int.
 int count_up_to(int most, double asked) { return asked > 0 ? static_cast<int>(std::min(asked, double(most))) : 0; }
 
-/// What STR writes: as few digits as identify the number, or `decimals` digits after the point, in at least `width` characters.
+/// What STR writes: as few digits as identify the number, or `decimals` digits after the point, in at least
+/// `width` characters.
 Value number_text(Values& a, Texts& texts) {
   const Value& v = a[0];
   if (v.type == Type::text) return std::move(a[0]);
   std::string text;
   for (std::size_t k = 0; k < v.parts.size(); ++k)
-    text += (k ? "," : "") + (a.size() > 2 ? fmt::format("{:.{}f}", v.constant(k) + 0.0, count_up_to(17, a[2].constant()))
-                                            : fmt::format("{}", v.constant(k) + 0.0));
+    text += (k ? "," : "") +
+        (a.size() > 2 ? fmt::format("{:.{}f}", v.constant(k) + 0.0, count_up_to(17, a[2].constant()))
+                      : fmt::format("{}", v.constant(k) + 0.0));
   const int width = a.size() > 1 ? count_up_to(255, a[1].constant()) : 0;
   return texts.value(fmt::format("{:>{}}", text, width));
 }
@@ -110,8 +119,7 @@ Value text_number(Values& a, Texts& texts) {
   while (!text.empty() && blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && blank(text.back())) text.remove_suffix(1);
   const std::optional<double> v = finite_number(text);
-  if (!v)
-    refuse(fmt::format("the text '{}' is not a number", texts[a[0]]), "VAL takes a text like '12.5'");
+  if (!v) refuse(fmt::format("the text '{}' is not a number", texts[a[0]]), "VAL takes a text like '12.5'");
   return text.find_first_of(".eE") == std::string_view::npos ? integer(*v) : number(*v);
 }
 
@@ -133,9 +141,11 @@ char upper_letter(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 
 
 Value piece(Values& a, Texts& texts) {
   const std::string text = texts[a[0]];
-  const double size = static_cast<double>(text.size()), first = a[1].constant(), last = a.size() > 2 ? a[2].constant() : size;
+  const double size = static_cast<double>(text.size()), first = a[1].constant(),
+               last = a.size() > 2 ? a[2].constant() : size;
   if (!(first >= 1 && last <= size && first <= last + 1))
-    refuse(fmt::format("characters {} to {} of a text of {}", first, last, text.size()), "SUBSTR(text,first,last) counts from 1");
+    refuse(fmt::format("characters {} to {} of a text of {}", first, last, text.size()),
+           "SUBSTR(text,first,last) counts from 1");
   return texts.value(text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(last - first + 1)));
 }
 
@@ -224,7 +234,8 @@ bool suits(char letter, const Value& v) {
 std::span<const Intrinsic> intrinsics() { return kIntrinsics; }
 
 const Intrinsic* find_intrinsic(std::string_view name) {
-  const auto it = std::find_if(kIntrinsics.begin(), kIntrinsics.end(), [&](const Intrinsic& f) { return f.name == name; });
+  const auto it =
+      std::find_if(kIntrinsics.begin(), kIntrinsics.end(), [&](const Intrinsic& f) { return f.name == name; });
   return it == kIntrinsics.end() ? nullptr : &*it;
 }
 
@@ -241,10 +252,15 @@ Value apply(const Intrinsic& f, std::vector<Value> arguments, Texts& texts) {
     refuse(fmt::format("{} with {} argument{}", f.name, arguments.size(), arguments.size() == 1 ? "" : "s"), help);
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const char letter = types[std::min(k, types.size() - 1)];
-    if (!suits(letter, arguments[k])) refuse(fmt::format("{} takes no {} as argument {}", f.name, name_of(arguments[k].type), k + 1), help);
+    if (!suits(letter, arguments[k]))
+      refuse(fmt::format("{} takes no {} as argument {}", f.name, name_of(arguments[k].type), k + 1), help);
     if (letter != 'n' && letter != 'v' && !arguments[k].known())
-      throw Mistake{Code::E0231, 0, 0, fmt::format("argument {} of {} depends on a measured value", k + 1, f.name),
-                    "texts are made while the program is compiled: compare the numbers instead", ""};
+      throw Mistake{Code::E0231,
+                    0,
+                    0,
+                    fmt::format("argument {} of {} depends on a measured value", k + 1, f.name),
+                    "texts are made while the program is compiled: compare the numbers instead",
+                    ""};
   }
   return f.value(arguments, texts);
 }

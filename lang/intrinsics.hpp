@@ -1,7 +1,7 @@
 // The intrinsic functions of ISO 22093: one table with form, argument types, help and meaning.
 //
-// Numbers may depend on what is measured; texts may not: a function of texts is computed while the program is compiled, and
-// STR of a measured value is refused. Angles are in radians; DTOR and RTOD convert.
+// Numbers may depend on what is measured; texts may not: a function of texts is computed while the program is
+// compiled, and STR of a measured value is refused. Angles are in radians; DTOR and RTOD convert.
 #pragma once
 
 #include <span>
@@ -13,9 +13,11 @@
 namespace abbe::lang {
 
 struct Intrinsic {
-  std::string_view name;       ///< upper case
-  std::string_view form;       ///< for people: "ATAN2(y,x)"
-  std::string_view arguments;  ///< a letter each: n number, v vector; known while compiling: k number, t text, s any; after ? optional; + repeats
+  std::string_view name;  ///< upper case
+  std::string_view form;  ///< for people: "ATAN2(y,x)"
+  /// a letter each: n number, v vector; known while compiling: k number, t text, s any; after ? optional; +
+  /// repeats
+  std::string_view arguments;
   std::string_view help;
   /// The arguments have the types of `arguments`; those of texts are known. Throws Mistake without a place.
   Value (*value)(std::vector<Value>&, Texts&);

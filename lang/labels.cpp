@@ -12,14 +12,12 @@ namespace abbe::lang {
 namespace {
 
 bool part_of_name(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' ||
-         static_cast<unsigned char>(c) >= 0x80;
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
 
 bool is_label_kind(std::string_view word) {
   const auto kinds = label_kinds();
-  return std::any_of(kinds.begin(), kinds.end(),
-                     [&](const LabelKind& k) { return k.kind == word; });
+  return std::any_of(kinds.begin(), kinds.end(), [&](const LabelKind& k) { return k.kind == word; });
 }
 
 class Collector {
@@ -31,12 +29,9 @@ class Collector {
     for (const LogicalLine& line : logical_lines(source_))
       if (const auto raw = parse_statement(line, source_, ignored)) one(*raw);
     // A word is a variable when the program declares or assigns one of that name.
-    std::erase_if(uses_, [&](const LabelUse& use) {
-      return use.kind.empty() && !variables_.count(upper(use.name));
-    });
-    std::stable_sort(uses_.begin(), uses_.end(), [](const LabelUse& a, const LabelUse& b) {
-      return a.span.begin < b.span.begin;
-    });
+    std::erase_if(uses_, [&](const LabelUse& use) { return use.kind.empty() && !variables_.count(upper(use.name)); });
+    std::stable_sort(uses_.begin(), uses_.end(),
+                     [](const LabelUse& a, const LabelUse& b) { return a.span.begin < b.span.begin; });
     return std::move(uses_);
   }
 
@@ -46,8 +41,7 @@ class Collector {
     if (raw.label) add(raw, raw.label->kind, raw.label->name, raw.label->span, true);
     for (const RawArgument& argument : raw.arguments) {
       if (argument.kind == RawArgument::Kind::text) continue;
-      const bool declares =
-          raw.word == "DECL" || (raw.word == "DATDEF" && argument.label.kind == "DAT");
+      const bool declares = raw.word == "DECL" || (raw.word == "DATDEF" && argument.label.kind == "DAT");
       scan(raw, argument.span, declares);
     }
   }
@@ -66,13 +60,10 @@ class Collector {
       const std::size_t close = text.find(')', end);
       const std::string word = upper(text.substr(i, end - i));
       const auto place = [&](std::size_t from, std::size_t to) {
-        return Span{span.begin + static_cast<std::uint32_t>(from),
-                    span.begin + static_cast<std::uint32_t>(to)};
+        return Span{span.begin + static_cast<std::uint32_t>(from), span.begin + static_cast<std::uint32_t>(to)};
       };
-      if (end < text.size() && text[end] == '(' && is_label_kind(word) &&
-          close != std::string_view::npos) {
-        add(raw, word, std::string(text.substr(end + 1, close - end - 1)), place(i, close + 1),
-            declares);
+      if (end < text.size() && text[end] == '(' && is_label_kind(word) && close != std::string_view::npos) {
+        add(raw, word, std::string(text.substr(end + 1, close - end - 1)), place(i, close + 1), declares);
         i = close;
       } else {
         add(raw, "", std::string(text.substr(i, end - i)), place(i, end), declares);
@@ -81,8 +72,7 @@ class Collector {
     }
   }
 
-  void add(const RawStatement& raw, std::string_view kind, std::string name, Span span,
-           bool definition) {
+  void add(const RawStatement& raw, std::string_view kind, std::string name, Span span, bool definition) {
     if (kind.empty() && definition) variables_.insert(upper(name));
     uses_.push_back({std::string(shared_kind(kind)), std::move(name), span, raw.span, definition});
   }

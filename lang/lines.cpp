@@ -15,9 +15,8 @@ void JoinedText::append_instead(std::string_view piece, Span place) {
 
 std::uint32_t JoinedText::file_offset(std::size_t offset) const {
   if (pieces_.empty()) return 0;
-  auto after = std::upper_bound(
-      pieces_.begin(), pieces_.end(), offset,
-      [](std::size_t value, const Piece& piece) { return value < piece.text_begin; });
+  auto after = std::upper_bound(pieces_.begin(), pieces_.end(), offset,
+                                [](std::size_t value, const Piece& piece) { return value < piece.text_begin; });
   if (after != pieces_.begin()) --after;
   const auto inside = static_cast<std::uint32_t>(offset - after->text_begin);
   return std::min(after->file_begin + inside, after->file_end);
@@ -29,7 +28,6 @@ Span JoinedText::span(std::size_t begin, std::size_t end) const {
 }
 
 namespace {
-
 
 /// The offset of a single `$` that ends `line` (blanks may follow it), or npos. `$$` is no
 /// continuation.
@@ -49,8 +47,7 @@ class Joiner {
     if (comment != std::string_view::npos) {
       out.code.append(line.substr(0, comment), offset);
       out.comment.emplace();
-      return add_comment(line.substr(comment + 2),
-                         offset + static_cast<std::uint32_t>(comment) + 2);
+      return add_comment(line.substr(comment + 2), offset + static_cast<std::uint32_t>(comment) + 2);
     }
     const std::size_t mark = continuation_mark(line);
     out.code.append(line.substr(0, mark), offset);
@@ -63,8 +60,7 @@ class Joiner {
   bool add_comment(std::string_view line, std::uint32_t offset) {
     const std::size_t mark = continuation_mark(line);
     // In `$$$` the third sign ends nothing: a rule of `$` signs is decoration.
-    const bool goes_on =
-        mark != std::string_view::npos && !(mark == 0 && out.comment->text().empty());
+    const bool goes_on = mark != std::string_view::npos && !(mark == 0 && out.comment->text().empty());
     out.comment->append(goes_on ? line.substr(0, mark) : line, offset);
     return !goes_on;
   }

@@ -28,14 +28,12 @@ std::string chain(std::string consequence, std::string_view cause) {
   constexpr int kLongest = 4;
   int links = 1;
   std::size_t last = 0;
-  for (std::size_t at = cause.find(kArrow); at != std::string_view::npos;
-       at = cause.find(kArrow, last)) {
+  for (std::size_t at = cause.find(kArrow); at != std::string_view::npos; at = cause.find(kArrow, last)) {
     last = at + kArrow.size();
     ++links;
   }
   const bool gap = links >= kLongest;
-  return fmt::format("{}{}{}{}", consequence, kArrow, gap ? kGap : "",
-                     gap ? cause.substr(last) : cause);
+  return fmt::format("{}{}{}{}", consequence, kArrow, gap ? kGap : "", gap ? cause.substr(last) : cause);
 }
 
 void Lowering::add(Diagnostic d) {
@@ -45,19 +43,15 @@ void Lowering::add(Diagnostic d) {
   sink.add(std::move(d));
 }
 
-void Lowering::error(Code code, Span span, std::string message, std::string help,
-                     std::string replacement) {
+void Lowering::error(Code code, Span span, std::string message, std::string help, std::string replacement) {
   const bool first = !failed;
   fail(message);
   if (first) failure_line = file->place(span.begin).line;
-  add(diagnostic_at(*file, span, code, std::move(message), std::move(help),
-                    std::move(replacement)));
+  add(diagnostic_at(*file, span, code, std::move(message), std::move(help), std::move(replacement)));
 }
 
-void Lowering::warn(Code code, Span span, std::string message, std::string help,
-                    std::string replacement) {
-  add(diagnostic_at(*file, span, code, std::move(message), std::move(help),
-                    std::move(replacement)));
+void Lowering::warn(Code code, Span span, std::string message, std::string help, std::string replacement) {
+  add(diagnostic_at(*file, span, code, std::move(message), std::move(help), std::move(replacement)));
 }
 
 void Lowering::mistake(const Mistake& m) {
@@ -109,15 +103,14 @@ std::optional<Value> Lowering::value(const RawArgument& argument) {
   return std::nullopt;
 }
 
-std::optional<Match> Lowering::match(std::string_view text, const RawStatement& raw,
-                                     std::string_view what, std::size_t first, Varying takes) {
+std::optional<Match> Lowering::match(std::string_view text, const RawStatement& raw, std::string_view what,
+                                     std::size_t first, Varying takes) {
   auto it = signatures_.find(text);
   if (it == signatures_.end()) it = signatures_.emplace(text, parse_signature(text)).first;
   const std::span<const RawArgument> arguments = std::span(raw.arguments).subspan(first);
   VariablesOf names(*this);
-  auto result = lang::match(it->second, arguments, units, [&](const RawArgument& a) {
-    return evaluate(raw.code->text(), a.begin, a.end, names);
-  });
+  auto result = lang::match(it->second, arguments, units,
+                            [&](const RawArgument& a) { return evaluate(raw.code->text(), a.begin, a.end, names); });
   if (const Mismatch* mismatch = std::get_if<Mismatch>(&result)) {
     if (mismatch->mistake) {
       mistake(*mismatch->mistake);
@@ -131,7 +124,8 @@ std::optional<Match> Lowering::match(std::string_view text, const RawStatement& 
   for (MatchedValue& v : std::get<Match>(result).values) {
     if (!v.value || v.type == ValueType::value || v.type == ValueType::condition) continue;
     if (takes == Varying::refused) {
-      error(Code::E0231, v.span, fmt::format("{} must be known before the machine runs, '{}' depends on a measured value", what, v.text),
+      error(Code::E0231, v.span,
+            fmt::format("{} must be known before the machine runs, '{}' depends on a measured value", what, v.text),
             "use a number, or a variable that nothing measured goes into");
       return std::nullopt;
     }
@@ -143,7 +137,8 @@ std::optional<Match> Lowering::match(std::string_view text, const RawStatement& 
 
 namespace {
 
-/// Whether these three values of a match are the components i, j and k of one direction, as signatures name them, and known.
+/// Whether these three values of a match are the components i, j and k of one direction, as signatures name
+/// them, and known.
 bool is_direction(std::span<const MatchedValue> v) {
   const std::string& i = v[0].name;
   const std::size_t at = i.find('i');
@@ -166,7 +161,8 @@ void Lowering::warn_of_lengths(const Match& match) {
     if (!is_direction(v)) continue;
     const double length = norm(Vec3{v[0].number, v[1].number, v[2].number});
     if (length > 0 && std::fabs(length - 1) > kSlack)
-      warn(Code::W0260, v[0].span, fmt::format("the direction {:g},{:g},{:g} has length {:.4g}", v[0].number, v[1].number, v[2].number, length),
+      warn(Code::W0260, v[0].span,
+           fmt::format("the direction {:g},{:g},{:g} has length {:.4g}", v[0].number, v[1].number, v[2].number, length),
            "directions have length 1; it is divided by its length. Is a number missing, or one too many?");
   }
 }
@@ -215,8 +211,7 @@ const Meaning* Lowering::find(const Symbols::Labels<Meaning>& labels, std::strin
   labels.each([&](const std::string& name, const Meaning&) { names.push_back(name); });
   const std::string near = nearest_word(label.name, names);
   error(Code::E0201, label.span, fmt::format("{} {} is not defined above", kind, written(label)),
-        near.empty() ? std::string(next_step)
-                     : fmt::format("did you mean {}({})?", label.kind, near),
+        near.empty() ? std::string(next_step) : fmt::format("did you mean {}({})?", label.kind, near),
         near.empty() ? "" : fmt::format("{}({})", label.kind, near));
   return nullptr;
 }
@@ -237,38 +232,32 @@ std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
   }
   if (state.present || looping > 0) return id;  // a turn of a loop may have measured it
   const bool inside = measuring && measuring->feature == *id;
-  error(Code::E0202, label.span,
-        fmt::format("{} was not measured or constructed above", written(label)),
+  error(Code::E0202, label.span, fmt::format("{} was not measured or constructed above", written(label)),
         inside ? "use it after ENDMES"
-               : fmt::format("measure F({0}) with MEAS..ENDMES or construct it with CONST first",
-                             label.name));
+               : fmt::format("measure F({0}) with MEAS..ENDMES or construct it with CONST first", label.name));
   return std::nullopt;
 }
 
 std::optional<plan::FeatureId> Lowering::datum(const LabelRef& label) {
   if (label.kind == "FA") return actual_feature(label);
-  const plan::FeatureId* id =
-      find(symbols.datums, "datum", label, "bind it with DATDEF/FA(feature),DAT(name)");
+  const plan::FeatureId* id = find(symbols.datums, "datum", label, "bind it with DATDEF/FA(feature),DAT(name)");
   return id ? std::optional(*id) : std::nullopt;
 }
 
 std::optional<plan::FrameId> Lowering::frame(const LabelRef& label) {
-  const plan::FrameId* id =
-      find(symbols.frames, "coordinate system", label, "define it with D(name)=DATSET/...");
+  const plan::FrameId* id = find(symbols.frames, "coordinate system", label, "define it with D(name)=DATSET/...");
   return id ? std::optional(*id) : std::nullopt;
 }
 
 std::optional<plan::SensorId> Lowering::sensor(const LabelRef& label) {
-  const plan::SensorId* id =
-      find(symbols.sensors, "sensor", label,
-           "define it with SNSDEF, or write SA(name) for a sensor of the machine file");
+  const plan::SensorId* id = find(symbols.sensors, "sensor", label,
+                                  "define it with SNSDEF, or write SA(name) for a sensor of the machine file");
   return id ? std::optional(*id) : std::nullopt;
 }
 
 void Lowering::sensor_of_machine_file(const LabelRef& label) {
   const std::string key = upper(label.name);
-  if (symbols.sensors.has(key) || symbols.spoilt.has(spoilt_key(label.kind, label.name)))
-    return;
+  if (symbols.sensors.has(key) || symbols.spoilt.has(spoilt_key(label.kind, label.name))) return;
   plan::SensorDef def;
   def.label = label.name;
   def.from_machine_file = true;
@@ -278,8 +267,7 @@ void Lowering::sensor_of_machine_file(const LabelRef& label) {
 }
 
 const ToleranceSymbol* Lowering::tolerance(const LabelRef& label) {
-  return find(symbols.tolerances, "tolerance", label,
-              "define it with T(name)=TOL/... before this line");
+  return find(symbols.tolerances, "tolerance", label, "define it with T(name)=TOL/... before this line");
 }
 
 void Lowering::emit(plan::Action action) {
@@ -316,7 +304,9 @@ std::vector<FormItem> written_form(const RawStatement& raw, const Match& match) 
 void Lowering::define(const RawStatement& raw, plan::FeatureDef def, const Match& match) {
   const std::string key = upper(raw.label->name);
   const plan::FeatureId own{static_cast<int>(out.plan.features.size())};
-  const auto suits = [&](plan::FeatureId other) { return out.plan[other].kind == def.kind && out.plan[other].inner == def.inner; };
+  const auto suits = [&](plan::FeatureId other) {
+    return out.plan[other].kind == def.kind && out.plan[other].inner == def.inner;
+  };
   plan::FeatureId id = own;
   if (parted > 0) {
     const plan::FeatureId* here = symbols.features.find(key);
@@ -362,20 +352,18 @@ plan::Operand Lowering::operand(const plan::Expression& e) {
 plan::Point Lowering::polar(const Match& match) {
   using namespace plan;
   const Expression r = expression(operand(*match.find("r"))), a = expression(operand(*match.find("a")));
-  return {operand(combine(Op2::multiply, combine(Op1::cos, a), r)), operand(combine(Op2::multiply, combine(Op1::sin, a), r)),
-          operand(*match.find("h"))};
+  return {operand(combine(Op2::multiply, combine(Op1::cos, a), r)),
+          operand(combine(Op2::multiply, combine(Op1::sin, a), r)), operand(*match.find("h"))};
 }
 
 plan::Point Lowering::point(const Match& match, std::string_view first) {
-  const auto it = std::find_if(match.values.begin(), match.values.end(),
-                               [&](const MatchedValue& v) { return v.name == first; });
+  const auto it =
+      std::find_if(match.values.begin(), match.values.end(), [&](const MatchedValue& v) { return v.name == first; });
   ABBE_CHECK(match.values.end() - it >= 3);
   return {operand(it[0]), operand(it[1]), operand(it[2])};
 }
 
-std::string Lowering::blame() const {
-  return fmt::format("line {}: {}", failure_line, failure);
-}
+std::string Lowering::blame() const { return fmt::format("line {}: {}", failure_line, failure); }
 
 std::string Lowering::doubt() const {
   if (!flow_doubt.empty()) return chain("it is not known whether this is run", flow_doubt);
@@ -388,7 +376,8 @@ std::string Lowering::measuring_doubt() const {
   if (std::string general = doubt(); !general.empty()) return general;
   const bool points_given = measuring && measuring->touches > 0;
   for (const auto& [setting, reason] : setting_doubts) {
-    if (setting == "SNSMNT" || (setting == "MODE" && points_given)) continue;  // of sensors defined after it; of default touches
+    // of sensors defined after it; of default touches
+    if (setting == "SNSMNT" || (setting == "MODE" && points_given)) continue;
     return chain(fmt::format("what {} sets is in doubt", setting), reason);
   }
   return "";

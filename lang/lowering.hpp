@@ -37,11 +37,11 @@ namespace abbe::lang {
 
 /// One argument of a FEAT, TOL or SNSDEF statement, as OBTAIN counts and reads them.
 struct FormItem {
-  std::string text;        ///< as written
-  std::string name;        ///< of a number, or of a choice of words, in the signature
+  std::string text;  ///< as written
+  std::string name;  ///< of a number, or of a choice of words, in the signature
   bool is_number = false;
   ValueType type{};
-  plan::Operand operand;   ///< mm, rad or as written
+  plan::Operand operand;  ///< mm, rad or as written
 };
 
 /// The arguments of a statement from its first on; `match` names those that a signature matched.
@@ -72,10 +72,10 @@ struct OpenMeasure {
   std::size_t first_operation = 0;
   Span span, count_span;
   int line = 0;
-  std::string spoilt;  ///< why the measurement is of no use; empty while it is
-  bool varies = false;  ///< how many touches it has depends on what is measured
+  std::string spoilt;                        ///< why the measurement is of no use; empty while it is
+  bool varies = false;                       ///< how many touches it has depends on what is measured
   std::optional<std::pair<Span, int>> scan;  ///< PAMEAS: place and line
-  std::optional<plan::Point> displaced;  ///< RMEAS: by how much the touches lie beside their points
+  std::optional<plan::Point> displaced;      ///< RMEAS: by how much the touches lie beside their points
 };
 
 /// SNSMNT in force.
@@ -98,24 +98,25 @@ struct Symbols {
   std::set<std::string> ambiguous;
 };
 
-/// What holds at a place of the program. Where machines may part at a condition it is kept and restored, so that each path is
-/// lowered from the same beginning, and merged where they meet (flow_merge.cpp).
+/// What holds at a place of the program. Where machines may part at a condition it is kept and restored, so
+/// that each path is lowered from the same beginning, and merged where they meet (flow_merge.cpp).
 struct State {
   Units units;
   Symbols symbols;
-  SharedMap<int, ActualState> actuals;  ///< by FeatureId
+  SharedMap<int, ActualState> actuals;        ///< by FeatureId
   SharedMap<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
-  std::map<Shape, FitCriterion> criteria;    ///< GEOALG; a shape without an entry: least squares
+  std::map<Shape, FitCriterion> criteria;     ///< GEOALG; a shape without an entry: least squares
   std::optional<OpenMeasure> measuring;
   bool sensor_selected = false;
   bool home_known = false;  ///< FROM on some path
   std::optional<Mount> mount;
-  std::vector<std::string> modes;  ///< MODE, in order of preference
+  std::vector<std::string> modes;                     ///< MODE, in order of preference
   std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
   std::map<std::string, std::string> setting_doubts;  ///< reasons, by the setting: PRCOMP, GEOALG/CIRCLE
   std::string flow_doubt;  ///< an error in a statement of control: which statements run is unknown from there on
   Variables variables;
-  SharedMap<std::string, std::string> settings;  ///< what VALUE reads: last argument of a setting as written, by its word
+  /// what VALUE reads: last argument of a setting as written, by its word
+  SharedMap<std::string, std::string> settings;
   bool reachable = true;  ///< false after a jump
 };
 
@@ -132,7 +133,8 @@ class Lowering : public State {
   // ---- messages; an error makes the current statement fail
   void error(Code, Span, std::string message, std::string help = "", std::string replacement = "");
   void warn(Code, Span, std::string message, std::string help = "", std::string replacement = "");
-  /// A message as it is, unless there was one of that code at that place: a loop repeats its statements, not its messages.
+  /// A message as it is, unless there was one of that code at that place: a loop repeats its statements, not
+  /// its messages.
   void add(Diagnostic);
   /// The statement fails without a message of its own: an earlier error is to blame.
   void fail(std::string reason);
@@ -155,7 +157,7 @@ class Lowering : public State {
   // ---- labels: nothing after an error or when spoilt
   std::optional<plan::FeatureId> defined_feature(const LabelRef&);
   std::optional<plan::FeatureId> actual_feature(const LabelRef&);  ///< measured or constructed
-  std::optional<plan::FeatureId> datum(const LabelRef&);  ///< DAT(...), or the feature itself
+  std::optional<plan::FeatureId> datum(const LabelRef&);           ///< DAT(...), or the feature itself
   std::optional<plan::FrameId> frame(const LabelRef&);
   std::optional<plan::SensorId> sensor(const LabelRef&);
   const ToleranceSymbol* tolerance(const LabelRef&);
@@ -166,9 +168,8 @@ class Lowering : public State {
   void emit(plan::Action);
   /// A new coordinate system under the label of the statement.
   plan::FrameId new_frame(const RawStatement&);
-  /// The feature that a label stands for from here on. Where machines may have parted, definitions of one label and kind are
-  /// one feature, so that the paths may meet again.
-  /// `match` holds its arguments.
+  /// The feature that a label stands for from here on. Where machines may have parted, definitions of one
+  /// label and kind are one feature, so that the paths may meet again. `match` holds its arguments.
   void define(const RawStatement&, plan::FeatureDef, const Match& match);
   ActualState actual(plan::FeatureId) const;
   /// A column for the value of an expression, computed here.
@@ -189,31 +190,31 @@ class Lowering : public State {
   Sink& sink;
   Compilation out;
 
-  const SourceFile* file;            ///< that the current statement stands in: the program, or a module
-  std::string call;                  ///< where a macro or module was called, for messages; empty in the program itself
+  const SourceFile* file;  ///< that the current statement stands in: the program, or a module
+  std::string call;        ///< where a macro or module was called, for messages; empty in the program itself
   std::optional<std::pair<Span, int>> place;  ///< of the call in the program, for operations of a module
   Texts texts;
-  std::vector<std::string> scopes;   ///< prefixes of local variables, of the macros that are being run
-  std::map<int, std::vector<FormItem>> forms;  ///< by FeatureId
+  std::vector<std::string> scopes;                    ///< prefixes of local variables, of the macros that are being run
+  std::map<int, std::vector<FormItem>> forms;         ///< by FeatureId
   std::map<int, std::vector<FormItem>> sensor_forms;  ///< by SensorId, of those that the program defines
-  std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in upper case
-  int parted = 0;                    ///< conditions that machines may have decided differently here
-  int parting = 0;                   ///< counts the places where machines part while all were together
-  int looping = 0;                   ///< loops around here whose turns differ from machine to machine
-  bool only_valid = false;           ///< CompileOptions
-  bool second_program = false;       ///< the program has ended and another begins in the same file
+  std::map<std::string, std::string> answers;         ///< to PROMPT, by variable in upper case
+  int parted = 0;                                     ///< conditions that machines may have decided differently here
+  int parting = 0;                                    ///< counts the places where machines part while all were together
+  int looping = 0;                                    ///< loops around here whose turns differ from machine to machine
+  bool only_valid = false;                            ///< CompileOptions
+  bool second_program = false;                        ///< the program has ended and another begins in the same file
 
-  bool skipping = false;                              ///< DMESW/OFF
-  int begin_line = 0, end_line = 0;                   ///< of DMISMN and ENDFIL; 0 before them
-  std::optional<Span> external_files;                 ///< the XTERN whose list is open
-  std::set<std::string> reported_words;               ///< words warned about once
-  std::set<std::string> skipped_labels;               ///< kinds of labels that skipped statements had: P of P(1)=PARTID/...
-  std::vector<Span> expectation_spans;                ///< of Directives::expectations
+  bool skipping = false;                 ///< DMESW/OFF
+  int begin_line = 0, end_line = 0;      ///< of DMISMN and ENDFIL; 0 before them
+  std::optional<Span> external_files;    ///< the XTERN whose list is open
+  std::set<std::string> reported_words;  ///< words warned about once
+  std::set<std::string> skipped_labels;  ///< kinds of labels that skipped statements had: P of P(1)=PARTID/...
+  std::vector<Span> expectation_spans;   ///< of Directives::expectations
 
   // ---- of the current statement
   bool failed = false;
-  std::string failure;  ///< the first reason
-  int failure_line = 0; ///< where its message points: ENDMES may complain of its MEAS
+  std::string failure;   ///< the first reason
+  int failure_line = 0;  ///< where its message points: ENDMES may complain of its MEAS
   const RawStatement* statement = nullptr;
 
   /// The first doubt that holds now and why, or "".

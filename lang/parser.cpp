@@ -168,9 +168,7 @@ Range trimmed(std::string_view text, Range r) {
   return r;
 }
 
-std::string_view slice(std::string_view text, Range r) {
-  return text.substr(r.begin, r.end - r.begin);
-}
+std::string_view slice(std::string_view text, Range r) { return text.substr(r.begin, r.end - r.begin); }
 
 std::string unquoted(std::string_view text) {
   std::string out;
@@ -196,8 +194,8 @@ class LineParser {
     grammar::Found found;
     if (!slip && grammar::matches<grammar::target>(text_, found)) return jump_target(found);
     found = {};
-    const bool matched = slip ? grammar::matches<grammar::head_only>(text_, found)
-                              : grammar::matches<grammar::statement>(text_, found);
+    const bool matched =
+        slip ? grammar::matches<grammar::head_only>(text_, found) : grammar::matches<grammar::statement>(text_, found);
     if (!matched) {
       not_a_statement(code);
       return std::nullopt;
@@ -209,10 +207,8 @@ class LineParser {
     else if (slip)  // free text that holds an apostrophe, perhaps
       statement_.missing_slash = span({found.word->end, code.end});
     if (statement_.usable && found.slash)
-      for (const Range& r : found.arguments)
-        statement_.arguments.push_back(argument(trimmed(text_, r)));
-    if (statement_.arguments.size() == 1 &&
-        statement_.arguments[0].kind == RawArgument::Kind::empty)
+      for (const Range& r : found.arguments) statement_.arguments.push_back(argument(trimmed(text_, r)));
+    if (statement_.arguments.size() == 1 && statement_.arguments[0].kind == RawArgument::Kind::empty)
       statement_.arguments.clear();
     if (statement_.word.empty()) return std::nullopt;
     statement_.code = std::make_shared<const JoinedText>(line_.code);
@@ -222,10 +218,8 @@ class LineParser {
  private:
   Span span(Range r) const { return line_.code.span(r.begin, r.end); }
 
-  void error(Code code, Range at, std::string message, std::string help = "",
-             std::string replacement = "") {
-    sink_.add(diagnostic_at(source_, span(at), code, std::move(message), std::move(help),
-                            std::move(replacement)));
+  void error(Code code, Range at, std::string message, std::string help = "", std::string replacement = "") {
+    sink_.add(diagnostic_at(source_, span(at), code, std::move(message), std::move(help), std::move(replacement)));
   }
 
   /// A string or a parenthesis without its partner.
@@ -244,21 +238,24 @@ class LineParser {
       if (quote != std::string_view::npos) continue;
       if (text_[i] == '(') open.push_back(i);
       if (open.size() > static_cast<std::size_t>(kMaximumNesting))
-        return Slip{Code::E0104, {i, i + 1},
+        return Slip{Code::E0104,
+                    {i, i + 1},
                     fmt::format("parentheses are nested deeper than {}", kMaximumNesting),
                     "write the expression in steps"};
       if (text_[i] != ')') continue;
       if (open.empty())
-        return Slip{Code::E0103, {i, i + 1}, "this ')' closes nothing",
-                    "remove it, or write the '(' that it should close"};
+        return Slip{
+            Code::E0103, {i, i + 1}, "this ')' closes nothing", "remove it, or write the '(' that it should close"};
       open.pop_back();
     }
     if (quote != std::string_view::npos)
-      return Slip{Code::E0102, {quote, text_.size()}, "this string is not closed",
+      return Slip{Code::E0102,
+                  {quote, text_.size()},
+                  "this string is not closed",
                   "end it with '; a quote inside a string is written ''"};
     if (!open.empty())
-      return Slip{Code::E0103, {open.back(), open.back() + 1}, "this '(' is not closed",
-                  "write the ')' that closes it"};
+      return Slip{
+          Code::E0103, {open.back(), open.back() + 1}, "this '(' is not closed", "write the ')' that closes it"};
     return std::nullopt;
   }
 
@@ -280,8 +277,7 @@ class LineParser {
       statement_.label = LabelRef{upper(slice(text_, kind)), std::string(slice(text_, name)),
                                   span({kind.begin, found.label_name->end + 1})};
     } else if (found.variable) {
-      statement_.label =
-          LabelRef{"", std::string(slice(text_, *found.variable)), span(*found.variable)};
+      statement_.label = LabelRef{"", std::string(slice(text_, *found.variable)), span(*found.variable)};
     }
     if (!found.word) return;
     statement_.word = upper(slice(text_, *found.word));
@@ -359,8 +355,7 @@ std::string written(const LabelRef& label) {
   return label.kind.empty() ? label.name : fmt::format("{}({})", label.kind, label.name);
 }
 
-std::optional<RawStatement> parse_statement(const LogicalLine& line, const SourceFile& source,
-                                            Sink& sink) {
+std::optional<RawStatement> parse_statement(const LogicalLine& line, const SourceFile& source, Sink& sink) {
   return LineParser(line, source, sink).parse();
 }
 

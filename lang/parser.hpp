@@ -59,7 +59,7 @@ struct RawStatement {
   int line = 1;
   std::optional<Span> missing_slash;  ///< text that follows the word without a slash: free text, or
                                       ///< a slip of the pen
-  bool usable = true;  ///< false: something is wrong, the arguments are not to be looked at
+  bool usable = true;                 ///< false: something is wrong, the arguments are not to be looked at
 };
 
 /// Parentheses deeper than this are refused, so that no input can exhaust the stack.

@@ -24,15 +24,14 @@ struct Entry {
   std::string_view help, example, source;
 };
 
-constexpr std::string_view kStatements = "Statements", kFeatures = "Features",
-                           kConstructions = "Constructions", kTolerances = "Tolerances",
-                           kFunctions = "Functions", kDirectives = "Directives";
+constexpr std::string_view kStatements = "Statements", kFeatures = "Features", kConstructions = "Constructions",
+                           kTolerances = "Tolerances", kFunctions = "Functions", kDirectives = "Directives";
 
 std::string form_of(const Statement& s) {
-  const std::string label =
-      s.label.empty() || s.label == "*" ? "" : s.label == "=" ? "variable=" : fmt::format("{}(label)=", s.label);
-  return s.signature.empty() ? fmt::format("{}{}", label, s.word)
-                             : fmt::format("{}{}/{}", label, s.word, s.signature);
+  const std::string label = s.label.empty() || s.label == "*" ? ""
+      : s.label == "="                                        ? "variable="
+                                                              : fmt::format("{}(label)=", s.label);
+  return s.signature.empty() ? fmt::format("{}{}", label, s.word) : fmt::format("{}{}/{}", label, s.word, s.signature);
 }
 
 std::vector<Entry> entries() {
@@ -40,15 +39,15 @@ std::vector<Entry> entries() {
   for (const Statement* s : statements())
     out.push_back({kStatements, s->word, form_of(*s), s->help, s->example, s->source});
   for (const FeatureKind* k : feature_kinds())
-    out.push_back({kFeatures, k->word, fmt::format("F(label)=FEAT/{}{}{}", k->word, k->signature.empty() ? "" : ",", k->signature),
-                   k->help, k->example, k->source});
+    out.push_back({kFeatures, k->word,
+                   fmt::format("F(label)=FEAT/{}{}{}", k->word, k->signature.empty() ? "" : ",", k->signature), k->help,
+                   k->example, k->source});
   for (const Construction* c : constructions())
-    out.push_back({kConstructions, c->word,
-                   fmt::format("CONST/kind,F(label),{},{}", c->word, c->signature), c->help,
+    out.push_back({kConstructions, c->word, fmt::format("CONST/kind,F(label),{},{}", c->word, c->signature), c->help,
                    c->example, c->source});
   for (const ToleranceKind* t : tolerance_kinds())
-    out.push_back({kTolerances, t->word, fmt::format("T(label)=TOL/{},{}", t->word, t->signature),
-                   t->help, t->example, t->source});
+    out.push_back({kTolerances, t->word, fmt::format("T(label)=TOL/{},{}", t->word, t->signature), t->help, t->example,
+                   t->source});
   for (const Intrinsic& f : intrinsics())
     out.push_back({kFunctions, f.name, std::string(f.form), f.help, "", "ISO 22093, intrinsic functions"});
   for (const DirectiveHelp& d : directives())
@@ -60,9 +59,11 @@ std::vector<Entry> entries() {
 /// All words of the standard, by what becomes of them.
 std::string words_markdown() {
   constexpr std::string_view kNoOperatorNoFiles[] = {"PAUSE", "READ", "WRITE"};
-  std::vector<std::string_view> supported, skipped, absent(std::begin(kNoOperatorNoFiles), std::end(kNoOperatorNoFiles)), later;
+  std::vector<std::string_view> supported, skipped,
+      absent(std::begin(kNoOperatorNoFiles), std::end(kNoOperatorNoFiles)), later;
   for (const Statement* s : statements())
-    if (std::find(absent.begin(), absent.end(), s->word) == absent.end()) (s->lower == skip ? skipped : supported).push_back(s->word);
+    if (std::find(absent.begin(), absent.end(), s->word) == absent.end())
+      (s->lower == skip ? skipped : supported).push_back(s->word);
   for (const std::string_view word : standard_words())
     if (!find_statement(word)) later.push_back(word);
   const auto row = [](std::string_view what, std::vector<std::string_view>& words) {
@@ -70,9 +71,9 @@ std::string words_markdown() {
     return fmt::format("| {} | {} |\n", what, fmt::join(words, " "));
   };
   return "## Words\n\n| what becomes of it | words |\n|---|---|\n" + row("supported", supported) +
-         row("accepted and ignored: nothing depends on it here", skipped) +
-         row("understood, with a message: there is no operator and no file here", absent) +
-         row("not yet: one warning each, and skipped", later);
+      row("accepted and ignored: nothing depends on it here", skipped) +
+      row("understood, with a message: there is no operator and no file here", absent) +
+      row("not yet: one warning each, and skipped", later);
 }
 
 /// Bars end a cell of a Markdown table.
@@ -128,8 +129,8 @@ std::string reference_markdown() {
   std::string_view group;
   for (const Entry& e : entries()) {
     if (e.group != group)
-      out += fmt::format("{}## {}\n\n| form | meaning | example |\n|---|---|---|\n",
-                         group.empty() ? "" : "\n", e.group);
+      out +=
+          fmt::format("{}## {}\n\n| form | meaning | example |\n|---|---|---|\n", group.empty() ? "" : "\n", e.group);
     group = e.group;
     out += fmt::format("| `{}` | {} | {} |\n", cell(e.form), cell(e.help),
                        e.example.empty() ? "" : fmt::format("`{}`", cell(e.example)));

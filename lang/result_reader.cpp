@@ -71,7 +71,8 @@ class ResultReader {
       v.type <= ValueType::integer ? arguments.add_number(v.name, v.number) : arguments.add_text(v.name, v.text);
     const Outcome<Element> actual = kind->nominal(arguments);
     if (!actual) {
-      sink_.add(diagnostic_at(source_, raw.span, Code::E0208, fmt::format("this {} cannot be: {}", kind->word, actual.failure),
+      sink_.add(diagnostic_at(source_, raw.span, Code::E0208,
+                              fmt::format("this {} cannot be: {}", kind->word, actual.failure),
                               "this result is passed over"));
       return;
     }
@@ -88,11 +89,14 @@ class ResultReader {
     for (const RawArgument& a : std::span(raw.arguments).subspan(1)) {
       if (a.kind == RawArgument::Kind::number && !number) number = &a;
       if (a.kind != RawArgument::Kind::word) continue;
-      if (a.word == "INTOL" || a.word == "OUTOL") judged = true, v.in_tolerance = a.word == "INTOL";
-      else if (a.word != "NOMINL" && v.qualifier.empty()) v.qualifier = a.word;
+      if (a.word == "INTOL" || a.word == "OUTOL")
+        judged = true, v.in_tolerance = a.word == "INTOL";
+      else if (a.word != "NOMINL" && v.qualifier.empty())
+        v.qualifier = a.word;
     }
     if (!number || !judged) {
-      sink_.add(diagnostic_at(source_, raw.span, Code::E0507, fmt::format("TA({}) has no value or no INTOL or OUTOL", v.label),
+      sink_.add(diagnostic_at(source_, raw.span, Code::E0507,
+                              fmt::format("TA({}) has no value or no INTOL or OUTOL", v.label),
                               "this result is passed over"));
       return;
     }
@@ -105,7 +109,9 @@ class ResultReader {
   void read_frame(const RawStatement& raw) {
     const auto match = matched(kMatrix, raw, 0);
     if (!match) return;
-    const auto vector = [&](std::size_t k) { return Vec3{match->values[k].number, match->values[k + 1].number, match->values[k + 2].number}; };
+    const auto vector = [&](std::size_t k) {
+      return Vec3{match->values[k].number, match->values[k + 1].number, match->values[k + 2].number};
+    };
     result_.frames.push_back({raw.label->name, {{vector(0), vector(3), vector(6)}, vector(9)}, raw.line});
   }
 

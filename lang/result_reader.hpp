@@ -36,9 +36,9 @@ struct ResultUncertainty {
 struct ResultValue {
   std::string label;
   const ToleranceKind* kind = nullptr;
-  std::string qualifier;       ///< the axis of CORTOL, DISTB and DISTWRT, 2D or 3D of POS; else empty
-  double value = 0;            ///< mm or rad
-  bool in_tolerance = false;   ///< INTOL
+  std::string qualifier;      ///< the axis of CORTOL, DISTB and DISTWRT, 2D or 3D of POS; else empty
+  double value = 0;           ///< mm or rad
+  bool in_tolerance = false;  ///< INTOL
   std::optional<ResultUncertainty> uncertainty;
   int line = 0;
 };
@@ -46,7 +46,7 @@ struct ResultValue {
 /// DA: a coordinate system.
 struct ResultFrame {
   std::string label;
-  Rigid X_MD;                  ///< its pose in the machine coordinate system, mm
+  Rigid X_MD;  ///< its pose in the machine coordinate system, mm
   int line = 0;
 };
 

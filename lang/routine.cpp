@@ -20,7 +20,8 @@ int Routine::end_of(int line) const {
 Macro macro_at(const Routine& routine, int line) {
   const Line &begin = routine[line], &end = routine[begin.partner];
   Macro macro{begin.raw.label->name, routine.file, {}, begin.raw.arguments};
-  macro.lines.assign(routine.text.begin() + static_cast<std::ptrdiff_t>(begin.logical) + 1, routine.text.begin() + static_cast<std::ptrdiff_t>(end.logical));
+  macro.lines.assign(routine.text.begin() + static_cast<std::ptrdiff_t>(begin.logical) + 1,
+                     routine.text.begin() + static_cast<std::ptrdiff_t>(end.logical));
   return macro;
 }
 
@@ -40,13 +41,13 @@ bool closes(Control opener, Control closer) {
 }
 
 bool opens(Control c) {
-  return c == Control::condition || c == Control::otherwise || c == Control::loop || c == Control::choice || c == Control::one_case ||
-         c == Control::any_case || c == Control::macro;
+  return c == Control::condition || c == Control::otherwise || c == Control::loop || c == Control::choice ||
+      c == Control::one_case || c == Control::any_case || c == Control::macro;
 }
 
 bool is_closer(Control c) {
   return c == Control::otherwise || c == Control::end_condition || c == Control::end_loop || c == Control::end_case ||
-         c == Control::end_choice || c == Control::end_macro;
+      c == Control::end_choice || c == Control::end_macro;
 }
 
 std::string_view end_of(Control c) {
@@ -91,20 +92,23 @@ class Blocks {
 
   void unclosed(int at) {
     Line& l = line(at);
-    error(Code::E0117, l, fmt::format("this {} has no {}", l.raw.word, end_of(l.control)), fmt::format("end the block with {}", end_of(l.control)));
+    error(Code::E0117, l, fmt::format("this {} has no {}", l.raw.word, end_of(l.control)),
+          fmt::format("end the block with {}", end_of(l.control)));
     l.control = Control::lost;
   }
 
   void close(int at, Line& l) {
     auto opener = std::find_if(open_.rbegin(), open_.rend(), [&](int o) { return closes(line(o).control, l.control); });
     if (opener == open_.rend()) {
-      error(Code::E0116, l, fmt::format("{} closes nothing", l.raw.word), "remove it, or write the word that opens its block");
+      error(Code::E0116, l, fmt::format("{} closes nothing", l.raw.word),
+            "remove it, or write the word that opens its block");
       l.control = Control::lost;
       return;
     }
     for (; !closes(line(open_.back()).control, l.control); open_.pop_back()) {
       Line& inner = line(open_.back());
-      error(Code::E0118, l, fmt::format("{} stands before the {} of line {} is closed", l.raw.word, inner.raw.word, inner.raw.line),
+      error(Code::E0118, l,
+            fmt::format("{} stands before the {} of line {} is closed", l.raw.word, inner.raw.word, inner.raw.line),
             fmt::format("write {} before it", end_of(inner.control)));
       inner.control = Control::lost;
     }
@@ -114,14 +118,17 @@ class Blocks {
 
   void check_case(Line& l) {
     if (l.parent >= 0 && line(l.parent).control == Control::choice) return;
-    error(Code::E0116, l, fmt::format("{} outside a SELECT", l.raw.word), "cases stand between SELECT/value and ENDSEL");
+    error(Code::E0116, l, fmt::format("{} outside a SELECT", l.raw.word),
+          "cases stand between SELECT/value and ENDSEL");
     l.control = Control::lost;
   }
 
   void target(int at, const Line& l) {
     const auto [known, is_new] = routine_.targets.emplace(upper(l.raw.target->name), at);
     if (!is_new)
-      error(Code::E0233, l, fmt::format("({}) stands in line {} already", l.raw.target->name, line(known->second).raw.line), "give each target a name of its own");
+      error(Code::E0233, l,
+            fmt::format("({}) stands in line {} already", l.raw.target->name, line(known->second).raw.line),
+            "give each target a name of its own");
   }
 
   Routine& routine_;
@@ -160,7 +167,9 @@ Routine make_routine(const SourceFile& file, std::vector<LogicalLine> text, Lowe
 namespace {
 
 bool is_sign(char c) { return c == '+' || c == '-'; }
-bool in_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80; }
+bool in_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+}
 
 /// Copies one line, with actuals in place of dummies.
 class Replacer {
@@ -178,7 +187,9 @@ class Replacer {
       if (k < 0)
         copy(at, end);
       else
-        out_.append_instead(replacement(static_cast<std::size_t>(k), token.front() == '\'', at > 0 && is_sign(text_[at - 1])), from_.span(at, end));
+        out_.append_instead(
+            replacement(static_cast<std::size_t>(k), token.front() == '\'', at > 0 && is_sign(text_[at - 1])),
+            from_.span(at, end));
       at = end;
     }
     return std::move(out_);
@@ -213,8 +224,10 @@ class Replacer {
     using K = RawArgument::Kind;
     if (a.kind == K::text) return label_ ? a.text : fmt::format("'{}'", a.text);
     const bool grouped = a.kind == K::expression && a.text.starts_with('(') && a.text.find(')') == a.text.size() - 1;
-    if (grouped && quoted) return label_ ? a.text.substr(1, a.text.size() - 2) : fmt::format("'{}'", a.text.substr(1, a.text.size() - 2));
-    const bool signs = a.kind == K::number && (is_sign(a.text.front()) || after_sign);  // `X -Y` is no list of two numbers
+    if (grouped && quoted)
+      return label_ ? a.text.substr(1, a.text.size() - 2) : fmt::format("'{}'", a.text.substr(1, a.text.size() - 2));
+    // `X -Y` is no list of two numbers
+    const bool signs = a.kind == K::number && (is_sign(a.text.front()) || after_sign);
     const bool guarded = !label_ && ((a.kind == K::expression && !grouped) || signs);
     return guarded ? fmt::format("({})", a.text) : a.text;
   }
@@ -241,7 +254,8 @@ class Replacer {
 
 std::vector<LogicalLine> expand(const Macro& macro, std::span<const RawArgument> actuals) {
   std::vector<LogicalLine> out;
-  for (const LogicalLine& line : macro.lines) out.push_back({Replacer(macro, actuals, line.code).run(), std::nullopt, line.line});
+  for (const LogicalLine& line : macro.lines)
+    out.push_back({Replacer(macro, actuals, line.code).run(), std::nullopt, line.line});
   return out;
 }
 

@@ -1,10 +1,11 @@
 // The statements of a program, a macro or a module, and the blocks that they form.
 //
-// Blocks are found once, before anything is lowered, so that each mistake in them is reported at its own place together with
-// the place where the block was opened: an ENDDO that closes an IF, an IF that nothing closes.
+// Blocks are found once, before anything is lowered, so that each mistake in them is reported at its own
+// place together with the place where the block was opened: an ENDDO that closes an IF, an IF that nothing
+// closes.
 //
-// A macro is expanded as text: its dummy arguments are replaced in a copy of its lines, and the copy is read like any other
-// lines. Every byte of the copy still knows its place in the file.
+// A macro is expanded as text: its dummy arguments are replaced in a copy of its lines, and the copy is read
+// like any other lines. Every byte of the copy still knows its place in the file.
 #pragma once
 
 #include <map>
@@ -20,9 +21,9 @@ namespace abbe::lang {
 struct Line {
   RawStatement raw;
   Control control = Control::none;
-  int partner = -1;    ///< of a word that opens: where its block ends; of IF the ELSE if there is one, and so on to ENDIF
-  int parent = -1;     ///< the word that opened the innermost block around it; of statements after ELSE that ELSE
-  bool skipped = false;  ///< between DMESW/OFF and DMESW/ON
+  int partner = -1;  ///< of a word that opens: where its block ends; of IF the ELSE if there is one, and so on to ENDIF
+  int parent = -1;   ///< the word that opened the innermost block around it; of statements after ELSE that ELSE
+  bool skipped = false;     ///< between DMESW/OFF and DMESW/ON
   std::size_t logical = 0;  ///< index into Routine::text
 };
 

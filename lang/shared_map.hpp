@@ -1,11 +1,13 @@
 // A sorted map of which copies share what they have in common.
 //
-// Where virtual machines may part, the compiler keeps what labels mean, lowers one branch, goes back and lowers the other, and merges the
-// two. With ordinary maps each condition would cost as much as the program has labels. Here a copy costs nothing, a change costs the
-// path to it, and a merge looks only at what the branches changed.
+// Where virtual machines may part, the compiler keeps what labels mean, lowers one branch, goes back and
+// lowers the other, and merges the two. With ordinary maps each condition would cost as much as the program
+// has labels. Here a copy costs nothing, a change costs the path to it, and a merge looks only at what the
+// branches changed.
 //
-// A treap (Seidel and Aragon, "Randomized Search Trees", Algorithmica 16, 1996) whose nodes never change: an insertion makes new nodes
-// along its path and keeps the others (Driscoll et al., "Making Data Structures Persistent", JCSS 38, 1989).
+// A treap (Seidel and Aragon, "Randomized Search Trees", Algorithmica 16, 1996) whose nodes never change: an
+// insertion makes new nodes along its path and keeps the others (Driscoll et al., "Making Data Structures
+// Persistent", JCSS 38, 1989).
 #pragma once
 
 #include <cstdint>
@@ -24,7 +26,9 @@ class SharedMap {
   }
   bool has(const Key& key) const { return find(key) != nullptr; }
   /// Inserts the key or replaces its value.
-  void set(const Key& key, Value value) { root_ = inserted(root_, std::make_shared<const Entry>(Entry{key, std::move(value)}), priority(key)); }
+  void set(const Key& key, Value value) {
+    root_ = inserted(root_, std::make_shared<const Entry>(Entry{key, std::move(value)}), priority(key));
+  }
   void erase(const Key& key) {
     if (has(key)) root_ = erased(root_, key);
   }
@@ -33,8 +37,8 @@ class SharedMap {
   void each(F f) const {
     visit(root_.get(), f);
   }
-  /// f(key, value here or nullptr, value there) for what is not the same entry in `there`; most of what both share is never looked at.
-  /// f must not change this map.
+  /// f(key, value here or nullptr, value there) for what is not the same entry in `there`; most of what both
+  /// share is never looked at. f must not change this map.
   template <class F>
   void differences(const SharedMap& there, F f) const {
     compare(there.root_.get(), f);
@@ -71,14 +75,17 @@ class SharedMap {
     if (entry->key == at->entry->key) return std::make_shared<const Node>(Node{entry, priority, at->left, at->right});
     if (entry->key < at->entry->key) {
       const Link left = inserted(at->left, entry, priority);
-      return left->priority > at->priority ? node(*left, left->left, node(*at, left->right, at->right)) : node(*at, left, at->right);
+      return left->priority > at->priority ? node(*left, left->left, node(*at, left->right, at->right))
+                                           : node(*at, left, at->right);
     }
     const Link right = inserted(at->right, entry, priority);
-    return right->priority > at->priority ? node(*right, node(*at, at->left, right->left), right->right) : node(*at, at->left, right);
+    return right->priority > at->priority ? node(*right, node(*at, at->left, right->left), right->right)
+                                          : node(*at, at->left, right);
   }
   static Link erased(const Link& at, const Key& key) {
     if (at->entry->key == key) return joined(at->left, at->right);
-    return key < at->entry->key ? node(*at, erased(at->left, key), at->right) : node(*at, at->left, erased(at->right, key));
+    return key < at->entry->key ? node(*at, erased(at->left, key), at->right)
+                                : node(*at, at->left, erased(at->right, key));
   }
   static Link joined(const Link& a, const Link& b) {
     if (!a || !b) return a ? a : b;
@@ -97,7 +104,8 @@ class SharedMap {
     const Node* here = find_node(root_.get(), there->entry->key);
     if (here == there) return;  // and so all below it
     compare(there->left.get(), f);
-    if (!here || here->entry != there->entry) f(there->entry->key, here ? &here->entry->value : nullptr, there->entry->value);
+    if (!here || here->entry != there->entry)
+      f(there->entry->key, here ? &here->entry->value : nullptr, there->entry->value);
     compare(there->right.get(), f);
   }
 

@@ -53,8 +53,7 @@ class NotationReader {
 
  private:
   void skip() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\n'))
-      ++at_;
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == ',' || text_[at_] == '\n')) ++at_;
   }
   char peek() {
     skip();
@@ -67,8 +66,7 @@ class NotationReader {
 
   Signature items() {
     Signature out;
-    for (char c = peek(); c != '\0' && c != ']' && c != '}' && c != ')' && c != ';'; c = peek())
-      out.push_back(item(c));
+    for (char c = peek(); c != '\0' && c != ']' && c != '}' && c != ')' && c != ';'; c = peek()) out.push_back(item(c));
     return out;
   }
 
@@ -119,8 +117,8 @@ class NotationReader {
   std::string name() {
     skip();
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) ||
-                                  text_[at_] == '_' || text_[at_] == '-'))
+    while (at_ < text_.size() &&
+           (std::isalnum(static_cast<unsigned char>(text_[at_])) || text_[at_] == '_' || text_[at_] == '-'))
       ++at_;
     ABBE_CHECK(at_ > begin);
     return std::string(text_.substr(begin, at_ - begin));
@@ -152,8 +150,7 @@ class Matcher {
 
  private:
   bool sequence(const Signature& items) {
-    return std::all_of(items.begin(), items.end(),
-                       [&](const SignatureItem& item) { return one(item); });
+    return std::all_of(items.begin(), items.end(), [&](const SignatureItem& item) { return one(item); });
   }
 
   /// Like sequence, but leaves no trace when it fails.
@@ -167,20 +164,13 @@ class Matcher {
 
   bool one(const SignatureItem& item) {
     switch (item.kind) {
-      case ItemKind::optional:
-        attempt(item.branches[0]);
-        return true;
-      case ItemKind::repeat:
-        return repeat(item.branches[0]);
+      case ItemKind::optional: attempt(item.branches[0]); return true;
+      case ItemKind::repeat: return repeat(item.branches[0]);
       case ItemKind::alternatives:
-        return std::any_of(item.branches.begin(), item.branches.end(),
-                           [&](const Signature& s) { return attempt(s); });
-      case ItemKind::rest:
-        return rest_taken_ = true;
-      case ItemKind::words:
-        return word(item);
-      case ItemKind::value:
-        return value(item);
+        return std::any_of(item.branches.begin(), item.branches.end(), [&](const Signature& s) { return attempt(s); });
+      case ItemKind::rest: return rest_taken_ = true;
+      case ItemKind::words: return word(item);
+      case ItemKind::value: return value(item);
     }
     return false;
   }
@@ -214,25 +204,19 @@ class Matcher {
 
   bool take(const SignatureItem& item, const RawArgument& argument) {
     switch (item.type) {
-      case ValueType::number:
-        return take_number(item, argument, Quantity::number);
-      case ValueType::integer:
-        return take_number(item, argument, Quantity::number);
-      case ValueType::length:
-        return take_number(item, argument, Quantity::length);
-      case ValueType::angle:
-        return take_number(item, argument, Quantity::angle);
+      case ValueType::number: return take_number(item, argument, Quantity::number);
+      case ValueType::integer: return take_number(item, argument, Quantity::number);
+      case ValueType::length: return take_number(item, argument, Quantity::length);
+      case ValueType::angle: return take_number(item, argument, Quantity::angle);
       case ValueType::text:
         if (argument.kind == RawArgument::Kind::text) keep(item, item.type, argument.text, 0);
         return argument.kind == RawArgument::Kind::text;
       case ValueType::condition:
-      case ValueType::value:
-        return take_value(item, argument);
+      case ValueType::value: return take_value(item, argument);
       case ValueType::word:
         if (is_word(argument)) keep(item, item.type, argument.word, 0);
         return is_word(argument);
-      default:
-        return take_label(item, argument);
+      default: return take_label(item, argument);
     }
   }
 
@@ -247,7 +231,8 @@ class Matcher {
     if (item.type == ValueType::integer && value->type == Type::real && !value->known()) return false;
     Value scaled = *value;
     const double factor = unit_of(quantity, units_);
-    if (factor != 1) scaled.parts[0] = combine(plan::Op2::multiply, std::move(scaled.parts[0]), {plan::PushConstant{factor}});
+    if (factor != 1)
+      scaled.parts[0] = combine(plan::Op2::multiply, std::move(scaled.parts[0]), {plan::PushConstant{factor}});
     if (!scaled.known()) {
       keep(item, item.type, argument.text, 0);
       match_.values.back().value = std::move(scaled);
@@ -280,7 +265,8 @@ class Matcher {
     if (at >= arguments_.size() || !computed_[at]) return std::nullopt;
     const RawArgument& a = arguments_[at];
     constexpr std::size_t kLongestLabelKind = 3;  // a longer word before a parenthesis is meant as a function
-    const bool function = a.kind == RawArgument::Kind::label && (find_intrinsic(a.label.kind) || a.label.kind.size() > kLongestLabelKind);
+    const bool function =
+        a.kind == RawArgument::Kind::label && (find_intrinsic(a.label.kind) || a.label.kind.size() > kLongestLabelKind);
     const bool meant_as_value = a.kind == RawArgument::Kind::expression || function || at == must_have_value_;
     const auto* mistake = std::get_if<Mistake>(&*computed_[at]);
     return mistake && (meant_as_value || mistake->of_variable) ? std::optional(*mistake) : std::nullopt;
@@ -289,26 +275,23 @@ class Matcher {
   bool take_label(const SignatureItem& item, const RawArgument& argument) {
     if (argument.kind != RawArgument::Kind::label) return false;
     const auto& kinds = type_info(item.type).label_kinds;
-    if (item.type != ValueType::label && argument.label.kind != kinds[0] &&
-        argument.label.kind != kinds[1])
+    if (item.type != ValueType::label && argument.label.kind != kinds[0] && argument.label.kind != kinds[1])
       return false;
     keep(item, item.type, argument.label.name, 0);
     return true;
   }
 
-  static bool is_word(const RawArgument& argument) {
-    return argument.kind == RawArgument::Kind::word;
-  }
+  static bool is_word(const RawArgument& argument) { return argument.kind == RawArgument::Kind::word; }
 
   void keep(const SignatureItem& item, ValueType type, std::string text, double number) {
-    match_.values.push_back({item.name, type, number, std::nullopt, {}, std::move(text), arguments_[at_].label, arguments_[at_].span});
+    match_.values.push_back(
+        {item.name, type, number, std::nullopt, {}, std::move(text), arguments_[at_].label, arguments_[at_].span});
   }
 
   void failed(std::string expected, const std::vector<std::string>& words) {
     if (at_ > furthest_.argument) furthest_ = {at_, {}, {}, {}};
     if (at_ < furthest_.argument) return;
-    if (std::find(furthest_.expected.begin(), furthest_.expected.end(), expected) ==
-        furthest_.expected.end())
+    if (std::find(furthest_.expected.begin(), furthest_.expected.end(), expected) == furthest_.expected.end())
       furthest_.expected.push_back(std::move(expected));
     furthest_.words.insert(furthest_.words.end(), words.begin(), words.end());
   }
@@ -346,8 +329,7 @@ std::string with_commas(std::string_view text) {
 
 std::string either(const std::vector<std::string>& list) {
   std::string out;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == list.size() ? " or " : ", ") + list[i];
+  for (std::size_t i = 0; i < list.size(); ++i) out += (i == 0 ? "" : i + 1 == list.size() ? " or " : ", ") + list[i];
   return out;
 }
 
@@ -356,8 +338,7 @@ std::string either(const std::vector<std::string>& list) {
 Signature parse_signature(std::string_view text) { return NotationReader(text).read(); }
 
 const MatchedValue* Match::find(std::string_view name) const {
-  const auto it = std::find_if(values.begin(), values.end(),
-                               [&](const MatchedValue& v) { return v.name == name; });
+  const auto it = std::find_if(values.begin(), values.end(), [&](const MatchedValue& v) { return v.name == name; });
   return it == values.end() ? nullptr : &*it;
 }
 double Match::number(std::string_view name, double otherwise) const {
@@ -369,48 +350,40 @@ std::string Match::text(std::string_view name, std::string_view otherwise) const
   return value ? value->text : std::string(otherwise);
 }
 
-std::variant<Match, Mismatch> match(const Signature& signature, std::span<const RawArgument> arguments, const Units& units,
-                                    const Evaluator& evaluator) {
+std::variant<Match, Mismatch> match(const Signature& signature, std::span<const RawArgument> arguments,
+                                    const Units& units, const Evaluator& evaluator) {
   return Matcher(arguments, units, evaluator).run(signature);
 }
 
-Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> arguments,
-                    std::string_view what, std::size_t first, Span statement,
-                    const SourceFile& source) {
+Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> arguments, std::string_view what,
+                    std::size_t first, Span statement, const SourceFile& source) {
   const std::string expected = either(mismatch.expected);
   const std::size_t number = mismatch.argument + first + 1;
-  const std::string see = fmt::format("`abbe explain {}` shows all arguments",
-                                      what.substr(what.find_last_of("/,") + 1));
+  const std::string see =
+      fmt::format("`abbe explain {}` shows all arguments", what.substr(what.find_last_of("/,") + 1));
   if (mismatch.argument >= arguments.size()) {
-    const Span end{statement.end > statement.begin ? statement.end - 1 : statement.end,
-                   statement.end};
-    return diagnostic_at(
-        source, end, Code::E0107,
-        fmt::format("{} ends where argument {} should be {}", what, number, expected), see);
+    const Span end{statement.end > statement.begin ? statement.end - 1 : statement.end, statement.end};
+    return diagnostic_at(source, end, Code::E0107,
+                         fmt::format("{} ends where argument {} should be {}", what, number, expected), see);
   }
   const RawArgument& written = arguments[mismatch.argument];
   if (written.kind == RawArgument::Kind::several) {
     const bool difference = written.text.find_first_of("+-", 1) != std::string::npos;
-    return diagnostic_at(source, written.span, Code::E0105,
-                         fmt::format("a comma is missing in '{}'", written.text),
-                         fmt::format("arguments are separated by commas{}", difference ? "; a sum has blanks on both sides of its sign, or none" : ""),
+    return diagnostic_at(source, written.span, Code::E0105, fmt::format("a comma is missing in '{}'", written.text),
+                         fmt::format("arguments are separated by commas{}",
+                                     difference ? "; a sum has blanks on both sides of its sign, or none" : ""),
                          with_commas(written.text));
   }
   if (expected.empty())
     return diagnostic_at(source, written.span, Code::E0108,
-                         fmt::format("{} takes no argument {} ('{}')", what, number, written.text),
-                         see);
+                         fmt::format("{} takes no argument {} ('{}')", what, number, written.text), see);
   const bool computed = written.kind == RawArgument::Kind::expression;
-  const std::string as_written =
-      written.kind == RawArgument::Kind::empty ? "empty" : "'" + written.text + "'";
-  const std::string message =
-      fmt::format("argument {} of {} is {}, expected {}", number, what, as_written, expected);
+  const std::string as_written = written.kind == RawArgument::Kind::empty ? "empty" : "'" + written.text + "'";
+  const std::string message = fmt::format("argument {} of {} is {}, expected {}", number, what, as_written, expected);
   if (computed)
-    return diagnostic_at(source, written.span, Code::E0111, message,
-                         "an expression gives a number or a logical value");
+    return diagnostic_at(source, written.span, Code::E0111, message, "an expression gives a number or a logical value");
   const std::vector<std::string_view> words(mismatch.words.begin(), mismatch.words.end());
-  const std::string near =
-      written.kind == RawArgument::Kind::word ? nearest_word(written.word, words) : "";
+  const std::string near = written.kind == RawArgument::Kind::word ? nearest_word(written.word, words) : "";
   return diagnostic_at(source, written.span, Code::E0106, message,
                        near.empty() ? see : fmt::format("did you mean {}?", near), near);
 }

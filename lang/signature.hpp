@@ -8,7 +8,8 @@
 //   no meaning here l:label        any label whatever its kind, for words that are understood and
 //   skipped
 //   c:condition    a logical value; v:value any value
-// A number, condition or value may be an expression over variables. Words are upper case, types lower case; that tells `side:INNER|OUTER` from `x:length`.
+// A number, condition or value may be an expression over variables. Words are upper case, types lower case;
+// that tells `side:INNER|OUTER` from `x:length`.
 //
 // Matching takes the first alternative that fits and never goes back into an option it has taken.
 // When nothing fits, the mismatch is the furthest argument reached and everything that could have
@@ -62,10 +63,11 @@ struct MatchedValue {
   std::string name;
   ValueType type{};
   double number = 0;  ///< mm, rad or as written
-  std::optional<Value> value;  ///< of a condition or value; of a number only when it depends on what is measured, in units as above
-  plan::ColumnId column;       ///< then also where a statement finds it
-  std::string text;   ///< word in upper case, text, or the name of a label
-  LabelRef label;     ///< for labels
+  /// of a condition or value; of a number only when it depends on what is measured, in units as above
+  std::optional<Value> value;
+  plan::ColumnId column;  ///< then also where a statement finds it
+  std::string text;       ///< word in upper case, text, or the name of a label
+  LabelRef label;         ///< for labels
   Span span;
 };
 
@@ -81,7 +83,7 @@ struct Match {
 };
 
 struct Mismatch {
-  std::size_t argument = 0;  ///< index; the number of arguments when one is missing at the end
+  std::size_t argument = 0;           ///< index; the number of arguments when one is missing at the end
   std::vector<std::string> expected;  ///< descriptions; empty when an argument is one too many
   std::vector<std::string> words;     ///< the words that could have stood there
   std::optional<Mistake> mistake;     ///< the argument is an expression that has no value: why
@@ -90,12 +92,13 @@ struct Mismatch {
 /// The value of an argument that is an expression.
 using Evaluator = std::function<Evaluation(const RawArgument&)>;
 
-std::variant<Match, Mismatch> match(const Signature&, std::span<const RawArgument>, const Units&, const Evaluator& = {});
+std::variant<Match, Mismatch> match(const Signature&, std::span<const RawArgument>, const Units&,
+                                    const Evaluator& = {});
 
 /// The message for a mismatch, at the argument, or at `statement` when an argument is missing.
 /// `what` is the statement as the user knows it ("FEAT/CIRCLE"); `first` the number of its
 /// arguments before the ones matched.
-Diagnostic describe(const Mismatch&, std::span<const RawArgument>, std::string_view what,
-                    std::size_t first, Span statement, const SourceFile&);
+Diagnostic describe(const Mismatch&, std::span<const RawArgument>, std::string_view what, std::size_t first,
+                    Span statement, const SourceFile&);
 
 }  // namespace abbe::lang

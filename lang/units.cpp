@@ -20,8 +20,7 @@ std::optional<double> sexagesimal(std::string_view text) {
     degrees += value * unit;
     unit /= 60;
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    if (text.empty())
-      return part == 0 ? std::nullopt : std::optional(negative ? -degrees : degrees);
+    if (text.empty()) return part == 0 ? std::nullopt : std::optional(negative ? -degrees : degrees);
     if (text.front() != ':') return std::nullopt;
     text.remove_prefix(1);
   }

@@ -10,7 +10,8 @@ std::string_view name_of(Type type) {
 }
 
 bool Value::known() const {
-  return std::all_of(parts.begin(), parts.end(), [](const plan::Expression& e) { return plan::constant(e) != nullptr; });
+  return std::all_of(parts.begin(), parts.end(),
+                     [](const plan::Expression& e) { return plan::constant(e) != nullptr; });
 }
 
 Value number(double v) { return {Type::real, {{plan::PushConstant{v}}}}; }

@@ -1,11 +1,11 @@
 // Values of the language: what variables hold and expressions give.
 //
-// A number is a plan expression. While nothing measured is in it, it is one constant and folds as the program is compiled; as
-// soon as a measured value is in it, it is arithmetic over columns that every virtual machine does for itself. So one code path
-// serves both, and a value is the same either way.
+// A number is a plan expression. While nothing measured is in it, it is one constant and folds as the program
+// is compiled; as soon as a measured value is in it, it is arithmetic over columns that every virtual machine
+// does for itself. So one code path serves both, and a value is the same either way.
 //
-// Texts are interned: a text is the number of an entry in a table. A CHAR variable that holds one text on one path and another
-// on the next is then a column like any other, and texts compare by number.
+// Texts are interned: a text is the number of an entry in a table. A CHAR variable that holds one text on one
+// path and another on the next is then a column like any other, and texts compare by number.
 #pragma once
 
 #include <string>

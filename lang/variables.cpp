@@ -34,29 +34,52 @@ void store_all(Lowering& lowering, Variable& v) {
 int known_offset(const Variable& v, const Value& index) {
   const int offset = plan::element_offset(index.constant(), v.size);
   if (offset < 0)
-    throw Mistake{Code::E0236, 0, 0, fmt::format("{} has no element {}", v.name, index.constant()), fmt::format("its elements are 1 to {}", v.size), ""};
+    throw Mistake{Code::E0236,
+                  0,
+                  0,
+                  fmt::format("{} has no element {}", v.name, index.constant()),
+                  fmt::format("its elements are 1 to {}", v.size),
+                  ""};
   return offset;
 }
 
 void check_use(const Variable& v, const std::optional<Value>& index) {
-  if (index && v.size == 0) throw Mistake{Code::E0236, 0, 0, fmt::format("{} is no array", v.name), fmt::format("declare it with its size: DECL/{},{}[10]", name_of(v.type), v.name), ""};
-  if (!index && v.size > 0) throw Mistake{Code::E0236, 0, 0, fmt::format("{} is an array: an index is missing", v.name), fmt::format("write {}[1] for its first element", v.name), ""};
+  if (index && v.size == 0)
+    throw Mistake{Code::E0236,
+                  0,
+                  0,
+                  fmt::format("{} is no array", v.name),
+                  fmt::format("declare it with its size: DECL/{},{}[10]", name_of(v.type), v.name),
+                  ""};
+  if (!index && v.size > 0)
+    throw Mistake{Code::E0236,
+                  0,
+                  0,
+                  fmt::format("{} is an array: an index is missing", v.name),
+                  fmt::format("write {}[1] for its first element", v.name),
+                  ""};
 }
 
 [[noreturn]] void wrong_type(const Variable& v, const Value& value) {
-  throw Mistake{Code::E0232, 0, 0, fmt::format("{} is {} and cannot hold {}", v.name, name_of(v.type), name_of(value.type)),
-                v.type == Type::text ? "STR(x) makes a text of a number" : "assign a value of its type", ""};
+  throw Mistake{Code::E0232,
+                0,
+                0,
+                fmt::format("{} is {} and cannot hold {}", v.name, name_of(v.type), name_of(value.type)),
+                v.type == Type::text ? "STR(x) makes a text of a number" : "assign a value of its type",
+                ""};
 }
 
 /// The value as the variable holds it.
 Value converted(Lowering& lowering, const Variable& v, Value value) {
   const bool numbers = value.is_number() && (v.type == Type::integer || v.type == Type::real);
   if (!numbers && value.type != v.type) wrong_type(v, value);
-  if (v.type == Type::integer && value.type == Type::real) value.parts[0] = combine(plan::Op1::truncate, std::move(value.parts[0]));
+  if (v.type == Type::integer && value.type == Type::real)
+    value.parts[0] = combine(plan::Op1::truncate, std::move(value.parts[0]));
   if (v.type == Type::text && v.length > 0 && value.known()) {
     const std::string text = lowering.texts[value];
     if (text.size() > static_cast<std::size_t>(v.length)) {
-      lowering.warn(Code::W0125, lowering.statement->span, fmt::format("'{}' has {} characters, {} holds {}", text, text.size(), v.name, v.length),
+      lowering.warn(Code::W0125, lowering.statement->span,
+                    fmt::format("'{}' has {} characters, {} holds {}", text, text.size(), v.name, v.length),
                     "the rest is cut off; declare it longer");
       value = lowering.texts.value(std::string_view(text).substr(0, static_cast<std::size_t>(v.length)));
     }
@@ -90,7 +113,8 @@ Variable& declare(Lowering& lowering, std::string_view name, Type type, int leng
 Value read(Lowering& lowering, Variable& v, const std::optional<Value>& index) {
   check_use(v, index);
   if (const std::string* spoilt = lowering.symbols.spoilt.find(spoilt_key("", v.name)))
-    throw Mistake{Code::E0230, 0, 0, fmt::format("{} has no usable value", v.name), fmt::format("because of {}", *spoilt), ""};
+    throw Mistake{
+        Code::E0230, 0, 0, fmt::format("{} has no usable value", v.name), fmt::format("because of {}", *spoilt), ""};
   Value out{v.type, {}};
   const int width = v.width();
   if (index && !index->known()) {
@@ -108,7 +132,9 @@ Value read(Lowering& lowering, Variable& v, const std::optional<Value>& index) {
     const Cell& cell = v.cells[at];
     if (!cell.set) {
       const std::string name = index ? fmt::format("{}[{}]", v.name, offset + 1) : v.name;
-      throw Mistake{Code::E0230, 0, 0, fmt::format("{} has no value yet", name), fmt::format("give it one: {}=ASSIGN/...", name), ""};
+      throw Mistake{
+          Code::E0230, 0, 0, fmt::format("{} has no value yet", name), fmt::format("give it one: {}=ASSIGN/...", name),
+          ""};
     }
     if (cell.known)
       out.parts.push_back({plan::PushConstant{cell.constant}});
@@ -126,7 +152,11 @@ void assign(Lowering& lowering, Variable& v, const std::optional<Value>& index, 
     store_all(lowering, v);
     const plan::ColumnId at = lowering.evaluated(index->parts[0]);
     for (int k = 0; k < width; ++k)
-      lowering.emit(plan::Assign{{column(lowering, v, 0).value + k}, value.parts[static_cast<std::size_t>(k)], {plan::PushColumn{at}}, v.size, width});
+      lowering.emit(plan::Assign{{column(lowering, v, 0).value + k},
+                                 value.parts[static_cast<std::size_t>(k)],
+                                 {plan::PushColumn{at}},
+                                 v.size,
+                                 width});
     for (Cell& cell : v.cells) cell = {true, false, true, 0};
     return;
   }

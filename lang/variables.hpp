@@ -1,8 +1,9 @@
 // Variables while a program is compiled (DECL, ASSIGN, OBTAIN, PROMPT, VALUE, DO).
 //
-// A variable whose value does not depend on what is measured is known: it lives here, costs nothing at run time, and may stand
-// anywhere, in labels too. One that depends on a measurement lives in columns of the plan. Before machines part at a condition,
-// what may change on either path is stored in its columns; where the paths meet again a variable stays known if both agree.
+// A variable whose value does not depend on what is measured is known: it lives here, costs nothing at run
+// time, and may stand anywhere, in labels too. One that depends on a measurement lives in columns of the
+// plan. Before machines part at a condition, what may change on either path is stored in its columns; where
+// the paths meet again a variable stays known if both agree.
 #pragma once
 
 #include <map>
@@ -28,8 +29,8 @@ struct Cell {
 struct Variable {
   std::string name;  ///< as declared
   Type type = Type::real;
-  int length = 0;    ///< of a CHAR: characters; 0 for any number of them
-  int size = 0;      ///< of an array; 0 for a single value
+  int length = 0;        ///< of a CHAR: characters; 0 for any number of them
+  int size = 0;          ///< of an array; 0 for a single value
   std::string slot;      ///< names its columns, which it gets when it needs them
   plan::ColumnId first;  ///< the first of them, or none yet
   std::vector<Cell> cells;
@@ -52,7 +53,8 @@ Variable* find_variable(Lowering&, std::string_view name);
 Variable& declare(Lowering&, std::string_view name, Type, int length, int size, bool global);
 /// The value or the element. Throws Mistake without a place.
 Value read(Lowering&, Variable&, const std::optional<Value>& index);
-/// Converts to the type of the variable: INTGR cuts fractions off, CHAR what is too long. Throws Mistake without a place.
+/// Converts to the type of the variable: INTGR cuts fractions off, CHAR what is too long. Throws Mistake
+/// without a place.
 void assign(Lowering&, Variable&, const std::optional<Value>& index, Value);
 
 /// Puts what is known of these variables into their columns as well.

@@ -21,9 +21,7 @@ void add_words(const Signature& signature, Words& out) {
   }
 }
 
-void add_words(std::string_view signature, Words& out) {
-  add_words(parse_signature(signature), out);
-}
+void add_words(std::string_view signature, Words& out) { add_words(parse_signature(signature), out); }
 
 template <class Kinds>
 void add_kinds(const Kinds& kinds, Words& out) {
@@ -37,8 +35,7 @@ void add_registered(const Statement& statement, Words& out) {
     add_kinds(tolerance_kinds(), out);
   else if (names_kind && statement.word != "DEVICE")
     add_kinds(feature_kinds(), out);
-  if (statement.signature.find("method:word") != std::string_view::npos)
-    add_kinds(constructions(), out);
+  if (statement.signature.find("method:word") != std::string_view::npos) add_kinds(constructions(), out);
 }
 
 /// Words of the kind that an argument names.
@@ -80,8 +77,7 @@ std::vector<std::string_view> major_words() {
   return words;
 }
 
-std::vector<std::string> argument_words(std::string_view word,
-                                        std::span<const RawArgument> written) {
+std::vector<std::string> argument_words(std::string_view word, std::span<const RawArgument> written) {
   const Statement* statement = find_statement(word);
   if (!statement) return {};
   Words out;

@@ -23,8 +23,7 @@ std::vector<std::string_view> major_words();
 /// The minor words that may stand among the arguments of `word` after the ones written: those of
 /// its signature, and of the kind of feature, tolerance or construction that was named. Nothing for
 /// a word that is not known.
-std::vector<std::string> argument_words(std::string_view word,
-                                        std::span<const RawArgument> written);
+std::vector<std::string> argument_words(std::string_view word, std::span<const RawArgument> written);
 
 /// What a label of this kind names.
 struct LabelKind {

@@ -13,10 +13,8 @@ int main(int argc, char** argv) {
     abbe::print_messages(error.diagnostics());
     return abbe::kUnusable;
   } catch (const std::exception& error) {
-    std::fprintf(
-        stderr,
-        "abbe: internal fault: %s\nPlease report this with the command and its input files.\n",
-        error.what());
+    std::fprintf(stderr, "abbe: internal fault: %s\nPlease report this with the command and its input files.\n",
+                 error.what());
     return abbe::kFault;
   }
 }

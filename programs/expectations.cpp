@@ -31,9 +31,8 @@ std::optional<double> figure(const CharacteristicReport& c, const std::string& q
 
 bool names(const lang::Expectation& e, const CharacteristicReport& c) {
   const auto is_it = [&](const std::string& feature) { return same_label(feature, e.feature); };
-  return same_label(c.tolerance, e.subject) &&
-         (e.occurrence == 0 || e.occurrence == c.occurrence) &&
-         (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), is_it));
+  return same_label(c.tolerance, e.subject) && (e.occurrence == 0 || e.occurrence == c.occurrence) &&
+      (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), is_it));
 }
 
 ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) {
@@ -42,24 +41,23 @@ ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) 
   std::string what = fmt::format("TA({})", e.subject);
   if (!e.feature.empty()) what = fmt::format("FA({}) with ", e.feature) + what;
   if (e.occurrence > 0) what += fmt::format(", occurrence {}", e.occurrence);
-  const bool label_known = std::any_of(tolerances.begin(), tolerances.end(),
-                                       [&](auto t) { return same_label(t, e.subject); });
+  const bool label_known =
+      std::any_of(tolerances.begin(), tolerances.end(), [&](auto t) { return same_label(t, e.subject); });
   const std::string near = label_known ? "" : nearest_word(e.subject, tolerances);
-  const Diagnostic d = diagnostic(Code::E0608, "the program evaluates no " + what,
-                                  near.empty() ? "see the characteristics that `abbe run` lists"
-                                               : "did you mean TA(" + near + ")?");
+  const Diagnostic d =
+      diagnostic(Code::E0608, "the program evaluates no " + what,
+                 near.empty() ? "see the characteristics that `abbe run` lists" : "did you mean TA(" + near + ")?");
   return {false, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help)};
 }
 
 ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
   if (!value)
-    return {false, fmt::format("{}: there is none, because {}", name,
-                               e.quantity == "conformance"
-                                   ? "the tolerance has no limits"
-                                   : "a condition sends the error-free machine past it")};
+    return {false,
+            fmt::format("{}: there is none, because {}", name,
+                        e.quantity == "conformance" ? "the tolerance has no limits"
+                                                    : "a condition sends the error-free machine past it")};
   const bool inside = (!e.low || *value >= *e.low) && (!e.high || *value <= *e.high);
-  return {inside,
-          fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};
+  return {inside, fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};
 }
 
 }  // namespace

@@ -14,10 +14,10 @@ std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
   if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xC2 && lead < 0xE0   ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3
-                             : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                           : 0;
+  const std::size_t length = lead >= 0xC2 && lead < 0xE0 ? 2
+      : lead >= 0xE0 && lead < 0xF0                      ? 3
+      : lead >= 0xF0 && lead < 0xF5                      ? 4
+                                                         : 0;
   if (length == 0 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
@@ -30,24 +30,15 @@ std::size_t character_length(std::string_view text) {
 std::string escaped_character(std::string_view character) {
   constexpr const char* kReplacement = "\xEF\xBF\xBD";
   switch (character[0]) {
-    case '&':
-      return "&amp;";
-    case '<':
-      return "&lt;";
-    case '>':
-      return "&gt;";
-    case '"':
-      return "&quot;";
-    case '\'':
-      return "&apos;";
-    case '\n':
-      return "&#10;";
-    case '\t':
-      return "&#9;";
-    case '\r':
-      return "&#13;";
-    default:
-      break;
+    case '&': return "&amp;";
+    case '<': return "&lt;";
+    case '>': return "&gt;";
+    case '"': return "&quot;";
+    case '\'': return "&apos;";
+    case '\n': return "&#10;";
+    case '\t': return "&#9;";
+    case '\r': return "&#13;";
+    default: break;
   }
   const bool control = static_cast<unsigned char>(character[0]) < 0x20;
   const bool noncharacter = character == "\xEF\xBF\xBE" || character == "\xEF\xBF\xBF";
@@ -55,17 +46,14 @@ std::string escaped_character(std::string_view character) {
 }
 
 long failures(const TestSuite& suite) {
-  return std::count_if(suite.cases.begin(), suite.cases.end(),
-                       [](const TestCase& c) { return !c.passed; });
+  return std::count_if(suite.cases.begin(), suite.cases.end(), [](const TestCase& c) { return !c.passed; });
 }
 
 std::string case_xml(const TestSuite& suite, const TestCase& c) {
-  const std::string open =
-      fmt::format("    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\"",
-                  xml_escaped(suite.file), xml_escaped(c.name), xml_escaped(suite.file), c.line);
+  const std::string open = fmt::format("    <testcase classname=\"{}\" name=\"{}\" file=\"{}\" line=\"{}\"",
+                                       xml_escaped(suite.file), xml_escaped(c.name), xml_escaped(suite.file), c.line);
   if (c.passed) return open + "/>\n";
-  return fmt::format("{}>\n      <failure message=\"{}\"/>\n    </testcase>\n", open,
-                     xml_escaped(c.outcome));
+  return fmt::format("{}>\n      <failure message=\"{}\"/>\n    </testcase>\n", open, xml_escaped(c.outcome));
 }
 
 }  // namespace
@@ -87,8 +75,8 @@ std::string junit_xml(const std::vector<TestSuite>& suites) {
   for (const TestSuite& suite : suites) {
     tests += suite.cases.size();
     failed += failures(suite);
-    body += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n",
-                        xml_escaped(suite.file), suite.cases.size(), failures(suite));
+    body += fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\">\n", xml_escaped(suite.file),
+                        suite.cases.size(), failures(suite));
     for (const TestCase& c : suite.cases) body += case_xml(suite, c);
     body += "  </testsuite>\n";
   }

@@ -44,8 +44,8 @@ struct NumberOf<std::optional<Value>> {
   using Type = Value;
 };
 
-/// A number in decimals, as the directives of a program have it, and nothing else: CLI11 would read 010 as 8 and 0x64 as 100, and make
-/// the largest number of what is too large.
+/// A number in decimals, as the directives of a program have it, and nothing else: CLI11 would read 010 as 8
+/// and 0x64 as 100, and make the largest number of what is too large.
 template <class Number>
 Number decimal(const std::string& option, const std::string& text, Number least, Number most) {
   const char *begin = text.data(), *end = begin + text.size();
@@ -53,38 +53,52 @@ Number decimal(const std::string& option, const std::string& text, Number least,
   Number value{};
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (error == std::errc{} && stop == end && value >= least && value <= most) return value;
-  const std::string expected = std::is_integral_v<Number> ? fmt::format("a whole number from {} to {}", least, most) : "a number with a decimal point";
+  const std::string expected = std::is_integral_v<Number> ? fmt::format("a whole number from {} to {}", least, most)
+                                                          : "a number with a decimal point";
   throw CLI::ValidationError(option, fmt::format("expected {}, found {}", expected, text));
 }
 
 /// An option that takes a number. What a command can do with it is for the command to say.
 template <class Value, class Number = typename NumberOf<Value>::Type>
 CLI::Option* add_number(CLI::App* command, const std::string& option, Value& value, const std::string& help,
-                        Number least = std::numeric_limits<Number>::lowest(), Number most = std::numeric_limits<Number>::max()) {
+                        Number least = std::numeric_limits<Number>::lowest(),
+                        Number most = std::numeric_limits<Number>::max()) {
   return command->add_option_function<std::string>(
-      option, [&value, option, least, most](const std::string& text) { value = decimal<Number>(option, text, least, most); }, help);
+      option,
+      [&value, option, least, most](const std::string& text) { value = decimal<Number>(option, text, least, most); },
+      help);
 }
 
 void add_threads(CLI::App* command, int& threads) {
-  add_number(command, "--threads", threads, fmt::format("1 to {}; 0, the default: all of the computer; the result does not depend on it", kMostThreads))->type_name("T");
+  add_number(
+      command, "--threads", threads,
+      fmt::format("1 to {}; 0, the default: all of the computer; the result does not depend on it", kMostThreads))
+      ->type_name("T");
 }
 
 void add_settings(CLI::App* command, StudySettings& s) {
-  command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
+  command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")
+      ->type_name("W.json");
   add_number(command, "--machines", s.machines, "how many virtual machines (default 1000)")->type_name("N");
   add_number(command, "--seed", s.seed, "of the random numbers (default 1)")->type_name("S");
   add_threads(command, s.threads);
 }
 
 void add_format(CLI::App* command, std::string& format, std::vector<std::string> names) {
-  command->add_option("--format", format, "of the result on stdout")->check(CLI::IsMember(std::move(names)))->capture_default_str();
+  command->add_option("--format", format, "of the result on stdout")
+      ->check(CLI::IsMember(std::move(names)))
+      ->capture_default_str();
 }
 
 /// The effects of the machine file, as GUM F.2.4.5 or as GUM 3.2.4 wants them.
 void add_effects(CLI::App* command, EffectUse& use) {
-  const auto take = [&use](const std::string& word) { use = word == name(EffectUse::corrected) ? EffectUse::corrected : EffectUse::left_in; };
-  command->add_option_function<std::string>("--effects", take,
-                                            "of the machine file: left-in (an error of every result; default) or corrected (only their uncertainty)")
+  const auto take = [&use](const std::string& word) {
+    use = word == name(EffectUse::corrected) ? EffectUse::corrected : EffectUse::left_in;
+  };
+  command
+      ->add_option_function<std::string>(
+          "--effects", take,
+          "of the machine file: left-in (an error of every result; default) or corrected (only their uncertainty)")
       ->check(CLI::IsMember({std::string(name(EffectUse::left_in)), std::string(name(EffectUse::corrected))}));
 }
 
@@ -93,12 +107,17 @@ void add_answers(CLI::App* command, std::map<std::string, std::string>& answers)
   const auto take = [&answers](const std::vector<std::string>& list) {
     for (const std::string& text : list) {
       const std::size_t equals = text.find('=');
-      if (equals == std::string::npos || equals == 0) throw CLI::ConversionError(text, "--answer: expected NAME=VALUE, as in --answer SERIAL=12");
+      if (equals == std::string::npos || equals == 0)
+        throw CLI::ConversionError(text, "--answer: expected NAME=VALUE, as in --answer SERIAL=12");
       answers[text.substr(0, equals)] = text.substr(equals + 1);
     }
   };
-  command->add_option_function<std::vector<std::string>>("--answer", take, "answer to a PROMPT of the program (may be repeated)")
-      ->type_name("NAME=VALUE")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      ->add_option_function<std::vector<std::string>>("--answer", take,
+                                                      "answer to a PROMPT of the program (may be repeated)")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_run(CLI::App& app, Chosen& chosen) {
@@ -106,15 +125,22 @@ void add_run(CLI::App& app, Chosen& chosen) {
   const auto o = chosen_by(command, chosen, run_command);
   StudySettings& settings = o->request.settings;
   command->add_option("PROGRAM", o->request.program, "a DMIS program")->required();
-  command->add_option("--machine", settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
+  command->add_option("--machine", settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")
+      ->type_name("M");
   add_settings(command, settings);
-  add_number(command, "--digits", settings.digits, "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
+  add_number(command, "--digits", settings.digits,
+             "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
       ->type_name("D")
       ->excludes("--machines");
-  command->add_option("--recording", settings.recording, "add the errors to these recorded points instead of to nominal ones")->type_name("REC.csv");
+  command
+      ->add_option("--recording", settings.recording,
+                   "add the errors to these recorded points instead of to nominal ones")
+      ->type_name("REC.csv");
   add_effects(command, settings.effect_use);
-  command->add_flag("--budget", settings.budget, "share out the variance among all sources, and between alignment and features");
-  add_number(command, "--coverage", settings.coverage, "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
+  command->add_flag("--budget", settings.budget,
+                    "share out the variance among all sources, and between alignment and features");
+  add_number(command, "--coverage", settings.coverage,
+             "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
       ->type_name("P");
   add_answers(command, o->request.answers);
   command->add_flag("--only-valid", o->request.only_valid, "leave out statements with errors, and say what is lost");
@@ -164,8 +190,10 @@ void add_fit(CLI::App& app, Chosen& chosen) {
   const auto o = chosen_by(command, chosen, fit_command);
   command->add_option("ELEMENT", o->element, "line, plane, circle, sphere, cylinder, cone or torus")->required();
   command->add_option("POINTS", o->points, "CSV file with the header x,y,z")->required();
-  command->add_option_function<std::string>("--normal", [o](const std::string& text) { o->normal = parse_vector(text); },
-                                            "plane of a circle")->type_name("i,j,k");
+  command
+      ->add_option_function<std::string>(
+          "--normal", [o](const std::string& text) { o->normal = parse_vector(text); }, "plane of a circle")
+      ->type_name("i,j,k");
   add_format(command, o->format, {"text", "json"});
 }
 
@@ -178,7 +206,8 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
     add_number(command, "--machines", o->machines, "how many accepted machines to draw (default 1000)")->type_name("N");
     add_threads(command, o->threads);
   }
-  if (o->action == "screen" || o->action == "show") add_number(command, "--seed", o->seed, "of the random numbers (default 1)")->type_name("S");
+  if (o->action == "screen" || o->action == "show")
+    add_number(command, "--seed", o->seed, "of the random numbers (default 1)")->type_name("S");
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
 }
 
@@ -186,22 +215,34 @@ void add_machine(CLI::App& app, Chosen& chosen) {
   CLI::App* machine = app.add_subcommand("machine", "list, show, screen or begin machine files");
   machine->require_subcommand(1);
   add_machine_action(machine, chosen, "list", "the shipped machines", nullptr);
-  add_machine_action(machine, chosen, "show", "what a machine file says, with all defaults, and one virtual machine of it", "MACHINE");
+  add_machine_action(machine, chosen, "show",
+                     "what a machine file says, with all defaults, and one virtual machine of it", "MACHINE");
   add_machine_action(machine, chosen, "screen", "how many virtual machines satisfy the specification", "MACHINE");
   add_machine_action(machine, chosen, "init", "write a machine file to start from", "NAME");
 }
 
 void add_record(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("record", "run a program on one virtual machine and write what it reports, touch by touch");
+  CLI::App* command =
+      app.add_subcommand("record", "run a program on one virtual machine and write what it reports, touch by touch");
   const auto o = chosen_by(command, chosen, record_command);
   command->add_option("PROGRAM", o->program, "a DMIS program")->required();
-  command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
-  command->add_option("--workpiece", o->workpiece, "workpiece file: true sizes, temperatures and form of the part")->type_name("W.json");
-  command->add_option("--with", o->with, "let an effect act, left in: EFFECT or EFFECT:parameter=value,... (may be repeated)")
-      ->type_name("EFFECT")->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default coord3-mc16)")
+      ->type_name("M");
+  command->add_option("--workpiece", o->workpiece, "workpiece file: true sizes, temperatures and form of the part")
+      ->type_name("W.json");
+  command
+      ->add_option("--with", o->with,
+                   "let an effect act, left in: EFFECT or EFFECT:parameter=value,... (may be repeated)")
+      ->type_name("EFFECT")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_number(command, "--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S");
-  add_number(command, "--run", o->run, "which repeat: the same machine and part, other noise of probe and head (default 1)", 1, kMostRepeats)->type_name("K");
-  add_number(command, "--setup", o->setup, "which placement of the part: a diagnosis takes those of other setups as placed anew (default 1)", 1, kMostRepeats)
+  add_number(command, "--run", o->run,
+             "which repeat: the same machine and part, other noise of probe and head (default 1)", 1, kMostRepeats)
+      ->type_name("K");
+  add_number(command, "--setup", o->setup,
+             "which placement of the part: a diagnosis takes those of other setups as placed anew (default 1)", 1,
+             kMostRepeats)
       ->type_name("N");
   add_answers(command, o->answers);
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
@@ -209,16 +250,29 @@ void add_record(CLI::App& app, Chosen& chosen) {
 }
 
 void add_diagnose(CLI::App& app, Chosen& chosen) {
-  CLI::App* command = app.add_subcommand("diagnose", "say where recordings differ from the simulation, and which physics would explain it");
+  CLI::App* command = app.add_subcommand(
+      "diagnose", "say where recordings differ from the simulation, and which physics would explain it");
   const auto o = chosen_by(command, chosen, diagnose_command);
   command->add_option("REC", o->recordings, "recordings, CSV; several are taken as one")->required();
-  command->add_option("--program", o->program, "the program that was run, when the recording has no targets")->type_name("P.dmi");
-  command->add_option("--machine", o->machine, "machine file, or name of a shipped machine (default: what the recording says)")->type_name("M");
-  command->add_option("--workpiece", o->workpiece, "workpiece file: calibrated sizes, temperatures, expansion coefficient")->type_name("W.json");
-  command->add_option("--known", o->known, "machine file that an earlier diagnosis wrote: start from what is known of the machine")->type_name("K.json");
-  command->add_option("--report", o->report, "write the diagnosis as a page with figures, one HTML file")->type_name("R.html");
-  command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")->type_name("I.json");
-  command->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values");
+  command->add_option("--program", o->program, "the program that was run, when the recording has no targets")
+      ->type_name("P.dmi");
+  command
+      ->add_option("--machine", o->machine,
+                   "machine file, or name of a shipped machine (default: what the recording says)")
+      ->type_name("M");
+  command
+      ->add_option("--workpiece", o->workpiece, "workpiece file: calibrated sizes, temperatures, expansion coefficient")
+      ->type_name("W.json");
+  command
+      ->add_option("--known", o->known,
+                   "machine file that an earlier diagnosis wrote: start from what is known of the machine")
+      ->type_name("K.json");
+  command->add_option("--report", o->report, "write the diagnosis as a page with figures, one HTML file")
+      ->type_name("R.html");
+  command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")
+      ->type_name("I.json");
+  command->add_flag("--design-only", o->design_only,
+                    "say what such a recording could tell, without looking at its values");
   command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");
   add_number(command, "--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S");
   add_threads(command, o->threads);
@@ -243,7 +297,9 @@ void add_repl(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("repl", "enter statements one at a time and see their results");
   const auto o = chosen_by(command, chosen, repl_command);
   command->add_option("PROGRAM", o->program, "a DMIS program to begin with");
-  command->add_option("--machine", o->settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")->type_name("M");
+  command
+      ->add_option("--machine", o->settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")
+      ->type_name("M");
   add_settings(command, o->settings);
 }
 
@@ -302,7 +358,8 @@ std::function<int()> parse_command_line(int argc, const char* const* argv) {
   app.set_version_flag("--version", "abbe " ABBE_VERSION);
   app.require_subcommand(1);
   Chosen chosen;
-  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_diagnose, add_format_command, add_lsp, add_repl, add_explain})
+  for (const auto add : {add_run, add_check, add_test, add_fit, add_machine, add_record, add_diagnose,
+                         add_format_command, add_lsp, add_repl, add_explain})
     add(app, chosen);
   const auto print = [](const std::string& text) {
     return [text] {

@@ -11,7 +11,9 @@
 
 namespace abbe {
 
-std::string beside(const std::string& file, const std::string& path) { return (std::filesystem::path(file).parent_path() / path).string(); }
+std::string beside(const std::string& file, const std::string& path) {
+  return (std::filesystem::path(file).parent_path() / path).string();
+}
 
 std::string machine_name(const CompiledProgram& program, const std::optional<std::string>& chosen) {
   if (chosen) return *chosen;
@@ -60,8 +62,12 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
     in.messages = sink.list();
     in.files.push_back(*settings.recording);
     if (in.recording->in_part_frame)
-      throw UserError(diagnostic(Code::E0525, fmt::format("{}: its points are in part coordinates, and errors of a machine are added in machine coordinates", *settings.recording),
-                                 "record machine coordinates (without the line '# frame: part'); `abbe diagnose` carries part coordinates over, `abbe run` does not"));
+      throw UserError(diagnostic(
+          Code::E0525,
+          fmt::format(
+              "{}: its points are in part coordinates, and errors of a machine are added in machine coordinates",
+              *settings.recording),
+          "record machine coordinates (without the line '# frame: part'); `abbe diagnose` carries part coordinates over, `abbe run` does not"));
   }
   return in;
 }
@@ -76,13 +82,14 @@ void leave_out_what_has_no_value(CompiledProgram& program, const StudyInputs& in
     const plan::CharacteristicDef& lost = plan[std::get<plan::Evaluate>(operation.action).characteristic];
     std::vector<std::string> features;
     for (const plan::FeatureId f : lost.features) features.push_back(plan[f].label);
-    program.compilation.lost.push_back(
-        {lost.line, fmt::format("{}", fmt::join(features, ", ")), fmt::format("TA({}): {}", plan[lost.tolerance].label, found->reason)});
+    program.compilation.lost.push_back({lost.line, fmt::format("{}", fmt::join(features, ", ")),
+                                        fmt::format("TA({}): {}", plan[lost.tolerance].label, found->reason)});
     operation.action = plan::Jump{found->operation + 1};
   }
 }
 
-Study study_program(const CompiledProgram& program, const StudySettings& settings, const StudyInputs& in, const Progress& progress) {
+Study study_program(const CompiledProgram& program, const StudySettings& settings, const StudyInputs& in,
+                    const Progress& progress) {
   const lang::Directives& asked = program.compilation.directives;
   const plan::Plan& plan = program.compilation.plan;
 

@@ -1,7 +1,8 @@
-// From a program file to a report: read, compile, settle what is asked for, study. The commands `run` and `test` share it.
+// From a program file to a report: read, compile, settle what is asked for, study. The commands `run` and
+// `test` share it.
 //
-// A program may carry settings in its directives (`$$! machine`, `$$! workpiece`, `$$! machines`, `$$! seed`, `$$! place`); the command line
-// wins over them, and the documented defaults fill the rest.
+// A program may carry settings in its directives (`$$! machine`, `$$! workpiece`, `$$! machines`, `$$! seed`,
+// `$$! place`); the command line wins over them, and the documented defaults fill the rest.
 #pragma once
 
 #include <cstdint>
@@ -19,22 +20,22 @@ inline constexpr int kDefaultMachines = 1000;
 
 /// What the command line may settle of a study; what is left out is up to the program and the defaults.
 struct StudySettings {
-  std::optional<std::string> machine;  ///< file or shipped name
+  std::optional<std::string> machine;    ///< file or shipped name
   std::optional<std::string> workpiece;  ///< file
   std::optional<std::string> recording;  ///< file: errors are added to its points instead of to nominal ones
   std::optional<int> machines;
-  std::optional<int> digits;           ///< significant digits of u that must be stable; chooses the number of machines
+  std::optional<int> digits;  ///< significant digits of u that must be stable; chooses the number of machines
   std::optional<std::uint64_t> seed;
   bool budget = false;
-  std::optional<double> coverage;      ///< of the further intervals
+  std::optional<double> coverage;  ///< of the further intervals
   EffectUse effect_use = EffectUse::left_in;
-  int threads = 0;                     ///< 0: all of the computer
+  int threads = 0;  ///< 0: all of the computer
 };
 
 struct StudyRequest {
   std::string program;
   StudySettings settings;
-  bool only_valid = false;             ///< go on without the statements that have errors
+  bool only_valid = false;                     ///< go on without the statements that have errors
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
 };
 
@@ -49,11 +50,11 @@ CompiledProgram compile_program(const std::string& path, const lang::CompileOpti
 
 /// A file that another file names: its path is as seen from that one.
 std::string beside(const std::string& file, const std::string& path);
-/// The machine to use, as read_machine takes it: what the command line chose, else what the program asks for (a file beside the
-/// program or a shipped machine), else the default.
+/// The machine to use, as read_machine takes it: what the command line chose, else what the program asks for
+/// (a file beside the program or a shipped machine), else the default.
 std::string machine_name(const CompiledProgram&, const std::optional<std::string>& chosen);
-/// The workpiece to use: the file that the command line chose, else the one that the program asks for, its path as seen from the
-/// program. Nothing when neither names one. Throws UserError as read_workpiece does.
+/// The workpiece to use: the file that the command line chose, else the one that the program asks for, its
+/// path as seen from the program. Nothing when neither names one. Throws UserError as read_workpiece does.
 std::optional<Workpiece> workpiece_of(const CompiledProgram&, const std::optional<std::string>& chosen);
 
 /// The program and its modules.
@@ -63,12 +64,13 @@ std::vector<std::string> files_of(const std::optional<Workpiece>&);
 
 /// What a program is run with, whoever named it: the command line, the program or the workpiece file.
 struct StudyInputs {
-  std::string machine_name;                ///< as read_machine took it
+  std::string machine_name;  ///< as read_machine took it
   Machine machine;
   std::optional<Workpiece> workpiece;
   std::optional<Recording> recording;
-  std::vector<Diagnostic> messages;        ///< of reading them
-  std::vector<std::string> files;          ///< that were read, the program and its modules among them: no output may take their place
+  std::vector<Diagnostic> messages;  ///< of reading them
+  /// that were read, the program and its modules among them: no output may take their place
+  std::vector<std::string> files;
 };
 /// Reads each of them once. Throws UserError as read_machine, read_workpiece and read_recording do.
 StudyInputs read_inputs(const CompiledProgram&, const StudySettings&);

@@ -38,12 +38,10 @@ std::string counted(std::size_t number, std::string_view noun) {
 }
 
 void print_result(std::string_view text) {
-  const bool written =
-      std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (!written)
-    throw UserError(diagnostic(
-        Code::E0602, std::string("cannot write the result to stdout: ") + std::strerror(errno),
-        "check the disk, or the program that reads the result"));
+    throw UserError(diagnostic(Code::E0602, std::string("cannot write the result to stdout: ") + std::strerror(errno),
+                               "check the disk, or the program that reads the result"));
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}

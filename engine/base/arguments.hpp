@@ -1,5 +1,6 @@
-// Matched arguments of a statement, by name: what a signature (docs/language.md, "Signatures") hands to the feature kind,
-// tolerance kind or construction that published it. Lets those kinds be written without knowing the language layer.
+// Matched arguments of a statement, by name: what a signature (docs/language.md, "Signatures") hands to the
+// feature kind, tolerance kind or construction that published it. Lets those kinds be written without knowing
+// the language layer.
 //
 // Signature notation, one string per kind or statement:
 //   CART                    the literal word
@@ -25,7 +26,9 @@ class Arguments {
  public:
   void add_number(std::string_view name, double value) { numbers_[std::string(name)].push_back(value); }
   /// Replaces the `index`-th number under `name`, which must be there.
-  void set_number(std::string_view name, int index, double value) { numbers_.at(std::string(name)).at(static_cast<std::size_t>(index)) = value; }
+  void set_number(std::string_view name, int index, double value) {
+    numbers_.at(std::string(name)).at(static_cast<std::size_t>(index)) = value;
+  }
   void add_text(std::string_view name, std::string value) { texts_[std::string(name)].push_back(std::move(value)); }
   /// A label resolved by the language: the index of the feature definition it stands for.
   void add_feature(std::string_view name, int id) { features_[std::string(name)].push_back(id); }

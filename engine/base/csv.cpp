@@ -27,14 +27,18 @@ std::vector<CsvField> split(const SourceFile& file, std::string_view line, std::
     if (from < line.size() && line[from] == '"') {
       std::size_t i = from + 1;
       for (; i < line.size(); ++i) {
-        if (line[i] != '"') text += line[i];
-        else if (i + 1 < line.size() && line[i + 1] == '"') text += line[i++];
-        else break;
+        if (line[i] != '"')
+          text += line[i];
+        else if (i + 1 < line.size() && line[i + 1] == '"')
+          text += line[i++];
+        else
+          break;
       }
       at = std::min(line.find(',', i), line.size());
       if (i >= line.size())
-        sink.add(diagnostic_at(file, {begin + static_cast<std::uint32_t>(from), begin + static_cast<std::uint32_t>(line.size())}, Code::E0521,
-                               "this quote is not closed on its line", "write \"\" for a quote inside a quoted field"));
+        sink.add(diagnostic_at(
+            file, {begin + static_cast<std::uint32_t>(from), begin + static_cast<std::uint32_t>(line.size())},
+            Code::E0521, "this quote is not closed on its line", "write \"\" for a quote inside a quoted field"));
     } else {
       at = std::min(line.find(',', from), line.size());
       text = trimmed(line.substr(from, at - from));
@@ -49,7 +53,8 @@ std::vector<CsvField> split(const SourceFile& file, std::string_view line, std::
 void read_remark(std::string_view line, std::uint32_t begin, CsvTable& table) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return;
-  table.remarks.push_back({std::string(trimmed(line.substr(1, colon - 1))), std::string(trimmed(line.substr(colon + 1))),
+  table.remarks.push_back({std::string(trimmed(line.substr(1, colon - 1))),
+                           std::string(trimmed(line.substr(colon + 1))),
                            {begin, begin + static_cast<std::uint32_t>(line.size())}});
 }
 
@@ -58,15 +63,17 @@ void check_separator(const SourceFile& file, const std::vector<CsvField>& header
   if (header.size() > 1) return;
   for (const auto& [separator, word] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}})
     if (header.front().text.find(separator) != std::string::npos)
-      throw UserError(diagnostic_at(file, header.front().span, Code::E0531, fmt::format("the columns are divided by {}", word),
-                                    "write commas between the columns and decimal points in the numbers (\"CSV UTF-8\" with English number formats)"));
+      throw UserError(diagnostic_at(
+          file, header.front().span, Code::E0531, fmt::format("the columns are divided by {}", word),
+          "write commas between the columns and decimal points in the numbers (\"CSV UTF-8\" with English number formats)"));
 }
 
 void check_header(const SourceFile& file, const std::vector<CsvField>& header, Sink& sink) {
   std::set<std::string> seen;
   for (const CsvField& field : header)
     if (!seen.insert(field.text).second)
-      sink.add(diagnostic_at(file, field.span, Code::E0522, fmt::format("column '{}' stands here for the second time", field.text),
+      sink.add(diagnostic_at(file, field.span, Code::E0522,
+                             fmt::format("column '{}' stands here for the second time", field.text),
                              "remove one of the two"));
 }
 
@@ -91,9 +98,10 @@ CsvTable read_csv(const SourceFile& file) {
       table.header = std::move(fields);
       check_header(file, table.header, sink);
     } else if (fields.size() != table.header.size()) {
-      sink.add(diagnostic_at(file, fields.front().span, Code::E0523,
-                             fmt::format("this line has {} values, the header {} columns", fields.size(), table.header.size()),
-                             "every line holds one value, or nothing, for each column"));
+      sink.add(diagnostic_at(
+          file, fields.front().span, Code::E0523,
+          fmt::format("this line has {} values, the header {} columns", fields.size(), table.header.size()),
+          "every line holds one value, or nothing, for each column"));
     } else {
       table.rows.push_back({number, std::move(fields)});
     }

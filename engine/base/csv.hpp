@@ -1,5 +1,5 @@
-// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings and of temperature logs. Fields keep their place
-// in the file, so that a message can point at the very number that is wrong.
+// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings and of temperature
+// logs. Fields keep their place in the file, so that a message can point at the very number that is wrong.
 #pragma once
 
 #include <string>
@@ -13,28 +13,29 @@ namespace abbe {
 inline constexpr std::size_t kMostCsvMessages = 10;
 
 struct CsvField {
-  std::string text;    ///< unquoted, blanks around it removed
+  std::string text;  ///< unquoted, blanks around it removed
   Span span;
 };
 
 struct CsvRow {
-  int line = 0;        ///< of the file, 1-based
+  int line = 0;  ///< of the file, 1-based
   std::vector<CsvField> fields;
 };
 
 /// A line `# key: value`.
 struct CsvRemark {
   std::string key, value;
-  Span span;           ///< of the line
+  Span span;  ///< of the line
 };
 
 struct CsvTable {
-  std::vector<CsvRemark> remarks;                             ///< other lines that begin with # are free text
+  std::vector<CsvRemark> remarks;  ///< other lines that begin with # are free text
   std::vector<CsvField> header;
-  std::vector<CsvRow> rows;                                   ///< blank lines are left out
+  std::vector<CsvRow> rows;  ///< blank lines are left out
 };
 
-/// Reads the table. Throws UserError: no header, a column twice, a quote that is not closed, a row of another length than the header.
+/// Reads the table. Throws UserError: no header, a column twice, a quote that is not closed, a row of another
+/// length than the header.
 CsvTable read_csv(const SourceFile&);
 
 }  // namespace abbe

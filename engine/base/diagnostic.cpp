@@ -95,8 +95,8 @@ UserError::UserError(std::vector<Diagnostic> list)
 
 namespace {
 
-/// How many slips of the pen lead from one word to the other: a letter too many, too few, another one, or two neighbours exchanged
-/// ("optimal string alignment" distance).
+/// How many slips of the pen lead from one word to the other: a letter too many, too few, another one, or two
+/// neighbours exchanged ("optimal string alignment" distance).
 int edit_distance(std::string_view a, std::string_view b) {
   const auto same = [&](std::size_t i, std::size_t j) {
     return std::toupper(static_cast<unsigned char>(a[i])) == std::toupper(static_cast<unsigned char>(b[j]));
@@ -117,7 +117,8 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 /// The letters of one word in another order: "XZPLAN" is ZXPLAN rather than XYPLAN.
 bool same_letters(std::string_view a, std::string_view b) {
-  return std::is_permutation(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
+  return std::is_permutation(a.begin(), a.end(), b.begin(), b.end(),
+                             [](unsigned char x, unsigned char y) { return std::toupper(x) == std::toupper(y); });
 }
 
 }  // namespace
@@ -128,7 +129,8 @@ std::string nearest_word(std::string_view word, const std::vector<std::string_vi
   std::string_view best;
   std::pair least{kTooFar, false};
   for (const std::string_view candidate : candidates) {
-    const std::size_t longer = std::max(word.size(), candidate.size()), shorter = std::min(word.size(), candidate.size());
+    const std::size_t longer = std::max(word.size(), candidate.size()),
+                      shorter = std::min(word.size(), candidate.size());
     if (longer > kLongest || longer - shorter >= static_cast<std::size_t>(kTooFar)) continue;
     const std::pair distance{edit_distance(word, candidate), !same_letters(word, candidate)};
     if (distance < least && 3 * distance.first <= static_cast<int>(longer)) best = candidate, least = distance;

@@ -27,7 +27,7 @@ enum class Code {
 
 struct CodeInfo {
   Code code;
-  std::string_view name;   ///< "E0101": what the user sees, greps and asks `abbe explain` for
+  std::string_view name;  ///< "E0101": what the user sees, greps and asks `abbe explain` for
   Severity severity;
   std::string_view title;  ///< what this code means, in one line
 };
@@ -36,14 +36,14 @@ const std::vector<CodeInfo>& all_codes();
 
 struct Diagnostic {
   Code code{};
-  std::string message;      ///< what is wrong, in the user's words: names what was written and what was expected
-  std::string help;         ///< the next step; may be empty
-  std::string file;         ///< file name; empty when the message is about no file
-  std::optional<Span> span; ///< bytes of the file, when there is a place
-  Place place;              ///< line and column of span.begin
-  std::string source_line;  ///< the line there, for the caret
-  int caret_length = 0;     ///< how many columns to underline
-  std::string replacement;  ///< text that would mend the span (editors offer it as a quick fix); may be empty
+  std::string message;       ///< what is wrong, in the user's words: names what was written and what was expected
+  std::string help;          ///< the next step; may be empty
+  std::string file;          ///< file name; empty when the message is about no file
+  std::optional<Span> span;  ///< bytes of the file, when there is a place
+  Place place;               ///< line and column of span.begin
+  std::string source_line;   ///< the line there, for the caret
+  int caret_length = 0;      ///< how many columns to underline
+  std::string replacement;   ///< text that would mend the span (editors offer it as a quick fix); may be empty
 
   Severity severity() const { return info(code).severity; }
 };

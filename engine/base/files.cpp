@@ -18,8 +18,9 @@ namespace abbe {
 namespace {
 
 [[noreturn]] void fail(const std::string& path, const char* doing) {
-  throw UserError(diagnostic(Code::E0602, "cannot write '" + path + "': " + doing + ": " + std::strerror(errno),
-                             "check that the folder exists and has room, and that it and the file are writable; the file is unchanged"));
+  throw UserError(diagnostic(
+      Code::E0602, "cannot write '" + path + "': " + doing + ": " + std::strerror(errno),
+      "check that the folder exists and has room, and that it and the file are writable; the file is unchanged"));
 }
 
 /// Closes what it holds.
@@ -34,7 +35,8 @@ class Descriptor {
   int number_;
 };
 
-/// Whoever ends the program while a file is written gets it whole, and no temporary file stays behind: the signal waits.
+/// Whoever ends the program while a file is written gets it whole, and no temporary file stays behind: the
+/// signal waits.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -64,7 +66,8 @@ bool write_all(int file, std::string_view content) {
 /// A terminal, a pipe, /dev/null: what is there takes the content, a file in its place would only hide it.
 bool takes_content(const std::string& path) {
   struct stat there {};
-  return ::stat(path.c_str(), &there) == 0 && (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode) || S_ISFIFO(there.st_mode) || S_ISSOCK(there.st_mode));
+  return ::stat(path.c_str(), &there) == 0 &&
+      (S_ISCHR(there.st_mode) || S_ISBLK(there.st_mode) || S_ISFIFO(there.st_mode) || S_ISSOCK(there.st_mode));
 }
 
 void write_into(const std::string& path, std::string_view content) {
@@ -80,7 +83,8 @@ void refuse_read_only(const std::string& path) {
   struct stat there {};
   if (::stat(path.c_str(), &there) != 0) return;
   errno = EACCES;
-  if ((there.st_mode & kAnyoneWrites) == 0 || ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0) fail(path, "replacing it");
+  if ((there.st_mode & kAnyoneWrites) == 0 || ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+    fail(path, "replacing it");
 }
 
 /// Who may read and write the file: as before; of a new one as the umask says.
@@ -88,7 +92,7 @@ mode_t mode_of(const std::string& path) {
   constexpr mode_t kPermissions = 0777, kNewFile = 0666;
   struct stat there {};
   if (::stat(path.c_str(), &there) == 0) return there.st_mode & kPermissions;
-  const mode_t withheld = ::umask(0);   // cannot be read without setting it
+  const mode_t withheld = ::umask(0);  // cannot be read without setting it
   ::umask(withheld);
   return kNewFile & ~withheld;
 }
@@ -136,14 +140,16 @@ void write_whole(const std::string& path, std::string_view content) {
 }
 
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
-  std::map<std::string, std::string> taken;   // by place: the role of what stands there
+  std::map<std::string, std::string> taken;  // by place: the role of what stands there
   for (const std::string& input : inputs) taken.emplace(where(followed(input)), "which it reads");
   for (const std::string& output : outputs) {
     if (takes_content(output)) continue;
     refuse_read_only(output);
     const auto [at, fresh] = taken.emplace(where(followed(output)), "which it writes too");
     if (!fresh)
-      throw UserError(diagnostic(Code::E0616, "the output '" + output + "' would destroy a file of this command, " + at->second, "choose another name for the output"));
+      throw UserError(diagnostic(Code::E0616,
+                                 "the output '" + output + "' would destroy a file of this command, " + at->second,
+                                 "choose another name for the output"));
   }
 }
 

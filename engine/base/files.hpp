@@ -7,13 +7,14 @@
 
 namespace abbe {
 
-/// Writes `content` to a temporary file beside `path` and renames it. A link stays, and the file that it points to is replaced; into a device
-/// or a pipe the content is written. A file keeps its permissions; one that is read-only is not replaced. A signal that would end the program
-/// waits for the file. Throws UserError when writing fails; then a file at `path` is what it was before.
+/// Writes `content` to a temporary file beside `path` and renames it. A link stays, and the file that it
+/// points to is replaced; into a device or a pipe the content is written. A file keeps its permissions; one
+/// that is read-only is not replaced. A signal that would end the program waits for the file. Throws
+/// UserError when writing fails; then a file at `path` is what it was before.
 void write_whole(const std::string& path, std::string_view content);
 
-/// Throws UserError when an output is one of the inputs, stands there twice, whatever the paths are called, or is read-only. Call it before
-/// the work.
+/// Throws UserError when an output is one of the inputs, stands there twice, whatever the paths are called,
+/// or is read-only. Call it before the work.
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace abbe

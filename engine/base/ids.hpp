@@ -22,9 +22,9 @@ class InternalError : public std::logic_error {
 
 #define ABBE_STRINGIZE_(x) #x
 #define ABBE_STRINGIZE(x) ABBE_STRINGIZE_(x)
-#define ABBE_CHECK(condition)                                                                    \
-  do {                                                                                           \
-    if (!(condition))                                                                            \
+#define ABBE_CHECK(condition)                                                                           \
+  do {                                                                                                  \
+    if (!(condition))                                                                                   \
       throw ::abbe::InternalError(__FILE__ ":" ABBE_STRINGIZE(__LINE__) ": check failed: " #condition); \
   } while (false)
 

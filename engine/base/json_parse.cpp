@@ -22,15 +22,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool null() override { return scalar(JsonNode::Kind::null, 4); }
-  bool boolean(bool value) override {
-    return scalar(JsonNode::Kind::boolean, value ? 4 : 5, value ? 1 : 0);
-  }
-  bool number_integer(number_integer_t value) override {
-    return number(static_cast<double>(value), true);
-  }
-  bool number_unsigned(number_unsigned_t value) override {
-    return number(static_cast<double>(value), true);
-  }
+  bool boolean(bool value) override { return scalar(JsonNode::Kind::boolean, value ? 4 : 5, value ? 1 : 0); }
+  bool number_integer(number_integer_t value) override { return number(static_cast<double>(value), true); }
+  bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value), true); }
   bool number_float(number_float_t value, const string_t&) override { return number(value, false); }
   bool string(string_t& value) override {
     JsonNode& node = place();
@@ -49,8 +43,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     auto& members = open_.back()->members;
     const Span span = string_token();
     const auto same = [&](const JsonNode::Member& m) { return m.key == name; };
-    if (const auto first = std::find_if(members.begin(), members.end(), same);
-        first != members.end()) {
+    if (const auto first = std::find_if(members.begin(), members.end(), same); first != members.end()) {
       fail(span, Code::E0403,
            fmt::format("the key \"{}\" stands twice in this object, first in line {}", name,
                        source_.place(first->key_span.begin).line),
@@ -60,13 +53,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string&,
-                   const nlohmann::json::exception& error) override {
+  bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
     std::string what = error.what();
-    if (const auto cut = what.find("column"); cut != std::string::npos)
-      what.erase(0, what.find(": ", cut) + 2);
-    const auto offset =
-        static_cast<std::uint32_t>(std::min(position ? position - 1 : 0, text_.size()));
+    if (const auto cut = what.find("column"); cut != std::string::npos) what.erase(0, what.find(": ", cut) + 2);
+    const auto offset = static_cast<std::uint32_t>(std::min(position ? position - 1 : 0, text_.size()));
     fail({offset, offset + 1}, Code::E0401, "this is not JSON: " + what,
          "JSON has double quotes around keys and texts, commas between members, none after the "
          "last, and no comments");
@@ -89,8 +79,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   JsonNode& place() {
     if (open_.empty()) return root;
     JsonNode& parent = *open_.back();
-    return parent.kind == JsonNode::Kind::object ? parent.members.back().value
-                                                 : parent.items.emplace_back();
+    return parent.kind == JsonNode::Kind::object ? parent.members.back().value : parent.items.emplace_back();
   }
   std::uint32_t skip() {
     while (at_ < text_.size() && std::strchr(" \t\r\n,:", text_[at_])) ++at_;
@@ -115,8 +104,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool number(double value, bool is_integer) {
     const std::uint32_t begin = skip();
-    const std::size_t end =
-        std::min(text_.find_first_not_of("0123456789+-.eE", begin), text_.size());
+    const std::size_t end = std::min(text_.find_first_not_of("0123456789+-.eE", begin), text_.size());
     JsonNode& node = place();
     node.kind = JsonNode::Kind::number;
     node.span = token(end - begin);
@@ -127,8 +115,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool open(JsonNode::Kind kind) {
     const Span bracket = token(1);
     if (open_.size() == kDeepest)
-      fail(bracket, Code::E0401,
-           fmt::format("objects and lists are nested more than {} deep", kDeepest),
+      fail(bracket, Code::E0401, fmt::format("objects and lists are nested more than {} deep", kDeepest),
            "no file of this program needs that");
     JsonNode& node = place();
     node.kind = kind;
@@ -145,8 +132,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   const SourceFile& source_;
   std::string_view text_;
   std::size_t at_ = 0;
-  std::vector<JsonNode*>
-      open_;  ///< the objects and lists around the next token; none moves while it is open
+  std::vector<JsonNode*> open_;  ///< the objects and lists around the next token; none moves while it is open
 };
 
 }  // namespace

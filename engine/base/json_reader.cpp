@@ -14,18 +14,12 @@ using Kind = JsonNode::Kind;
 
 std::string_view word_for(Kind kind) {
   switch (kind) {
-    case Kind::null:
-      return "null";
-    case Kind::boolean:
-      return "true or false";
-    case Kind::number:
-      return "a number";
-    case Kind::text:
-      return "a text in double quotes";
-    case Kind::array:
-      return "a list [ ... ]";
-    case Kind::object:
-      return "an object { ... }";
+    case Kind::null: return "null";
+    case Kind::boolean: return "true or false";
+    case Kind::number: return "a number";
+    case Kind::text: return "a text in double quotes";
+    case Kind::array: return "a list [ ... ]";
+    case Kind::object: return "an object { ... }";
   }
   return "";
 }
@@ -45,9 +39,9 @@ const JsonNode* JsonObject::find(std::string_view key) const {
 
 bool JsonObject::check(const JsonNode& node, std::string_view key, Kind kind) {
   if (node.kind == kind) return true;
-  reader_->report(node.span, Code::E0405,
-                  fmt::format("\"{}\" must be {}, but {} stands here", path_to(key), word_for(kind),
-                              word_for(node.kind)));
+  reader_->report(
+      node.span, Code::E0405,
+      fmt::format("\"{}\" must be {}, but {} stands here", path_to(key), word_for(kind), word_for(node.kind)));
   return false;
 }
 
@@ -71,9 +65,9 @@ const JsonNode* JsonObject::require(std::string_view key, Kind kind) {
 
 double JsonObject::checked(const JsonNode& node, std::string_view key, const NumberRange& range) {
   if (!range.holds(node.number))
-    reader_->report(node.span, Code::E0406,
-                    fmt::format("\"{}\" is {}, but must be {}", path_to(key),
-                                reader_->source_.text(node.span), range.words));
+    reader_->report(
+        node.span, Code::E0406,
+        fmt::format("\"{}\" is {}, but must be {}", path_to(key), reader_->source_.text(node.span), range.words));
   return node.number;
 }
 
@@ -90,11 +84,10 @@ double JsonObject::number_or(std::string_view key, double otherwise, const Numbe
 int JsonObject::integer_or(std::string_view key, int otherwise, int low, int high) {
   const JsonNode* value = ask(key, Kind::number);
   if (!value) return otherwise;
-  if (value->is_integer && value->number >= low && value->number <= high)
-    return static_cast<int>(value->number);
+  if (value->is_integer && value->number >= low && value->number <= high) return static_cast<int>(value->number);
   reader_->report(value->span, Code::E0406,
-                  fmt::format("\"{}\" is {}, but must be a whole number from {} to {}",
-                              path_to(key), reader_->source_.text(value->span), low, high));
+                  fmt::format("\"{}\" is {}, but must be a whole number from {} to {}", path_to(key),
+                              reader_->source_.text(value->span), low, high));
   return otherwise;
 }
 
@@ -122,22 +115,20 @@ std::vector<double> JsonObject::number_list(std::string_view key, const NumberRa
   return out;
 }
 
-std::vector<double> JsonObject::numbers_or(std::string_view key, std::vector<double> otherwise,
-                                           std::size_t size, const NumberRange& range) {
+std::vector<double> JsonObject::numbers_or(std::string_view key, std::vector<double> otherwise, std::size_t size,
+                                           const NumberRange& range) {
   const JsonNode* list = ask(key, Kind::array);
   if (!list) return otherwise;
   if (list->items.size() != size) {
     reader_->report(list->span, Code::E0406,
-                    fmt::format("\"{}\" has {} elements, but must have {}", path_to(key),
-                                list->items.size(), size));
+                    fmt::format("\"{}\" has {} elements, but must have {}", path_to(key), list->items.size(), size));
     return otherwise;
   }
   std::vector<double> out = number_list(key, range);
   return out.size() == size ? out : otherwise;
 }
 
-std::vector<std::string> JsonObject::text_list_or(std::string_view key,
-                                                  std::vector<std::string> otherwise) {
+std::vector<std::string> JsonObject::text_list_or(std::string_view key, std::vector<std::string> otherwise) {
   const JsonNode* list = ask(key, Kind::array);
   if (!list) return otherwise;
   std::vector<std::string> out;
@@ -146,9 +137,7 @@ std::vector<std::string> JsonObject::text_list_or(std::string_view key,
   return out;
 }
 
-JsonObject JsonObject::object(std::string_view key) {
-  return {reader_, require(key, Kind::object), path_to(key)};
-}
+JsonObject JsonObject::object(std::string_view key) { return {reader_, require(key, Kind::object), path_to(key)}; }
 
 JsonObject JsonObject::object_or_absent(std::string_view key) {
   return {reader_, ask(key, Kind::object), path_to(key)};
@@ -193,27 +182,22 @@ void JsonObject::fault(std::string_view key, Code code, std::string message, std
   reader_->report(span_of(key), code, std::move(message), std::move(help));
 }
 
-void JsonObject::one_of(std::string_view key, const std::string& value,
-                        const std::vector<std::string_view>& words) {
+void JsonObject::one_of(std::string_view key, const std::string& value, const std::vector<std::string_view>& words) {
   if (std::find(words.begin(), words.end(), value) != words.end()) return;
   const std::string near = nearest_word(value, words);
   fault(key, Code::E0406,
-        fmt::format("\"{}\" is \"{}\", but must be one of: {}", path_to(key), value,
-                    fmt::join(words, ", ")),
+        fmt::format("\"{}\" is \"{}\", but must be one of: {}", path_to(key), value, fmt::join(words, ", ")),
         near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
 }
 
 JsonReader::JsonReader(SourceFile source) : source_(std::move(source)), root_(parse_json(source_)) {
   if (root_.kind != Kind::object)
-    throw UserError(diagnostic_at(
-        source_, root_.span, Code::E0405,
-        fmt::format("the file must be an object, but {} stands here", word_for(root_.kind))));
+    throw UserError(diagnostic_at(source_, root_.span, Code::E0405,
+                                  fmt::format("the file must be an object, but {} stands here", word_for(root_.kind))));
 }
 
-void JsonReader::report(Span span, Code code, std::string message, std::string help,
-                        std::string replacement) {
-  sink_.add(diagnostic_at(source_, span, code, std::move(message), std::move(help),
-                          std::move(replacement)));
+void JsonReader::report(Span span, Code code, std::string message, std::string help, std::string replacement) {
+  sink_.add(diagnostic_at(source_, span, code, std::move(message), std::move(help), std::move(replacement)));
 }
 
 void JsonReader::report_unknown_keys(const JsonNode& node) {
@@ -221,8 +205,7 @@ void JsonReader::report_unknown_keys(const JsonNode& node) {
   for (const JsonNode& item : node.items) report_unknown_keys(item);
   if (node.kind != Kind::object) return;
   const auto found = asked_.find(&node);
-  if (found == asked_.end() && &node != &root_)
-    return;  // its own key is unknown, or of the wrong kind: reported there
+  if (found == asked_.end() && &node != &root_) return;  // its own key is unknown, or of the wrong kind: reported there
   std::vector<std::string_view> known;
   if (found != asked_.end()) known.assign(found->second.begin(), found->second.end());
   std::sort(known.begin(), known.end());

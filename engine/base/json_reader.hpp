@@ -79,8 +79,8 @@ class JsonObject {
   std::string text_or(std::string_view key, std::string otherwise);
   bool flag_or(std::string_view key, bool otherwise);
   /// A list of exactly `size` numbers, each in `range`.
-  std::vector<double> numbers_or(std::string_view key, std::vector<double> otherwise,
-                                 std::size_t size, const NumberRange& range = kAnyNumber);
+  std::vector<double> numbers_or(std::string_view key, std::vector<double> otherwise, std::size_t size,
+                                 const NumberRange& range = kAnyNumber);
   /// A list of any length.
   std::vector<double> number_list(std::string_view key, const NumberRange& range = kAnyNumber);
   std::vector<std::string> text_list_or(std::string_view key, std::vector<std::string> otherwise);
@@ -106,8 +106,7 @@ class JsonObject {
   void fault(std::string_view key, Code code, std::string message, std::string help = "");
   /// Reports an error when `value`, which stands under `key`, is none of `words`, and names the
   /// nearest.
-  void one_of(std::string_view key, const std::string& value,
-              const std::vector<std::string_view>& words);
+  void one_of(std::string_view key, const std::string& value, const std::vector<std::string_view>& words);
 
  private:
   friend class JsonReader;
@@ -134,8 +133,7 @@ class JsonReader {
 
   JsonObject root() { return {this, &root_, ""}; }
   const SourceFile& source() const { return source_; }
-  void report(Span span, Code code, std::string message, std::string help = "",
-              std::string replacement = "");
+  void report(Span span, Code code, std::string message, std::string help = "", std::string replacement = "");
   /// Reports the keys that nobody asked for, and throws UserError when anything was reported.
   void finish();
 

@@ -1,8 +1,9 @@
-// Labels and words are the same whatever the case of their letters, and whether their file is UTF-8 or Latin-1. Labels keep the
-// bytes of the program; what is compared is `upper` of them.
+// Labels and words are the same whatever the case of their letters, and whether their file is UTF-8 or
+// Latin-1. Labels keep the bytes of the program; what is compared is `upper` of them.
 //
-// By the case mappings of one letter to one letter in Unicode (UnicodeData.txt) for ASCII, Latin-1, Latin Extended-A, Greek and
-// Cyrillic, written as ranges: the mappings of the C library depend on the locale of whoever runs the program.
+// By the case mappings of one letter to one letter in Unicode (UnicodeData.txt) for ASCII, Latin-1, Latin
+// Extended-A, Greek and Cyrillic, written as ranges: the mappings of the C library depend on the locale of
+// whoever runs the program.
 #pragma once
 
 #include <string>

@@ -1,4 +1,5 @@
-// Numbers in what users write. std::from_chars alone takes "nan" and "inf" too, which pass range checks and spoil every figure.
+// Numbers in what users write. std::from_chars alone takes "nan" and "inf" too, which pass range checks and
+// spoil every figure.
 #pragma once
 
 #include <optional>
@@ -6,7 +7,8 @@
 
 namespace abbe {
 
-/// A number with a decimal point that a double can hold: "12.5", "+3", "-2e-4". Nothing for any other text, "nan" and "inf" among them.
+/// A number with a decimal point that a double can hold: "12.5", "+3", "-2e-4". Nothing for any other text,
+/// "nan" and "inf" among them.
 std::optional<double> finite_number(std::string_view text);
 
 }  // namespace abbe

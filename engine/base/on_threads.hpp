@@ -11,8 +11,8 @@
 
 namespace abbe {
 
-/// f(0) .. f(count - 1), each on some thread. f writes to its own slot, so the order does not matter. The first exception ends the work and
-/// is thrown again here.
+/// f(0) .. f(count - 1), each on some thread. f writes to its own slot, so the order does not matter. The
+/// first exception ends the work and is thrown again here.
 template <class F>
 void on_threads(int count, int threads, const F& f) {
   std::atomic<int> next = 0;

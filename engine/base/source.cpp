@@ -43,7 +43,8 @@ SourceFile read_source(const std::string& path) {
   // Opening a directory succeeds on Linux; reading it then fails, which is caught here too.
   if (!file || (file.peek() != std::ifstream::traits_type::eof() && !(text << file.rdbuf())) || file.bad()) {
     const char* cause = errno != 0 ? std::strerror(errno) : "it cannot be read";
-    throw UserError(diagnostic(Code::E0601, "cannot read '" + path + "': " + cause, "check the name and the permissions"));
+    throw UserError(
+        diagnostic(Code::E0601, "cannot read '" + path + "': " + cause, "check the name and the permissions"));
   }
   return SourceFile(path, text.str());
 }
@@ -61,10 +62,13 @@ std::size_t first_foreign(std::string_view text) {
   return at;
 }
 
-/// Windows-1252 above 0x7F; it is Latin-1 but for these. Bytes without a character stay the control characters that they are in Latin-1.
+/// Windows-1252 above 0x7F; it is Latin-1 but for these. Bytes without a character stay the control
+/// characters that they are in Latin-1.
 char32_t windows_1252(unsigned char byte) {
-  constexpr char32_t kPunctuation[32] = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
-                                         0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
+  constexpr char32_t kPunctuation[32] = {0x20AC, 0x81,   0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021,
+                                         0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D,   0x017D, 0x8F,
+                                         0x90,   0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014,
+                                         0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,   0x017E, 0x0178};
   return byte >= 0x80 && byte < 0xA0 ? kPunctuation[byte - 0x80] : byte;
 }
 
@@ -79,11 +83,14 @@ std::string from_windows_1252(std::string_view text) {
 SourceFile read_text(const std::string& path, Sink& sink) {
   SourceFile file = read_source(path);
   if (file.text().starts_with("\xFF\xFE") || file.text().starts_with("\xFE\xFF"))
-    throw UserError(diagnostic(Code::E0618, "'" + path + "' is in UTF-16", "save it as UTF-8 (\"CSV UTF-8\" in Excel)"));
+    throw UserError(
+        diagnostic(Code::E0618, "'" + path + "' is in UTF-16", "save it as UTF-8 (\"CSV UTF-8\" in Excel)"));
   const std::size_t foreign = first_foreign(file.text());
   if (foreign == file.text().size()) return file;
   const int line = file.place(static_cast<std::uint32_t>(foreign)).line;
-  sink.add(diagnostic(Code::N0617, path + ":" + std::to_string(line) + ": this text is not UTF-8; it is read as Windows-1252", "save it as UTF-8 if letters look wrong"));
+  sink.add(diagnostic(Code::N0617,
+                      path + ":" + std::to_string(line) + ": this text is not UTF-8; it is read as Windows-1252",
+                      "save it as UTF-8 if letters look wrong"));
   return SourceFile(path, from_windows_1252(file.text()));
 }
 

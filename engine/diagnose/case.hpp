@@ -9,7 +9,8 @@ namespace abbe::diagnose {
 
 /// False alarms that a diagnosis allows itself.
 inline constexpr double kAlarm = 0.01;
-/// Standard deviations, predicted from all other touches, beyond which a touch is a gross outlier: one in 40 000 normal ones.
+/// Standard deviations, predicted from all other touches, beyond which a touch is a gross outlier: one in 40
+/// 000 normal ones.
 inline constexpr double kOutlier = 4.2;
 /// Probability that a set of names must reach.
 inline constexpr double kCredible = 0.95;
@@ -20,18 +21,19 @@ struct Case {
   DiagnoseOptions options;
   RecordedTouches touches;
   Baseline baseline;
-  std::vector<char> masked;          ///< by touch: a gross outlier
-  Vector off_um;                     ///< by touch: how far a masked one lies from what the others predict
-  std::vector<int> rows;             ///< touches that take part
-  LinearModel model;                 ///< of `rows`
+  std::vector<char> masked;  ///< by touch: a gross outlier
+  Vector off_um;             ///< by touch: how far a masked one lies from what the others predict
+  std::vector<int> rows;     ///< touches that take part
+  LinearModel model;         ///< of `rows`
   Hyperparameters hyper;
-  bool rough = false;                ///< the machine's errors are rougher than the specification's ensemble
-  Explanations explanations;         ///< on `rows`
+  bool rough = false;         ///< the machine's errors are rougher than the specification's ensemble
+  Explanations explanations;  ///< on `rows`
 };
 
 /// The model with the signatures of some blocks as unknowns without a prior.
 LinearModel with_free(const LinearModel&, const std::vector<const Matrix*>& signatures);
-/// A model of this case with the ensemble of error functions that its recording fits better: the specification's, or the rougher one.
+/// A model of this case with the ensemble of error functions that its recording fits better: the
+/// specification's, or the rougher one.
 LinearModel likelier_ensemble(const Case&, const LinearModel&);
 /// The explanations of one kind only; `kept` by index into the list.
 Explanations only(const Explanations&, const std::vector<int>& kept);
@@ -43,29 +45,32 @@ int best_block(const Explanation&, const Evidence&);
 
 /// One mismatch that the search has found.
 struct Finding {
-  int explanation = -1;              ///< the likeliest
-  int block = -1;                    ///< its likeliest variant
-  std::vector<int> variants;         ///< blocks, those of its variants that count; empty: those of its explanation
-  std::vector<int> set;              ///< explanations that together reach kCredible, likeliest first
-  double probability = 0;            ///< of the set
-  double p = 1;                      ///< that the search finds so much without a mismatch
-  Evidence evidence;                 ///< given the findings before
+  int explanation = -1;       ///< the likeliest
+  int block = -1;             ///< its likeliest variant
+  std::vector<int> variants;  ///< blocks, those of its variants that count; empty: those of its explanation
+  std::vector<int> set;       ///< explanations that together reach kCredible, likeliest first
+  double probability = 0;     ///< of the set
+  double p = 1;               ///< that the search finds so much without a mismatch
+  Evidence evidence;          ///< given the findings before
 };
 
 struct SearchResult {
   double p_value = 1;
-  double adequacy = 1;               ///< p-value of what the findings leave; 1 without any
-  std::vector<Finding> findings;     ///< of the catalogue
-  std::optional<Finding> other;      ///< what the catalogue does not explain
-  std::optional<Finding> nearest;    ///< the name that was doubted in favour of `other`
-  Evidence first;                    ///< before any finding
-  std::vector<Evidence> null;        ///< simulated, before any finding
-  Hyperparameters hyper;             ///< of the recording beside all that was found: a mismatch passes for noise and for larger errors
+  double adequacy = 1;             ///< p-value of what the findings leave; 1 without any
+  std::vector<Finding> findings;   ///< of the catalogue
+  std::optional<Finding> other;    ///< what the catalogue does not explain
+  std::optional<Finding> nearest;  ///< the name that was doubted in favour of `other`
+  Evidence first;                  ///< before any finding
+  std::vector<Evidence> null;      ///< simulated, before any finding
+  /// of the recording beside all that was found: a mismatch passes for noise and for larger errors
+  Hyperparameters hyper;
 };
-/// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind; no explanation where there are none of it.
+/// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind; no
+/// explanation where there are none of it.
 Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
-/// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less flexible than a pattern.
-/// A name that leaves something of the mismatch must be far likelier: physics that the catalogue does not have looks like its nearest effect.
+/// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less
+/// flexible than a pattern. A name that leaves something of the mismatch must be far likelier: physics that
+/// the catalogue does not have looks like its nearest effect.
 inline constexpr double kNamed = 3, kNamedInDoubt = 100;
 bool likelier(const Explanations&, const Finding& name, const Finding& pattern, double times);
 /// The signatures of findings; of all that was found, a pattern without a name too.
@@ -73,14 +78,15 @@ std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>
 std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);
 /// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
 SearchResult search(Case&, EvidenceSearch& first);
-/// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of the grid. They are appended
-/// to the blocks and take the place of the coarse ones in their explanations; the search judges them too.
+/// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of
+/// the grid. They are appended to the blocks and take the place of the coarse ones in their explanations; the
+/// search judges them too.
 void refine(const Case&, Explanations&, EvidenceSearch&);
 
 /// Fits the recording without its gross outliers: fills `masked`, `off_um`, `rows`, `model`, `hyper`.
 void mask_outliers(Case&);
-/// Takes the noise of each touch out of its raw readings, where there are any (own_noise.cpp). `first`: the evidence of the explanations so
-/// far, none of which looks at readings.
+/// Takes the noise of each touch out of its raw readings, where there are any (own_noise.cpp). `first`: the
+/// evidence of the explanations so far, none of which looks at readings.
 void free_readings_of_noise(Case&, const EvidenceSearch& first);
 
 /// Steps that fill parts of the answer.
@@ -89,15 +95,16 @@ Recording without_copies(const Recording&, const std::string& file, std::vector<
 /// Throws UserError: another unit, axes or normals.
 void check_data(const Recording&, const Machine&, const std::string& file);
 /// Throws UserError when many touches lie beside their targets; a few are warned of.
-void check_pairing(const Recording&, const RecordedTouches&, const std::string& file, std::vector<Diagnostic>& messages);
-/// The factor in which an explanation shows in this recording: its own; or, where all touches are alike in that, what of it they do differ in: the
-/// place, where it acts on that, else the direction.
+void check_pairing(const Recording&, const RecordedTouches&, const std::string& file,
+                   std::vector<Diagnostic>& messages);
+/// The factor in which an explanation shows in this recording: its own; or, where all touches are alike in
+/// that, what of it they do differ in: the place, where it acts on that, else the direction.
 Factor shown_in(const Case&, const Explanation&);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
 struct FoundSize {
   std::vector<DiagnosedParameter> parameters;
-  double largest_um = 0;             ///< DiagnosedEffect::largest_um
+  double largest_um = 0;  ///< DiagnosedEffect::largest_um
 };
 FoundSize estimate_size(const Case&, const SearchResult&, std::size_t finding);
 Unexplained describe_unexplained(const Case&, const SearchResult&);
@@ -106,12 +113,13 @@ struct NoiseFinding {
   double p = 1;
   std::vector<DiagnosedParameter> parameters;
   std::string sentence;
-  bool certain = true;               ///< that it is noise: what scatters may else be a pattern too fine for this recording
-  Factor factor = Factor::direction; ///< in which it shows
+  bool certain = true;  ///< that it is noise: what scatters may else be a pattern too fine for this recording
+  Factor factor = Factor::direction;  ///< in which it shows
   std::vector<std::pair<std::string, std::string>> where = {};
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
-/// The step of which all recorded positions are multiples: the greatest common divisor of what the file says, down to 1 nm.
+/// The step of which all recorded positions are multiples: the greatest common divisor of what the file says,
+/// down to 1 nm.
 double recorded_step_um(const Case&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);

@@ -29,7 +29,8 @@ std::optional<Surfaces> stated_surfaces(const Recording& r, const std::string& f
     if (value == "calibrated") return Surfaces::calibrated;
     if (value == "unknown_size") return Surfaces::unknown_size;
     if (value == "unknown") return Surfaces::unknown;
-    throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, value), "write calibrated, unknown_size or unknown"));
+    throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, value),
+                               "write calibrated, unknown_size or unknown"));
   }
   return std::nullopt;
 }
@@ -41,25 +42,33 @@ double within_mm(const RecordedTouches& t, double share) {
   return quantile(std::move(size), share);
 }
 
-/// Where so many touches lie further out than this, and no effect explains it, the targets are not those of the part: no machine does so much.
+/// Where so many touches lie further out than this, and no effect explains it, the targets are not those of
+/// the part: no machine does so much.
 constexpr double kBeyondMachines_mm = 0.1, kHalf = 0.5, kNineTenths = 0.9;
 
 Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::string& file) {
-  return diagnostic(Code::W0704,
-                    fmt::format("{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
-                                "Every surface point counts as unknown, and only what repeats differently is judged", file, share == kHalf ? "half" : "a tenth", within_mm(t, share)),
-                    "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right");
+  return diagnostic(
+      Code::W0704,
+      fmt::format(
+          "{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
+          "Every surface point counts as unknown, and only what repeats differently is judged",
+          file, share == kHalf ? "half" : "a tenth", within_mm(t, share)),
+      "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right");
 }
 
-/// Beyond this, what all touches are too far out is no effect but a wrong tip, unless sizes are unknown or given elsewhere.
+/// Beyond this, what all touches are too far out is no effect but a wrong tip, unless sizes are unknown or
+/// given elsewhere.
 double most_out_mm(const Recording& r, const Machine& machine, const DiagnoseOptions& options) {
   constexpr double kBeyondPretravel_mm = 0.05, kBeyondSizes_mm = 0.25;
-  const bool unknown = std::any_of(r.metadata.begin(), r.metadata.end(), [](const auto& line) { return line.first == "surfaces" && line.second.starts_with("unknown"); });
+  const bool unknown = std::any_of(r.metadata.begin(), r.metadata.end(), [](const auto& line) {
+    return line.first == "surfaces" && line.second.starts_with("unknown");
+  });
   return unknown || options.workpiece || !machine.effects.empty() ? kBeyondSizes_mm : kBeyondPretravel_mm;
 }
 
 /// The recording without what its file does wrong, with every part on its targets.
-Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file, std::vector<Diagnostic>& messages) {
+Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
+                const std::string& file, std::vector<Diagnostic>& messages) {
   const Recording once = without_copies(recorded, file, messages);
   check_data(once, machine, file);
   return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
@@ -71,11 +80,13 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   b.geometry_scale = hyper.scale;
   b.correlation = hyper.correlation;
   double sum = 0;
-  for (Eigen::Index i = 0; i < c.model.y.size(); ++i) sum += std::pow(c.model.noise_um(i) * hyper.noise(c.model.noise_group[i]), 2);
+  for (Eigen::Index i = 0; i < c.model.y.size(); ++i)
+    sum += std::pow(c.model.noise_um(i) * hyper.noise(c.model.noise_group[i]), 2);
   b.noise_um = std::sqrt(sum / double(c.model.y.size()));
   const double stated = c.model.noise_um.mean();
   for (std::size_t g = 0; g < c.baseline.noise_names.size(); ++g)
-    if (!c.baseline.noise_names[g].empty()) b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], stated * hyper.noise(static_cast<Eigen::Index>(g)));
+    if (!c.baseline.noise_names[g].empty())
+      b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], stated * hyper.noise(static_cast<Eigen::Index>(g)));
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
     if (!c.masked[i]) continue;
     const RecordingRow& row = c.recording->rows[c.touches.touches[i].row];
@@ -106,9 +117,10 @@ bool stays_in_its_setup(const Case& c) {
   });
 }
 
-/// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides whether that is plausible, and says
-/// what is to be said.
-std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters, Diagnosis& out) {
+/// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides
+/// whether that is plausible, and says what is to be said.
+std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters,
+                              Diagnosis& out) {
   EffectSetting setting = setting_of(std::string(effect.name), parameters);
   const std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
   if (before) setting = before->now;
@@ -119,17 +131,21 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   if (before) out.superseded.push_back(before->index);
   if (!gone) out.model_effects.push_back(std::move(setting));
   if (!before) return "";
-  return gone ? " The machine file has the opposite: it is not there any more."
-         : before->instead ? " It takes the place of what the machine file has of it." : " That is beside what the machine file has of it.";
+  return gone           ? " The machine file has the opposite: it is not there any more."
+      : before->instead ? " It takes the place of what the machine file has of it."
+                        : " That is beside what the machine file has of it.";
 }
 
-/// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the finding, it is that.
+/// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
+/// finding, it is that.
 RunChange change_of(const Block& variant, const Block& found) {
-  const bool holds = found.change.run > 0 && variant.change.gone == found.change.gone && variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
+  const bool holds = found.change.run > 0 && variant.change.gone == found.change.gone &&
+      variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
   return holds ? found.change : variant.change;
 }
 
-/// A member that would need a size which no such effect has explains nothing, where another of its set does with a possible one.
+/// A member that would need a size which no such effect has explains nothing, where another of its set does
+/// with a possible one.
 void drop_impossible_members(const Case& c, SearchResult& result) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding as_found = result.findings[k];
@@ -156,20 +172,25 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
       const Explanation& member = c.explanations.list[m];
       e.members.push_back(member.name);
       const int likeliest = m == f.explanation ? f.block : best_block(member, result.first);
-      e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(likeliest)], c.explanations.blocks[static_cast<std::size_t>(f.block)]));
+      e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(likeliest)],
+                                   c.explanations.blocks[static_cast<std::size_t>(f.block)]));
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
     FoundSize size = estimate_size(c, result, k);
     e.parameters = std::move(size.parameters);
     e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
-    const std::string in_file = change.gone ? " It is gone: the machine file needs nothing of it." : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
+    const std::string in_file = change.gone
+        ? " It is gone: the machine file needs nothing of it."
+        : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) + in_file;
-    if (change.run > 0 && stays_in_its_setup(c)) e.sentence += " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
+    if (change.run > 0 && stays_in_its_setup(c))
+      e.sentence +=
+          " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));
   }
 }
@@ -196,9 +217,15 @@ constexpr double kPriorScatter = 0.01;
 void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) {
   for (NoiseFinding& n : noise) {
     const std::string in_file = tell_machine_file(c, *n.effect, n.parameters, out);
-    if (out.effects.empty() && !out.unexplained) out.location.push_back({std::string(abbe::diagnose::name(n.factor)), n.where, 1, n.p});
-    out.effects.push_back({{std::string(n.effect->name)}, believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain), n.parameters, n.sentence});
-    if (!n.certain) out.effects.back().sentence += " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
+    if (out.effects.empty() && !out.unexplained)
+      out.location.push_back({std::string(abbe::diagnose::name(n.factor)), n.where, 1, n.p});
+    out.effects.push_back({{std::string(n.effect->name)},
+                           believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain),
+                           n.parameters,
+                           n.sentence});
+    if (!n.certain)
+      out.effects.back().sentence +=
+          " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
     out.effects.back().sentence += in_file;
     out.p_value = std::min(out.p_value, n.p);
   }
@@ -218,48 +245,60 @@ Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d
 /// The unknowns of the recording explain whatever it holds: no effect of any size would show.
 void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out) {
   const bool surfaces = c.baseline.surfaces == Surfaces::unknown;
-  const std::string why = surfaces ? "every surface point is unknown, and none was touched in two ways" : "the unknown placements of the part take up all that the touches tell";
-  out.otherwise = surfaces ? "Touch the same points again in another run or setup, or give measured or calibrated targets and say '# surfaces: calibrated'."
-                           : "Touch more points in each setup, on surfaces that face several ways, or give one setup to touches of one placement.";
-  out.messages.push_back(diagnostic(Code::W0710, fmt::format("{}: nothing can be judged: {}", file, why), out.otherwise));
+  const std::string why = surfaces ? "every surface point is unknown, and none was touched in two ways"
+                                   : "the unknown placements of the part take up all that the touches tell";
+  out.otherwise = surfaces
+      ? "Touch the same points again in another run or setup, or give measured or calibrated targets and say '# surfaces: calibrated'."
+      : "Touch more points in each setup, on surfaces that face several ways, or give one setup to touches of one placement.";
+  out.messages.push_back(
+      diagnostic(Code::W0710, fmt::format("{}: nothing can be judged: {}", file, why), out.otherwise));
   out.judgeable = false;
   out.verdict = Verdict::cannot_judge;
   out.baseline = summary(c, c.hyper, !c.machine->known_state.empty());
 }
 
-/// A placement is found where most touches lie well: the faces of a part may, and its bores not. Whether those are an effect of the catalogue
-/// or another part than the targets say shows when all that can be found has been: what is then left is no machine's.
+/// A placement is found where most touches lie well: the faces of a part may, and its bores not. Whether
+/// those are an effect of the catalogue or another part than the targets say shows when all that can be found
+/// has been: what is then left is no machine's.
 bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d) {
   constexpr double kMostDirt = 0.1, kMostNoise_um = 10;
   if (c.options.workpiece || within_mm(c.touches, kNineTenths) < kBeyondMachines_mm) return false;
   const auto dirt = double(std::count(c.masked.begin(), c.masked.end(), 1));
   return result.other || dirt > kMostDirt * double(c.masked.size()) || d.baseline.noise_um > kMostNoise_um ||
-         std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
+      std::any_of(d.effects.begin(), d.effects.end(),
+                  [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
 }
 
 Diagnostic nothing_but_targets(const std::string& file) {
-  return diagnostic(Code::W0717, fmt::format("{}: every touch is exactly where an error-free machine has it", file),
-                    "a real machine differs in the last digits: check that measured positions were recorded, and not targets");
+  return diagnostic(
+      Code::W0717, fmt::format("{}: every touch is exactly where an error-free machine has it", file),
+      "a real machine differs in the last digits: check that measured positions were recorded, and not targets");
 }
 
 Diagnostic beyond_its_specification(const LengthError& e, const std::string& file) {
-  return diagnostic(Code::W0716,
-                    fmt::format("{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um", file, e.length_mm,
-                                kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
-                    "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
+  return diagnostic(
+      Code::W0716,
+      fmt::format(
+          "{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um",
+          file, e.length_mm, kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
+      "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
 }
 
-/// How many times what is uncertain of a known machine a recording may ask for beside what was found. Of 40 recordings of the same machine none asked
-/// for more than 1.7.
+/// How many times what is uncertain of a known machine a recording may ask for beside what was found. Of 40
+/// recordings of the same machine none asked for more than 1.7.
 constexpr double kAnotherMachine = 3;
 
 Diagnostic another_machine(double times, const std::string& file) {
-  return diagnostic(Code::W0720, fmt::format("{}: beside what was found, the machine differs by {:.1f} times what its file leaves uncertain", file, times),
-                    "it is another machine than the file knows, or one that has changed as a whole: diagnose without --known, and write its state anew with --model-out");
+  return diagnostic(
+      Code::W0720,
+      fmt::format("{}: beside what was found, the machine differs by {:.1f} times what its file leaves uncertain", file,
+                  times),
+      "it is another machine than the file knows, or one that has changed as a whole: diagnose without --known, and write its state anew with --model-out");
 }
 
 /// `surfaces`: what they count as; without, they are what the targets say unless half of them is not.
-Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
+Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options,
+                  std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
   Case c;
   c.recording = &recording;
   c.machine = &machine;
@@ -268,24 +307,30 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   out.messages.insert(out.messages.end(), c.touches.messages.begin(), c.touches.messages.end());
   constexpr int kLeastTouches = 12;
   if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
-    throw UserError(diagnostic(Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
-                               fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
+    throw UserError(diagnostic(
+        Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
+        fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
   if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
-  constexpr int kMostTouches = 4000;   // minutes, and less than 2 GB
+  constexpr int kMostTouches = 4000;  // minutes, and less than 2 GB
   if (static_cast<int>(c.touches.touches.size()) > kMostTouches)
-    throw UserError(diagnostic(Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, c.touches.touches.size()),
-                               fmt::format("at most {}: leave out repeats, or diagnose a part of the runs at a time", kMostTouches)));
+    throw UserError(diagnostic(
+        Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, c.touches.touches.size()),
+        fmt::format("at most {}: leave out repeats, or diagnose a part of the runs at a time", kMostTouches)));
   const EffectSet effects(machine.effects, EffectUse::left_in, machine.name);
   remove_estimates(effects, c.touches);
   std::optional<RecordedPart> part;
   if (options.workpiece) part = recorded_part(*options.workpiece, recording, c.touches, file);
-  if (part) remove_expected(*part, c.touches), out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
+  if (part)
+    remove_expected(*part, c.touches),
+        out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
   const std::optional<KnownGeometry> known = read_known_state(machine);
   if (!surfaces && within_mm(c.touches, kHalf) > kBeyondMachines_mm) {
     surfaces = Surfaces::unknown;
     out.messages.push_back(not_its_targets(c.touches, kHalf, file));
   }
-  c.baseline = baseline_of(c.touches, machine, {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
+  c.baseline =
+      baseline_of(c.touches, machine,
+                  {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
   if (!known && c.baseline.surfaces == Surfaces::calibrated && !options.design_only)
     out.beyond = c.baseline.beyond = beyond_specification(c.touches, without_placement(c.baseline.model), machine);
   if (out.beyond) hold_to_specification(c.baseline.model);
@@ -295,7 +340,8 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
 }
 
 /// `out`: what has been said of the recording so far.
-Diagnosis diagnosed(const Recording& recording, const Machine& machine, const DiagnoseOptions& options, std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
+Diagnosis diagnosed(const Recording& recording, const Machine& machine, const DiagnoseOptions& options,
+                    std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
   const Diagnosis before = out;
   Case c = on_the_bench(recording, machine, options, surfaces, file, out);
   // What holds no error at all says no more than its plan.
@@ -364,7 +410,8 @@ std::string_view name(Verdict v) {
   return names[static_cast<int>(v)];
 }
 
-Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options, const std::string& file) {
+Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
+                             const std::string& file) {
   Diagnosis out;
   out.judged = !options.design_only;
   const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);

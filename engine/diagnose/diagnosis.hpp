@@ -1,9 +1,10 @@
 // What a diagnosis says, as plain data (docs/diagnosis.md explains every figure), and the one function that makes it.
 //
-// A recording is compared with what a machine of this specification may do. If they agree, that is all, with the list of what could have
-// been seen. If not, the mismatch is located by factor and named over the catalogue of effects plus OTHER. What cannot be told apart is
-// named together; what the catalogue does not explain is described and modelled empirically; what the recording cannot judge is listed
-// with the columns that are missing.
+// A recording is compared with what a machine of this specification may do. If they agree, that is all, with
+// the list of what could have been seen. If not, the mismatch is located by factor and named over the
+// catalogue of effects plus OTHER. What cannot be told apart is named together; what the catalogue does not
+// explain is described and modelled empirically; what the recording cannot judge is listed with the columns
+// that are missing.
 #pragma once
 
 #include <optional>
@@ -20,15 +21,15 @@ namespace abbe {
 struct Workpiece;
 
 enum class Verdict { no_mismatch, named, one_of, unexplained, cannot_judge };
-std::string_view name(Verdict);                ///< as in the JSON: "no_mismatch"
+std::string_view name(Verdict);  ///< as in the JSON: "no_mismatch"
 
 struct DiagnosedParameter {
   std::string name, unit;
   double value = 0, u = 0;
-  double low = 0, high = 0;                    ///< 95 % interval
-  std::string word = {};                       ///< of a choice: "x"; then the numbers mean nothing
-  bool plausible = true;                       ///< some of the interval is inside the range that the catalogue gives
-  std::string called = {};                     ///< what a number stands for, where that has a name: the stylus
+  double low = 0, high = 0;  ///< 95 % interval
+  std::string word = {};     ///< of a choice: "x"; then the numbers mean nothing
+  bool plausible = true;     ///< some of the interval is inside the range that the catalogue gives
+  std::string called = {};   ///< what a number stands for, where that has a name: the stylus
 };
 
 /// A length between two touches, and how wrong it is.
@@ -48,29 +49,30 @@ struct DiagnosedEffect {
   double probability = 0;                      ///< that it is one of these
   std::vector<DiagnosedParameter> parameters;  ///< of the first member
   std::string sentence;
-  std::vector<RunChange> change = {};          ///< by member; none: in all runs
-  std::optional<double> largest_um = {};       ///< of what the first member does along the normal at a touch; nothing of scatter and of values
+  std::vector<RunChange> change = {};  ///< by member; none: in all runs
+  /// of what the first member does along the normal at a touch; nothing of scatter and of values
+  std::optional<double> largest_um = {};
 };
 
 struct Location {
-  std::string factor;                          ///< "time", "position", ...
+  std::string factor;  ///< "time", "position", ...
   std::vector<std::pair<std::string, std::string>> where;
-  double share = 0;                            ///< of what the best explanation of any factor describes that the best one of this factor does
-  double p = 1;                                ///< that so much appears by chance, the whole search considered
+  double share = 0;  ///< of what the best explanation of any factor describes that the best one of this factor does
+  double p = 1;      ///< that so much appears by chance, the whole search considered
 };
 
 /// A mismatch that the catalogue does not explain, and the pattern that stands for it.
 struct Unexplained {
   std::string factor, shape;
   double amplitude_um = 0, amplitude_u_um = 0;
-  double low_um = 0, high_um = 0;              ///< 95 % interval of the amplitude
+  double low_um = 0, high_um = 0;  ///< 95 % interval of the amplitude
   std::string sentence;
-  std::string model = {};                      ///< the effect in `model_effects` that stands for it; empty: none was made
+  std::string model = {};  ///< the effect in `model_effects` that stands for it; empty: none was made
 };
 
 struct Improvement {
-  std::string scheme;                          ///< "leave-one-setup-out"
-  double log_score_gain = 0, se = 0;           ///< nats, on data that the model did not see
+  std::string scheme;                 ///< "leave-one-setup-out"
+  double log_score_gain = 0, se = 0;  ///< nats, on data that the model did not see
   double rms_before_um = 0, rms_after_um = 0;
   double bias_before_um = 0, bias_after_um = 0;
   double chi2_per_dof_before = 0, chi2_per_dof_after = 0;
@@ -83,26 +85,26 @@ struct RunnerUp {
 
 struct CannotJudge {
   std::string effect;
-  std::vector<std::string> missing;            ///< columns; empty: the effect does nothing to these touches
+  std::vector<std::string> missing;  ///< columns; empty: the effect does nothing to these touches
 };
 
 /// The smallest size of an effect that this recording can detect, and the smallest that it can name.
 struct Detectable {
   std::string effect, parameter, unit;
   double detect = 0;
-  std::optional<double> name;                  ///< nothing: it cannot be told from `confounded_with` at any size
-  double detect_um = 0;                        ///< the same as the largest displacement that it makes at one of the touches
+  std::optional<double> name;  ///< nothing: it cannot be told from `confounded_with` at any size
+  double detect_um = 0;        ///< the same as the largest displacement that it makes at one of the touches
   std::optional<double> name_um;
   std::vector<std::string> confounded_with;
 };
 
 struct NextMeasurement {
   std::string change;
-  std::string instruction;                     ///< what the operator does beside running the program
+  std::string instruction;  ///< what the operator does beside running the program
   std::vector<std::string> separates;
-  double expected_probability = 0;             ///< of the truth, once it is made
+  double expected_probability = 0;  ///< of the truth, once it is made
   double minutes = 0;
-  std::string program;                         ///< DMIS
+  std::string program;  ///< DMIS
 };
 
 struct BaselineSummary {
@@ -111,7 +113,7 @@ struct BaselineSummary {
   double noise_um = 0;
   std::vector<std::pair<std::string, double>> noise_by_sensor;
   double correlation = 0;
-  std::vector<std::string> outliers;           ///< "SPH1 touch 7"
+  std::vector<std::string> outliers;  ///< "SPH1 touch 7"
 };
 
 /// What simpler methods say of the same recording; for comparison.
@@ -127,7 +129,7 @@ struct ResidualRow {
   int touch = 1, setup = 1, run = 1;
   double time_s = 0;
   double x_mm = 0, y_mm = 0, z_mm = 0;
-  double before_um = 0, after_um = 0;          ///< after: held out
+  double before_um = 0, after_um = 0;  ///< after: held out
 };
 
 /// One value of a recording of values, by itself; lengths mm, angles degrees.
@@ -135,55 +137,58 @@ struct JudgedValue {
   std::string characteristic, program, unit;
   int run = 1, occurrence = 1;
   double value = 0, reference = 0, deviation = 0;
-  double u = 0;                                ///< standard deviation over the virtual machines, with that of the reference
-  double z = 0;                                ///< deviation from the mean of the virtual machines, in units of u
-  double p = 1;                                ///< share of virtual machines that are at least as far out
-  double low = 0, high = 0;                    ///< 95 % of the deviations of virtual machines lie between these
+  double u = 0;              ///< standard deviation over the virtual machines, with that of the reference
+  double z = 0;              ///< deviation from the mean of the virtual machines, in units of u
+  double p = 1;              ///< share of virtual machines that are at least as far out
+  double low = 0, high = 0;  ///< 95 % of the deviations of virtual machines lie between these
 };
 
 /// Adequacy below which the names are doubted.
 inline constexpr double kInadequate = 0.05;
 
 struct Diagnosis {
-  bool judged = true;                          ///< false: of a plan, whose values were not looked at; verdict and p_value mean nothing
-  bool judgeable = true;                       ///< false: the unknowns of the recording explain whatever it holds; p_value means nothing
+  bool judged = true;     ///< false: of a plan, whose values were not looked at; verdict and p_value mean nothing
+  bool judgeable = true;  ///< false: the unknowns of the recording explain whatever it holds; p_value means nothing
   Verdict verdict = Verdict::no_mismatch;
   double p_value = 1;
-  std::optional<double> adequacy_p;            ///< that the named effects leave so much by chance; nothing where none were named
+  std::optional<double> adequacy_p;  ///< that the named effects leave so much by chance; nothing where none were named
   int touches = 0;
   std::vector<DiagnosedEffect> effects;
-  std::vector<Location> location;              ///< the one that describes most first
+  std::vector<Location> location;  ///< the one that describes most first
   std::optional<Unexplained> unexplained;
   std::optional<Improvement> improvement;
   std::optional<RunnerUp> runner_up;
   std::vector<CannotJudge> cannot_judge;
   std::vector<Detectable> smallest_detectable;
   std::vector<NextMeasurement> next_measurement;
-  std::string otherwise;                       ///< what to do next where no measurement of the menu helps; else empty
+  std::string otherwise;  ///< what to do next where no measurement of the menu helps; else empty
   BaselineSummary baseline;
-  /// What the machine does beside what was found, over what an earlier recording left open, where that is too much for the same machine.
+  /// What the machine does beside what was found, over what an earlier recording left open, where that is too
+  /// much for the same machine.
   std::optional<double> beyond_known;
-  std::optional<LengthError> beyond;           ///< a length that no machine of the specification makes so wrong
+  std::optional<LengthError> beyond;  ///< a length that no machine of the specification makes so wrong
   Rivals rivals;
   std::vector<ResidualRow> residuals;
-  std::vector<JudgedValue> values;             ///< of a recording of values, in its order; then there are no touches
+  std::vector<JudgedValue> values;  ///< of a recording of values, in its order; then there are no touches
   std::vector<Diagnostic> messages;
   /// What --model-out adds to the machine file: effects, and the JSON text of known_state.
   std::vector<EffectSetting> model_effects;
-  std::vector<std::size_t> superseded;         ///< effects of the machine file, by index, that some of `model_effects` stand for or that are gone
+  /// effects of the machine file, by index, that some of `model_effects` stand for or that are gone
+  std::vector<std::size_t> superseded;
   std::string known_state;
 };
 
 struct DiagnoseOptions {
   std::uint64_t seed = 1;
   int threads = 1;
-  int replicates = 300;                        ///< of the bootstrap
+  int replicates = 300;  ///< of the bootstrap
   bool design_only = false;
-  bool keep_state = false;                     ///< fill known_state
-  const Workpiece* workpiece = nullptr;        ///< what is known of the part; none: as the recording says
+  bool keep_state = false;               ///< fill known_state
+  const Workpiece* workpiece = nullptr;  ///< what is known of the part; none: as the recording says
 };
 
-/// Judges a recording (several files joined) on a machine; `file` names it in messages. Throws UserError: data that cannot be used.
+/// Judges a recording (several files joined) on a machine; `file` names it in messages. Throws UserError:
+/// data that cannot be used.
 Diagnosis diagnose_recording(const Recording&, const Machine&, const DiagnoseOptions&, const std::string& file);
 
 }  // namespace abbe

@@ -17,12 +17,15 @@ std::string plain_name(const DiagnosedParameter& p) {
   const std::string unit = "_" + p.unit.substr(0, per);
   std::string name = p.name;
   const std::size_t at = name.rfind(unit), after = at + unit.size();
-  if (at != std::string::npos && (after == name.size() || name[after] == '_')) name = name.substr(0, at) + (per == std::string::npos ? name.substr(after) : "");
+  if (at != std::string::npos && (after == name.size() || name[after] == '_'))
+    name = name.substr(0, at) + (per == std::string::npos ? name.substr(after) : "");
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-std::string unit_after(const DiagnosedParameter& p) { return p.unit.empty() || p.unit == "1" || p.unit == "code" ? "" : " " + p.unit; }
+std::string unit_after(const DiagnosedParameter& p) {
+  return p.unit.empty() || p.unit == "1" || p.unit == "code" ? "" : " " + p.unit;
+}
 
 /// Decimals that show two significant digits of an uncertainty.
 int decimals_for(double uncertainty, double value) {
@@ -54,17 +57,24 @@ std::string with_interval(const DiagnosedParameter& p) {
   if (!p.word.empty()) return plain_name(p) + " " + p.word;
   const int decimals = decimals_for(2 * p.u, p.value);
   if (p.u == 0 && p.low == p.high) return without_uncertainty(p, decimals);
-  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low, decimals, p.high, decimals, p.plausible ? "" : ", implausible");
+  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low,
+                     decimals, p.high, decimals, p.plausible ? "" : ", implausible");
 }
 
-std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, RunChange change,
-                                 bool doubted) {
+std::string explanation_sentence(const std::vector<std::string_view>& titles,
+                                 const std::vector<DiagnosedParameter>& parameters, std::string_view data,
+                                 RunChange change, bool doubted) {
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
   const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
-  const std::string it = change.run == 0 ? "it" : fmt::format("what is {} in run {}", change.gone ? "gone" : "new", change.run);
-  if (titles.size() == 1) return fmt::format("{} {} {}{}{}.", capitalised(it), doubted ? "looks like" : "is explained by", titles.front(), told.empty() ? "" : ": ", told);
-  return fmt::format("One of these {} {}, and {} cannot tell which: {}.{}{}{}", doubted ? "may explain" : "explains", it, data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told, told.empty() ? "" : ".");
+  const std::string it =
+      change.run == 0 ? "it" : fmt::format("what is {} in run {}", change.gone ? "gone" : "new", change.run);
+  if (titles.size() == 1)
+    return fmt::format("{} {} {}{}{}.", capitalised(it), doubted ? "looks like" : "is explained by", titles.front(),
+                       told.empty() ? "" : ": ", told);
+  return fmt::format("One of these {} {}, and {} cannot tell which: {}.{}{}{}", doubted ? "may explain" : "explains",
+                     it, data, fmt::join(titles, "; "), told.empty() ? "" : " As the first: ", told,
+                     told.empty() ? "" : ".");
 }
 
 std::string sizes_in_words(const DiagnosedEffect& e) {
@@ -77,7 +87,8 @@ std::string sizes_in_words(const DiagnosedEffect& e) {
 std::vector<std::string> in_words(const DiagnosedEffect& e) {
   std::vector<std::string> names = e.members;
   for (std::size_t m = 0; m < e.change.size(); ++m)
-    if (e.change[m].run > 0) names[m] += fmt::format(", {} in run {}", e.change[m].gone ? "gone" : "new", e.change[m].run);
+    if (e.change[m].run > 0)
+      names[m] += fmt::format(", {} in run {}", e.change[m].gone ? "gone" : "new", e.change[m].run);
   return names;
 }
 

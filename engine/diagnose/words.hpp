@@ -14,10 +14,11 @@ std::string with_uncertainty(const DiagnosedParameter&);
 /// "delay 1.20 ms (1.12 to 1.28)": with the 95 % interval; "implausible" where the catalogue says so.
 std::string with_interval(const DiagnosedParameter&);
 
-/// What makes the mismatch, or what is new in a run: one title, or several that `data` ("this recording") cannot tell apart;
-/// `parameters` are those of the first. `doubted`: it may be something else.
-std::string explanation_sentence(const std::vector<std::string_view>& titles, const std::vector<DiagnosedParameter>& parameters, std::string_view data, RunChange change = {},
-                                 bool doubted = false);
+/// What makes the mismatch, or what is new in a run: one title, or several that `data` ("this recording")
+/// cannot tell apart; `parameters` are those of the first. `doubted`: it may be something else.
+std::string explanation_sentence(const std::vector<std::string_view>& titles,
+                                 const std::vector<DiagnosedParameter>& parameters, std::string_view data,
+                                 RunChange change = {}, bool doubted = false);
 /// Its sizes in a table, and what they come to: "amplitude 0.0400 um (0.0324 to 0.0485); at most 1.4 um at a touch".
 std::string sizes_in_words(const DiagnosedEffect&);
 /// The names of an effect in a table: "machine.squareness, new in run 2"

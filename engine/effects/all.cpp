@@ -1,4 +1,5 @@
-// The list of effects, in the order of the catalogue. A new effect is one file and one line in the all.cpp of its family.
+// The list of effects, in the order of the catalogue. A new effect is one file and one line in the all.cpp of
+// its family.
 #include <algorithm>
 
 #include "engine/effects/effect.hpp"
@@ -9,7 +10,8 @@ namespace abbe {
 std::span<const Effect* const> effects() {
   static const std::vector<const Effect*> list = [] {
     std::vector<const Effect*> all;
-    for (const auto family : {thermal_effects(), probe_effects(), head_effects(), machine_effects(), part_effects(), noise_effects()})
+    for (const auto family :
+         {thermal_effects(), probe_effects(), head_effects(), machine_effects(), part_effects(), noise_effects()})
       all.insert(all.end(), family.begin(), family.end());
     return all;
   }();

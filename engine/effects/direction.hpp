@@ -15,8 +15,7 @@ inline constexpr std::string_view kDirectionChoices[] = {"x", "y", "z", "oblique
 inline constexpr EffectParameter kDirectionParameter{
     .name = "direction",
     .unit = "code",
-    .help =
-        "along which axis of the machine: 0 x, 1 y, 2 z; 3 oblique: as azimuth and elevation say",
+    .help = "along which axis of the machine: 0 x, 1 y, 2 z; 3 oblique: as azimuth and elevation say",
     .high = 3,
     .choices = kDirectionChoices};
 
@@ -27,16 +26,16 @@ inline constexpr EffectParameter kAzimuthParameter{
     .low = -360,
     .high = 360};
 
-inline constexpr EffectParameter kElevationParameter{
-    .name = "elevation_deg",
-    .unit = "deg",
-    .help = "of an oblique direction: 90 is up, along z",
-    .low = -90,
-    .high = 90};
+inline constexpr EffectParameter kElevationParameter{.name = "elevation_deg",
+                                                     .unit = "deg",
+                                                     .help = "of an oblique direction: 90 is up, along z",
+                                                     .low = -90,
+                                                     .high = 90};
 
 /// Whether a parameter is such a direction, and not a choice of axes only.
 constexpr bool is_direction(const EffectParameter& p) {
-  return p.name == kDirectionParameter.name && p.choices.size() == std::size(kDirectionChoices) && p.choices.back() == kDirectionChoices[3];
+  return p.name == kDirectionParameter.name && p.choices.size() == std::size(kDirectionChoices) &&
+      p.choices.back() == kDirectionChoices[3];
 }
 
 /// The unit vector that the three parameters at `theta` name.

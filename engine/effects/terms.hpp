@@ -11,9 +11,7 @@ namespace abbe {
 inline int code(double value) { return static_cast<int>(value + 0.5); }
 
 /// The unit vector along axis 0, 1, 2.
-constexpr Vec3 axis_vector(int axis) {
-  return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
-}
+constexpr Vec3 axis_vector(int axis) { return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0}; }
 
 /// The unit vector at an azimuth (from the first axis towards the second) and an elevation above
 /// their plane.
@@ -24,9 +22,7 @@ inline Vec3 direction_from_angles(double azimuth_deg, double elevation_deg) {
 
 /// Where the machine moved just before the touch; against the normal when a recording does not
 /// tell.
-inline Vec3 approach(const TouchScene& scene) {
-  return scene.travel == Vec3{} ? -scene.normal : scene.travel;
-}
+inline Vec3 approach(const TouchScene& scene) { return scene.travel == Vec3{} ? -scene.normal : scene.travel; }
 
 /// The scalar r along the outward normal, as a displacement.
 constexpr Vec3 along_normal(const TouchScene& scene, double r_mm) { return r_mm * scene.normal; }

@@ -19,19 +19,16 @@ int index(Axis axis) { return static_cast<int>(axis); }
 
 /// The unit vector across `primary` that a datum gives, seen from `anchor`, a point of the primary
 /// axis.
-Outcome<Vec3> direction_across(Shape shape, const Element& datum, const Vec3& primary,
-                               const Vec3& anchor) {
+Outcome<Vec3> direction_across(Shape shape, const Element& datum, const Vec3& primary, const Vec3& anchor) {
   const Vec3 own = perpendicular_part(datum.direction, primary);
   const double sine = norm(own);
   const bool straight = shape == Shape::plane || shape == Shape::line;
   if (!is_spot(shape) && sine > (straight ? kUseless : kNearlyParallel)) return {own / sine};
-  if (straight)
-    return Outcome<Vec3>::failed("the direction of the secondary datum is parallel to the primary");
+  if (straight) return Outcome<Vec3>::failed("the direction of the secondary datum is parallel to the primary");
   const Vec3 there = perpendicular_part(datum.point - anchor, primary);
   const double distance = norm(there);
   if (!(distance > kSameAxis_mm))
-    return Outcome<Vec3>::failed(
-        "the secondary datum lies on the primary axis and gives no direction");
+    return Outcome<Vec3>::failed("the secondary datum lies on the primary axis and gives no direction");
   return {there / distance};
 }
 
@@ -59,14 +56,12 @@ Outcome<Mat3> datum_axes(const Rigid& X_WD, std::span<const DatumUse> datums) {
       primary = &datum;
     }
   if (!primary) return {X_WD.R};
-  if (is_spot(primary->shape))
-    return Outcome<Mat3>::failed("a point or a sphere gives no direction as primary datum");
+  if (is_spot(primary->shape)) return Outcome<Mat3>::failed("a point or a sphere gives no direction as primary datum");
   const int first = index(primary->direction.axis);
   const Vec3 u = primary->direction.sign * primary->element.direction;
   if (!secondary) return {keeping_azimuth(X_WD.R, first, u)};
   const int second = index(secondary->direction.axis);
-  if (first == second)
-    return Outcome<Mat3>::failed("primary and secondary datum define the same axis");
+  if (first == second) return Outcome<Mat3>::failed("primary and secondary datum define the same axis");
   const Vec3 anchor = anchor_of(X_WD, datums, *primary, *secondary);
   const Outcome<Vec3> v = direction_across(secondary->shape, secondary->element, u, anchor);
   if (!v) return Outcome<Mat3>::failed(v.failure);
@@ -88,17 +83,14 @@ Outcome<Rigid> datum_frame(const Rigid& X_WD, std::span<const DatumUse> datums) 
   return {made};
 }
 
-Outcome<Rigid> rotated_to(const Rigid& X_WD, Axis axis, const Element& element,
-                          AxisDirection toward) {
+Outcome<Rigid> rotated_to(const Rigid& X_WD, Axis axis, const Element& element, AxisDirection toward) {
   const int first = index(axis), second = index(toward.axis);
-  if (first == second)
-    return Outcome<Rigid>::failed("an axis cannot be turned toward a feature about itself");
+  if (first == second) return Outcome<Rigid>::failed("an axis cannot be turned toward a feature about itself");
   const Vec3 u = column(X_WD.R, first);
   const Vec3 across = perpendicular_part(element.direction, u);
   const double sine = norm(across);
   if (!(sine > kUseless))
-    return Outcome<Rigid>::failed(
-        "the direction of the feature is parallel to the axis of rotation");
+    return Outcome<Rigid>::failed("the direction of the feature is parallel to the axis of rotation");
   return {{from_two_axes(first, u, second, toward.sign * (across / sine)), X_WD.p}};
 }
 

@@ -3,14 +3,27 @@
 
 namespace abbe {
 
-extern const FeatureKind point_kind, line_kind, plane_kind, circle_kind, cylinder_kind, sphere_kind, cone_kind, torus_kind, arc_kind,
-    edge_point_kind, surface_kind, slot_kind, rectangle_kind, ellipse_kind, parallel_planes_kind, symmetry_plane_kind;
+extern const FeatureKind point_kind, line_kind, plane_kind, circle_kind, cylinder_kind, sphere_kind, cone_kind,
+    torus_kind, arc_kind, edge_point_kind, surface_kind, slot_kind, rectangle_kind, ellipse_kind, parallel_planes_kind,
+    symmetry_plane_kind;
 
 std::span<const FeatureKind* const> feature_kinds() {
-  static const FeatureKind* const kinds[] = {&point_kind,           &line_kind,           &plane_kind,   &circle_kind,
-                                             &cylinder_kind,        &sphere_kind,         &cone_kind,    &torus_kind,
-                                             &arc_kind,             &ellipse_kind,        &slot_kind,    &rectangle_kind,
-                                             &parallel_planes_kind, &symmetry_plane_kind, &edge_point_kind, &surface_kind};
+  static const FeatureKind* const kinds[] = {&point_kind,
+                                             &line_kind,
+                                             &plane_kind,
+                                             &circle_kind,
+                                             &cylinder_kind,
+                                             &sphere_kind,
+                                             &cone_kind,
+                                             &torus_kind,
+                                             &arc_kind,
+                                             &ellipse_kind,
+                                             &slot_kind,
+                                             &rectangle_kind,
+                                             &parallel_planes_kind,
+                                             &symmetry_plane_kind,
+                                             &edge_point_kind,
+                                             &surface_kind};
   return kinds;
 }
 

@@ -21,8 +21,11 @@ Outcome<Element> nominal_arc(const Arguments& arguments) {
   const double radius = arguments.number("radius"), sweep = arguments.number("sweep");
   if (!(radius > 0)) return Outcome<Element>::failed("the radius must be positive");
   if (!(std::fabs(sweep) > 0)) return Outcome<Element>::failed("the arc must sweep over some angle");
-  return {{.point = location(arguments), .direction = along.value, .size = radius,
-           .second = start_of(arguments, along.value), .angle = sweep}};
+  return {{.point = location(arguments),
+           .direction = along.value,
+           .size = radius,
+           .second = start_of(arguments, along.value),
+           .angle = sweep}};
 }
 
 /// A circle; the start and the sweep are those of the nominal.

@@ -23,7 +23,8 @@ struct PlaneProfile {
 template <class Profile>
 class MinimaxFit {
  public:
-  MinimaxFit(FitCriterion criterion, std::span<const Vec3> points, const Element& start) : criterion_(criterion), start_(start) {
+  MinimaxFit(FitCriterion criterion, std::span<const Vec3> points, const Element& start)
+      : criterion_(criterion), start_(start) {
     for (const Vec3& p : points) mean_ += p / static_cast<double>(points.size());
     for (const Vec3& p : points) {
       points_.push_back(p - mean_);
@@ -138,11 +139,13 @@ class MinimaxFit {
       row_of(surface_, p, row);
       made.low = std::min(made.low, row[N]), made.high = std::max(made.high, row[N]);
       const double along = dot(p + mean_ - made.point, made.direction);
-      const double reached = Profile::kShape == Shape::plane ? norm(perpendicular_part(p + mean_ - made.point, made.direction)) : along;
+      const double reached =
+          Profile::kShape == Shape::plane ? norm(perpendicular_part(p + mean_ - made.point, made.direction)) : along;
       made.begin = std::min(made.begin, reached), made.end = std::max(made.end, reached);
     }
     if (Profile::kShape == Shape::plane) made.size = 0, made.begin = -made.end;
-    if (Profile::kShape != Shape::plane && Profile::kShape != Shape::cylinder && Profile::kShape != Shape::cone) made.begin = made.end = 0;
+    if (Profile::kShape != Shape::plane && Profile::kShape != Shape::cylinder && Profile::kShape != Shape::cone)
+      made.begin = made.end = 0;
     element = made;
   }
 
@@ -179,8 +182,9 @@ const char* criterion_refusal(Shape shape, FitCriterion criterion) {
   const bool pair = shape == Shape::parallel_planes || shape == Shape::symmetry_plane;
   if (pair || is_outline(s) || s == Shape::point || s == Shape::torus) return "only least squares is available for it";
   if (criterion == FitCriterion::minimum_zone) return nullptr;
-  return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere ? nullptr
-                                                                         : "nothing can be inscribed in it or circumscribed about it";
+  return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere
+      ? nullptr
+      : "nothing can be inscribed in it or circumscribed about it";
 }
 
 void refit(Shape shape, FitCriterion criterion, std::span<const Vec3> points, Element& element) {
@@ -198,7 +202,8 @@ void refit(Shape shape, FitCriterion criterion, std::span<const Vec3> points, El
   }
   element.second = least_squares.second;
   if (shape == Shape::arc) element.angle = least_squares.angle;
-  if (dot(element.direction, least_squares.direction) < 0 && shape != Shape::cone) element = turned_over(shape, element);
+  if (dot(element.direction, least_squares.direction) < 0 && shape != Shape::cone)
+    element = turned_over(shape, element);
 }
 
 }  // namespace abbe

@@ -63,8 +63,7 @@ class Frame {
   void locate(Shape shape, const Element& datum) {
     if (is_spot(shape) || shape == Shape::torus) {
       for (int k = 0; k < 3; ++k)
-        if (const Vec3 row = free_part(column({}, k)); norm(row) > kNearlyParallel)
-          fix(unit(row), datum.point);
+        if (const Vec3 row = free_part(column({}, k)); norm(row) > kNearlyParallel) fix(unit(row), datum.point);
     } else if (shape == Shape::plane) {
       locate_across(datum.direction, datum.point);
     } else {
@@ -108,8 +107,7 @@ class Frame {
 
   bool located_across() const {
     double inside = 0;  // squared length of the part of the fixed directions across z
-    for (int i = 0; i < fixed_; ++i)
-      inside += dot(perpendicular_part(rows_[i], z_), perpendicular_part(rows_[i], z_));
+    for (int i = 0; i < fixed_; ++i) inside += dot(perpendicular_part(rows_[i], z_), perpendicular_part(rows_[i], z_));
     return inside > 2 - kNearlyParallel;
   }
 
@@ -119,11 +117,9 @@ class Frame {
 
 }  // namespace
 
-Outcome<Rigid> datum_reference_frame(std::span<const Shape> shapes,
-                                     std::span<const Element> datums) {
+Outcome<Rigid> datum_reference_frame(std::span<const Shape> shapes, std::span<const Element> datums) {
   ABBE_CHECK(shapes.size() == datums.size());
-  if (datums.size() > 3)
-    return Outcome<Rigid>::failed("a datum reference frame has at most three datums");
+  if (datums.size() > 3) return Outcome<Rigid>::failed("a datum reference frame has at most three datums");
   Frame frame;
   for (std::size_t i = 0; i < datums.size(); ++i) frame.add(shapes[i], datums[i]);
   return {frame.pose()};

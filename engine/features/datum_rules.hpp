@@ -12,8 +12,7 @@
 namespace abbe {
 
 inline constexpr double kNearlyParallel = 0.3;  ///< sine, 17 degrees: meant as parallel
-inline constexpr double kSameAxis_mm =
-    0.1;  ///< a point nearer to an axis than this gives no direction from it
+inline constexpr double kSameAxis_mm = 0.1;     ///< a point nearer to an axis than this gives no direction from it
 
 constexpr Vec3 column(const Mat3& m, int i) { return i == 0 ? m.cx : i == 1 ? m.cy : m.cz; }
 

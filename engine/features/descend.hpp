@@ -4,10 +4,10 @@
 //   polish   Newton with the exact Hessian in extended precision: converges quadratically also when the residuals are large,
 //            where Gauss-Newton would creep, and tells a minimum from a saddle
 //
-// On a short arc a larger radius and an axis farther away are nearly the same change, and to solve for the two of them is hopeless
-// long before the points leave the element open. So here the first size changes with the surface held where it is next to the
-// points, which leaves its curvature as the unknown (as in Lukacs, Marshall, Martin: Geometric least-squares fitting of spheres,
-// cylinders, cones and tori, RECCAD 1997).
+// On a short arc a larger radius and an axis farther away are nearly the same change, and to solve for the
+// two of them is hopeless long before the points leave the element open. So here the first size changes with
+// the surface held where it is next to the points, which leaves its curvature as the unknown (as in Lukacs,
+// Marshall, Martin: Geometric least-squares fitting of spheres, cylinders, cones and tori, RECCAD 1997).
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,8 @@ bool meaningful(const Placed<Real>& s) {
   return true;
 }
 
-/// How many of the first unknowns are shifts that hold the surface: all directions for a sphere, across the axis for the others.
+/// How many of the first unknowns are shifts that hold the surface: all directions for a sphere, across the
+/// axis for the others.
 template <class Profile>
 inline constexpr int kHolds = Profile::kShape == Shape::sphere ? 3 : 2;
 template <class Profile>
@@ -50,10 +51,10 @@ inline constexpr int kFirstSize = kUnknowns<Profile> - Profile::kSizes;
 
 /// A torus far from its centre: its tilts, too, turn about the mean of the points.
 template <class Profile>
-inline constexpr bool kLifts = Profile::kAlong && Profile::kTilt;
+inline constexpr bool kLifts = Profile::kAlong&& Profile::kTilt;
 
-/// The shifts by which the surface stays where it is next to the mean of the points when size[0] grows by 1. With a tilt of a torus
-/// goes the shift along the axis that leaves the mean where it is.
+/// The shifts by which the surface stays where it is next to the mean of the points when size[0] grows by 1.
+/// With a tilt of a torus goes the shift along the axis that leaves the mean where it is.
 template <class Profile, class Real>
 struct Hold {
   Real shift[kHolds<Profile>];
@@ -112,8 +113,8 @@ SymmetricSystem<Real, kUnknowns<Profile>> normal_equations(const Points<Real>& p
   return system;
 }
 
-/// The distance of the point q (frame of the surface) as a function of the unknowns, in any scalar type: motion first, then
-/// profile. The long way round, for derivatives that do not rest on distance_row.
+/// The distance of the point q (frame of the surface) as a function of the unknowns, in any scalar type:
+/// motion first, then profile. The long way round, for derivatives that do not rest on distance_row.
 template <class Profile, class T, class Real>
 T displaced_distance(const Real (&q)[3], const T (&unknown)[kUnknowns<Profile>], const Real* size) {
   using std::sqrt;
@@ -217,7 +218,8 @@ bool polish(const Points<Extended>& points, Extended extent, Placed<Extended>& s
     move_held_by<Profile>(s, step);
     anchor_near<Profile>(s, origin);
     if (!meaningful<Profile>(s)) return false;
-    const Extended reach = std::max(extent, distance_from_origin(s));  // what the differences that make a distance are rounded to
+    // what the differences that make a distance are rounded to
+    const Extended reach = std::max(extent, distance_from_origin(s));
     if (length < 1e-18L * reach || (length >= before && length < 1e-14L * reach)) return minimum;
     before = length;
   }

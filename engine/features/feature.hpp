@@ -25,17 +25,18 @@ struct PointColumns {
 
 struct FeatureKind {
   Shape shape;
-  std::string_view word;        ///< DMIS minor word: "CYLNDR"
-  std::string_view signature;   ///< arguments after the word, notation of base/arguments.hpp
-  std::string_view help;        ///< one line for people
-  std::string_view example;     ///< a complete FEAT statement
-  std::string_view source;      ///< standard and clause, or the reference of the fit
-  int minimum_points;           ///< touches that the least-squares fit needs
+  std::string_view word;       ///< DMIS minor word: "CYLNDR"
+  std::string_view signature;  ///< arguments after the word, notation of base/arguments.hpp
+  std::string_view help;       ///< one line for people
+  std::string_view example;    ///< a complete FEAT statement
+  std::string_view source;     ///< standard and clause, or the reference of the fit
+  int minimum_points;          ///< touches that the least-squares fit needs
   /// Builds the nominal element from matched arguments, in the frame current at the statement. Fails with a reason for
   /// impossible values (zero vector, negative diameter).
   Outcome<Element> (*nominal)(const Arguments&);
-  /// Orthogonal least squares over lanes, Gauss-Newton from `start[lane]`, which must be within about 1 % of the size of the
-  /// feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr or the reason.
+  /// Orthogonal least squares over lanes, Gauss-Newton from `start[lane]`, which must be within about 1 % of
+  /// the size of the feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr
+  /// or the reason.
   void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
   /// Which of its values the points alone settle, so that they can be fitted without a nominal near them (fit.hpp).
   bool fitted_anywhere = true;

@@ -94,8 +94,7 @@ Placed<Extended> extended(const Placed<double>& s) {
 
 /// Two surfaces that no metrologist would call the same.
 bool different(const Placed<Extended>& a, const Placed<Extended>& b, Extended extent) {
-  const Extended cosine =
-      a.axes[2][0] * b.axes[2][0] + a.axes[2][1] * b.axes[2][1] + a.axes[2][2] * b.axes[2][2];
+  const Extended cosine = a.axes[2][0] * b.axes[2][0] + a.axes[2][1] * b.axes[2][1] + a.axes[2][2] * b.axes[2][2];
   const bool tilted = std::fabs(cosine) < 1 - 1e-8L;
   return tilted || std::fabs(a.size[0] - b.size[0]) > 1e-4L * std::max(extent, a.size[0]);
 }
@@ -119,7 +118,8 @@ bool cheaper(const Descent& a, const Descent& b) { return a.cost < b.cost; }
 
 /// Where the starts lead: on the sample from all of them, on all points from the best few. Best first.
 template <class Profile>
-std::vector<Descent> descents(const Cloud& cloud, const std::vector<Placed<double>>& list, const Points<double>& sampled) {
+std::vector<Descent> descents(const Cloud& cloud, const std::vector<Placed<double>>& list,
+                              const Points<double>& sampled) {
   std::vector<Descent> reached;
   for (Placed<double> s : list) {
     const double cost = descend<Profile>(sampled, cloud.extent(), s, 80);
@@ -149,19 +149,21 @@ std::vector<Minimum> minima(const Cloud& cloud, const std::vector<Descent>& reac
   return found;
 }
 
-/// The sum of squares that ever larger radii come near to: that of the best plane, of a circle that of the best line, of a torus also
-/// that of the best cylinder. Where no minimum is below it, the best element is infinitely large.
+/// The sum of squares that ever larger radii come near to: that of the best plane, of a circle that of the
+/// best line, of a torus also that of the best cylinder. Where no minimum is below it, the best element is
+/// infinitely large.
 Extended limit_cost(Shape shape, const Cloud& cloud, const Points<double>& sampled) {
   const Extended across = cloud.spread.along[shape == Shape::circle ? 1 : 2];
   const Extended flat = static_cast<Extended>(cloud.exact.size()) * across * across;
   if (shape != Shape::torus) return flat;
-  const auto straight =
-      minima<CylinderProfile>(cloud, descents<CylinderProfile>(cloud, starts(Shape::cylinder, sampled, cloud.spread, {}), sampled));
+  const auto straight = minima<CylinderProfile>(
+      cloud, descents<CylinderProfile>(cloud, starts(Shape::cylinder, sampled, cloud.spread, {}), sampled));
   return straight.empty() ? flat : std::min(flat, straight.front().cost);
 }
 
 template <class Profile>
-FitSolution solve_revolution(const Cloud& cloud, const std::vector<Placed<double>>& list, const Points<double>& sampled) {
+FitSolution solve_revolution(const Cloud& cloud, const std::vector<Placed<double>>& list,
+                             const Points<double>& sampled) {
   const std::vector<Minimum> found = minima<Profile>(cloud, descents<Profile>(cloud, list, sampled));
   if (found.empty()) return failed("not_converged");
   const Minimum& best = found.front();
@@ -173,7 +175,8 @@ FitSolution solve_revolution(const Cloud& cloud, const std::vector<Placed<double
   return revolution_solution<Profile>(cloud, best.surface);
 }
 
-FitSolution solve(Shape shape, const Cloud& cloud, const std::vector<Placed<double>>& list, const Points<double>& sampled) {
+FitSolution solve(Shape shape, const Cloud& cloud, const std::vector<Placed<double>>& list,
+                  const Points<double>& sampled) {
   switch (shape) {
     case Shape::circle: return solve_revolution<CircleProfile>(cloud, list, sampled);
     case Shape::cylinder: return solve_revolution<CylinderProfile>(cloud, list, sampled);

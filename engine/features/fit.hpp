@@ -12,19 +12,20 @@ namespace abbe {
 
 struct FitProblem {
   Shape shape{};
-  std::vector<Vec3> points;      ///< mm
-  std::optional<Vec3> normal;    ///< circle: prescribed normal of its plane, any length but not zero
+  std::vector<Vec3> points;    ///< mm
+  std::optional<Vec3> normal;  ///< circle: prescribed normal of its plane, any length but not zero
 };
 
 struct FitError {
-  std::string code;     ///< "too_few_points", "identical_points", "collinear_points", "coplanar_points", "not_finite", "bad_normal",
-                        ///< "not_unique", "no_apex", "not_converged"
+  /// "too_few_points", "identical_points", "collinear_points", "coplanar_points", "not_finite", "bad_normal",
+  /// "not_unique", "no_apex", "not_converged"
+  std::string code;
   std::string message;  ///< what is wrong, in plain words
 };
 
 struct FitSolution {
-  Element element;      ///< `point` as the contract of `abbe fit` asks: docs/formats.md
-  Vec3 apex;            ///< cone only
+  Element element;  ///< `point` as the contract of `abbe fit` asks: docs/formats.md
+  Vec3 apex;        ///< cone only
   double rms = 0, form = 0;
   std::optional<FitError> error;
 };

@@ -1,8 +1,8 @@
 // What all fits over lanes share: the lanes of one block side by side, each with an origin of its own near its points.
 //
-// A block is small enough that its sums stay in the first cache while the touches stream through. Nothing is ever summed
-// across lanes, and for_lanes gives the same bits in its vector and its scalar part, so the result of a lane does not depend on
-// how lanes are put into batches.
+// A block is small enough that its sums stay in the first cache while the touches stream through. Nothing is
+// ever summed across lanes, and for_lanes gives the same bits in its vector and its scalar part, so the
+// result of a lane does not depend on how lanes are put into batches.
 #pragma once
 
 #include <cmath>
@@ -43,8 +43,8 @@ struct LaneFrames {
     }
   }
   /// Coordinates of one touch of one lane in the frame of its surface.
-  void coordinates(const LaneBlock& b, const double* x, const double* y, const double* z, int lane, double& qx, double& qy,
-                   double& qz) const {
+  void coordinates(const LaneBlock& b, const double* x, const double* y, const double* z, int lane, double& qx,
+                   double& qy, double& qz) const {
     const double wx = (x[lane] - b.origin[0][lane]) - p[0][lane];
     const double wy = (y[lane] - b.origin[1][lane]) - p[1][lane];
     const double wz = (z[lane] - b.origin[2][lane]) - p[2][lane];
@@ -64,6 +64,7 @@ struct LaneRanges {
 
 /// The fit of one lane by the careful solver of fit_points, for lanes that the fast iteration cannot settle: first from
 /// `start`, then without it. `failure` becomes nullptr or the reason.
-void fit_one_lane(Shape shape, const PointColumns&, int lane, const Element& start, Element& result, const char*& failure);
+void fit_one_lane(Shape shape, const PointColumns&, int lane, const Element& start, Element& result,
+                  const char*& failure);
 
 }  // namespace abbe

@@ -1,13 +1,13 @@
-// Orthogonal least squares of surfaces of revolution over lanes: Gauss-Newton from the nominal, with the normal equations
-// (at most 7 x 7) summed for all lanes of a block at once and solved lane by lane.
+// Orthogonal least squares of surfaces of revolution over lanes: Gauss-Newton from the nominal, with the
+// normal equations (at most 7 x 7) summed for all lanes of a block at once and solved lane by lane.
 //
-// Precision: every lane works about the mean of its own points and in the frame of its own surface, and the system is scaled
-// to unit diagonal. The normal equations square the condition number of the step only; the answer is where the gradient
-// vanishes, and its accuracy is that of the distances.
-// Convergence is judged by how far a step moves the surface at the points, not by the unknowns: on a short arc the radius and the
-// place of the axis change together by far more than the size of the feature, and the surface hardly moves. The remaining error
-// is estimated from the contraction of the steps, s kappa / (1 - kappa). A lane is frozen when that is below rounding, so that
-// more iterations for its neighbours do not change it.
+// Precision: every lane works about the mean of its own points and in the frame of its own surface, and the
+// system is scaled to unit diagonal. The normal equations square the condition number of the step only; the
+// answer is where the gradient vanishes, and its accuracy is that of the distances. Convergence is judged by
+// how far a step moves the surface at the points, not by the unknowns: on a short arc the radius and the
+// place of the axis change together by far more than the size of the feature, and the surface hardly moves.
+// The remaining error is estimated from the contraction of the steps, s kappa / (1 - kappa). A lane is frozen
+// when that is below rounding, so that more iterations for its neighbours do not change it.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "engine/features/feature.hpp"
-#include "engine/features/straight_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/straight_fit.hpp"
 
 namespace abbe {
 namespace {
@@ -19,8 +19,11 @@ Outcome<Element> bounded(const Arguments& arguments) {
   const Vec3 to{arguments.number("x2"), arguments.number("y2"), arguments.number("z2")};
   const double length = norm(to - from);
   if (!(length > 0)) return Outcome<Element>::failed("the two ends of the line are the same point");
-  return {{.point = 0.5 * (from + to), .direction = (to - from) / length, .second = surface_normal(arguments),
-           .begin = -length / 2, .end = length / 2}};
+  return {{.point = 0.5 * (from + to),
+           .direction = (to - from) / length,
+           .second = surface_normal(arguments),
+           .begin = -length / 2,
+           .end = length / 2}};
 }
 
 Outcome<Element> nominal_line(const Arguments& arguments) {

@@ -1,4 +1,5 @@
-// The parts that the arguments of FEAT statements share: a location in Cartesian or polar coordinates, a direction, a diameter.
+// The parts that the arguments of FEAT statements share: a location in Cartesian or polar coordinates, a
+// direction, a diameter.
 #pragma once
 
 #include "engine/base/arguments.hpp"

@@ -13,7 +13,8 @@ using Normal = Outcome<Vec3>;
 /// Away from the outline, in its plane.
 Vec3 out_of_outline(Shape shape, const Element& e, const Vec3& point) {
   const Vec3 across = cross(e.direction, e.second), w = point - e.point;
-  const OutlineDistance o = outline_distance(shape, e.angle != 0, dot(w, e.second), dot(w, across), e.size, e.minor_size);
+  const OutlineDistance o =
+      outline_distance(shape, e.angle != 0, dot(w, e.second), dot(w, across), e.size, e.minor_size);
   return o.nu * e.second + o.nv * across;
 }
 

@@ -6,7 +6,8 @@
 
 namespace abbe {
 
-/// The outward normal of the nominal surface nearest to `point`, same frame, mm; a unit vector. Fails where the nominal leaves it open.
+/// The outward normal of the nominal surface nearest to `point`, same frame, mm; a unit vector. Fails where
+/// the nominal leaves it open.
 Outcome<Vec3> nominal_normal(Shape, const Element& nominal, bool inner, const Vec3& point);
 
 }  // namespace abbe

@@ -37,7 +37,8 @@ OutlineDistance elliptic(double u, double v, double a, double b) {
     const double ru = a * c - eu, rv = b * s - ev, qu = pu - eu, qv = pv - ev;
     const double r = std::sqrt(ru * ru + rv * rv), q = std::sqrt(qu * qu + qv * qv);
     if (!(q > 0)) break;
-    const double next_c = std::clamp((qu * r / q + eu) / a, 0.0, 1.0), next_s = std::clamp((qv * r / q + ev) / b, 0.0, 1.0);
+    const double next_c = std::clamp((qu * r / q + eu) / a, 0.0, 1.0),
+                 next_s = std::clamp((qv * r / q + ev) / b, 0.0, 1.0);
     const double change = std::fabs(next_c - c) + std::fabs(next_s - s);
     c = next_c, s = next_s;
     if (change < 1e-15) break;
@@ -140,9 +141,11 @@ class OutlineFit {
 
 }  // namespace
 
-OutlineDistance outline_distance(Shape shape, bool flat_ends, double u, double v, double half_length, double half_width) {
+OutlineDistance outline_distance(Shape shape, bool flat_ends, double u, double v, double half_length,
+                                 double half_width) {
   if (shape == Shape::ellipse) return elliptic(u, v, half_length, half_width);
-  return shape == Shape::rectangle || flat_ends ? flat(u, v, half_length, half_width) : rounded(u, v, half_length, half_width);
+  return shape == Shape::rectangle || flat_ends ? flat(u, v, half_length, half_width)
+                                                : rounded(u, v, half_length, half_width);
 }
 
 template <Shape shape>

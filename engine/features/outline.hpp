@@ -18,8 +18,8 @@ namespace abbe {
 /// Signed distance of a point from an outline, and its derivatives.
 struct OutlineDistance {
   double d = 0;
-  double nu = 0, nv = 0;           ///< gradient of d, a unit vector
-  double length = 0, width = 0;    ///< dd / d(half length), dd / d(half width)
+  double nu = 0, nv = 0;         ///< gradient of d, a unit vector
+  double length = 0, width = 0;  ///< dd / d(half length), dd / d(half width)
 };
 
 /// At (u, v), relative to the centre, along and across; mm.

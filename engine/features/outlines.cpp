@@ -21,23 +21,27 @@ Vec3 vector_of(const Arguments& arguments, const std::string& suffix) {
 Outcome<Element> outline(const Vec3& centre, const Vec3& normal, const Vec3& along, double length, double width) {
   using Made = Outcome<Element>;
   if (norm(normal) == 0 || norm(along) == 0) return Made::failed("a direction vector has no length");
-  if (std::fabs(dot(normal, along)) > kSquare) return Made::failed("its direction must lie across the normal of its plane");
+  if (std::fabs(dot(normal, along)) > kSquare)
+    return Made::failed("its direction must lie across the normal of its plane");
   if (!(length > 0 && width > 0)) return Made::failed("its length and width must be positive");
-  return {{.point = centre, .direction = normal, .size = length / 2, .minor_size = width / 2,
+  return {{.point = centre,
+           .direction = normal,
+           .size = length / 2,
+           .minor_size = width / 2,
            .second = unit(perpendicular_part(along, normal))}};
 }
 
 Outcome<Element> slot(const Arguments& arguments) {
-  Outcome<Element> made = outline(location(arguments), vector_of(arguments, ""), vector_of(arguments, "2"), arguments.number("length"),
-                                  arguments.number("width"));
+  Outcome<Element> made = outline(location(arguments), vector_of(arguments, ""), vector_of(arguments, "2"),
+                                  arguments.number("length"), arguments.number("width"));
   made.value.angle = arguments.text("ends") == "FLAT" ? 1 : 0;
   if (made && !(made.value.size > made.value.minor_size)) return Outcome<Element>::failed("a slot is longer than wide");
   return made;
 }
 
 Outcome<Element> rectangle(const Arguments& arguments) {
-  Outcome<Element> made = outline(location(arguments), vector_of(arguments, "3"), vector_of(arguments, "1"), arguments.number("len1"),
-                                  arguments.number("len2"));
+  Outcome<Element> made = outline(location(arguments), vector_of(arguments, "3"), vector_of(arguments, "1"),
+                                  arguments.number("len1"), arguments.number("len2"));
   if (made && std::fabs(dot(vector_of(arguments, "2"), cross(made.value.direction, made.value.second))) < 1 - kSquare)
     return Outcome<Element>::failed("its three directions must be at right angles");
   made.value.end = arguments.number("len3") / 2, made.value.begin = -made.value.end;
@@ -51,7 +55,8 @@ Outcome<Element> ellipse(const Arguments& arguments) {
   const double c = 0.5 * norm(f2 - f1), given = arguments.number("diam") / 2;
   if (!(c > 0)) return Outcome<Element>::failed("the two foci are the same point: that is a circle");
   const bool major = arguments.text("axis") == "MAJOR";
-  if (major && !(given > c)) return Outcome<Element>::failed("the major diameter must be longer than the distance of the foci");
+  if (major && !(given > c))
+    return Outcome<Element>::failed("the major diameter must be longer than the distance of the foci");
   const double a = major ? given : std::sqrt(given * given + c * c);
   const double b = major ? std::sqrt(given * given - c * c) : given;
   return outline(0.5 * (f1 + f2), vector_of(arguments, ""), unit(f2 - f1), 2 * a, 2 * b);
@@ -76,9 +81,10 @@ extern const FeatureKind slot_kind{
 extern const FeatureKind rectangle_kind{
     .shape = Shape::rectangle,
     .word = "RCTNGL",
-    .signature = "side:INNER|OUTER," ABBE_LOCATION
-                 ",i1:number,j1:number,k1:number,len1:length,i2:number,j2:number,k2:number,len2:length,i3:number,j3:number,k3:number,"
-                 "len3:length",
+    .signature =
+        "side:INNER|OUTER," ABBE_LOCATION
+        ",i1:number,j1:number,k1:number,len1:length,i2:number,j2:number,k2:number,len2:length,i3:number,j3:number,k3:number,"
+        "len3:length",
     .help = "a block: centre, three directions and lengths; the four sides across the first two are measured",
     .example = "F(RE1)=FEAT/RCTNGL,OUTER,CART,0,0,0,1,0,0,60,0,1,0,40,0,0,1,20",
     .source = "ISO 22093:2011, FEAT/RCTNGL; least squares of the four sides across the third direction",
@@ -91,8 +97,8 @@ extern const FeatureKind rectangle_kind{
 extern const FeatureKind ellipse_kind{
     .shape = Shape::ellipse,
     .word = "ELLIPS",
-    .signature = "side:INNER|OUTER,CART,x1:length,y1:length,z1:length,x2:length,y2:length,z2:length,axis:MAJOR|MINOR,diam:length,"
-                 ABBE_DIRECTION,
+    .signature =
+        "side:INNER|OUTER,CART,x1:length,y1:length,z1:length,x2:length,y2:length,z2:length,axis:MAJOR|MINOR,diam:length," ABBE_DIRECTION,
     .help = "an ellipse: its two foci, the diameter along its major or minor axis, normal of its plane",
     .example = "F(EL1)=FEAT/ELLIPS,INNER,CART,-30,0,0,30,0,0,MAJOR,100,0,0,1",
     .source = "ISO 22093:2011, FEAT/ELLIPS; orthogonal least squares in the plane of the nominal normal",

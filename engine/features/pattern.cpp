@@ -26,7 +26,8 @@ double spread_evenly(int k, int n) { return n > 1 ? 2.0 * k / (n - 1) - 1 : 0; }
 struct Grid {
   double a, b;
   Grid(int index, int count) {
-    const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(count)))), rows = (count + columns - 1) / columns;
+    const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(count)))),
+              rows = (count + columns - 1) / columns;
     const int row = index / columns, in_row = std::min(columns, count - row * columns);
     a = kPatternReach_mm * spread_evenly(index % columns, in_row), b = kPatternReach_mm * spread_evenly(row, rows);
   }
@@ -53,10 +54,12 @@ PatternTouch on_arc(const Element& e, int k, int n) {
   return {e.point + e.size * out, out};
 }
 
-/// Sections at equal distances, two of fewer than 12 touches, else three; every other one turned by a quarter of a step.
+/// Sections at equal distances, two of fewer than 12 touches, else three; every other one turned by a quarter
+/// of a step.
 PatternTouch on_cylinder(const Element& e, int k, int n) {
   const int sections = n < 12 ? 2 : 3, section = k % sections, in_section = (n - section + sections - 1) / sections;
-  const double low = e.end > e.begin ? e.begin : -kPatternReach_mm, length = e.end > e.begin ? e.end - e.begin : 2 * kPatternReach_mm;
+  const double low = e.end > e.begin ? e.begin : -kPatternReach_mm,
+               length = e.end > e.begin ? e.end - e.begin : 2 * kPatternReach_mm;
   const double height = low + length * (0.1 + 0.8 * section / (sections - 1));
   const Vec3 out = Across(e.direction).at(2 * kPi * (k / sections + 0.25 * (section % 2)) / in_section);
   return {e.point + height * e.direction + e.size * out, out};
@@ -74,8 +77,9 @@ PatternTouch on_sphere(const Element& e, bool inner, int k, int n) {
   return {e.point + e.size * out, out};
 }
 
-/// By turns on three circles of the half of the tube that the axis points out of: its ridge, its outside and its inside. The inside is turned
-/// by half a step, so that seven touches, three of them on the ridge, determine the torus.
+/// By turns on three circles of the half of the tube that the axis points out of: its ridge, its outside and
+/// its inside. The inside is turned by half a step, so that seven touches, three of them on the ridge,
+/// determine the torus.
 PatternTouch on_torus(const Element& e, int k, int n) {
   const int circle = k % 3, on_this = (n - circle + 2) / 3;
   const Vec3 away = Across(e.direction).at(2 * kPi * (k / 3 + (circle == 2 ? 0.5 : 0)) / on_this);
@@ -86,7 +90,8 @@ PatternTouch on_torus(const Element& e, int k, int n) {
 PatternTouch on_ellipse(const Element& e, int k, int n) {
   const double angle = 2 * kPi * k / n, c = std::cos(angle), s = std::sin(angle);
   const Vec3 across = cross(e.direction, e.second);
-  return {e.point + e.size * c * e.second + e.minor_size * s * across, unit(c / e.size * e.second + s / e.minor_size * across)};
+  return {e.point + e.size * c * e.second + e.minor_size * s * across,
+          unit(c / e.size * e.second + s / e.minor_size * across)};
 }
 
 /// By turns on one long side, the other, one end, the other; evenly spaced within each.
@@ -122,7 +127,8 @@ Outcome<PatternTouch> pattern_touch(Shape shape, const Element& e, bool inner, i
     case Shape::edge_point: return {{e.point, e.direction}};
     case Shape::plane: return {on_plane(e, index, count)};
     case Shape::line:
-      if (!(norm(e.second) > 0)) return Outcome<PatternTouch>::failed("the nominal line has no surface normal to touch along");
+      if (!(norm(e.second) > 0))
+        return Outcome<PatternTouch>::failed("the nominal line has no surface normal to touch along");
       return {on_line(e, index, count)};
     case Shape::circle: touch = on_circle(e, index, count); break;
     case Shape::arc: touch = on_arc(e, index, count); break;
@@ -135,7 +141,8 @@ Outcome<PatternTouch> pattern_touch(Shape shape, const Element& e, bool inner, i
     case Shape::parallel_planes:
     case Shape::symmetry_plane: touch = on_faces(e, index, count); break;
     case Shape::cone:
-    case Shape::surface: return Outcome<PatternTouch>::failed("its nominal does not say where its surface begins and ends");
+    case Shape::surface:
+      return Outcome<PatternTouch>::failed("its nominal does not say where its surface begins and ends");
   }
   if (inner) touch.normal = -touch.normal;
   return {touch};
@@ -154,8 +161,10 @@ std::string_view pattern_help(Shape shape) {
     case Shape::cylinder:
       return "two sections, three from 12 touches on, evenly round, every other one turned by a quarter of a step; from 10 % to 90 % of the "
              "length, or of 20 mm about the point";
-    case Shape::sphere: return "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees";
-    case Shape::torus: return "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside turned by half a step";
+    case Shape::sphere:
+      return "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees";
+    case Shape::torus:
+      return "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside turned by half a step";
     case Shape::ellipse: return "round it at equal steps of its parameter, the first on the major axis";
     case Shape::slot:
     case Shape::rectangle: return "by turns on the two long sides and the two ends, evenly within each";

@@ -25,8 +25,8 @@ struct PatternTouch {
 /// Touch `index` (from 0) of `count`. Fails for kinds without a pattern.
 Outcome<PatternTouch> pattern_touch(Shape, const Element& nominal, bool inner, int index, int count);
 
-/// The fewest touches with which a pattern determines its feature: those that the kind needs, but six for a cylinder, because five
-/// points lie on several cylinders.
+/// The fewest touches with which a pattern determines its feature: those that the kind needs, but six for a
+/// cylinder, because five points lie on several cylinders.
 int pattern_minimum(Shape);
 
 /// One line for people: where the touches lie. Empty when the kind has no pattern.

@@ -1,6 +1,6 @@
 #include "engine/features/feature.hpp"
-#include "engine/features/straight_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/straight_fit.hpp"
 
 namespace abbe {
 namespace {

@@ -20,7 +20,8 @@ Outcome<Element> median(const Vec3& point, const Vec3& normal, double width) {
 Outcome<Element> nominal_planes(const Arguments& arguments) {
   if (arguments.has("width")) {
     const Outcome<Vec3> along = direction(arguments);
-    return along ? median(location(arguments), along.value, arguments.number("width")) : Outcome<Element>::failed(along.failure);
+    return along ? median(location(arguments), along.value, arguments.number("width"))
+                 : Outcome<Element>::failed(along.failure);
   }
   const Vec3 p1{arguments.number("x1"), arguments.number("y1"), arguments.number("z1")};
   const Vec3 p2{arguments.number("x2"), arguments.number("y2"), arguments.number("z2")};
@@ -89,8 +90,9 @@ void fit_planes(const PointColumns& columns, const Element* start, Element* resu
 extern const FeatureKind parallel_planes_kind{
     .shape = Shape::parallel_planes,
     .word = "PARPLN",
-    .signature = "side:INNER|OUTER,( CART,x1:length,y1:length,z1:length,i1:number,j1:number,k1:number,x2:length,y2:length,z2:length,"
-                 "i2:number,j2:number,k2:number ; [ MIDPL ]," ABBE_LOCATION "," ABBE_DIRECTION ",width:length )",
+    .signature =
+        "side:INNER|OUTER,( CART,x1:length,y1:length,z1:length,i1:number,j1:number,k1:number,x2:length,y2:length,z2:length,"
+        "i2:number,j2:number,k2:number ; [ MIDPL ]," ABBE_LOCATION "," ABBE_DIRECTION ",width:length )",
     .help = "two parallel planes: a point of the median plane, its normal, the width; or a point and normal of each",
     .example = "F(PP1)=FEAT/PARPLN,INNER,MIDPL,CART,40,30,-5,0,1,0,10",
     .source = "ISO 22093:2011, FEAT/PARPLN; least squares with a common normal",

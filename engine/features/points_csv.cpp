@@ -52,12 +52,14 @@ std::optional<double> number(std::string_view text) {
 void check_header(const SourceFile& file) {
   Field line = line_of(file, 1);
   if (line.text.starts_with(kByteOrderMark))
-    line = trimmed({line.text.substr(kByteOrderMark.size()), line.begin + static_cast<std::uint32_t>(kByteOrderMark.size())});
+    line = trimmed(
+        {line.text.substr(kByteOrderMark.size()), line.begin + static_cast<std::uint32_t>(kByteOrderMark.size())});
   std::string names;
   for (const Field& field : split(line)) names.append(field.text).push_back(',');
   if (names == "x,y,z," || names == "X,Y,Z,") return;
-  throw UserError(diagnostic_at(file, line.span(), Code::E0501, "the first line is " + quoted(line.text) + ", not 'x,y,z'",
-                                "write the header x,y,z and one point a line, in mm, with commas between the values", "x,y,z"));
+  throw UserError(
+      diagnostic_at(file, line.span(), Code::E0501, "the first line is " + quoted(line.text) + ", not 'x,y,z'",
+                    "write the header x,y,z and one point a line, in mm, with commas between the values", "x,y,z"));
 }
 
 /// The point of one line, or a message in `sink`.

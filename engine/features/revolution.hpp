@@ -1,15 +1,16 @@
-// Circle, sphere, cylinder, cone and torus are surfaces of revolution: each is a profile curve turned about an axis. So the
-// distance of a point from any of them is a function of two numbers only, its distance `rho` from the axis and its height
-// `h` along it, and the derivatives with respect to the five motions of the axis (two shifts across it, one along it, two
-// tilts) follow from the slopes of that function for all kinds at once:
+// Circle, sphere, cylinder, cone and torus are surfaces of revolution: each is a profile curve turned about
+// an axis. So the distance of a point from any of them is a function of two numbers only, its distance `rho`
+// from the axis and its height `h` along it, and the derivatives with respect to the five motions of the axis
+// (two shifts across it, one along it, two tilts) follow from the slopes of that function for all kinds at
+// once:
 //
 //   q = the point in the frame of the surface (z = axis),  rho = |q_xy|,  h = q_z,  d = f(rho, h, sizes)
 //   shift across:  dd/dx = -f_rho q_x / rho            shift along:  dd/dz = -f_h
 //   tilt:          dd/da = (f_h - f_rho h / rho) q_x   (the axis becomes (a, b, 1) / |.|)
 //
-// A kind of surface is therefore the small struct below that gives f, its slopes and the motions that matter to it. The frame
-// is moved after every step, so the derivatives are needed at zero motion only (Forbes: Least-squares best-fit geometric
-// elements, NPL DITC 140/89).
+// A kind of surface is therefore the small struct below that gives f, its slopes and the motions that matter
+// to it. The frame is moved after every step, so the derivatives are needed at zero motion only (Forbes:
+// Least-squares best-fit geometric elements, NPL DITC 140/89).
 #pragma once
 
 #include <cmath>
@@ -43,7 +44,9 @@ struct CircleProfile {
     return sqrt(rho2) - size[0];
   }
   template <class Real>
-  static void prepare(const Real* size, Real* ready) { ready[0] = size[0]; }
+  static void prepare(const Real* size, Real* ready) {
+    ready[0] = size[0];
+  }
   template <class Real>
   static ProfileSlopes<Real> slopes(Real rho, Real, const Real* ready) {
     return {rho - ready[0], 1, 0, {-1, 0}};
@@ -67,7 +70,9 @@ struct SphereProfile {
     return sqrt(rho2 + h * h) - size[0];
   }
   template <class Real>
-  static void prepare(const Real* size, Real* ready) { ready[0] = size[0]; }
+  static void prepare(const Real* size, Real* ready) {
+    ready[0] = size[0];
+  }
   template <class Real>
   static ProfileSlopes<Real> slopes(Real rho, Real h, const Real* ready) {
     const Real q = std::sqrt(rho * rho + h * h);
@@ -110,7 +115,9 @@ struct TorusProfile {
     return sqrt(across * across + h * h) - size[1];
   }
   template <class Real>
-  static void prepare(const Real* size, Real* ready) { ready[0] = size[0], ready[1] = size[1]; }
+  static void prepare(const Real* size, Real* ready) {
+    ready[0] = size[0], ready[1] = size[1];
+  }
   template <class Real>
   static ProfileSlopes<Real> slopes(Real rho, Real h, const Real* ready) {
     const Real across = rho - ready[0];
@@ -120,11 +127,10 @@ struct TorusProfile {
 };
 
 template <class Profile>
-inline constexpr int kUnknowns =
-    2 * Profile::kAcross + Profile::kAlong + 2 * Profile::kTilt + Profile::kSizes;
+inline constexpr int kUnknowns = 2 * Profile::kAcross + Profile::kAlong + 2 * Profile::kTilt + Profile::kSizes;
 
-/// The derivatives of the distance with respect to all unknowns (order: x, y, z, a, b, sizes, as far as the profile has them),
-/// followed by the distance itself.
+/// The derivatives of the distance with respect to all unknowns (order: x, y, z, a, b, sizes, as far as the
+/// profile has them), followed by the distance itself.
 template <class Profile, class Real>
 inline void distance_row(Real qx, Real qy, Real h, const Real* ready, Real (&row)[kUnknowns<Profile> + 1]) {
   // The tiny number keeps a point exactly on the axis from becoming 0/0; every other rho is unchanged by it.
@@ -179,8 +185,7 @@ void move_by(Placed<Real>& s, const Real (&step)[kUnknowns<Profile>]) {
   Real shift[3] = {};
   if constexpr (Profile::kAcross) shift[0] = step[k++], shift[1] = step[k++];
   if constexpr (Profile::kAlong) shift[2] = step[k++];
-  for (int i = 0; i < 3; ++i)
-    s.p[i] += shift[0] * s.axes[0][i] + shift[1] * s.axes[1][i] + shift[2] * s.axes[2][i];
+  for (int i = 0; i < 3; ++i) s.p[i] += shift[0] * s.axes[0][i] + shift[1] * s.axes[1][i] + shift[2] * s.axes[2][i];
   if constexpr (Profile::kTilt) {
     const Real a = step[k++], b = step[k++];
     Real z[3];
@@ -191,8 +196,8 @@ void move_by(Placed<Real>& s, const Real (&step)[kUnknowns<Profile>]) {
   if constexpr (Profile::kSizes == 2) s.size[1] += step[k];
 }
 
-/// Slides the origin of the frame along the axis to the point nearest to `target`, without changing the surface. Nothing
-/// happens to profiles for which a shift along the axis is a motion of its own.
+/// Slides the origin of the frame along the axis to the point nearest to `target`, without changing the
+/// surface. Nothing happens to profiles for which a shift along the axis is a motion of its own.
 template <class Profile, class Real>
 void anchor_near(Placed<Real>& s, const Real (&target)[3]) {
   if constexpr (!Profile::kAlong) {
@@ -209,8 +214,9 @@ Element turned_over(Shape shape, Element e);
 /// The element, relative to `origin`, as a placed surface.
 Placed<double> placed(Shape shape, const Element& e, const Vec3& origin);
 
-/// A surface, relative to `origin`, as an element without residuals and ends. A cone of negative half angle is the same cone
-/// looked at from its other side; `turned` tells whether the direction had to be turned for it.
+/// A surface, relative to `origin`, as an element without residuals and ends. A cone of negative half angle
+/// is the same cone looked at from its other side; `turned` tells whether the direction had to be turned for
+/// it.
 template <class Real>
 Element element_of(Shape shape, const Placed<Real>& s, const Real (&origin)[3], bool* turned = nullptr) {
   const bool turn = shape == Shape::cone && s.size[1] < 0;

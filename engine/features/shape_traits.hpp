@@ -7,8 +7,8 @@
 
 namespace abbe {
 
-/// The shape that a feature is treated as where only its point, direction and radius matter: in constructions, alignments and
-/// tolerances of location. Pairs of planes are their median plane there.
+/// The shape that a feature is treated as where only its point, direction and radius matter: in
+/// constructions, alignments and tolerances of location. Pairs of planes are their median plane there.
 constexpr Shape acts_as(Shape s) {
   switch (s) {
     case Shape::arc: return Shape::circle;

@@ -7,8 +7,8 @@
 
 namespace abbe {
 
-/// As fit_points, but only the minimum next to `start` is looked for. `start` matters to surfaces of revolution; lines and
-/// planes have one minimum.
+/// As fit_points, but only the minimum next to `start` is looked for. `start` matters to surfaces of
+/// revolution; lines and planes have one minimum.
 FitSolution fit_points_from(const FitProblem&, const Element& start);
 
 /// The reason in plain words, as static text, of a FitError code.

@@ -16,7 +16,9 @@ Outcome<Element> nominal_sphere(const Arguments& arguments) {
 extern const FeatureKind sphere_kind{
     .shape = Shape::sphere,
     .word = "SPHERE",
-    .signature = "side:INNER|OUTER," ABBE_LOCATION "," "diam:length",
+    .signature = "side:INNER|OUTER," ABBE_LOCATION
+                 ","
+                 "diam:length",
     .help = "a sphere: centre and diameter",
     .example = "F(S1)=FEAT/SPHERE,OUTER,CART,100,100,50,25",
     .source = "ISO 22093:2011, FEAT/SPHERE; Forbes, NPL DITC 140/89",

@@ -1,5 +1,5 @@
-// How points spread about their mean: the eigenvalues of their covariance say whether they are one point, a line or a plane,
-// and the eigenvectors are the least-squares line and plane themselves (Pearson 1901).
+// How points spread about their mean: the eigenvalues of their covariance say whether they are one point, a
+// line or a plane, and the eigenvectors are the least-squares line and plane themselves (Pearson 1901).
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ Spread<Real> spread_of(const Real (&products)[3][3], int n) {
   return s;
 }
 
-/// Spreads below this (mm) are rounding of the coordinates or no spread in any practical sense: 16 units in the last place of
-/// the largest coordinate, or 1e-10 of the largest spread.
+/// Spreads below this (mm) are rounding of the coordinates or no spread in any practical sense: 16 units in
+/// the last place of the largest coordinate, or 1e-10 of the largest spread.
 inline double negligible_spread(double largest_coordinate, double largest_spread) {
   return std::max(16 * 0x1p-52 * largest_coordinate, 1e-10 * largest_spread);
 }

@@ -12,7 +12,9 @@ using Starts = std::vector<Placed<double>>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-Placed<double> frame_along(const Vec3& axis) { return placed(Shape::cylinder, {.point = {}, .direction = axis, .size = 1}, {}); }
+Placed<double> frame_along(const Vec3& axis) {
+  return placed(Shape::cylinder, {.point = {}, .direction = axis, .size = 1}, {});
+}
 
 /// Least squares of m x = b, in the columns' own scales.
 VectorXd least_squares(const MatrixXd& m, const VectorXd& b) { return m.colPivHouseholderQr().solve(b); }
@@ -65,9 +67,11 @@ Starts ball_starts(Placed<double> frame, const Points<double>& points, int dimen
   return list;
 }
 
-/// On a shallow arc (dimension 2) or cap (3) the heights over the chord grow with the square of the distance, over 2 radii. Unlike
-/// the algebraic ball it takes all errors to be those of the heights, as they are there: the radius is right however flat it is.
-Placed<double> shallow_ball(const Points<double>& points, const Spread<Extended>& spread, int dimension, Placed<double> frame) {
+/// On a shallow arc (dimension 2) or cap (3) the heights over the chord grow with the square of the distance,
+/// over 2 radii. Unlike the algebraic ball it takes all errors to be those of the heights, as they are there:
+/// the radius is right however flat it is.
+Placed<double> shallow_ball(const Points<double>& points, const Spread<Extended>& spread, int dimension,
+                            Placed<double> frame) {
   const Vec3 normal = vec(spread.direction[dimension - 1]);
   MatrixXd m(points.size(), dimension + 1);
   VectorXd height(points.size());
@@ -90,8 +94,8 @@ Placed<double> shallow_ball(const Points<double>& points, const Spread<Extended>
 
 /// A narrow patch looks like a quadric over its plane.
 struct Patch {
-  Vec3 normal, principal[2];   ///< unit
-  double curvature[2] = {};    ///< along the principal directions, 1/mm; positive towards the normal
+  Vec3 normal, principal[2];  ///< unit
+  double curvature[2] = {};   ///< along the principal directions, 1/mm; positive towards the normal
 };
 Patch patch_of(const Points<double>& points, const Spread<Extended>& spread) {
   const Vec3 x = vec(spread.direction[0]), y = vec(spread.direction[1]), n = vec(spread.direction[2]);
@@ -128,8 +132,8 @@ Placed<double> cylinder_along(const Vec3& axis, const Points<double>& points) {
   return ball_starts(frame_along(axis), points, 2).front();
 }
 
-/// With the axis direction z known, rho^2 = (s + h tan)^2 is linear in the shift of the axis and in the coefficients of the
-/// quadratic in h; its slope at h = 0 gives the angle.
+/// With the axis direction z known, rho^2 = (s + h tan)^2 is linear in the shift of the axis and in the
+/// coefficients of the quadratic in h; its slope at h = 0 gives the angle.
 Placed<double> cone_along(const Vec3& axis, const Points<double>& points) {
   Placed<double> s = frame_along(axis);
   const MatrixXd q = coordinates_in(s, points);
@@ -170,7 +174,8 @@ Placed<double> bent(const Placed<double>& tube, double major_radius, double turn
   return torus;
 }
 
-/// A sector of a torus is a bent cylinder: the tubes of the cylinders given, bent to several radii in several directions.
+/// A sector of a torus is a bent cylinder: the tubes of the cylinders given, bent to several radii in several
+/// directions.
 Starts bent_tubes(const Starts& cylinders, double extent) {
   Starts list;
   for (const Placed<double>& tube : cylinders)
@@ -179,20 +184,22 @@ Starts bent_tubes(const Starts& cylinders, double extent) {
   return list;
 }
 
-/// A short sector of a large torus: the axis of the cylinder departs from its line with the square of the height, which the
-/// distances of the points from the cylinder show.
+/// A short sector of a large torus: the axis of the cylinder departs from its line with the square of the
+/// height, which the distances of the points from the cylinder show.
 Placed<double> slightly_bent(const Placed<double>& tube, const Points<double>& points) {
   const MatrixXd q = coordinates_in(tube, points);
   const VectorXd rho = q.leftCols(2).rowwise().norm(), h = q.col(2);
   const MatrixXd radial = q.leftCols(2).array().colwise() / rho.array();
   MatrixXd m(q.rows(), 7);
-  m << radial, radial.array().colwise() * h.array(), radial.array().colwise() * h.array().square(), VectorXd::Ones(q.rows());
+  m << radial, radial.array().colwise() * h.array(), radial.array().colwise() * h.array().square(),
+      VectorXd::Ones(q.rows());
   const VectorXd x = least_squares(m, rho.array() - tube.size[0]);
   return bent(tube, 1 / (2 * std::hypot(x[4], x[5])), std::atan2(x[5], x[4]));
 }
 
-/// A torus is the quartic |q|^4 = |q|^2 (l q) + q M q + v q + k: linear in 13 coefficients, of which l = 4 c gives the centre and
-/// M + 4 c c' (up to a multiple of the identity) = -4 R^2 w w' the axis and the major radius.
+/// A torus is the quartic |q|^4 = |q|^2 (l q) + q M q + v q + k: linear in 13 coefficients, of which l = 4 c
+/// gives the centre and M + 4 c c' (up to a multiple of the identity) = -4 R^2 w w' the axis and the major
+/// radius.
 Starts quartic_torus(const Points<double>& points) {
   if (points.size() < 14) return {};
   const MatrixXd q = coordinates_in(Placed<double>{}, points);
@@ -218,9 +225,8 @@ Starts quartic_torus(const Points<double>& points) {
   for (int k = 0; k < 3; ++k) s.p[k] = centre[k] * unit;
   s.size[0] = major * unit;
   const MatrixXd local = coordinates_in(s, points);
-  s.size[1] = ((local.leftCols(2).rowwise().norm().array() - s.size[0]).square() + local.col(2).array().square())
-                  .sqrt()
-                  .mean();
+  s.size[1] =
+      ((local.leftCols(2).rowwise().norm().array() - s.size[0]).square() + local.col(2).array().square()).sqrt().mean();
   return {s};
 }
 
@@ -236,8 +242,8 @@ void add_lattice(std::vector<Vec3>& axes) {
   for (int i = 0; i < count; ++i) axes.push_back(lattice_direction(i, count));
 }
 
-/// Rough points of a part of a torus have minima that no start near the points' own shape leads to: tori of all directions and sizes
-/// whose tube passes near the points, not chosen by how well they fit.
+/// Rough points of a part of a torus have minima that no start near the points' own shape leads to: tori of
+/// all directions and sizes whose tube passes near the points, not chosen by how well they fit.
 Starts scattered_tori(double extent, int count) {
   Starts list;
   for (int i = 0; i < count; ++i) {
@@ -251,8 +257,8 @@ Starts scattered_tori(double extent, int count) {
   return list;
 }
 
-/// The axis of a surface of revolution lies, at a narrow patch, in the plane of the normal and of one of the two principal
-/// directions (it is the other one's plane that turns).
+/// The axis of a surface of revolution lies, at a narrow patch, in the plane of the normal and of one of the
+/// two principal directions (it is the other one's plane that turns).
 void add_patch_axes(std::vector<Vec3>& axes, const Patch& patch) {
   for (const Vec3& along : patch.principal)
     for (int step = 0; step < 24; ++step) {

@@ -115,7 +115,8 @@ class StraightFit {
   Placed<double> surface_[kBlockLanes];
 };
 
-void fit_straight(Shape shape, const PointColumns& columns, const Element* start, Element* result, const char** failure) {
+void fit_straight(Shape shape, const PointColumns& columns, const Element* start, Element* result,
+                  const char** failure) {
   for (int first = 0; first < columns.lanes; first += kBlockLanes)
     StraightFit(shape, columns, first, start, result, failure).run();
 }

@@ -1,5 +1,6 @@
-// Lines and planes over lanes: one pass of second moments in the frame of the nominal, where the off-diagonal moments are small
-// and so lose nothing to rounding, then the eigenvectors lane by lane. No iteration and no start needed but for the sense.
+// Lines and planes over lanes: one pass of second moments in the frame of the nominal, where the off-diagonal
+// moments are small and so lose nothing to rounding, then the eigenvectors lane by lane. No iteration and no
+// start needed but for the sense.
 #pragma once
 
 #include "engine/features/feature.hpp"

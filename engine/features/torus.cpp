@@ -11,10 +11,7 @@ Outcome<Element> nominal_torus(const Arguments& arguments) {
   const Outcome<double> major = radius(arguments, "majdia"), minor = radius(arguments, "mindia");
   if (!major) return Outcome<Element>::failed(major.failure);
   if (!minor) return Outcome<Element>::failed(minor.failure);
-  return {{.point = location(arguments),
-           .direction = along.value,
-           .size = major.value,
-           .minor_size = minor.value}};
+  return {{.point = location(arguments), .direction = along.value, .size = major.value, .minor_size = minor.value}};
 }
 
 }  // namespace

@@ -41,36 +41,27 @@ void add_series(const Chart& chart, Json& encoding) {
   Json names = Json::array();
   for (const Chart::Series& s : chart.series) names.push_back(s.name);
   const auto channel = [&](Json range) {
-    return Json{
-        {"field", "series"},
-        {"type", "nominal"},
-        {"scale", {{"domain", names}, {"range", std::move(range)}}},
-        {"legend", {{"title", chart.series_title}, {"titleLimit", 300}, {"symbolSize", 400}}}};
+    return Json{{"field", "series"},
+                {"type", "nominal"},
+                {"scale", {{"domain", names}, {"range", std::move(range)}}},
+                {"legend", {{"title", chart.series_title}, {"titleLimit", 300}, {"symbolSize", 400}}}};
   };
   encoding["color"] = channel({"#0072B2", "#D55E00", "#009E73", "#CC79A7"});
-  if (chart.mark == Chart::Mark::lines)
-    encoding["strokeDash"] = channel({{1, 0}, {6, 3}, {2, 2}, {8, 2, 2, 2}});
+  if (chart.mark == Chart::Mark::lines) encoding["strokeDash"] = channel({{1, 0}, {6, 3}, {2, 2}, {8, 2, 2, 2}});
 }
 
 Json mark(const Chart& chart) {
-  if (chart.mark == Chart::Mark::lines)
-    return {{"type", "line"}, {"color", "#0072B2"}, {"aria", false}};
+  if (chart.mark == Chart::Mark::lines) return {{"type", "line"}, {"color", "#0072B2"}, {"aria", false}};
   return {{"type", "point"}, {"filled", true}, {"size", 12}, {"color", "#0072B2"}, {"aria", false}};
 }
 
 Json config() {
-  const Json zero_line = {{"condition", {{"test", "datum.value === 0"}, {"value", "#888"}}},
-                          {"value", "#e6e6e6"}};
+  const Json zero_line = {{"condition", {{"test", "datum.value === 0"}, {"value", "#888"}}}, {"value", "#e6e6e6"}};
   return {
       {"font", "sans-serif"},
       {"view", {{"stroke", nullptr}}},
-      {"axis",
-       {{"gridColor", zero_line},
-        {"titleFontWeight", "normal"},
-        {"titleFontSize", 12},
-        {"labelFontSize", 11}}},
-      {"title",
-       {{"anchor", "start"}, {"fontSize", 13}, {"subtitleFontSize", 11}, {"subtitlePadding", 4}}},
+      {"axis", {{"gridColor", zero_line}, {"titleFontWeight", "normal"}, {"titleFontSize", 12}, {"labelFontSize", 11}}},
+      {"title", {{"anchor", "start"}, {"fontSize", 13}, {"subtitleFontSize", 11}, {"subtitlePadding", 4}}},
       {"legend",
        {{"orient", "bottom"},
         {"offset", 6},

@@ -16,8 +16,7 @@ namespace abbe {
 namespace {
 
 constexpr int kLineSamples = 480, kPointSamples = 600;
-constexpr double kMatters =
-    0.1;  ///< share of the largest |r| from which a change is worth a figure
+constexpr double kMatters = 0.1;  ///< share of the largest |r| from which a change is worth a figure
 constexpr int kRandomTouches = 400;
 
 struct Face {
@@ -61,15 +60,12 @@ class Signature {
 
  private:
   bool draws_touches() const { return effect_.draws_per == DrawsPer::touch; }
-  bool needed(const Sweep& sweep) const {
-    return effect_.needs & static_cast<unsigned>(sweep.needs);
-  }
+  bool needed(const Sweep& sweep) const { return effect_.needs & static_cast<unsigned>(sweep.needs); }
 
   std::vector<double> draws(std::uint32_t machine, std::uint32_t site) const {
     std::vector<double> z;
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(effect_.draws); ++k)
-      z.push_back(
-          normal_quantile(uniform_pair({1, machine, stream_of(effect_.name), site, 0, k}).a));
+      z.push_back(normal_quantile(uniform_pair({1, machine, stream_of(effect_.name), site, 0, k}).a));
     return z;
   }
 
@@ -79,8 +75,7 @@ class Signature {
     std::uint32_t site = 0;
     if (effect_.draws_per == DrawsPer::visit) site = static_cast<std::uint32_t>(scene.visit);
     if (draws_touches()) site = touch;
-    return kUmPerMm *
-           dot(scene.normal, effect_.displace(scene, theta_.data(), draws(machine, site).data()));
+    return kUmPerMm * dot(scene.normal, effect_.displace(scene, theta_.data(), draws(machine, site).data()));
   }
 
   /// What r amounts to at a touch: itself, or its root mean square where it is drawn every time.
@@ -185,8 +180,7 @@ class Signature {
     const double largest = extent(amounts(base_, *x_)).largest();
     for (const Face& face : kFaces) {
       if (&face == face_) continue;
-      if (extent(amounts(touching(face), *x_)).largest() > kMatters * largest &&
-          differ(base_, touching(face)))
+      if (extent(amounts(touching(face), *x_)).largest() > kMatters * largest && differ(base_, touching(face)))
         return &face;
     }
     return nullptr;
@@ -204,8 +198,7 @@ class Signature {
 
   std::string subtitle() const {
     std::vector<std::string> parts{std::string(effect_.name)};
-    if (!theta_.empty())
-      parts[0] += fmt::format(", {} = {:g}", effect_.parameters.front().name, theta_.front());
+    if (!theta_.empty()) parts[0] += fmt::format(", {} = {:g}", effect_.parameters.front().name, theta_.front());
     if (face_) parts.push_back(fmt::format("touches on a face {}", face_->name));
     if (draws_touches()) parts.push_back(fmt::format("{} touches", kPointSamples));
     return fmt::format("{}", fmt::join(parts, "; "));
@@ -222,8 +215,6 @@ class Signature {
 
 }  // namespace
 
-Chart signature(const Effect& effect, const Machine& machine) {
-  return Signature(effect, machine).chart();
-}
+Chart signature(const Effect& effect, const Machine& machine) { return Signature(effect, machine).chart(); }
 
 }  // namespace abbe

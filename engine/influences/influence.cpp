@@ -65,19 +65,16 @@ std::vector<InfluenceBound> read_bounds(JsonObject& root) {
     bound.at_most_mm = kMmPerUm * object.number("at_most_um", kPositive);
     bound.source = object.text("source");
     const InfluenceQuantity* quantity = find_quantity(bound.influence);
-    const bool twice = std::any_of(bounds.begin(), bounds.end(), [&](const InfluenceBound& other) {
-      return other.influence == bound.influence;
-    });
+    const bool twice = std::any_of(bounds.begin(), bounds.end(),
+                                   [&](const InfluenceBound& other) { return other.influence == bound.influence; });
     if (!quantity) {
       if (object.has("influence")) refuse_unknown(object, bound.influence);
     } else if (quantity->always_modelled) {
-      object.fault(
-          "influence", Code::E0433,
-          fmt::format("\"{}\" is part of every simulation: a bound adds nothing", bound.influence),
-          "remove it; what the machine file says of it is propagated");
-    } else if (twice) {
       object.fault("influence", Code::E0433,
-                   fmt::format("\"{}\" has a bound already", bound.influence),
+                   fmt::format("\"{}\" is part of every simulation: a bound adds nothing", bound.influence),
+                   "remove it; what the machine file says of it is propagated");
+    } else if (twice) {
+      object.fault("influence", Code::E0433, fmt::format("\"{}\" has a bound already", bound.influence),
                    "remove one of the two; of two bounds that both hold, keep the smaller");
     }
     bounds.push_back(std::move(bound));

@@ -21,15 +21,7 @@
 
 namespace abbe {
 
-enum class Distribution {
-  normal,
-  student_t,
-  rectangular,
-  triangular,
-  arcsine,
-  trapezoidal,
-  curvilinear_trapezoid
-};
+enum class Distribution { normal, student_t, rectangular, triangular, arcsine, trapezoidal, curvilinear_trapezoid };
 
 /// One independent part of what is not known of a quantity, in the unit of that quantity.
 struct Deviation {

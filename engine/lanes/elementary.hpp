@@ -33,10 +33,10 @@ template <class... Rest>
   // mantissa of 2^52.
   const double k = std::bit_cast<double>((shifted >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
   const double f = m - 1, s = f / (2 + f), z = s * s, half_f2 = 0.5 * f * f;
-  const double tail =
-      z * polynomial(z, 6.666666666666735130e-01, 3.999999999940941908e-01,
-                     2.857142874366239149e-01, 2.222219843214978396e-01, 1.818357216161805012e-01,
-                     1.531383769920937332e-01, 1.479819860511658591e-01);
+  const double tail = z *
+      polynomial(z, 6.666666666666735130e-01, 3.999999999940941908e-01, 2.857142874366239149e-01,
+                 2.222219843214978396e-01, 1.818357216161805012e-01, 1.531383769920937332e-01,
+                 1.479819860511658591e-01);
   constexpr double kLn2High = 6.93147180369123816490e-01, kLn2Low = 1.90821492927058770002e-10;
   return k * kLn2High - ((half_f2 - (s * (half_f2 + tail) + k * kLn2Low)) - f);
 }
@@ -49,10 +49,8 @@ template <class... Rest>
   constexpr double kLog2e = 1.44269504088896338700, kRound = 0x1.8p52;
   const double rounded = x * kLog2e + kRound, k = rounded - kRound;
   const double r = (x - k * kLn2High) - k * kLn2Low;
-  const double e_r =
-      polynomial(r, 1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,
-                 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600.0,
-                 1.0 / 6227020800.0);
+  const double e_r = polynomial(r, 1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320,
+                                1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600.0, 1.0 / 6227020800.0);
   // The low bits of `rounded` hold k; 2^k is written into the exponent.
   const std::uint64_t power = (std::bit_cast<std::uint64_t>(rounded) + 1023) << 52;
   return e_r * std::bit_cast<double>(power);
@@ -70,20 +68,18 @@ struct SinCos {
   const double rounded = 2 * u + kRound;
   const std::uint64_t quadrant = std::bit_cast<std::uint64_t>(rounded);
   const double x = 3.14159265358979323846 * (u - 0.5 * (rounded - kRound)), z = x * x;
-  const double s =
-      x * polynomial(z, 1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800,
-                     1.0 / 6227020800.0, -1.0 / 1307674368000.0, 1.0 / 355687428096000.0);
-  const double c = polynomial(z, 1.0, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800,
-                              1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0);
+  const double s = x *
+      polynomial(z, 1.0, -1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800.0,
+                 -1.0 / 1307674368000.0, 1.0 / 355687428096000.0);
+  const double c = polynomial(z, 1.0, -1.0 / 2, 1.0 / 24, -1.0 / 720, 1.0 / 40320, -1.0 / 3628800, 1.0 / 479001600.0,
+                              -1.0 / 87178291200.0, 1.0 / 20922789888000.0);
   // Odd quadrants swap the two; quadrants 2, 3 turn the sign of the sine, 1, 2 that of the cosine.
   // On bits: no branch.
   const std::uint64_t swap = 0 - (quadrant & 1);
-  const std::uint64_t s_bits = std::bit_cast<std::uint64_t>(s),
-                      c_bits = std::bit_cast<std::uint64_t>(c);
+  const std::uint64_t s_bits = std::bit_cast<std::uint64_t>(s), c_bits = std::bit_cast<std::uint64_t>(c);
   const std::uint64_t difference = (s_bits ^ c_bits) & swap;
   const std::uint64_t sin_sign = (quadrant & 2) << 62, cos_sign = ((quadrant + 1) & 2) << 62;
-  return {std::bit_cast<double>(s_bits ^ difference ^ sin_sign),
-          std::bit_cast<double>(c_bits ^ difference ^ cos_sign)};
+  return {std::bit_cast<double>(s_bits ^ difference ^ sin_sign), std::bit_cast<double>(c_bits ^ difference ^ cos_sign)};
 }
 
 }  // namespace abbe

@@ -9,10 +9,9 @@
 // lanes/elementary.hpp.
 #pragma once
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(ABBE_ONE_LEVEL)
-#define ABBE_EVERY_LEVEL \
-  __attribute__((flatten, target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(ABBE_ONE_LEVEL)
+#define ABBE_EVERY_LEVEL __attribute__((flatten, target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define ABBE_EVERY_LEVEL
 #endif

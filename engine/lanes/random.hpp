@@ -1,6 +1,6 @@
 // Random numbers without state: Philox4x32-10 (Salmon et al., SC'11) addressed by (seed, machine, effect, site, visit,
-// draw). So a number depends on nothing but its own address: not on threads, blocks, the order of work, or on which other
-// effects exist. Integer and exactly rounded operations only: the same bits on every machine.
+// draw). So a number depends on nothing but its own address: not on threads, blocks, the order of work, or on
+// which other effects exist. Integer and exactly rounded operations only: the same bits on every machine.
 #pragma once
 
 #include <bit>
@@ -41,8 +41,9 @@ constexpr std::uint32_t stream_of(std::string_view effect) {
 inline constexpr int kDrawBits = 12;
 inline constexpr std::uint64_t kMostVisits = std::uint64_t{1} << (32 - kDrawBits);
 
-/// The address of a pair of random numbers. `site`: the place in the program (index of the operation), 0 for what is drawn once
-/// per machine; `visit`: how often this machine has been there (below kMostVisits); `draw`: which pair of that visit.
+/// The address of a pair of random numbers. `site`: the place in the program (index of the operation), 0 for
+/// what is drawn once per machine; `visit`: how often this machine has been there (below kMostVisits);
+/// `draw`: which pair of that visit.
 struct RandomAddress {
   std::uint64_t seed = 1;
   std::uint32_t machine = 0;
@@ -71,7 +72,8 @@ constexpr UniformPair uniform_pair(const RandomAddress& address) {
   return {uniform_from_bits(r.v[0], r.v[1]), uniform_from_bits(r.v[2], r.v[3])};
 }
 
-/// The standard normal quantile of p in (0, 1): algorithm AS 241 (Wichura 1988), branch-free, relative error below 1e-15.
+/// The standard normal quantile of p in (0, 1): algorithm AS 241 (Wichura 1988), branch-free, relative error
+/// below 1e-15.
 double normal_quantile(double p);
 
 /// n pairs of standard normal numbers for n machines at one (stream, site, draw): the kernel of per-touch noise.

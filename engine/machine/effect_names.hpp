@@ -8,7 +8,8 @@
 
 namespace abbe {
 
-/// Names of the settings in reports, and of their random numbers: that of the effect, from its second setting on with a number ("machine.scale #2").
+/// Names of the settings in reports, and of their random numbers: that of the effect, from its second setting
+/// on with a number ("machine.scale #2").
 std::vector<std::string> effect_names(const std::vector<EffectSetting>&);
 
 }  // namespace abbe

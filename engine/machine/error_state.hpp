@@ -1,5 +1,6 @@
-// The error state of a virtual machine (paper section 6, Fig. 6): the displacement d of the tip, measured = true + d, over the
-// working volume. Only its differences show in a measurement, not its size: it is zero at home by definition.
+// The error state of a virtual machine (paper section 6, Fig. 6): the displacement d of the tip, measured =
+// true + d, over the working volume. Only its differences show in a measurement, not its size: it is zero at
+// home by definition.
 #pragma once
 
 #include <array>

@@ -18,8 +18,7 @@ constexpr int kPointsPerPeriod = 32;
 /// The basis functions on a grid over u in [-1, 1], [basis][point].
 struct Grid {
   explicit Grid(int harmonics)
-      : points(kPointsPerPeriod * std::max(harmonics, 1) + 1),
-        value(basis_size(harmonics) * points) {
+      : points(kPointsPerPeriod * std::max(harmonics, 1) + 1), value(basis_size(harmonics) * points) {
     const int n = points;
     double* const v = value.data();
     for_lanes(n, [=](int i) {
@@ -141,8 +140,7 @@ Vec3 Machine::home_offset() const {
   return sum;
 }
 
-GeometryCoefficients draw_geometry(const Machine& machine, std::uint64_t seed,
-                                   std::uint32_t machine_index) {
+GeometryCoefficients draw_geometry(const Machine& machine, std::uint64_t seed, std::uint32_t machine_index) {
   const int size = basis_size(machine.harmonics);
   const Grid grid(machine.harmonics);
   std::vector<double> scratch(grid.points);
@@ -150,12 +148,10 @@ GeometryCoefficients draw_geometry(const Machine& machine, std::uint64_t seed,
   for (int k = 0; k < kComponents; ++k) {
     const auto component = static_cast<Component>(k);
     const ComponentSpec& spec = machine[component];
-    RandomAddress address{
-        seed, machine_index, stream_of("geometry"), static_cast<std::uint32_t>(k), 0, 0};
+    RandomAddress address{seed, machine_index, stream_of("geometry"), static_cast<std::uint32_t>(k), 0, 0};
     double* const c = &coefficients[k * size];
     draw_shape(spec, machine.harmonics, address, c);
-    const double e_tot = spec.e_max * machine[axis_of(component)].travel_mm * 1e-3 *
-                         (2 * uniform_pair(address).a - 1);
+    const double e_tot = spec.e_max * machine[axis_of(component)].travel_mm * 1e-3 * (2 * uniform_pair(address).a - 1);
     const double scale = e_tot / largest_on_grid(grid, machine.harmonics, c, scratch.data());
     for (int b = 0; b < size; ++b) c[b] *= scale;
   }
@@ -163,8 +159,8 @@ GeometryCoefficients draw_geometry(const Machine& machine, std::uint64_t seed,
   return coefficients;
 }
 
-double error_at(const Machine& machine, const GeometryCoefficients& coefficients,
-                Component component, double reading_mm) {
+double error_at(const Machine& machine, const GeometryCoefficients& coefficients, Component component,
+                double reading_mm) {
   const double u = normalised(machine[axis_of(component)], reading_mm);
   const double* c = &coefficients[static_cast<int>(component) * basis_size(machine.harmonics)];
   double sum = c[0] + c[1] * u + c[2] * (2 * u * u - 1);
@@ -177,8 +173,7 @@ AxisLever axis_lever(const Machine& machine, Axis axis) {
   AxisLever lever;
   if (!machine[axis].table_side) {
     lever.offset_mm = machine.mount_offset_mm;
-    for (auto later = machine.ram_chain.rbegin();
-         later != machine.ram_chain.rend() && *later != axis; ++later) {
+    for (auto later = machine.ram_chain.rbegin(); later != machine.ram_chain.rend() && *later != axis; ++later) {
       lever.offset_mm += machine[*later].offset_mm;
       lever.reach += along(*later, 1);
     }
@@ -195,13 +190,11 @@ AxisLever axis_lever(const Machine& machine, Axis axis) {
   return lever;
 }
 
-Vec3 geometric_error(const Machine& machine, const AxisErrors& errors, const Vec3& enc_mm,
-                     const Vec3& tip_from_mount) {
+Vec3 geometric_error(const Machine& machine, const AxisErrors& errors, const Vec3& enc_mm, const Vec3& tip_from_mount) {
   Vec3 d;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const AxisLever lever = axis_lever(machine, axis);
-    d += lever.sign * (translation(errors, axis) +
-                       cross(rotation(errors, axis), lever.at(enc_mm, tip_from_mount)));
+    d += lever.sign * (translation(errors, axis) + cross(rotation(errors, axis), lever.at(enc_mm, tip_from_mount)));
   }
   return d;
 }
@@ -217,8 +210,7 @@ Vec3 geometric_error_exact(const Machine& machine, const AxisErrors& errors, con
   Rigid X_0M, X_0T;
   Vec3 table_offset;
   for (const Axis axis : machine.ram_chain) X_0M = X_0M * joint(axis, 1);
-  for (const Axis axis : machine.table_chain)
-    X_0T = X_0T * joint(axis, -1), table_offset += machine[axis].offset_mm;
+  for (const Axis axis : machine.table_chain) X_0T = X_0T * joint(axis, -1), table_offset += machine[axis].offset_mm;
   const Vec3 tip_in_0 = X_0M * (machine.mount_offset_mm + tip_from_mount);
   const Vec3 tip_in_W = inverse(X_0T) * tip_in_0 + table_offset;
   return tip_in_W - (enc_mm + machine.home_offset() + tip_from_mount);

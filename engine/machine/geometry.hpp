@@ -1,17 +1,21 @@
-// Geometric errors of virtual machines: the 18 error functions of each, and what they do to the tip (physics.md 1 and 2).
+// Geometric errors of virtual machines: the 18 error functions of each, and what they do to the tip
+// (physics.md 1 and 2).
 //
 // Each error function is a linear combination of fixed basis functions of the normalised reading u in [-1, 1]:
 //   1, u, 2u^2 - 1, cos(n pi u), sin(n pi u) for n = 1..N
-// so a virtual machine is a table of coefficients, evaluated exactly: no interpolation. u = -1 is home, where the scale reads 0.
+// so a virtual machine is a table of coefficients, evaluated exactly: no interpolation. u = -1 is home, where
+// the scale reads 0.
 //
-// Frames. {0} is the base. W is the machine coordinate system: it rides with the part, and coincides with {0} while the table-side
-// axes are at home. A ram-side axis j carries the tip: d += e_j + w_j x l_j, with l_j from its frame to the tip. A table-side
-// axis carries the part, so it moves the part away from under the tip: its frame stands at the sum of (offset_k - enc_k axis_k)
-// over the table chain up to j, and d -= e_j + w_j x l_j, with l_j again from its frame to the tip (the point on the part).
+// Frames. {0} is the base. W is the machine coordinate system: it rides with the part, and coincides with {0}
+// while the table-side axes are at home. A ram-side axis j carries the tip: d += e_j + w_j x l_j, with l_j
+// from its frame to the tip. A table-side axis carries the part, so it moves the part away from under the
+// tip: its frame stands at the sum of (offset_k - enc_k axis_k) over the table chain up to j, and d -= e_j +
+// w_j x l_j, with l_j again from its frame to the tip (the point on the part).
 //
-// Squarenesses. Positive: the angle between the two axes is larger than 90 degrees. The tip is then less far along the first axis
-// than the machine believes, so with measured = true + d: d_x = cwy y + bwz z, d_y = awz z (readings). They are linear terms of exy,
-// exz and eyz (with the opposite sign in the function of a table-side axis, which enters with a minus).
+// Squarenesses. Positive: the angle between the two axes is larger than 90 degrees. The tip is then less far
+// along the first axis than the machine believes, so with measured = true + d: d_x = cwy y + bwz z, d_y = awz
+// z (readings). They are linear terms of exy, exz and eyz (with the opposite sign in the function of a
+// table-side axis, which enters with a minus).
 #pragma once
 
 #include <array>
@@ -37,9 +41,9 @@ double error_at(const Machine&, const GeometryCoefficients&, Component, double r
 
 /// The lever from the frame of one axis to the tip, as it depends on the readings.
 struct AxisLever {
-  double sign = 1;      ///< of the axis' contribution: +1 ram side, -1 table side
+  double sign = 1;  ///< of the axis' contribution: +1 ram side, -1 table side
   Vec3 offset_mm;
-  Vec3 reach;           ///< 1 where the reading of axis k lengthens the lever, else 0
+  Vec3 reach;  ///< 1 where the reading of axis k lengthens the lever, else 0
   /// The lever at given readings, mm.
   constexpr Vec3 at(const Vec3& enc_mm, const Vec3& tip_from_mount) const {
     return offset_mm + Vec3{reach.x * enc_mm.x, reach.y * enc_mm.y, reach.z * enc_mm.z} + tip_from_mount;
@@ -51,7 +55,8 @@ AxisLever axis_lever(const Machine&, Axis);
 struct AxisErrors {
   double value[kComponents] = {};
 };
-/// First-order error d of the tip centre in W (measured = true + d), mm, for readings `enc_mm` and nominal tip `tip_from_mount`.
+/// First-order error d of the tip centre in W (measured = true + d), mm, for readings `enc_mm` and nominal
+/// tip `tip_from_mount`.
 Vec3 geometric_error(const Machine&, const AxisErrors&, const Vec3& enc_mm, const Vec3& tip_from_mount);
 /// The same from the full product of the transforms: the oracle of the tests.
 Vec3 geometric_error_exact(const Machine&, const AxisErrors&, const Vec3& enc_mm, const Vec3& tip_from_mount);
@@ -62,13 +67,16 @@ class GeometryBlock {
   GeometryBlock(const Machine&, std::span<const GeometryCoefficients* const> machines);
   int lanes() const { return lanes_; }
 
-  /// Adds the geometric error of n touches. Touch i happens on lane `lane[i]` of the block (lane[i] = i everywhere is the fast
-  /// case). enc, tip and d are arrays of three columns each: column k of enc is enc[k][0..n). tip: tip from mount, mm.
-  void add_error(int n, const int* lane, const double* const enc[3], const double* const tip[3], double* const d[3]) const;
+  /// Adds the geometric error of n touches. Touch i happens on lane `lane[i]` of the block (lane[i] = i
+  /// everywhere is the fast case). enc, tip and d are arrays of three columns each: column k of enc is
+  /// enc[k][0..n). tip: tip from mount, mm.
+  void add_error(int n, const int* lane, const double* const enc[3], const double* const tip[3],
+                 double* const d[3]) const;
 
  private:
   template <class Index>
-  void add_error_indexed(int n, Index lane, const double* const enc[3], const double* const tip[3], double* const d[3]) const;
+  void add_error_indexed(int n, Index lane, const double* const enc[3], const double* const tip[3],
+                         double* const d[3]) const;
 
   struct AxisData {
     AxisLever lever;

@@ -30,16 +30,14 @@ struct Rows {
 };
 
 template <class Index>
-void start(int n, Index lane, Rows constant, Rows linear, Rows quadratic, const double* enc,
-           double u_per_mm, Tile* t) {
+void start(int n, Index lane, Rows constant, Rows linear, Rows quadratic, const double* enc, double u_per_mm, Tile* t) {
   for_lanes(n, [=](int i) {
     const double u = u_per_mm * enc[i] - 1, q = 2 * u * u - 1;
     const SinCos f = sin_cos_pi(u);
     t->cos_1[i] = t->cos_n[i] = f.cos;
     t->sin_1[i] = t->sin_n[i] = f.sin;
     const int j = lane(i);
-    for (int k = 0; k < kPerAxis; ++k)
-      t->error[k][i] = constant(k, j) + linear(k, j) * u + quadratic(k, j) * q;
+    for (int k = 0; k < kPerAxis; ++k) t->error[k][i] = constant(k, j) + linear(k, j) * u + quadratic(k, j) * q;
   });
 }
 
@@ -54,8 +52,8 @@ void add_harmonic(int n, Index lane, Rows cosine, Rows sine, Tile* t) {
   });
 }
 
-void add_axis(int n, const AxisLever& l, const double* const enc[3], const double* const tip[3],
-              const Tile* t, double* const d[3]) {
+void add_axis(int n, const AxisLever& l, const double* const enc[3], const double* const tip[3], const Tile* t,
+              double* const d[3]) {
   const double *ex = enc[0], *ey = enc[1], *ez = enc[2], *tx = tip[0], *ty = tip[1], *tz = tip[2];
   double *dx = d[0], *dy = d[1], *dz = d[2];
   for_lanes(n, [=](int i) {
@@ -71,42 +69,37 @@ void add_axis(int n, const AxisLever& l, const double* const enc[3], const doubl
 
 }  // namespace
 
-GeometryBlock::GeometryBlock(const Machine& machine,
-                             std::span<const GeometryCoefficients* const> machines)
+GeometryBlock::GeometryBlock(const Machine& machine, std::span<const GeometryCoefficients* const> machines)
     : harmonics_(machine.harmonics), lanes_(static_cast<int>(machines.size())) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z})
-    axes_[static_cast<int>(axis)] = {axis_lever(machine, axis),
-                                     2 * machine[axis].direction / machine[axis].travel_mm};
+    axes_[static_cast<int>(axis)] = {axis_lever(machine, axis), 2 * machine[axis].direction / machine[axis].travel_mm};
   const int size = basis_size(harmonics_);
   coefficients_.resize(static_cast<std::size_t>(kComponents) * size * lanes_);
   double* out = coefficients_.data();
   for (int axis = 0; axis < 3; ++axis)
     for (int b = 0; b < size; ++b)
       for (int k = 0; k < kPerAxis; ++k)
-        for (const GeometryCoefficients* one : machines)
-          *out++ = (*one)[(kPerAxis * axis + k) * size + b];
+        for (const GeometryCoefficients* one : machines) *out++ = (*one)[(kPerAxis * axis + k) * size + b];
 }
 
 template <class Index>
-void GeometryBlock::add_error_indexed(int n, Index lane, const double* const enc[3],
-                                      const double* const tip[3], double* const d[3]) const {
+void GeometryBlock::add_error_indexed(int n, Index lane, const double* const enc[3], const double* const tip[3],
+                                      double* const d[3]) const {
   Tile tile;
   for (int axis = 0; axis < 3; ++axis) {
     const auto rows = [&](int b) {
       return Rows{
-          coefficients_.data() +
-              (static_cast<std::size_t>(axis) * basis_size(harmonics_) + b) * kPerAxis * lanes_,
+          coefficients_.data() + (static_cast<std::size_t>(axis) * basis_size(harmonics_) + b) * kPerAxis * lanes_,
           lanes_};
     };
     start(n, lane, rows(0), rows(1), rows(2), enc[axis], axes_[axis].u_per_mm, &tile);
-    for (int k = 1; k <= harmonics_; ++k)
-      add_harmonic(n, lane, rows(1 + 2 * k), rows(2 + 2 * k), &tile);
+    for (int k = 1; k <= harmonics_; ++k) add_harmonic(n, lane, rows(1 + 2 * k), rows(2 + 2 * k), &tile);
     add_axis(n, axes_[axis].lever, enc, tip, &tile, d);
   }
 }
 
-void GeometryBlock::add_error(int n, const int* lane, const double* const enc[3],
-                              const double* const tip[3], double* const d[3]) const {
+void GeometryBlock::add_error(int n, const int* lane, const double* const enc[3], const double* const tip[3],
+                              double* const d[3]) const {
   bool contiguous = true;
   for (int i = 0; i < n; ++i) contiguous &= lane[i] == i;
   for (int from = 0; from < n; from += kTile) {

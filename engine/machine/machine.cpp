@@ -32,16 +32,15 @@ SourceFile machine_source(const std::string& name_or_path) {
     if (file.name == name_or_path) return {std::string(file.name) + ".json", std::string(file.text)};
     names.push_back(file.name);
   }
-  const bool is_path = name_or_path.find_first_of("/.") != std::string::npos ||
-                       std::filesystem::exists(name_or_path);
+  const bool is_path = name_or_path.find_first_of("/.") != std::string::npos || std::filesystem::exists(name_or_path);
   if (is_path) return read_source(name_or_path);
   const std::string near = nearest_word(name_or_path, names);
-  throw UserError(diagnostic(
-      Code::E0411,
-      fmt::format("there is no machine \"{}\": neither a file nor one of the shipped machines ({})",
-                  name_or_path, fmt::join(names, ", ")),
-      near.empty() ? "`abbe machine init NAME` prints a machine file to start from"
-                   : fmt::format("did you mean \"{}\"?", near)));
+  throw UserError(
+      diagnostic(Code::E0411,
+                 fmt::format("there is no machine \"{}\": neither a file nor one of the shipped machines ({})",
+                             name_or_path, fmt::join(names, ", ")),
+                 near.empty() ? "`abbe machine init NAME` prints a machine file to start from"
+                              : fmt::format("did you mean \"{}\"?", near)));
 }
 
 }  // namespace
@@ -56,22 +55,21 @@ std::string machine_text(const std::string& name_or_path) { return std::string(m
 std::vector<Diagnostic> machine_warnings(const Machine& machine) {
   std::vector<Diagnostic> warnings;
   if (!machine.offsets_not_given.empty())
-    warnings.push_back(
-        diagnostic(Code::W0417,
-                   fmt::format("machine \"{}\" gives no scale position for {}: they are taken for zero",
-                               machine.name, fmt::join(machine.offsets_not_given, ", ")),
-                   "measure where the scales are and give \"offsets_mm\": without them "
-                   "measurements far from the scales seem too good"));
+    warnings.push_back(diagnostic(Code::W0417,
+                                  fmt::format("machine \"{}\" gives no scale position for {}: they are taken for zero",
+                                              machine.name, fmt::join(machine.offsets_not_given, ", ")),
+                                  "measure where the scales are and give \"offsets_mm\": without them "
+                                  "measurements far from the scales seem too good"));
   const Specification& spec = machine.specification;
   if (spec.shorter_than_standard())
-    warnings.push_back(diagnostic(
-        Code::W0419,
-        fmt::format("the longest test length of \"{}\" is {:g} of its line, but ISO 10360-2 asks "
-                    "for {:g} or more",
-                    machine.name, spec.longest_share, Specification::kLeastLongestShare),
-        fmt::format("leave \"longest_share\" out, which is {:g}: a test over short lengths accepts "
-                    "machines that the standard's test rejects",
-                    Specification::kLeastLongestShare)));
+    warnings.push_back(
+        diagnostic(Code::W0419,
+                   fmt::format("the longest test length of \"{}\" is {:g} of its line, but ISO 10360-2 asks "
+                               "for {:g} or more",
+                               machine.name, spec.longest_share, Specification::kLeastLongestShare),
+                   fmt::format("leave \"longest_share\" out, which is {:g}: a test over short lengths accepts "
+                               "machines that the standard's test rejects",
+                               Specification::kLeastLongestShare)));
   return warnings;
 }
 

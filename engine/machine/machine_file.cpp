@@ -36,14 +36,13 @@ void read_axes(JsonObject axes, Machine& machine) {
   }
 }
 
-std::vector<Axis> read_side(JsonObject& chain, std::string_view key,
-                            std::vector<std::string> otherwise, int (&times)[3]) {
+std::vector<Axis> read_side(JsonObject& chain, std::string_view key, std::vector<std::string> otherwise,
+                            int (&times)[3]) {
   std::vector<Axis> side;
   for (const std::string& name : chain.text_list_or(key, std::move(otherwise))) {
     const auto found = std::find(std::begin(kAxisNames), std::end(kAxisNames), name);
     if (found == std::end(kAxisNames)) {
-      chain.fault(key, Code::E0412, fmt::format("\"{}\" is not an axis", name),
-                  "the axes are \"x\", \"y\" and \"z\"");
+      chain.fault(key, Code::E0412, fmt::format("\"{}\" is not an axis", name), "the axes are \"x\", \"y\" and \"z\"");
       continue;
     }
     const auto axis = static_cast<int>(found - std::begin(kAxisNames));
@@ -57,16 +56,15 @@ void read_chain(JsonObject chain, Machine& machine) {
   int times[3] = {};
   machine.ram_chain = read_side(chain, "ram_side", {"x", "y", "z"}, times);
   machine.table_chain = read_side(chain, "table_side", {}, times);
-  for (const Axis axis : machine.table_chain)
-    machine.axes[static_cast<int>(axis)].table_side = true;
+  for (const Axis axis : machine.table_chain) machine.axes[static_cast<int>(axis)].table_side = true;
   for (int k = 0; k < 3; ++k) {
     if (times[k] == 1) continue;
-    chain.fault(times[k] ? "table_side" : "ram_side", Code::E0412,
-                fmt::format("axis \"{}\" {} in the chain", kAxisNames[k],
-                            times[k] ? "stands more than once" : "is missing"),
-                "each axis stands once, in \"ram_side\" when it carries the probe, in "
-                "\"table_side\" when it carries the part, "
-                "in the order from the base outwards");
+    chain.fault(
+        times[k] ? "table_side" : "ram_side", Code::E0412,
+        fmt::format("axis \"{}\" {} in the chain", kAxisNames[k], times[k] ? "stands more than once" : "is missing"),
+        "each axis stands once, in \"ram_side\" when it carries the probe, in "
+        "\"table_side\" when it carries the part, "
+        "in the order from the base outwards");
   }
 }
 
@@ -83,27 +81,22 @@ void read_offsets(JsonObject offsets, Machine& machine) {
 ComponentSpec default_component(Component c) {
   if (is_rotation(c)) return {0.6, 0, 10 * kPpm, {}};
   const bool positioning = static_cast<int>(c) % 6 == static_cast<int>(axis_of(c));
-  return positioning ? ComponentSpec{0.8, 0.1, 7 * kMmPerUm, {}}
-                     : ComponentSpec{0.5, 0.4, 7 * kMmPerUm, {}};
+  return positioning ? ComponentSpec{0.8, 0.1, 7 * kMmPerUm, {}} : ComponentSpec{0.5, 0.4, 7 * kMmPerUm, {}};
 }
 
 void check_shares(JsonObject& object, const ComponentSpec& spec, int harmonics) {
   const double trend = spec.linear + spec.curvature;
   if (trend > 1 + 1e-9) {
-    object.fault(
-        "s", Code::E0413,
-        fmt::format("s + c is {:.6g}, but the shares of one error function sum to 1", trend),
-        "s + c may be at most 1; what is left goes to the harmonics");
+    object.fault("s", Code::E0413, fmt::format("s + c is {:.6g}, but the shares of one error function sum to 1", trend),
+                 "s + c may be at most 1; what is left goes to the harmonics");
   } else if (!spec.harmonics.empty()) {
     const double sum = std::accumulate(spec.harmonics.begin(), spec.harmonics.end(), trend);
     if (std::abs(sum - 1) > 1e-6)
-      object.fault("harmonics", Code::E0413,
-                   fmt::format("s + c + the harmonics is {:.6g}, but must be 1", sum),
+      object.fault("harmonics", Code::E0413, fmt::format("s + c + the harmonics is {:.6g}, but must be 1", sum),
                    "scale the amplitudes, or leave \"harmonics\" out to have them drawn at random");
     if (static_cast<int>(spec.harmonics.size()) > harmonics)
       object.fault("harmonics", Code::E0413,
-                   fmt::format("{} amplitudes, but the file has {} harmonics",
-                               spec.harmonics.size(), harmonics),
+                   fmt::format("{} amplitudes, but the file has {} harmonics", spec.harmonics.size(), harmonics),
                    "raise \"geometry.harmonics\"");
   } else if (harmonics == 0 && trend == 0) {
     object.fault("s", Code::E0413, "this error function is empty: no harmonics, and s and c are 0",
@@ -138,8 +131,7 @@ LengthMpe read_length_mpe(JsonObject mpe) {
   out.k = mpe.number("k_um_per_m", kNotNegative) * kPpm;
   out.b_mm = mpe.number_or("b_um", kInfinity, kPositive) * kMmPerUm;
   if (mpe.has("a_um") && mpe.has("k_um_per_m") && out.a_mm == 0 && out.k == 0)
-    mpe.fault("a_um", Code::E0414,
-              "a and k are both 0: no machine has a maximum permissible error of 0",
+    mpe.fault("a_um", Code::E0414, "a and k are both 0: no machine has a maximum permissible error of 0",
               "MPE(l) = a + k l, as the data sheet gives it: 5 + 5 um/m is \"a_um\": 5, "
               "\"k_um_per_m\": 5");
   if (out.b_mm < out.a_mm)
@@ -162,8 +154,7 @@ void read_2009(JsonObject& object, Specification& spec) {
   for (const std::string_view key : {"e150_mpe", "r0_mpl_um"})
     if (object.has(key) && spec.standard != kEdition)
       object.fault(key, Code::E0414,
-                   fmt::format("\"{}\" belongs to {}, but the standard is \"{}\"", key, kEdition,
-                               spec.standard),
+                   fmt::format("\"{}\" belongs to {}, but the standard is \"{}\"", key, kEdition, spec.standard),
                    fmt::format("set \"standard\" to \"{}\", or remove \"{}\"", kEdition, key));
   if (object.has("e150_mpe")) spec.e150_mpe = read_length_mpe(object.object("e150_mpe"));
   spec.r0_mpl_mm = read_limit_um(object, "r0_mpl_um");
@@ -172,8 +163,7 @@ void read_2009(JsonObject& object, Specification& spec) {
 /// "unlimited" lets machines pass that are better than their specification by any factor, even an
 /// error-free one.
 double read_v_max(JsonObject& object) {
-  if (object.kind_of("v_max") != JsonNode::Kind::text)
-    return object.number_or("v_max", 2, kPositive);
+  if (object.kind_of("v_max") != JsonNode::Kind::text) return object.number_or("v_max", 2, kPositive);
   object.one_of("v_max", object.text("v_max"), {"unlimited"});
   return kInfinity;
 }
@@ -189,8 +179,7 @@ void read_specification(JsonObject object, Specification& spec) {
   spec.v_max = read_v_max(object);
   if (spec.v_min >= spec.v_max)
     object.fault(object.has("v_min") ? "v_min" : "v_max", Code::E0414,
-                 fmt::format("v_min is {:g} and v_max {:g}: no machine lies between", spec.v_min,
-                             spec.v_max),
+                 fmt::format("v_min is {:g} and v_max {:g}: no machine lies between", spec.v_min, spec.v_max),
                  "v = min |MPE / error|; the usual range is 1 to 2");
   spec.longest_share = object.number_or("longest_share", Specification::kLeastLongestShare, kPositiveShare);
 }
@@ -221,8 +210,7 @@ NamedSensor read_sensor(JsonObject object) {
   sensor.head_a_rad = head[0] * kRadPerDegree;
   sensor.head_b_rad = head[1] * kRadPerDegree;
   if (!object.has("tip_in_r_mm"))
-    object.fault("tip_in_r_mm", Code::E0404,
-                 "a sensor needs \"tip_in_r_mm\", the centre of its tip seen from the head",
+    object.fault("tip_in_r_mm", Code::E0404, "a sensor needs \"tip_in_r_mm\", the centre of its tip seen from the head",
                  "a straight stylus of 100 mm is \"tip_in_r_mm\": [0, 0, -100]");
   sensor.tip_in_r_mm = vec3(object.numbers_or("tip_in_r_mm", {0, 0, 0}, 3));
   const double diameter_mm = object.number("diameter_mm", kPositive);
@@ -269,12 +257,10 @@ EffectSetting read_effect(JsonObject object, const std::shared_ptr<const SourceF
 Machine parse_machine(const std::string& file, const std::string& text) {
   JsonReader reader(SourceFile(file, text));
   JsonObject root = reader.root();
-  if (const std::string schema = root.text_or("schema", "abbe.machine/1");
-      schema != "abbe.machine/1")
-    root.fault(
-        "schema", Code::E0407,
-        fmt::format("the schema is \"{}\", but a machine file has \"abbe.machine/1\"", schema),
-        "is this the right file? `abbe machine init NAME` prints a complete machine file");
+  if (const std::string schema = root.text_or("schema", "abbe.machine/1"); schema != "abbe.machine/1")
+    root.fault("schema", Code::E0407,
+               fmt::format("the schema is \"{}\", but a machine file has \"abbe.machine/1\"", schema),
+               "is this the right file? `abbe machine init NAME` prints a complete machine file");
   Machine machine;
   machine.name = root.text("name");
   read_axes(root.object("axes"), machine);
@@ -284,18 +270,15 @@ Machine parse_machine(const std::string& file, const std::string& text) {
   read_specification(root.object("specification"), machine.specification);
   read_head(root.object_or_absent("head"), machine.head);
   machine.probe.sd_mm =
-      vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kNotNegative)) *
-      kMmPerUm;
+      vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kNotNegative)) * kMmPerUm;
   JsonObject motion = root.object_or_absent("motion");
   machine.motion.speed_mm_s = motion.number_or("speed_mm_s", 200, kPositive);
   machine.motion.probing_speed_mm_s = motion.number_or("probing_speed_mm_s", 5, kPositive);
   machine.motion.acceleration_mm_s2 = motion.number_or("acceleration_mm_s2", 500, kPositive);
   JsonObject sensors = root.object_or_absent("sensors");
-  for (const std::string& key : sensors.own_names())
-    machine.sensors[key] = read_sensor(sensors.object(key));
+  for (const std::string& key : sensors.own_names()) machine.sensors[key] = read_sensor(sensors.object(key));
   const auto source = std::make_shared<const SourceFile>(file, text);
-  for (const JsonObject& effect : root.object_list("effects"))
-    machine.effects.push_back(read_effect(effect, source));
+  for (const JsonObject& effect : root.object_list("effects")) machine.effects.push_back(read_effect(effect, source));
   machine.bounds = read_bounds(root);
   machine.known_state = root.raw("known_state");
   reader.finish();

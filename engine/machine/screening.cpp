@@ -12,9 +12,8 @@ namespace abbe {
 
 namespace {
 
-constexpr int kBatch = 128;  ///< candidates drawn and tested together
-constexpr std::uint64_t kPatience =
-    20'000;  ///< candidates before next to none accepted is called hopeless
+constexpr int kBatch = 128;                  ///< candidates drawn and tested together
+constexpr std::uint64_t kPatience = 20'000;  ///< candidates before next to none accepted is called hopeless
 constexpr std::uint64_t kHopeless = 10'000;  ///< one in so many
 
 using Lines = std::vector<TestLine>;
@@ -57,8 +56,7 @@ std::vector<LengthErrors> length_errors(const Lines& lines, const GeometryBlock&
 }
 
 /// v = min |MPE(l) / (known + factor * drawn)|.
-double indicator(const Lines& lines, const LengthErrors& known, const LengthErrors& drawn,
-                 double factor) {
+double indicator(const Lines& lines, const LengthErrors& known, const LengthErrors& drawn, double factor) {
   double v = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < lines.size(); ++k)
     for (int m = 0; m < kLengthsPerLine; ++m)
@@ -72,8 +70,7 @@ struct Batch {
   std::vector<LengthErrors> errors;
 };
 
-Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed,
-                 std::uint32_t first, int count) {
+Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed, std::uint32_t first, int count) {
   Batch batch;
   std::vector<const GeometryCoefficients*> pointers;
   for (int i = 0; i < count; ++i)
@@ -85,23 +82,22 @@ Batch draw_batch(const Machine& machine, const Lines& lines, std::uint64_t seed,
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
-/// Length errors of candidates, as a factor on e_max changes them: known + factor * drawn. Errors grow in proportion to e_max;
-/// only the known squarenesses, which every candidate shares, do not.
+/// Length errors of candidates, as a factor on e_max changes them: known + factor * drawn. Errors grow in
+/// proportion to e_max; only the known squarenesses, which every candidate shares, do not.
 struct ScalableErrors {
   LengthErrors known;
   std::vector<LengthErrors> drawn;
 };
 
-ScalableErrors scalable_errors(const Machine& machine, const Lines& lines, std::uint64_t seed,
-                               int first, int candidates, int threads) {
+ScalableErrors scalable_errors(const Machine& machine, const Lines& lines, std::uint64_t seed, int first,
+                               int candidates, int threads) {
   Machine known_only = machine;
   for (ComponentSpec& component : known_only.components) component.e_max = 0;
-  ScalableErrors out{draw_batch(known_only, lines, seed, 0, 1).errors.front(),
-                     std::vector<LengthErrors>(candidates)};
+  ScalableErrors out{draw_batch(known_only, lines, seed, 0, 1).errors.front(), std::vector<LengthErrors>(candidates)};
   on_threads((candidates + kBatch - 1) / kBatch, threads, [&](int b) {
     const int from = b * kBatch;
-    Batch batch = draw_batch(machine, lines, seed, static_cast<std::uint32_t>(first + from),
-                             std::min(kBatch, candidates - from));
+    Batch batch =
+        draw_batch(machine, lines, seed, static_cast<std::uint32_t>(first + from), std::min(kBatch, candidates - from));
     for (std::size_t i = 0; i < batch.errors.size(); ++i) {
       for (std::size_t k = 0; k < lines.size(); ++k)
         for (int m = 0; m < kLengthsPerLine; ++m) batch.errors[i][k][m] -= out.known[k][m];
@@ -111,8 +107,7 @@ ScalableErrors scalable_errors(const Machine& machine, const Lines& lines, std::
   return out;
 }
 
-double share_accepted(const Specification& spec, const Lines& lines, const ScalableErrors& errors,
-                      double factor) {
+double share_accepted(const Specification& spec, const Lines& lines, const ScalableErrors& errors, double factor) {
   int accepted = 0;
   for (const LengthErrors& drawn : errors.drawn) {
     const double v = indicator(lines, errors.known, drawn, factor);
@@ -127,23 +122,21 @@ double factor_of(int step) { return 0.01 * std::pow(1.02, step); }
 
 /// What a factor on e_max would change, as part of a sentence.
 std::string effect_of(const SuggestedFactor& best) {
-  return fmt::format("by {:.2g}, then about {:.0f} % are accepted", best.factor,
-                     100 * best.share_accepted);
+  return fmt::format("by {:.2g}, then about {:.0f} % are accepted", best.factor, 100 * best.share_accepted);
 }
 
-[[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts,
-                          int threads) {
+[[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts, int threads) {
   const auto best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
-  throw UserError(diagnostic(
-      Code::E0415,
-      fmt::format("only {} of {} virtual machines of \"{}\" satisfy its specification: {} fail the "
-                  "MPE, {} have errors too small for it",
-                  counts.used, counts.generated, machine.name,
-                  percent(double(counts.failed_mpe) / double(counts.generated)),
-                  percent(double(counts.too_small) / double(counts.generated))),
-      best ? "multiply every e_max " + effect_of(*best)
-           : "no factor on e_max helps: check the MPE, the offsets and the "
-             "squarenesses of the machine file"));
+  throw UserError(
+      diagnostic(Code::E0415,
+                 fmt::format("only {} of {} virtual machines of \"{}\" satisfy its specification: {} fail the "
+                             "MPE, {} have errors too small for it",
+                             counts.used, counts.generated, machine.name,
+                             percent(double(counts.failed_mpe) / double(counts.generated)),
+                             percent(double(counts.too_small) / double(counts.generated))),
+                 best ? "multiply every e_max " + effect_of(*best)
+                      : "no factor on e_max helps: check the MPE, the offsets and the "
+                        "squarenesses of the machine file"));
 }
 
 }  // namespace
@@ -155,13 +148,12 @@ TestResult virtual_acceptance_test(const Machine& machine, const GeometryCoeffic
   return {errors, indicator(lines, LengthErrors(lines.size()), errors, 1)};
 }
 
-VirtualMachines screened_machines(const Machine& machine, std::uint64_t seed, int count,
-                                  int threads) {
+VirtualMachines screened_machines(const Machine& machine, std::uint64_t seed, int count, int threads) {
   return more_screened_machines(machine, seed, count, threads, 0);
 }
 
-VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t seed, int count,
-                                       int threads, std::uint32_t first_candidate) {
+VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t seed, int count, int threads,
+                                       std::uint32_t first_candidate) {
   const Lines lines = test_lines(machine);
   const LengthErrors none(lines.size());
   const Specification& spec = machine.specification;
@@ -171,8 +163,7 @@ VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t see
   std::vector<Batch> round(std::max(1, threads));
   for (std::uint32_t first = first_candidate; out.size() < count;) {
     on_threads(static_cast<int>(round.size()), threads, [&](int b) {
-      round[b] =
-          draw_batch(machine, lines, seed, first + static_cast<std::uint32_t>(b * kBatch), kBatch);
+      round[b] = draw_batch(machine, lines, seed, first + static_cast<std::uint32_t>(b * kBatch), kBatch);
     });
     for (Batch& batch : round) {
       for (int i = 0; i < kBatch && out.size() < count; ++i) {
@@ -197,39 +188,34 @@ VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t see
   return out;
 }
 
-std::optional<Diagnostic> screening_warning(const Machine& machine, const ScreeningCounts& counts,
-                                            std::uint64_t seed, int threads) {
+std::optional<Diagnostic> screening_warning(const Machine& machine, const ScreeningCounts& counts, std::uint64_t seed,
+                                            int threads) {
   if (counts.share_accepted() >= 0.5) return std::nullopt;
   const auto best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
-  return diagnostic(
-      Code::W0416,
-      fmt::format("only {} of the virtual machines of \"{}\" satisfy its specification: {} fail the "
-                  "MPE, {} have errors too small for it",
-                  percent(counts.share_accepted()), machine.name,
-                  percent(double(counts.failed_mpe) / double(counts.generated)),
-                  percent(double(counts.too_small) / double(counts.generated))),
-      fmt::format("the e_max of the machine file fit its specification badly: {}",
-                  best ? "multiply every one " + effect_of(*best) : "no factor on them helps"));
+  return diagnostic(Code::W0416,
+                    fmt::format("only {} of the virtual machines of \"{}\" satisfy its specification: {} fail the "
+                                "MPE, {} have errors too small for it",
+                                percent(counts.share_accepted()), machine.name,
+                                percent(double(counts.failed_mpe) / double(counts.generated)),
+                                percent(double(counts.too_small) / double(counts.generated))),
+                    fmt::format("the e_max of the machine file fit its specification badly: {}",
+                                best ? "multiply every one " + effect_of(*best) : "no factor on them helps"));
 }
 
-std::optional<SuggestedFactor> suggest_e_max_factor(const Machine& machine, std::uint64_t seed,
-                                                    int candidates, int threads) {
+std::optional<SuggestedFactor> suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,
+                                                    int threads) {
   const Lines lines = test_lines(machine);
   const Specification& spec = machine.specification;
   const ScalableErrors chosen_with = scalable_errors(machine, lines, seed, 0, candidates, threads);
   std::vector<double> share(kFactorSteps);
-  on_threads(kFactorSteps, threads, [&](int step) {
-    share[step] = share_accepted(spec, lines, chosen_with, factor_of(step));
-  });
+  on_threads(kFactorSteps, threads,
+             [&](int step) { share[step] = share_accepted(spec, lines, chosen_with, factor_of(step)); });
   const auto [fewest, most] = std::minmax_element(share.begin(), share.end());
   if (*fewest == *most) return std::nullopt;
-  const auto enough = std::find_if(share.rbegin(), share.rend(),
-                                   [](double s) { return s >= kEnoughAccepted; });
+  const auto enough = std::find_if(share.rbegin(), share.rend(), [](double s) { return s >= kEnoughAccepted; });
   const bool largest = enough != share.rend();
-  const double factor = factor_of(
-      static_cast<int>((largest ? enough.base() - 1 : most) - share.begin()));
-  const ScalableErrors fresh =
-      scalable_errors(machine, lines, seed, candidates, candidates, threads);
+  const double factor = factor_of(static_cast<int>((largest ? enough.base() - 1 : most) - share.begin()));
+  const ScalableErrors fresh = scalable_errors(machine, lines, seed, candidates, candidates, threads);
   return SuggestedFactor{factor, share_accepted(spec, lines, fresh, factor), largest};
 }
 

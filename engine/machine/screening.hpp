@@ -29,35 +29,40 @@ struct ScreeningCounts {
 
 /// Accepted virtual machines in the order of their candidate index.
 struct VirtualMachines {
-  std::vector<std::uint32_t> index;                ///< candidate index: keys every random number of that machine
+  std::vector<std::uint32_t> index;  ///< candidate index: keys every random number of that machine
   std::vector<GeometryCoefficients> geometry;
   std::vector<double> v;
   ScreeningCounts counts;
   int size() const { return static_cast<int>(index.size()); }
 };
 
-/// Draws candidates 0, 1, 2, ... until `count` are accepted. The same for any number of threads. Throws UserError when fewer than
-/// one in ten thousand pass, naming the share and the factor on e_max that would fit.
+/// Draws candidates 0, 1, 2, ... until `count` are accepted. The same for any number of threads. Throws
+/// UserError when fewer than one in ten thousand pass, naming the share and the factor on e_max that would
+/// fit.
 VirtualMachines screened_machines(const Machine&, std::uint64_t seed, int count, int threads);
 /// Continues a screening: the next `count` accepted machines from `first_candidate` on (adaptive runs).
-VirtualMachines more_screened_machines(const Machine&, std::uint64_t seed, int count, int threads, std::uint32_t first_candidate);
+VirtualMachines more_screened_machines(const Machine&, std::uint64_t seed, int count, int threads,
+                                       std::uint32_t first_candidate);
 
-/// What the user must hear of a screening: over half of the candidates fall outside the specification, and which factor on e_max
-/// would fit. Nothing when more pass.
+/// What the user must hear of a screening: over half of the candidates fall outside the specification, and
+/// which factor on e_max would fit. Nothing when more pass.
 std::optional<Diagnostic> screening_warning(const Machine&, const ScreeningCounts&, std::uint64_t seed, int threads);
 
 /// Candidates enough for a factor good to some percent: with them the share accepted is known to 1 %.
 inline constexpr int kSuggestionCandidates = 2000;
-/// Accepted by a factor that is good enough. Where better machines pass without limit, or with a generous one, every smaller factor
-/// is as good or better, and only the largest that still does says something of the machine.
+/// Accepted by a factor that is good enough. Where better machines pass without limit, or with a generous
+/// one, every smaller factor is as good or better, and only the largest that still does says something of the
+/// machine.
 inline constexpr double kEnoughAccepted = 0.95;
 struct SuggestedFactor {
   double factor = 1;
-  double share_accepted = 0;  ///< of as many fresh candidates: that of the candidates it was chosen with is the luckiest of many
-  bool largest = false;       ///< the largest factor with which kEnoughAccepted are accepted; else the one with which most are
+  /// of as many fresh candidates: that of the candidates it was chosen with is the luckiest of many
+  double share_accepted = 0;
+  /// the largest factor with which kEnoughAccepted are accepted; else the one with which most are
+  bool largest = false;
 };
-/// A factor on all e_max, between 1/100 and 100, from `candidates` candidates. None when no factor makes a difference: none of them
-/// lets a candidate pass, or the machine has no errors to multiply.
+/// A factor on all e_max, between 1/100 and 100, from `candidates` candidates. None when no factor makes a
+/// difference: none of them lets a candidate pass, or the machine has no errors to multiply.
 std::optional<SuggestedFactor> suggest_e_max_factor(const Machine&, std::uint64_t seed, int candidates, int threads);
 
 }  // namespace abbe

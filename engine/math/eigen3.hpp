@@ -1,6 +1,7 @@
 // Eigenvalues and eigenvectors of a symmetric 3 x 3 matrix by cyclic Jacobi rotations (Golub, Van Loan: Matrix
-// Computations, 8.5). Unlike the closed cubic formula it keeps small eigenvalues accurate, and on a nearly diagonal matrix
-// of badly scaled entries it keeps them accurate relative to themselves (Demmel, Veselic 1992).
+// Computations, 8.5). Unlike the closed cubic formula it keeps small eigenvalues accurate, and on a nearly
+// diagonal matrix of badly scaled entries it keeps them accurate relative to themselves (Demmel, Veselic
+// 1992).
 #pragma once
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // Second-order automatic differentiation: a number that carries its gradient and Hessian with respect to N unknowns.
-// For where the exact Hessian is wanted (Newton steps with large residuals) and as an independent check of derivatives written
-// by hand. Forward mode, truncated Taylor arithmetic (Griewank, Walther: Evaluating Derivatives, ch. 13).
+// For where the exact Hessian is wanted (Newton steps with large residuals) and as an independent check of
+// derivatives written by hand. Forward mode, truncated Taylor arithmetic (Griewank, Walther: Evaluating
+// Derivatives, ch. 13).
 #pragma once
 
 #include <cmath>
@@ -60,7 +61,7 @@ Jet<Real, N> operator*(const Jet<Real, N>& a, const Jet<Real, N>& b) {
     r.gradient[i] = a.value * b.gradient[i] + b.value * a.gradient[i];
     for (int j = 0; j <= i; ++j)
       r.hessian[i][j] = a.value * b.hessian[i][j] + b.value * a.hessian[i][j] + a.gradient[i] * b.gradient[j] +
-                        b.gradient[i] * a.gradient[j];
+          b.gradient[i] * a.gradient[j];
   }
   return r;
 }

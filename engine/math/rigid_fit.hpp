@@ -1,5 +1,6 @@
-// The rigid transform that carries one set of points onto another with the least sum of squares: Horn's unit quaternion (J. Opt. Soc. Am.
-// A 4, 629, 1987), the eigenvector of the largest eigenvalue of a symmetric 4 x 4 matrix of moments, found by the QR algorithm.
+// The rigid transform that carries one set of points onto another with the least sum of squares: Horn's unit
+// quaternion (J. Opt. Soc. Am. A 4, 629, 1987), the eigenvector of the largest eigenvalue of a symmetric 4 x
+// 4 matrix of moments, found by the QR algorithm.
 #pragma once
 
 #include <optional>

@@ -74,9 +74,7 @@ struct Rigid {
 };
 
 constexpr Vec3 operator*(const Rigid& X, const Vec3& point) { return X.R * point + X.p; }
-constexpr Rigid operator*(const Rigid& X_AB, const Rigid& X_BC) {
-  return {X_AB.R * X_BC.R, X_AB.R * X_BC.p + X_AB.p};
-}
+constexpr Rigid operator*(const Rigid& X_AB, const Rigid& X_BC) { return {X_AB.R * X_BC.R, X_AB.R * X_BC.p + X_AB.p}; }
 constexpr Rigid inverse(const Rigid& X_AB) {
   const Mat3 R_BA = transpose(X_AB.R);
   return {R_BA, -(R_BA * X_AB.p)};

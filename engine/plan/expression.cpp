@@ -85,7 +85,9 @@ Outcome<double> apply(Op2 op, double a, double b) {
 int stack_depth(const Expression& expression) {
   int depth = 0, greatest = 0;
   for (const Instruction& i : expression) {
-    depth += std::holds_alternative<PushConstant>(i) || std::holds_alternative<PushColumn>(i) ? 1 : std::holds_alternative<Op2>(i) ? -1 : 0;
+    depth += std::holds_alternative<PushConstant>(i) || std::holds_alternative<PushColumn>(i) ? 1
+        : std::holds_alternative<Op2>(i)                                                      ? -1
+                                                                                              : 0;
     greatest = std::max(greatest, depth);
   }
   return greatest;

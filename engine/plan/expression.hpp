@@ -1,8 +1,10 @@
-// Arithmetic of plan expressions: the language folds constants with it and the executor evaluates columns with it, so a value
-// is the same to the bit whether it was known when the program was compiled or only while it ran.
+// Arithmetic of plan expressions: the language folds constants with it and the executor evaluates columns
+// with it, so a value is the same to the bit whether it was known when the program was compiled or only while
+// it ran.
 //
-// Functions are those of the C library on doubles; angles are in radians. MOD has the sign of its first operand, rounding goes
-// to the nearest whole number with halves away from zero (ISO 22093, intrinsic functions; the same as Fortran's).
+// Functions are those of the C library on doubles; angles are in radians. MOD has the sign of its first
+// operand, rounding goes to the nearest whole number with halves away from zero (ISO 22093, intrinsic
+// functions; the same as Fortran's).
 #pragma once
 
 #include <cmath>
@@ -35,15 +37,16 @@ inline int element_offset(double index, int count) {
 
 inline constexpr const char* kOutsideArray = "an index lies outside its array";
 
-/// Evaluates on one lane. `column(id)` gives the value of a column there; NaN marks one that was never assigned. Never returns
-/// NaN or infinity.
+/// Evaluates on one lane. `column(id)` gives the value of a column there; NaN marks one that was never
+/// assigned. Never returns NaN or infinity.
 template <class Column>
 Outcome<double> evaluate(const Expression& expression, const Column& column) {
   double stack[kExpressionStack];
   int top = 0;
   const auto read = [&](ColumnId id) {
     const double v = column(id);
-    return std::isnan(v) ? Outcome<double>::failed("a variable has no value on the path that was taken") : Outcome<double>{v, nullptr};
+    return std::isnan(v) ? Outcome<double>::failed("a variable has no value on the path that was taken")
+                         : Outcome<double>{v, nullptr};
   };
   for (const Instruction& instruction : expression) {
     Outcome<double> result;
@@ -55,7 +58,8 @@ Outcome<double> evaluate(const Expression& expression, const Column& column) {
       ++top;
     } else if (const auto* element = std::get_if<PushElement>(&instruction)) {
       const int offset = element_offset(stack[top - 1], element->count);
-      result = offset < 0 ? Outcome<double>::failed(kOutsideArray) : read({element->first.value + offset * element->stride});
+      result =
+          offset < 0 ? Outcome<double>::failed(kOutsideArray) : read({element->first.value + offset * element->stride});
     } else if (const auto* op1 = std::get_if<Op1>(&instruction)) {
       result = apply(*op1, stack[top - 1]);
     } else {

@@ -12,7 +12,8 @@ namespace {
 template <class Action, class... Others>
 constexpr bool is_one_of = (std::is_same_v<Action, Others> || ...);
 
-/// One overload per action that names features, and one for all that name none, so that a new action does not compile before it is here.
+/// One overload per action that names features, and one for all that name none, so that a new action does not
+/// compile before it is here.
 struct Naming {
   const Plan& plan;
   std::vector<FeatureId> named;
@@ -48,8 +49,9 @@ struct Naming {
   void operator()(const Obtain& o) { add(o.feature); }
   void operator()(const ObtainDisplacement& o) { add(o.feature); }
   template <class Other>
-    requires is_one_of<Other, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, SetHome, GoHome, SetMachineFrame,
-                       SetMatrixFrame, RecallFrame, OutputFrame, ObtainEvaluation, Assign, Jump, JumpUnless>
+  requires is_one_of<Other, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move, SetHome, GoHome,
+                     SetMachineFrame, SetMatrixFrame, RecallFrame, OutputFrame, ObtainEvaluation, Assign, Jump,
+                     JumpUnless>
   void operator()(const Other&) {}
 };
 
@@ -98,7 +100,8 @@ std::vector<Loop> loops(const Plan& plan) {
   for (int k = 0; k < static_cast<int>(plan.operations.size()); ++k) {
     Loop loop{jump_target(plan.operations[k].action, k + 1), k};
     if (loop.first > k) continue;
-    for (; !merged.empty() && merged.back().last >= loop.first; merged.pop_back()) loop.first = std::min(loop.first, merged.back().first);
+    for (; !merged.empty() && merged.back().last >= loop.first; merged.pop_back())
+      loop.first = std::min(loop.first, merged.back().first);
     merged.push_back(loop);
   }
   return merged;
@@ -127,7 +130,8 @@ VisitCounters visit_counters(const Plan& plan) {
   for (const Loop& loop : loops(plan))
     for (int k = loop.first; k <= loop.last; ++k) {
       const Action& action = plan.operations[k].action;
-      if (std::holds_alternative<Touch>(action) || std::holds_alternative<Evaluate>(action)) counters.counter[k] = counters.count++;
+      if (std::holds_alternative<Touch>(action) || std::holds_alternative<Evaluate>(action))
+        counters.counter[k] = counters.count++;
     }
   return counters;
 }

@@ -22,20 +22,18 @@ constexpr std::string_view kSettings[] = {"approach",
                                           "positioning_acceleration",
                                           "measuring_acceleration",
                                           "fly_radius"};
-constexpr std::string_view kOp1[] = {"negate", "not",   "abs",  "acos",     "asin",
-                                     "atan",   "cos",   "sin",  "tan",      "exp",
-                                     "ln",     "log10", "sqrt", "truncate", "round"};
+constexpr std::string_view kOp1[] = {"negate", "not", "abs", "acos",  "asin", "atan",     "cos",  "sin",
+                                     "tan",    "exp", "ln",  "log10", "sqrt", "truncate", "round"};
 constexpr std::string_view kOp2[] = {"+",   "-",  "*",  "/", "**", "mod", "atan2", "sign", "min",
                                      "max", "==", "!=", "<", "<=", ">",   ">=",    "and",  "or"};
 
-constexpr std::string_view kCriteria[] = {"", " minimum zone", " maximum inscribed",
-                                          " minimum circumscribed"};
+constexpr std::string_view kCriteria[] = {"", " minimum zone", " maximum inscribed", " minimum circumscribed"};
 constexpr std::string_view kQuantities[] = {
-    "x",        "y",        "z",        "i",        "j",        "k",        "begin x",  "begin y",
-    "begin z",  "end x",    "end y",    "end z",    "second i", "second j", "second k", "third i",
-    "third j",  "third k",  "apex x",   "apex y",   "apex z",   "focus1 x", "focus1 y", "focus1 z",
-    "focus2 x", "focus2 y", "focus2 z", "face1 x",  "face1 y",  "face1 z",  "face2 x",  "face2 y",
-    "face2 z",  "radius",   "minor_radius", "angle", "length",  "form"};
+    "x",       "y",       "z",       "i",        "j",        "k",        "begin x",  "begin y",      "begin z",
+    "end x",   "end y",   "end z",   "second i", "second j", "second k", "third i",  "third j",      "third k",
+    "apex x",  "apex y",  "apex z",  "focus1 x", "focus1 y", "focus1 z", "focus2 x", "focus2 y",     "focus2 z",
+    "face1 x", "face1 y", "face1 z", "face2 x",  "face2 y",  "face2 z",  "radius",   "minor_radius", "angle",
+    "length",  "form"};
 
 template <class Enum>
 std::string_view name_of(Enum value, const auto& names) {
@@ -43,18 +41,14 @@ std::string_view name_of(Enum value, const auto& names) {
 }
 
 char letter(Axis axis) { return "xyz"[static_cast<int>(axis)]; }
-std::string text(const AxisDirection& d) {
-  return fmt::format("{}{}", d.sign < 0 ? '-' : '+', letter(d.axis));
-}
+std::string text(const AxisDirection& d) { return fmt::format("{}{}", d.sign < 0 ? '-' : '+', letter(d.axis)); }
 /// Adding zero turns -0 into 0.
 std::string text(double value) { return fmt::format("{}", value + 0.0); }
 std::string text(const Operand& o) {
   return o.column.valid() ? fmt::format("column {}", o.column.value) : text(o.constant);
 }
 std::string text(const Vec3& v) { return fmt::format("{} {} {}", text(v.x), text(v.y), text(v.z)); }
-std::string text(const Point& p) {
-  return fmt::format("{} {} {}", text(p[0]), text(p[1]), text(p[2]));
-}
+std::string text(const Point& p) { return fmt::format("{} {} {}", text(p[0]), text(p[1]), text(p[2])); }
 
 bool is_zero(const Point& p) {
   for (const Operand& o : p)
@@ -67,11 +61,9 @@ std::string text(const Expression& expression) {
   for (const Instruction& instruction : expression) {
     if (!out.empty()) out += ' ';
     if (const auto* c = std::get_if<PushConstant>(&instruction)) out += text(c->value);
-    if (const auto* c = std::get_if<PushColumn>(&instruction))
-      out += fmt::format("column {}", c->column.value);
+    if (const auto* c = std::get_if<PushColumn>(&instruction)) out += fmt::format("column {}", c->column.value);
     if (const auto* e = std::get_if<PushElement>(&instruction))
-      out += fmt::format("element of columns {} to {}", e->first.value,
-                         e->first.value + (e->count - 1) * e->stride);
+      out += fmt::format("element of columns {} to {}", e->first.value, e->first.value + (e->count - 1) * e->stride);
     if (const auto* op = std::get_if<Op1>(&instruction)) out += name_of(*op, kOp1);
     if (const auto* op = std::get_if<Op2>(&instruction)) out += name_of(*op, kOp2);
   }
@@ -87,9 +79,8 @@ class ActionText {
 
   std::string operator()(const DefineFeature& o) const {
     const FeatureDef& f = plan_[o.as.valid() ? o.as : o.feature];
-    std::string out =
-        fmt::format("define {} = {}{} at {} along {}", name(o.feature), f.kind->word,
-                    f.inner ? " inner" : "", text(f.nominal.point), text(f.nominal.direction));
+    std::string out = fmt::format("define {} = {}{} at {} along {}", name(o.feature), f.kind->word,
+                                  f.inner ? " inner" : "", text(f.nominal.point), text(f.nominal.direction));
     if (f.nominal.size != 0) out += fmt::format(" size {}", text(f.nominal.size));
     if (f.nominal.minor_size != 0) out += fmt::format(" minor {}", text(f.nominal.minor_size));
     if (f.nominal.angle != 0) out += fmt::format(" angle {}", text(f.nominal.angle));
@@ -102,28 +93,20 @@ class ActionText {
     std::string out = fmt::format("sensor {}", s.label);
     if (s.indexed) out += fmt::format(" head {} {}", text(s.head_a_rad), text(s.head_b_rad));
     out += fmt::format(" tip {} radius {}", text(s.tip_in_r), text(s.radius_mm));
-    if (s.has_mount)
-      out += fmt::format(" mount {} turn {}", text(s.mount_offset_mm), text(s.mount_turn_rad));
+    if (s.has_mount) out += fmt::format(" mount {} turn {}", text(s.mount_offset_mm), text(s.mount_turn_rad));
     return out;
   }
-  std::string operator()(const SetCompensation& o) const {
-    return fmt::format("compensation {}", o.on ? "on" : "off");
-  }
+  std::string operator()(const SetCompensation& o) const { return fmt::format("compensation {}", o.on ? "on" : "off"); }
   std::string operator()(const SetTemperatureCompensation& o) const {
     return fmt::format("temperature compensation {}", o.on ? "on" : "off");
   }
   std::string operator()(const SetMotion& o) const {
-    return fmt::format("set {} {}{}", name_of(o.setting, kSettings), text(o.value),
-                       o.percent ? " percent" : "");
+    return fmt::format("set {} {}{}", name_of(o.setting, kSettings), text(o.value), o.percent ? " percent" : "");
   }
-  std::string operator()(const Move& o) const {
-    return fmt::format("move {}{}", o.relative ? "by " : "", text(o.to));
-  }
+  std::string operator()(const Move& o) const { return fmt::format("move {}{}", o.relative ? "by " : "", text(o.to)); }
   std::string operator()(const SetHome& o) const { return fmt::format("home {}", text(o.at)); }
   std::string operator()(const GoHome&) const { return "move home"; }
-  std::string operator()(const BeginMeasure& o) const {
-    return fmt::format("measure {}", name(o.feature));
-  }
+  std::string operator()(const BeginMeasure& o) const { return fmt::format("measure {}", name(o.feature)); }
   std::string operator()(const Touch& o) const {
     if (o.pattern_count > 0)
       return fmt::format("touch {} pattern {} of {}{}", name(o.feature), o.pattern_index + 1, o.pattern_count,
@@ -159,19 +142,16 @@ class ActionText {
   std::string operator()(const TranslateFrame& o) const {
     std::string out = fmt::format("frame {} = translate", plan_[o.result].label);
     for (const OriginShift& s : o.shifts)
-      out += fmt::format(
-          " {} {}", letter(s.axis),
-          s.from.valid() ? fmt::format("to {}", name(s.from)) : fmt::format("by {}", text(s.by)));
+      out += fmt::format(" {} {}", letter(s.axis),
+                         s.from.valid() ? fmt::format("to {}", name(s.from)) : fmt::format("by {}", text(s.by)));
     return out;
   }
   std::string operator()(const RotateFrame& o) const {
-    const std::string how = o.to.valid() ? fmt::format("{} to {}", name(o.to), text(o.toward))
-                                         : fmt::format("by {}", text(o.angle_rad));
+    const std::string how =
+        o.to.valid() ? fmt::format("{} to {}", name(o.to), text(o.toward)) : fmt::format("by {}", text(o.angle_rad));
     return fmt::format("frame {} = rotate about {} {}", plan_[o.result].label, letter(o.axis), how);
   }
-  std::string operator()(const RecallFrame& o) const {
-    return fmt::format("recall frame {}", plan_[o.frame].label);
-  }
+  std::string operator()(const RecallFrame& o) const { return fmt::format("recall frame {}", plan_[o.frame].label); }
   std::string operator()(const Output& o) const {
     std::string out = "output";
     for (const FeatureId f : o.features) out += fmt::format(" {}", name(f));
@@ -179,34 +159,28 @@ class ActionText {
     for (const std::string& label : o.also) out += fmt::format(" {}", label);
     return out;
   }
-  std::string operator()(const OutputFrame& o) const {
-    return fmt::format("output frame {}", plan_[o.frame].label);
-  }
+  std::string operator()(const OutputFrame& o) const { return fmt::format("output frame {}", plan_[o.frame].label); }
   std::string operator()(const Evaluate& o) const {
     const CharacteristicDef& c = plan_[o.characteristic];
     const ToleranceDef& t = plan_[c.tolerance];
     std::string out = fmt::format("evaluate {} = {} of", t.label, t.kind->word);
     for (const FeatureId f : c.features) out += fmt::format(" {}", name(f));
-    for (const int d : t.arguments.features("datum"))
-      out += fmt::format(" datum {}", name(FeatureId{d}));
-    for (const int d : t.arguments.features("reference"))
-      out += fmt::format(" reference {}", name(FeatureId{d}));
+    for (const int d : t.arguments.features("datum")) out += fmt::format(" datum {}", name(FeatureId{d}));
+    for (const int d : t.arguments.features("reference")) out += fmt::format(" reference {}", name(FeatureId{d}));
     for (const MaterialCondition& m : c.widening)
       out += fmt::format(" widened by {} of {} at {}", plan_[m.size].label, name(m.feature),
                          m.condition == Condition::maximum_material ? "MMC" : "LMC");
     return out;
   }
   std::string operator()(const Obtain& o) const {
-    return fmt::format("column {} = {} of {}", o.column.value, name_of(o.quantity, kQuantities),
-                       name(o.feature));
+    return fmt::format("column {} = {} of {}", o.column.value, name_of(o.quantity, kQuantities), name(o.feature));
   }
   std::string operator()(const ObtainDisplacement& o) const {
     return fmt::format("columns {} to {} = displacement of {}", o.first.value, o.first.value + 2, name(o.feature));
   }
   std::string operator()(const ObtainEvaluation& o) const {
     std::string out = fmt::format("column {} = {} of", o.column.value, o.status ? "status" : "value");
-    for (const CharacteristicId c : o.characteristics)
-      out += fmt::format(" {}", plan_[plan_[c].tolerance].label);
+    for (const CharacteristicId c : o.characteristics) out += fmt::format(" {}", plan_[plan_[c].tolerance].label);
     return out;
   }
   std::string operator()(const Assign& o) const {

@@ -63,7 +63,8 @@ std::vector<WrittenColumn> writable_columns() {
   add_vector(c, {"nx", "ny", "nz"}, 9, [](const RecordingRow& row) { return row.normal; });
   integer("setup", &RecordingRow::setup);
   integer("run", &RecordingRow::run);
-  c.push_back({"sensor", [](const RecordingRow& row) { return row.sensor ? std::optional(quoted(*row.sensor)) : std::nullopt; }});
+  c.push_back({"sensor",
+               [](const RecordingRow& row) { return row.sensor ? std::optional(quoted(*row.sensor)) : std::nullopt; }});
   c.push_back(number("head_A_deg", 4, [](const RecordingRow& row) { return row.head_a_deg; }));
   c.push_back(number("head_B_deg", 4, [](const RecordingRow& row) { return row.head_b_deg; }));
   integer("qualification", &RecordingRow::qualification);

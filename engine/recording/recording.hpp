@@ -1,5 +1,6 @@
-// A recording: what one machine reported, touch by touch, and everything logged beside it (docs/formats.md, "Recordings"). One row is one
-// scalar observation along n. What was not logged is absent, never zero: an effect that needs it cannot be judged.
+// A recording: what one machine reported, touch by touch, and everything logged beside it (docs/formats.md,
+// "Recordings"). One row is one scalar observation along n. What was not logged is absent, never zero: an
+// effect that needs it cannot be judged.
 #pragma once
 
 #include <optional>
@@ -14,25 +15,25 @@ namespace abbe {
 
 struct RecordingRow {
   std::string feature;
-  int touch = 1;                        ///< 1-based, within the feature
+  int touch = 1;  ///< 1-based, within the feature
   int setup = 1, run = 1;
-  Vec3 position_mm;                     ///< recorded, tip centre or surface point as the recording says
+  Vec3 position_mm;                       ///< recorded, tip centre or surface point as the recording says
   std::optional<Vec3> target_mm, normal;  ///< where it should be, and the outward unit normal there
   std::optional<std::string> sensor;
   std::optional<double> head_a_deg, head_b_deg;
   std::optional<int> qualification, visit;
   std::optional<double> time_s, speed_mm_s, accel_mm_s2;
-  std::optional<Vec3> travel;           ///< unit vector of the motion at the touch
+  std::optional<Vec3> travel;  ///< unit vector of the motion at the touch
   std::optional<double> temp_part_C, temp_x_C, temp_y_C, temp_z_C, temp_air_C, load_kg;
-  std::optional<Vec3> reading_mm;       ///< raw scale readings
-  int line = 0;                         ///< of the file it was read from; 0: made by a simulation
+  std::optional<Vec3> reading_mm;  ///< raw scale readings
+  int line = 0;                    ///< of the file it was read from; 0: made by a simulation
 };
 
 enum class RecordedPoint { tip_centre, surface };
 
 struct Recording {
   std::vector<std::pair<std::string, std::string>> metadata;  ///< `# key: value` lines beyond the next two
-  bool in_part_frame = false;           ///< `frame: part`, else machine coordinates
+  bool in_part_frame = false;                                 ///< `frame: part`, else machine coordinates
   RecordedPoint point = RecordedPoint::tip_centre;
   std::vector<RecordingRow> rows;
 };
@@ -40,11 +41,12 @@ struct Recording {
 /// RFC 4180 with `#` lines before the header; a column appears when any row has it. Lengths with 7 decimals (0.1 nm).
 std::string to_csv(const Recording&);
 
-/// Reads the contract of docs/formats.md. Throws UserError with the place of every mistake: unknown or missing column, value that is no
-/// number, incomplete vector, direction that is no unit vector.
+/// Reads the contract of docs/formats.md. Throws UserError with the place of every mistake: unknown or
+/// missing column, value that is no number, incomplete vector, direction that is no unit vector.
 Recording read_recording(const SourceFile&);
 
-/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches. Throws UserError where it is no table.
+/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches. Throws
+/// UserError where it is no table.
 bool is_value_recording(const SourceFile&);
 
 }  // namespace abbe

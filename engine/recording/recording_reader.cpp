@@ -17,7 +17,10 @@ namespace {
 /// The coordinates of the vectors of a row, which come column by column.
 struct PartialVector {
   std::array<std::optional<double>, 3> coordinate;
-  int given() const { return static_cast<int>(std::count_if(coordinate.begin(), coordinate.end(), [](const auto& c) { return c.has_value(); })); }
+  int given() const {
+    return static_cast<int>(
+        std::count_if(coordinate.begin(), coordinate.end(), [](const auto& c) { return c.has_value(); }));
+  }
   std::optional<Vec3> complete() const {
     return given() == 3 ? std::optional(Vec3{*coordinate[0], *coordinate[1], *coordinate[2]}) : std::nullopt;
   }
@@ -26,7 +29,7 @@ struct PartialVector {
 /// A row as it is read.
 struct Draft {
   RecordingRow row;
-  std::map<std::string, PartialVector> vectors;   ///< by the names of their columns: "x,y,z"
+  std::map<std::string, PartialVector> vectors;  ///< by the names of their columns: "x,y,z"
 };
 
 /// Puts a field into a draft; false when it is not what the column holds.
@@ -63,7 +66,7 @@ Setter text(Member member) {
 
 Setter coordinate(std::string vector, int axis) {
   return [=](const CsvField& f, Draft& d) {
-    constexpr double kNoMachine_mm = 1e9;   // not even in micrometres
+    constexpr double kNoMachine_mm = 1e9;  // not even in micrometres
     const std::optional<double> v = finite_number(f.text);
     if (!v || std::abs(*v) > kNoMachine_mm) return false;
     d.vectors[vector].coordinate[axis] = *v;
@@ -83,24 +86,15 @@ constexpr VectorColumns kVectors[] = {{{"x", "y", "z"}, "x,y,z"},
 
 std::map<std::string, Setter> setters() {
   std::map<std::string, Setter> s = {
-      {"feature", text(&RecordingRow::feature)},
-      {"touch", integer(&RecordingRow::touch, 1)},
-      {"setup", integer(&RecordingRow::setup, 1)},
-      {"run", integer(&RecordingRow::run, 1)},
-      {"sensor", text(&RecordingRow::sensor)},
-      {"head_A_deg", real(&RecordingRow::head_a_deg)},
-      {"head_B_deg", real(&RecordingRow::head_b_deg)},
-      {"qualification", integer(&RecordingRow::qualification)},
-      {"visit", integer(&RecordingRow::visit)},
-      {"time_s", real(&RecordingRow::time_s)},
-      {"speed_mm_s", real(&RecordingRow::speed_mm_s)},
-      {"accel_mm_s2", real(&RecordingRow::accel_mm_s2)},
-      {"temp_part_C", real(&RecordingRow::temp_part_C)},
-      {"temp_x_C", real(&RecordingRow::temp_x_C)},
-      {"temp_y_C", real(&RecordingRow::temp_y_C)},
-      {"temp_z_C", real(&RecordingRow::temp_z_C)},
-      {"temp_air_C", real(&RecordingRow::temp_air_C)},
-      {"load_kg", real(&RecordingRow::load_kg)},
+      {"feature", text(&RecordingRow::feature)},         {"touch", integer(&RecordingRow::touch, 1)},
+      {"setup", integer(&RecordingRow::setup, 1)},       {"run", integer(&RecordingRow::run, 1)},
+      {"sensor", text(&RecordingRow::sensor)},           {"head_A_deg", real(&RecordingRow::head_a_deg)},
+      {"head_B_deg", real(&RecordingRow::head_b_deg)},   {"qualification", integer(&RecordingRow::qualification)},
+      {"visit", integer(&RecordingRow::visit)},          {"time_s", real(&RecordingRow::time_s)},
+      {"speed_mm_s", real(&RecordingRow::speed_mm_s)},   {"accel_mm_s2", real(&RecordingRow::accel_mm_s2)},
+      {"temp_part_C", real(&RecordingRow::temp_part_C)}, {"temp_x_C", real(&RecordingRow::temp_x_C)},
+      {"temp_y_C", real(&RecordingRow::temp_y_C)},       {"temp_z_C", real(&RecordingRow::temp_z_C)},
+      {"temp_air_C", real(&RecordingRow::temp_air_C)},   {"load_kg", real(&RecordingRow::load_kg)},
   };
   for (const VectorColumns& v : kVectors)
     for (int axis = 0; axis < 3; ++axis) s[v.names[axis]] = coordinate(v.key, axis);
@@ -110,22 +104,28 @@ std::map<std::string, Setter> setters() {
 /// Whether a line says `yes`; the other thing that it may say is `no`.
 bool says(const CsvRemark& line, std::string_view yes, std::string_view no, const SourceFile& file) {
   if (line.value == yes || line.value == no) return line.value == yes;
-  throw UserError(diagnostic_at(file, line.span, Code::E0525, fmt::format("'{}: {}' is neither '{}' nor '{}'", line.key, line.value, no, yes),
-                                "correct the line, or leave it out: docs/formats.md, \"Recordings\", says what holds then"));
+  throw UserError(diagnostic_at(
+      file, line.span, Code::E0525, fmt::format("'{}: {}' is neither '{}' nor '{}'", line.key, line.value, no, yes),
+      "correct the line, or leave it out: docs/formats.md, \"Recordings\", says what holds then"));
 }
 
 void check_distance(const CsvRemark& line, const SourceFile& file) {
   const std::optional<double> distance = finite_number(line.value);
   if (!distance || *distance < 0)
-    throw UserError(diagnostic_at(file, line.span, Code::E0525, fmt::format("'{}: {}' is no distance", line.key, line.value), "give millimetres, 0 or more: 3.5"));
+    throw UserError(diagnostic_at(file, line.span, Code::E0525,
+                                  fmt::format("'{}: {}' is no distance", line.key, line.value),
+                                  "give millimetres, 0 or more: 3.5"));
 }
 
 Recording with_metadata(const CsvTable& table, const SourceFile& file) {
   Recording recording;
   for (const CsvRemark& line : table.remarks) {
-    if (line.key == "frame") recording.in_part_frame = says(line, "part", "mcs", file);
-    else if (line.key == "point") recording.point = says(line, "surface", "tip_centre", file) ? RecordedPoint::surface : RecordedPoint::tip_centre;
-    else recording.metadata.emplace_back(line.key, line.value);
+    if (line.key == "frame")
+      recording.in_part_frame = says(line, "part", "mcs", file);
+    else if (line.key == "point")
+      recording.point = says(line, "surface", "tip_centre", file) ? RecordedPoint::surface : RecordedPoint::tip_centre;
+    else
+      recording.metadata.emplace_back(line.key, line.value);
     if (line.key == "approach_mm" || line.key == "retract_mm") check_distance(line, file);
     if (line.key == "temperature_compensation") says(line, "on", "off", file);
   }
@@ -146,12 +146,15 @@ std::vector<Setter> setters_of(const CsvTable& table, const SourceFile& file, Si
     if (columns.back()) continue;
     const std::string near = nearest_word(field.text, names);
     sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording has no column '{}'", field.text),
-                           near.empty() ? fmt::format("its columns are: {}", fmt::join(names, ", ")) : fmt::format("did you mean '{}'?", near), near));
+                           near.empty() ? fmt::format("its columns are: {}", fmt::join(names, ", "))
+                                        : fmt::format("did you mean '{}'?", near),
+                           near));
   }
   for (const char* name : {"feature", "touch", "x", "y", "z"})
     if (!present[name])
-      sink.add(diagnostic_at(file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
-                             "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
+      sink.add(diagnostic_at(
+          file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
+          "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
   return columns;
 }
 
@@ -160,13 +163,16 @@ void complete_vectors(const SourceFile& file, const CsvRow& row, Draft& draft, S
     const PartialVector& v = draft.vectors[columns.key];
     if (v.given() == 1 || v.given() == 2)
       sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528,
-                             fmt::format("of {} only {} of three values are given", columns.key, v.given()), "give all three, or none"));
+                             fmt::format("of {} only {} of three values are given", columns.key, v.given()),
+                             "give all three, or none"));
     return v.complete();
   };
   const std::optional<Vec3> position = take(kVectors[0]);
-  if (position) draft.row.position_mm = *position;
+  if (position)
+    draft.row.position_mm = *position;
   else if (draft.vectors[kVectors[0].key].given() == 0)
-    sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528, "the recorded position is missing", "remove the row, or give x, y, z"));
+    sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528, "the recorded position is missing",
+                           "remove the row, or give x, y, z"));
   draft.row.target_mm = take(kVectors[1]);
   draft.row.normal = take(kVectors[2]);
   draft.row.travel = take(kVectors[3]);
@@ -176,8 +182,10 @@ void complete_vectors(const SourceFile& file, const CsvRow& row, Draft& draft, S
     const double length = norm(**direction);
     if (std::abs(length - 1) > 1e-2)
       sink.add(diagnostic_at(file, row.fields.front().span, Code::E0529,
-                             fmt::format("a direction of length {:.4g} stands here", length), "nx,ny,nz and ax,ay,az are unit vectors"));
-    else *direction = **direction / length;
+                             fmt::format("a direction of length {:.4g} stands here", length),
+                             "nx,ny,nz and ax,ay,az are unit vectors"));
+    else
+      *direction = **direction / length;
   }
 }
 
@@ -194,8 +202,10 @@ Recording read_recording(const SourceFile& file) {
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CsvField& field = row.fields[k];
       if (field.text.empty() || columns[k](field, draft)) continue;
-      sink.add(diagnostic_at(file, field.span, Code::E0530, fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
-                             "numbers have a decimal point and no unit: 12.5; counts are whole; touch, setup and run count from 1"));
+      sink.add(diagnostic_at(
+          file, field.span, Code::E0530,
+          fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
+          "numbers have a decimal point and no unit: 12.5; counts are whole; touch, setup and run count from 1"));
     }
     complete_vectors(file, row, draft, sink);
     draft.row.line = row.line;
@@ -208,7 +218,8 @@ Recording read_recording(const SourceFile& file) {
 
 bool is_value_recording(const SourceFile& file) {
   const std::vector<CsvField> header = read_csv(file).header;
-  return std::any_of(header.begin(), header.end(), [](const CsvField& column) { return column.text == "characteristic"; });
+  return std::any_of(header.begin(), header.end(),
+                     [](const CsvField& column) { return column.text == "characteristic"; });
 }
 
 }  // namespace abbe

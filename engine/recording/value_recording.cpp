@@ -17,7 +17,7 @@ namespace {
 
 struct ReadColumn {
   std::string_view name;
-  std::function<bool(const CsvField&, ValueRow&)> set;   ///< false: not a value of this column
+  std::function<bool(const CsvField&, ValueRow&)> set;  ///< false: not a value of this column
   bool required = false;
 };
 
@@ -37,14 +37,30 @@ bool set_count(const CsvField& f, int& to) {
 
 const std::vector<ReadColumn>& readable_columns() {
   static const std::vector<ReadColumn> all = {
-      {"characteristic", [](const CsvField& f, ValueRow& r) { r.characteristic = f.text, r.span = f.span; return true; }, true},
+      {"characteristic",
+       [](const CsvField& f, ValueRow& r) {
+         r.characteristic = f.text, r.span = f.span;
+         return true;
+       },
+       true},
       {"value", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.value = v; }); }, true},
       {"reference", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.reference = v; }); }},
-      {"U", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.expanded_uncertainty = v; }) && r.expanded_uncertainty >= 0; }},
+      {"U",
+       [](const CsvField& f, ValueRow& r) {
+         return set_number(f, [&](double v) { r.expanded_uncertainty = v; }) && r.expanded_uncertainty >= 0;
+       }},
       {"run", [](const CsvField& f, ValueRow& r) { return set_count(f, r.run); }},
       {"occurrence", [](const CsvField& f, ValueRow& r) { return set_count(f, r.occurrence); }},
-      {"artefact", [](const CsvField& f, ValueRow& r) { r.artefact = f.text; return true; }},
-      {"program", [](const CsvField& f, ValueRow& r) { r.program = f.text; return true; }},
+      {"artefact",
+       [](const CsvField& f, ValueRow& r) {
+         r.artefact = f.text;
+         return true;
+       }},
+      {"program",
+       [](const CsvField& f, ValueRow& r) {
+         r.program = f.text;
+         return true;
+       }},
   };
   return all;
 }
@@ -55,15 +71,19 @@ std::vector<const ReadColumn*> columns_used(const CsvTable& table, const SourceF
   std::vector<const ReadColumn*> used;
   for (const CsvField& field : table.header) {
     const auto found = std::find(names.begin(), names.end(), field.text);
-    used.push_back(found == names.end() ? nullptr : &readable_columns()[static_cast<std::size_t>(found - names.begin())]);
+    used.push_back(found == names.end() ? nullptr
+                                        : &readable_columns()[static_cast<std::size_t>(found - names.begin())]);
     if (used.back()) continue;
     const std::string near = nearest_word(field.text, names);
-    sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording of values has no column '{}'", field.text),
-                           near.empty() ? fmt::format("its columns are {}", fmt::join(names, ", ")) : fmt::format("did you mean '{}'?", near)));
+    sink.add(diagnostic_at(file, field.span, Code::E0526,
+                           fmt::format("a recording of values has no column '{}'", field.text),
+                           near.empty() ? fmt::format("its columns are {}", fmt::join(names, ", "))
+                                        : fmt::format("did you mean '{}'?", near)));
   }
   for (const ReadColumn& c : readable_columns())
     if (c.required && std::find(used.begin(), used.end(), &c) == used.end())
-      sink.add(diagnostic_at(file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", c.name),
+      sink.add(diagnostic_at(file, table.header.front().span, Code::E0527,
+                             fmt::format("the column '{}' is missing", c.name),
                              "a recording of values has at least characteristic,value"));
   return used;
 }
@@ -84,8 +104,10 @@ ValueRecording read_value_recording(const SourceFile& file) {
       const CsvField& field = row.fields[k];
       if (field.text.empty() && !columns[k]->required) continue;
       if (field.text.empty() || !columns[k]->set(field, r))
-        sink.add(diagnostic_at(file, field.span, Code::E0530, fmt::format("'{}' is no value for the column '{}'", field.text, columns[k]->name),
-                               "values are in mm or degrees, with a decimal point and no unit; U is not negative; run and occurrence count from 1"));
+        sink.add(diagnostic_at(
+            file, field.span, Code::E0530,
+            fmt::format("'{}' is no value for the column '{}'", field.text, columns[k]->name),
+            "values are in mm or degrees, with a decimal point and no unit; U is not negative; run and occurrence count from 1"));
     }
     out.rows.push_back(std::move(r));
   }
@@ -102,8 +124,10 @@ std::vector<std::string> labels_of(const std::string& characteristic) {
     word.clear();
   };
   for (const char c : characteristic) {
-    if (c == ',' || c == '(' || c == ')' || std::isspace(static_cast<unsigned char>(c))) end(c);
-    else word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (c == ',' || c == '(' || c == ')' || std::isspace(static_cast<unsigned char>(c)))
+      end(c);
+    else
+      word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   }
   end(' ');
   return labels;

@@ -1,5 +1,6 @@
-// A recording of values: what one machine reported of the characteristics of programs, not touch by touch (docs/formats.md, "Value
-// recordings"). One row is one value, with what it should have been and how well that is known. All rows come from the same machine.
+// A recording of values: what one machine reported of the characteristics of programs, not touch by touch
+// (docs/formats.md, "Value recordings"). One row is one value, with what it should have been and how well
+// that is known. All rows come from the same machine.
 #pragma once
 
 #include <optional>
@@ -12,15 +13,15 @@
 namespace abbe {
 
 struct ValueRow {
-  std::string characteristic;           ///< as written: "LEN", "END1 END2 LEN" or "FA(END1),FA(END2),TA(LEN)"
-  double value = 0;                     ///< mm or degrees, as reports say
-  std::optional<double> reference;      ///< the true value; none: what the program measures on an error-free machine
-  double expanded_uncertainty = 0;      ///< U of the reference, k = 2
-  int run = 1, occurrence = 1;          ///< repeat of the whole; which evaluation within the program
-  int ordinal = 0;                      ///< of a result file: which evaluation of this tolerance, of any features, 1, 2, ...; else 0
-  std::string artefact;                 ///< what was measured: rows of one artefact share the error of its calibration
-  std::string program;                  ///< path as seen from the recording; empty: the program that the command line names
-  Span span;                            ///< of the characteristic, in the file
+  std::string characteristic;       ///< as written: "LEN", "END1 END2 LEN" or "FA(END1),FA(END2),TA(LEN)"
+  double value = 0;                 ///< mm or degrees, as reports say
+  std::optional<double> reference;  ///< the true value; none: what the program measures on an error-free machine
+  double expanded_uncertainty = 0;  ///< U of the reference, k = 2
+  int run = 1, occurrence = 1;      ///< repeat of the whole; which evaluation within the program
+  int ordinal = 0;       ///< of a result file: which evaluation of this tolerance, of any features, 1, 2, ...; else 0
+  std::string artefact;  ///< what was measured: rows of one artefact share the error of its calibration
+  std::string program;   ///< path as seen from the recording; empty: the program that the command line names
+  Span span;             ///< of the characteristic, in the file
   int line = 0;
 };
 

@@ -48,9 +48,8 @@ double covariance(const std::vector<double>& x, const std::vector<double>& y) {
 
 }  // namespace
 
-std::vector<Line> variance_budget(const std::vector<ContributorRun>& alone,
-                                  const std::vector<Samples>& samples, std::size_t index, Unit unit,
-                                  double factor) {
+std::vector<Line> variance_budget(const std::vector<ContributorRun>& alone, const std::vector<Samples>& samples,
+                                  std::size_t index, Unit unit, double factor) {
   std::vector<Line> lines;
   double total = 0;
   for (const ContributorRun& run : alone) {
@@ -65,8 +64,8 @@ std::vector<Line> variance_budget(const std::vector<ContributorRun>& alone,
   return lines;
 }
 
-std::vector<Line> alignment_split(const Samples& all, const Samples& alignment,
-                                  const Samples& feature, Unit unit, double factor) {
+std::vector<Line> alignment_split(const Samples& all, const Samples& alignment, const Samples& feature, Unit unit,
+                                  double factor) {
   const Matched m = matched(all, alignment, feature);
   if (m.all.size() < 2) return {};
   const double variance = covariance(m.all, m.all);
@@ -79,8 +78,7 @@ std::vector<Line> alignment_split(const Samples& all, const Samples& alignment,
   const double rest = 1 - lines[0].share - lines[1].share;
   if (varies && std::fabs(rest) > kSmallestInteraction) {
     std::vector<double> left;
-    for (std::size_t i = 0; i < m.all.size(); ++i)
-      left.push_back(m.all[i] - m.alignment[i] - m.feature[i]);
+    for (std::size_t i = 0; i < m.all.size(); ++i) left.push_back(m.all[i] - m.alignment[i] - m.feature[i]);
     lines.push_back({"interaction", rest, factor * std::sqrt(covariance(left, left))});
   }
   return lines;

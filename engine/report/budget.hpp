@@ -20,15 +20,13 @@ inline constexpr double kSmallestInteraction = 0.01;
 /// Of entry `index` of the samples of the run with all sources; `factor` turns its unit into that of
 /// the report. Empty when a source's own run left too few values to tell. Variances of rounding count
 /// as 0.
-std::vector<CharacteristicReport::BudgetLine> variance_budget(
-    const std::vector<ContributorRun>& alone, const std::vector<Samples>& samples,
-    std::size_t index, Unit unit, double factor);
+std::vector<CharacteristicReport::BudgetLine> variance_budget(const std::vector<ContributorRun>& alone,
+                                                              const std::vector<Samples>& samples, std::size_t index,
+                                                              Unit unit, double factor);
 
 /// "alignment", "feature" and, when it is not small, "interaction", from the machines that reached
 /// the characteristic in all three runs. Empty when fewer than two did.
-std::vector<CharacteristicReport::BudgetLine> alignment_split(const Samples& all,
-                                                              const Samples& alignment,
-                                                              const Samples& feature, Unit unit,
-                                                              double factor);
+std::vector<CharacteristicReport::BudgetLine> alignment_split(const Samples& all, const Samples& alignment,
+                                                              const Samples& feature, Unit unit, double factor);
 
 }  // namespace abbe

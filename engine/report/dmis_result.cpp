@@ -33,28 +33,33 @@ double degrees(double rad) { return rad * 180 / kPi; }
 std::string line_arguments(const Element& e, const std::string& place) {
   const std::string surface = norm(e.second) > 0 ? ", " + numbers(e.second) : "";
   if (e.begin == e.end) return "UNBND, CART, " + place + surface;
-  return "BND, CART, " + numbers(e.point + e.begin * e.direction) + ", " + numbers(e.point + e.end * e.direction) + surface;
+  return "BND, CART, " + numbers(e.point + e.begin * e.direction) + ", " + numbers(e.point + e.end * e.direction) +
+      surface;
 }
 
 std::string cylinder_arguments(const Element& e) {
   const std::string length = e.end > e.begin ? ", " + decimal(e.end - e.begin) : "";
-  const Vec3 end = e.end > e.begin ? e.point + e.begin * e.direction : e.point;  // with a length the point is one end of the axis
+  // with a length the point is one end of the axis
+  const Vec3 end = e.end > e.begin ? e.point + e.begin * e.direction : e.point;
   return numbers(end) + ", " + numbers(e.direction) + ", " + decimal(2 * e.size) + length;
 }
 
 std::string rectangle_arguments(const Element& e) {
-  return numbers(e.point) + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " + numbers(cross(e.direction, e.second)) + ", " +
-         decimal(2 * e.minor_size) + ", " + numbers(e.direction) + ", " + decimal(e.end - e.begin);
+  return numbers(e.point) + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " +
+      numbers(cross(e.direction, e.second)) + ", " + decimal(2 * e.minor_size) + ", " + numbers(e.direction) + ", " +
+      decimal(e.end - e.begin);
 }
 
 std::string ellipse_arguments(const Element& e) {
   const Vec3 focus = std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
-  return numbers(e.point - focus) + ", " + numbers(e.point + focus) + ", MAJOR, " + decimal(2 * e.size) + ", " + numbers(e.direction);
+  return numbers(e.point - focus) + ", " + numbers(e.point + focus) + ", MAJOR, " + decimal(2 * e.size) + ", " +
+      numbers(e.direction);
 }
 
 /// The start of the arc is written as its direction, with the start angle 0.
 std::string arc_arguments(const Element& e, const std::string& place) {
-  return place + ", " + decimal(e.size) + ", " + decimal(0) + ", " + decimal(degrees(e.angle)) + ", " + numbers(e.second);
+  return place + ", " + decimal(e.size) + ", " + decimal(0) + ", " + decimal(degrees(e.angle)) + ", " +
+      numbers(e.second);
 }
 
 std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
@@ -68,13 +73,14 @@ std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
     case Shape::arc: return side + arc_arguments(e, place);
     case Shape::cylinder: return side + cylinder_arguments(e);
     case Shape::sphere: return side + numbers(e.point) + ", " + decimal(2 * e.size);
-    case Shape::cone: return side + numbers(apex(e)) + ", " + numbers(e.direction) + ", " + decimal(degrees(2 * e.angle));
+    case Shape::cone:
+      return side + numbers(apex(e)) + ", " + numbers(e.direction) + ", " + decimal(degrees(2 * e.angle));
     case Shape::torus: return side + place + ", " + decimal(2 * e.size) + ", " + decimal(2 * e.minor_size);
     case Shape::edge_point: return "CART, " + place + ", " + numbers(e.second);
     case Shape::surface: return "";
     case Shape::slot:
-      return in + (e.angle != 0 ? "FLAT" : "ROUND") + ", CART, " + place + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " +
-             decimal(2 * e.minor_size);
+      return in + (e.angle != 0 ? "FLAT" : "ROUND") + ", CART, " + place + ", " + numbers(e.second) + ", " +
+          decimal(2 * e.size) + ", " + decimal(2 * e.minor_size);
     case Shape::rectangle: return side + rectangle_arguments(e);
     case Shape::ellipse: return side + ellipse_arguments(e);
     case Shape::parallel_planes: return in + "MIDPL, CART, " + place + ", " + decimal(2 * e.size);
@@ -101,7 +107,8 @@ std::string tolerance_arguments(const plan::ToleranceDef& def, const OutputRecor
 std::string matrix_arguments(const Rigid& X_MD) {
   const Mat3& R = X_MD.R;  // its columns are the axes of D in the machine system
   std::string out;
-  for (const double v : {R.cx.x, R.cx.y, R.cx.z, R.cy.x, R.cy.y, R.cy.z, R.cz.x, R.cz.y, R.cz.z}) out += fmt::format("{:.9f}, ", v == 0 ? 0.0 : v);
+  for (const double v : {R.cx.x, R.cx.y, R.cx.z, R.cy.x, R.cy.y, R.cy.z, R.cz.x, R.cz.y, R.cz.z})
+    out += fmt::format("{:.9f}, ", v == 0 ? 0.0 : v);
   return out + numbers(X_MD.p);
 }
 
@@ -119,13 +126,15 @@ class ResultText {
     const auto& what = std::get<plan::Output>(action);
     std::vector<std::string> echo;
     for (const plan::FeatureId f : what.features) echo.push_back(fmt::format("FA({})", plan_[f].label));
-    for (const auto& v : record.values) echo.push_back(fmt::format("TA({})", plan_[plan_[v.characteristic].tolerance].label));
+    for (const auto& v : record.values)
+      echo.push_back(fmt::format("TA({})", plan_[plan_[v.characteristic].tolerance].label));
     echo.insert(echo.end(), what.also.begin(), what.also.end());
     text += fmt::format("OUTPUT/{}\n", fmt::join(echo, ", "));
     for (std::size_t k = 0; k < what.features.size(); ++k) {
       const plan::FeatureDef& def = plan_[what.features[k]];
       const std::string arguments = feature_arguments(def, record.features[k]);
-      text += fmt::format("FA({}) = FEAT/{}{}{}\n", def.label, def.kind->word, arguments.empty() ? "" : ", ", arguments);
+      text +=
+          fmt::format("FA({}) = FEAT/{}{}{}\n", def.label, def.kind->word, arguments.empty() ? "" : ", ", arguments);
     }
     for (const auto& v : record.values) {
       const plan::ToleranceDef& def = plan_[plan_[v.characteristic].tolerance];
@@ -141,7 +150,8 @@ class ResultText {
     const int visit = ++written_[id.value];
     for (const CharacteristicReport& r : reports_) {
       if (!r.reference || r.characteristic != id || r.visit != visit) continue;
-      text += fmt::format("$$! u TA({}) {:.3g} lcl {:.3g} ucl {:.3g}", label, r.summary.u, r.lcl.value(), r.ucl.value());
+      text +=
+          fmt::format("$$! u TA({}) {:.3g} lcl {:.3g} ucl {:.3g}", label, r.summary.u, r.lcl.value(), r.ucl.value());
       if (r.conformance_probability) text += fmt::format(" conforms {:.4g}", *r.conformance_probability);
       text += "\n";
       return;
@@ -155,9 +165,11 @@ class ResultText {
 
 }  // namespace
 
-std::string dmis_result(const plan::Plan& plan, const std::vector<OutputRecord>& records, std::span<const CharacteristicReport> reports) {
+std::string dmis_result(const plan::Plan& plan, const std::vector<OutputRecord>& records,
+                        std::span<const CharacteristicReport> reports) {
   ResultText result(plan, reports);
-  result.text = fmt::format("FILNAM/{}\nUNITS/MM, ANGDEC\n", dmis_text(plan.result_name.empty() ? plan.name : plan.result_name));
+  result.text =
+      fmt::format("FILNAM/{}\nUNITS/MM, ANGDEC\n", dmis_text(plan.result_name.empty() ? plan.name : plan.result_name));
   for (const OutputRecord& record : records) result.add(record);
   return result.text + "ENDFIL\n";
 }

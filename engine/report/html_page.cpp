@@ -26,9 +26,10 @@ constexpr std::string_view kStyle =
 }  // namespace
 
 std::string html_page(std::string_view title, std::string_view body) {
-  return fmt::format("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
-                     "<title>{}</title><style>{}</style></head><body>\n{}</body></html>\n",
-                     escaped(title), kStyle, body);
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<title>{}</title><style>{}</style></head><body>\n{}</body></html>\n",
+      escaped(title), kStyle, body);
 }
 
 std::string html_row(const std::vector<std::string>& cells, const char* tag) {
@@ -41,7 +42,9 @@ std::string html_row(const std::vector<std::string>& cells, const char* tag) {
   return out + "</tr>\n";
 }
 
-std::string html_table(std::string_view rows) { return fmt::format("<div class=\"wide\"><table>{}</table></div>\n", rows); }
+std::string html_table(std::string_view rows) {
+  return fmt::format("<div class=\"wide\"><table>{}</table></div>\n", rows);
+}
 
 std::string html_paragraphs(std::string_view text) {
   std::string out;

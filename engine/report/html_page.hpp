@@ -1,4 +1,5 @@
-// A report as one HTML file: style, tables and plots inside, no script and no network, so that it can be filed, sent and printed.
+// A report as one HTML file: style, tables and plots inside, no script and no network, so that it can be
+// filed, sent and printed.
 #pragma once
 
 #include <string>

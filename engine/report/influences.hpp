@@ -20,7 +20,6 @@ struct Declaration {
 /// is not modelled by itself is when an effect of the machine file that describes it moved a touch
 /// (`acted`: RunResult), or the workpiece file describes it; else it is bounded when one of the two
 /// states a bound.
-Declaration declare_influences(const Machine&, const std::vector<char>& acted,
-                               const Workpiece* workpiece = nullptr);
+Declaration declare_influences(const Machine&, const std::vector<char>& acted, const Workpiece* workpiece = nullptr);
 
 }  // namespace abbe

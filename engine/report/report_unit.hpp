@@ -16,9 +16,8 @@ struct ReportUnit {
 
 inline ReportUnit report_unit(const plan::Plan& plan, plan::CharacteristicId id) {
   const plan::ToleranceDef& tolerance = plan[plan[id].tolerance];
-  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad
-             ? ReportUnit{"deg", 180 / std::numbers::pi}
-             : ReportUnit{};
+  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad ? ReportUnit{"deg", 180 / std::numbers::pi}
+                                                                    : ReportUnit{};
 }
 
 }  // namespace abbe

@@ -11,12 +11,11 @@ namespace abbe {
 namespace {
 
 /// Shares of variance; empty when a contributor's own run left too few values to tell.
-std::vector<CharacteristicReport::Contribution> contributions(
-    const std::vector<ContributorRun>& alone, const std::vector<Samples>& samples,
-    std::size_t index, Unit unit) {
+std::vector<CharacteristicReport::Contribution> contributions(const std::vector<ContributorRun>& alone,
+                                                              const std::vector<Samples>& samples, std::size_t index,
+                                                              Unit unit) {
   std::vector<CharacteristicReport::Contribution> list;
-  for (const auto& line : variance_budget(alone, samples, index, unit, 1))
-    list.push_back({line.name, line.share});
+  for (const auto& line : variance_budget(alone, samples, index, unit, 1)) list.push_back({line.name, line.share});
   return list;
 }
 
@@ -34,8 +33,7 @@ std::vector<double> against_common_limits(const Samples& samples) {
   return values;
 }
 
-CharacteristicReport::CoverageInterval interval_of(const Samples& samples, double factor,
-                                                   double coverage) {
+CharacteristicReport::CoverageInterval interval_of(const Samples& samples, double factor, double coverage) {
   std::vector<double> values = samples.value;
   for (double& v : values) v *= factor;
   const Summary s = summarize(values, coverage);
@@ -44,8 +42,8 @@ CharacteristicReport::CoverageInterval interval_of(const Samples& samples, doubl
 
 /// Decides on the value of the error-free machine, in the unit of the report. `values` are judged
 /// against the common limits. A zone has no lower limit, but begins at 0.
-CharacteristicReport::Decision decision_on(const CharacteristicReport& report,
-                                           const std::vector<double>& values, double factor) {
+CharacteristicReport::Decision decision_on(const CharacteristicReport& report, const std::vector<double>& values,
+                                           double factor) {
   std::vector<double> errors = values;
   for (double& e : errors) e = e * factor - *report.reference;
   const double upper = *report.upper, begin = report.lower.value_or(0);
@@ -67,15 +65,13 @@ int stopped_before(const Samples& samples, const std::vector<Trap>& traps) {
   }));
 }
 
-CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples,
-                                           const RunResult& run) {
+CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples& samples, const RunResult& run) {
   const plan::CharacteristicDef& definition = plan[samples.characteristic];
   const plan::ToleranceDef& tolerance = plan[definition.tolerance];
   const auto [unit, factor] = report_unit(plan, samples.characteristic);
 
   CharacteristicReport report;
-  for (const plan::FeatureId feature : definition.features)
-    report.features.push_back(plan[feature].label);
+  for (const plan::FeatureId feature : definition.features) report.features.push_back(plan[feature].label);
   report.tolerance = tolerance.label;
   report.kind = tolerance.kind->word;
   report.unit = unit;
@@ -96,8 +92,7 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.upper = scaled(samples.limits.upper, factor);
   if (report.lower || report.upper) {
     const std::vector<double> judged = against_common_limits(samples);
-    report.conformance_probability =
-        conformance_probability(judged, samples.limits.lower, samples.limits.upper);
+    report.conformance_probability = conformance_probability(judged, samples.limits.lower, samples.limits.upper);
     if (report.upper && report.reference) report.decision = decision_on(report, judged, factor);
   }
   report.evaluated = static_cast<int>(samples.value.size());
@@ -120,11 +115,9 @@ std::vector<int> occurrences(const plan::Plan& plan, const std::vector<Samples>&
   return numbers;
 }
 
-std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
-                                                         const RunResult& result,
+std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan, const RunResult& result,
                                                          const std::vector<ContributorRun>& alone,
-                                                         const BudgetRuns* budget,
-                                                         std::optional<double> coverage) {
+                                                         const BudgetRuns* budget, std::optional<double> coverage) {
   std::vector<CharacteristicReport> reports;
   const std::vector<int> numbers = occurrences(plan, result.samples);
   for (std::size_t i = 0; i < result.samples.size(); ++i) {
@@ -132,9 +125,7 @@ std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
     if (samples.value.size() < 2) continue;
     CharacteristicReport report = characteristic_report(plan, samples, result);
     report.occurrence = numbers[i];
-    if (coverage)
-      report.interval =
-          interval_of(samples, report_unit(plan, samples.characteristic).factor, *coverage);
+    if (coverage) report.interval = interval_of(samples, report_unit(plan, samples.characteristic).factor, *coverage);
     const plan::ToleranceDef& tolerance = plan[plan[samples.characteristic].tolerance];
     const Unit unit = unit_of(*tolerance.kind, tolerance.arguments);
     report.contributions = contributions(alone, result.samples, i, unit);
@@ -143,8 +134,7 @@ std::vector<CharacteristicReport> characteristic_reports(const plan::Plan& plan,
       report.budget = variance_budget(budget->alone, result.samples, i, unit, factor);
       const Samples* alignment = counterpart(result.samples, i, budget->alignment);
       const Samples* feature = counterpart(result.samples, i, budget->feature);
-      if (alignment && feature)
-        report.alignment_split = alignment_split(samples, *alignment, *feature, unit, factor);
+      if (alignment && feature) report.alignment_split = alignment_split(samples, *alignment, *feature, unit, factor);
     }
     reports.push_back(std::move(report));
   }

@@ -26,14 +26,14 @@ struct CharacteristicReport {
   std::vector<std::string> features;
   std::string tolerance, kind, unit;
   int line = 0;
-  int occurrence = 1;                  ///< among the evaluations of these labels that this line makes
+  int occurrence = 1;  ///< among the evaluations of these labels that this line makes
   plan::CharacteristicId characteristic;
-  int visit = 1;                       ///< Samples::occurrence
+  int visit = 1;  ///< Samples::occurrence
   double nominal = 0;
-  std::optional<double> reference;     ///< none where a condition sends the error-free machine elsewhere
-  Summary summary;                     ///< of the values
-  Histogram histogram;                 ///< of the values
-  std::optional<double> lcl, ucl;      ///< limits of the 95 % interval minus reference
+  std::optional<double> reference;  ///< none where a condition sends the error-free machine elsewhere
+  Summary summary;                  ///< of the values
+  Histogram histogram;              ///< of the values
+  std::optional<double> lcl, ucl;   ///< limits of the 95 % interval minus reference
   /// The interval of another coverage probability, of the values; none: not asked for.
   struct CoverageInterval {
     double coverage = 0.95;
@@ -45,11 +45,11 @@ struct CharacteristicReport {
   /// What the reference, taken for a measured value, proves (engine/stats/decision.hpp).
   struct Decision {
     Conformity verdict = Conformity::undecided;
-    std::optional<double> guard_band;    ///< none: no value conforms
-    std::optional<double> lower, upper;  ///< acceptance limits, where the tolerance has limits
-    double tolerance_to_uncertainty = 0; ///< over half of the 95 % interval; a zone begins at 0
+    std::optional<double> guard_band;     ///< none: no value conforms
+    std::optional<double> lower, upper;   ///< acceptance limits, where the tolerance has limits
+    double tolerance_to_uncertainty = 0;  ///< over half of the 95 % interval; a zone begins at 0
   };
-  std::optional<Decision> decision;      ///< none without limits or without a reference
+  std::optional<Decision> decision;  ///< none without limits or without a reference
   struct Contribution {
     std::string name;
     double share = 0;
@@ -62,9 +62,9 @@ struct CharacteristicReport {
   };
   std::vector<BudgetLine> budget;           ///< each source alone, shares sum to 1; empty: not asked for
   std::vector<BudgetLine> alignment_split;  ///< "alignment", "feature" and what is left (budget.hpp)
-  int evaluated = 0;  ///< machines that evaluated it: all figures are theirs
-  int trapped = 0;    ///< machines that stopped before they could
-  int elsewhere = 0;  ///< machines that a condition on measured values sent past it
+  int evaluated = 0;                        ///< machines that evaluated it: all figures are theirs
+  int trapped = 0;                          ///< machines that stopped before they could
+  int elsewhere = 0;                        ///< machines that a condition on measured values sent past it
 };
 
 struct Influence {

@@ -29,15 +29,12 @@ std::string samples_csv(const plan::Plan& plan, const Study& study) {
     const Samples& samples = study.result.samples[s];
     const plan::CharacteristicDef& definition = plan[samples.characteristic];
     const ReportUnit unit = report_unit(plan, samples.characteristic);
-    const std::string reference =
-        samples.reference ? fmt::format("{}", *samples.reference * unit.factor) : "";
+    const std::string reference = samples.reference ? fmt::format("{}", *samples.reference * unit.factor) : "";
     const std::string middle =
-        fmt::format("{},{},{},{}", quoted(characteristic_name(plan, definition)),
-                    numbers[s], unit.name, reference);
+        fmt::format("{},{},{},{}", quoted(characteristic_name(plan, definition)), numbers[s], unit.name, reference);
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       const std::uint32_t machine = samples.machine[i];
-      out += fmt::format("{},{},{},{}\r\n", machine, study.candidates[machine], middle,
-                         samples.value[i] * unit.factor);
+      out += fmt::format("{},{},{},{}\r\n", machine, study.candidates[machine], middle, samples.value[i] * unit.factor);
     }
   }
   return out;

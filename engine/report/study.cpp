@@ -17,20 +17,17 @@ namespace {
 
 void check_options(const StudyOptions& options) {
   if (!options.digits && options.machines < 2)
-    throw UserError(diagnostic(
-        Code::E0603,
-        fmt::format("{} virtual machines were asked for; expected at least 2", options.machines),
-        "a standard uncertainty needs two values; 1000 machines give it to about 2 %"));
+    throw UserError(diagnostic(Code::E0603,
+                               fmt::format("{} virtual machines were asked for; expected at least 2", options.machines),
+                               "a standard uncertainty needs two values; 1000 machines give it to about 2 %"));
   if (options.digits && *options.digits != 1 && *options.digits != 2)
     throw UserError(diagnostic(
-        Code::E0603,
-        fmt::format("{} significant digits of u were asked for; expected 1 or 2", *options.digits),
+        Code::E0603, fmt::format("{} significant digits of u were asked for; expected 1 or 2", *options.digits),
         "each further digit needs a hundred times as many machines"));
   if (options.coverage && !(*options.coverage > 0 && *options.coverage < 1))
     throw UserError(diagnostic(
         Code::E0603,
-        fmt::format("a coverage probability of {:g} was asked for; expected between 0 and 1",
-                    *options.coverage),
+        fmt::format("a coverage probability of {:g} was asked for; expected between 0 and 1", *options.coverage),
         *options.coverage > 1 && *options.coverage < 100
             ? fmt::format("{:g} % is {:g}", *options.coverage, *options.coverage / 100)
             : "99 % is 0.99"));
@@ -67,15 +64,14 @@ std::vector<NamedContributors> each_alone(const Machine& machine, bool workpiece
 /// One study in the making: what all its steps share.
 class StudyRun {
  public:
-  StudyRun(const plan::Plan& plan, const Machine& machine, const StudyOptions& options,
-           const SourceFile& source, const Progress& progress)
+  StudyRun(const plan::Plan& plan, const Machine& machine, const StudyOptions& options, const SourceFile& source,
+           const Progress& progress)
       : plan_(plan), machine_(machine), options_(options), source_(source), progress_(progress) {}
 
   Study run() {
     const int count = options_.digits ? kBlockMachines : options_.machines;
     step("drawing virtual machines");
-    const VirtualMachines machines =
-        screened_machines(machine_, options_.seed, count, options_.threads);
+    const VirtualMachines machines = screened_machines(machine_, options_.seed, count, options_.threads);
     step("running the program");
     append(machines, run(machines, {}));
     std::vector<ContributorRun> alone;
@@ -108,8 +104,7 @@ class StudyRun {
   }
 
   /// The geometry goes by its error functions; the other sources have run alone already.
-  BudgetRuns budget_runs(const VirtualMachines& machines,
-                         const std::vector<ContributorRun>& alone) const {
+  BudgetRuns budget_runs(const VirtualMachines& machines, const std::vector<ContributorRun>& alone) const {
     BudgetRuns runs;
     Contributors only = each_alone(machine_, false).front().contributors;
     for (int k = 0; k < kComponents; ++k) {
@@ -188,10 +183,9 @@ class StudyRun {
 
   void run_until_stable() {
     for (int blocks = 1; blocks < options_.max_blocks && !stable(); ++blocks) {
-      step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines,
-                       *options_.digits));
-      const VirtualMachines machines = more_screened_machines(
-          machine_, options_.seed, kBlockMachines, options_.threads, study_.candidates.back() + 1);
+      step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines, *options_.digits));
+      const VirtualMachines machines = more_screened_machines(machine_, options_.seed, kBlockMachines, options_.threads,
+                                                              study_.candidates.back() + 1);
       append(machines, run(machines, {}));
     }
     if (!stable())
@@ -214,12 +208,10 @@ class StudyRun {
     if (!machine_.effects.empty()) report.effect_use = options_.effect_use;
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
-    report.characteristics =
-        characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
+    report.characteristics = characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
     Declaration declaration = declare_influences(machine_, study_.result.acted, options_.workpiece);
     report.influences = std::move(declaration.influences);
-    std::move(declaration.messages.begin(), declaration.messages.end(),
-              std::back_inserter(report.messages));
+    std::move(declaration.messages.begin(), declaration.messages.end(), std::back_inserter(report.messages));
     report.traps = study_.result.traps;
     add_unreached();
     warn_of_parting();
@@ -236,14 +228,11 @@ class StudyRun {
     for (const Samples& samples : study_.result.samples) {
       if (samples.value.size() >= 2) continue;
       const plan::CharacteristicDef& definition = plan_[samples.characteristic];
-      std::string reason =
-          fmt::format("{} of {} machines reached it", samples.value.size(), study_.result.machines);
+      std::string reason = fmt::format("{} of {} machines reached it", samples.value.size(), study_.result.machines);
       if (const auto& traps = study_.result.traps; !traps.empty())
-        reason += fmt::format("; the first stopped at line {}: {}", traps.front().line,
-                              traps.front().reason);
+        reason += fmt::format("; the first stopped at line {}: {}", traps.front().line, traps.front().reason);
       std::string features;
-      for (const plan::FeatureId f : definition.features)
-        features += (features.empty() ? "" : ", ") + plan_[f].label;
+      for (const plan::FeatureId f : definition.features) features += (features.empty() ? "" : ", ") + plan_[f].label;
       study_.report.lost.push_back({definition.line, features, reason});
     }
   }
@@ -255,9 +244,8 @@ class StudyRun {
     for (const CharacteristicReport& c : study_.report.characteristics) {
       if (c.elsewhere == 0 || ++parted > kShown) continue;
       message(Code::W0619,
-              fmt::format("line {}: FA({}),TA({}): {} of {} machines evaluated this: a conditional result",
-                          c.line, fmt::join(c.features, "),FA("), c.tolerance, c.evaluated,
-                          study_.result.machines),
+              fmt::format("line {}: FA({}),TA({}): {} of {} machines evaluated this: a conditional result", c.line,
+                          fmt::join(c.features, "),FA("), c.tolerance, c.evaluated, study_.result.machines),
               c.reference ? "a condition on measured values sent the others past it"
                           : "a condition on measured values sent the others past it, and the error-free "
                             "machine, so that there is no value to compare with");
@@ -274,11 +262,13 @@ class StudyRun {
     const bool corrected = options_.effect_use == EffectUse::corrected;
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (study_.result.acted[k]) continue;
-      message(Code::W0615,
-              fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
-              fmt::format("`abbe explain {}` says on what it depends, and which of its sizes are 0 unless given; temperatures and loads "
-                          "come from a workpiece file{}",
-                          machine_.effects[k].name, corrected ? "; of a corrected effect only the uncertainty remains" : ""));
+      message(
+          Code::W0615,
+          fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
+          fmt::format(
+              "`abbe explain {}` says on what it depends, and which of its sizes are 0 unless given; temperatures and loads "
+              "come from a workpiece file{}",
+              machine_.effects[k].name, corrected ? "; of a corrected effect only the uncertainty remains" : ""));
     }
   }
 
@@ -288,16 +278,14 @@ class StudyRun {
     constexpr double kOfLimits = 0.95, kBeyond = 20;
     const double coverage = std::max(kOfLimits, options_.coverage.value_or(kOfLimits));
     if (study_.result.machines * (1 - coverage) >= kBeyond) return;
-    message(Code::W0435,
-            fmt::format("{} machines are few for {:g} % limits", study_.result.machines, 100 * coverage),
+    message(Code::W0435, fmt::format("{} machines are few for {:g} % limits", study_.result.machines, 100 * coverage),
             fmt::format("ask for --machines {:.0f} or more; JCGM 101, 7.2.2 recommends {:.0f}",
                         std::ceil(kBeyond / (1 - coverage)), std::ceil(1e4 / (1 - coverage))));
   }
 
   void warn_of_screening() {
     step("looking for a factor on e_max");
-    if (auto warning =
-            screening_warning(machine_, study_.report.machines, options_.seed, options_.threads))
+    if (auto warning = screening_warning(machine_, study_.report.machines, options_.seed, options_.threads))
       study_.report.messages.push_back(std::move(*warning));
   }
 
@@ -312,8 +300,8 @@ class StudyRun {
 
 }  // namespace
 
-Study run_study(const plan::Plan& plan, const Machine& machine, const StudyOptions& options,
-                const SourceFile& source, const Progress& progress) {
+Study run_study(const plan::Plan& plan, const Machine& machine, const StudyOptions& options, const SourceFile& source,
+                const Progress& progress) {
   check_options(options);
   return StudyRun(plan, machine, options, source, progress).run();
 }

@@ -33,10 +33,9 @@ struct StudyOptions {
   std::uint64_t seed = 1;
   int machines = 1000;        ///< at least 2; without meaning when `digits` is set
   std::optional<int> digits;  ///< 1 or 2 significant digits of u that must be stable
-  int max_blocks =
-      100;  ///< blocks after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
+  int max_blocks = 100;       ///< blocks after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
   int threads = 1;
-  bool budget = false;  ///< also each error function alone, and the alignment against the features
+  bool budget = false;             ///< also each error function alone, and the alignment against the features
   std::optional<double> coverage;  ///< in (0, 1): also report the intervals of this probability
   EffectUse effect_use = EffectUse::left_in;
   Vec3 placement_mm;                     ///< RunOptions::placement_mm
@@ -45,17 +44,15 @@ struct StudyOptions {
 };
 
 struct Study {
-  RunReport
-      report;  ///< without the version and what the compilation lost and said: the caller adds them
+  RunReport report;  ///< without the version and what the compilation lost and said: the caller adds them
   RunResult result;  ///< with every contributor acting
-  std::vector<std::uint32_t>
-      candidates;  ///< of each machine of `result`: the index that keys its random numbers
+  std::vector<std::uint32_t> candidates;  ///< of each machine of `result`: the index that keys its random numbers
 };
 
 /// Throws UserError as screened_machines and run_plan do, and when `options.machines` or `digits`
 /// make no sense.
-Study run_study(const plan::Plan&, const Machine&, const StudyOptions& options,
-                const SourceFile& source, const Progress& progress = {});
+Study run_study(const plan::Plan&, const Machine&, const StudyOptions& options, const SourceFile& source,
+                const Progress& progress = {});
 
 /// Every sample of a study as CSV (RFC 4180):
 /// machine,candidate,characteristic,occurrence,unit,reference,value. Angles in degrees, numbers so

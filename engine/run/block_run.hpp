@@ -9,8 +9,8 @@
 
 namespace abbe {
 
-/// One run of one block. The handlers see the lanes that stand at the same operation, in `active`, ascending: virtual machines
-/// first, then twins.
+/// One run of one block. The handlers see the lanes that stand at the same operation, in `active`, ascending:
+/// virtual machines first, then twins.
 class BlockRun {
  public:
   BlockRun(const Executor& run_by, Block& lanes, Executor::Observed* observer = nullptr)
@@ -77,10 +77,10 @@ class BlockRun {
   std::vector<int> active;
   int operation = 0;
   TouchBatch touch_batch;
-  std::vector<Mat3> R_WR;              // by slot of touch_batch
-  std::vector<PlaceOnPart> places;     // by slot of touch_batch, when a workpiece is given
-  std::vector<Target> targets;         // by slot of touch_batch: where the program put the surface, W
-  std::vector<double> points_buffer;   // columns handed to the fits
+  std::vector<Mat3> R_WR;             // by slot of touch_batch
+  std::vector<PlaceOnPart> places;    // by slot of touch_batch, when a workpiece is given
+  std::vector<Target> targets;        // by slot of touch_batch: where the program put the surface, W
+  std::vector<double> points_buffer;  // columns handed to the fits
 
   /// The tip of the lane's machine goes to a point in W; `lane` is a twin.
   void go_to(int lane, const Vec3& point);
@@ -104,7 +104,8 @@ class BlockRun {
   std::optional<ToleranceLimits> widened(int lane, const plan::CharacteristicDef&, ToleranceLimits);
   void fit_twins(plan::FeatureId, FitCriterion);
   void fit_machines(plan::FeatureId, FitCriterion, std::size_t points);
-  /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition` by lane grows.
+  /// Gives every group of machines that leaves its twin's path at a condition a twin of its own; `condition`
+  /// by lane grows.
   void part_twins(Outcomes& condition);
   /// Another lane like that twin, and its nominal lane behind it. Returns the twin's.
   int clone_twin(int twin);

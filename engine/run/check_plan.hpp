@@ -18,6 +18,7 @@ struct NoValue {
 };
 
 /// The first one that the error-free machine comes to; nothing when it is stopped by nothing, or by something else.
-std::optional<NoValue> evaluation_without_value(const plan::Plan&, const Machine&, const RunOptions&, const SourceFile& source);
+std::optional<NoValue> evaluation_without_value(const plan::Plan&, const Machine&, const RunOptions&,
+                                                const SourceFile& source);
 
 }  // namespace abbe

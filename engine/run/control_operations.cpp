@@ -12,7 +12,8 @@ Outcome<double> BlockRun::evaluate(const Lane& lane, const plan::Expression& exp
   return plan::evaluate(expression, [&](plan::ColumnId id) { return lane.columns[id.value]; });
 }
 
-Arguments BlockRun::filled(const Lane& lane, const Arguments& arguments, const std::vector<plan::VaryingNumber>& varying) const {
+Arguments BlockRun::filled(const Lane& lane, const Arguments& arguments,
+                           const std::vector<plan::VaryingNumber>& varying) const {
   Arguments all = arguments;
   for (const plan::VaryingNumber& v : varying) all.set_number(v.name, v.index, lane.columns[v.column.value]);
   return all;
@@ -31,7 +32,9 @@ Vec3 vector_of(const Element& e, int which) {
     case 5: return cross(e.direction, e.second);
     case 6: return apex(e);
     case 7:
-    case 8: return e.point + (which == 7 ? -1 : 1) * std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
+    case 8:
+      return e.point +
+          (which == 7 ? -1 : 1) * std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
     case 9:
     case 10: return e.point + (which == 9 ? 1 : -1) * e.size * e.direction;
   }
@@ -68,8 +71,10 @@ void BlockRun::operator()(const plan::ObtainDisplacement& obtain) {
     if (!element) return "";
     Lane& lane = block.lanes[i];
     const FeatureState &own = state(lane, obtain.feature), &true_one = state(twin_of(lane), obtain.feature);
-    const Element nominal = own.own_nominal ? own.nominal : own.defined_in * (inverse(true_one.defined_in) * true_one.nominal);
-    const Vec3 by = transpose(lane.X_WD.R) * displacement(executor.plan_[obtain.feature].kind->shape, *element, nominal);
+    const Element nominal =
+        own.own_nominal ? own.nominal : own.defined_in * (inverse(true_one.defined_in) * true_one.nominal);
+    const Vec3 by =
+        transpose(lane.X_WD.R) * displacement(executor.plan_[obtain.feature].kind->shape, *element, nominal);
     for (int k = 0; k < 3; ++k) lane.columns[obtain.first.value + k] = by[k];
     return "";
   });
@@ -79,11 +84,14 @@ void BlockRun::operator()(const plan::ObtainEvaluation& obtain) {
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
     const auto latest = std::find_if(lane.values.rbegin(), lane.values.rend(), [&](const Value& v) {
-      return std::find(obtain.characteristics.begin(), obtain.characteristics.end(), v.characteristic) != obtain.characteristics.end();
+      return std::find(obtain.characteristics.begin(), obtain.characteristics.end(), v.characteristic) !=
+          obtain.characteristics.end();
     });
-    if (latest == lane.values.rend()) return "a tolerance is obtained that was not evaluated on the path that was taken";
+    if (latest == lane.values.rend())
+      return "a tolerance is obtained that was not evaluated on the path that was taken";
     const ToleranceLimits& limits = latest->limits;
-    const bool inside = !(limits.lower && latest->value < *limits.lower) && !(limits.upper && latest->value > *limits.upper);
+    const bool inside =
+        !(limits.lower && latest->value < *limits.lower) && !(limits.upper && latest->value > *limits.upper);
     lane.columns[obtain.column.value] = obtain.status ? (inside ? 1 : 0) : latest->value;
     return "";
   });
@@ -131,7 +139,8 @@ void BlockRun::part_twins(Outcomes& condition) {
     const int nominal = block.lanes[t].nominal;
     std::vector<int> going[2];
     for (const int i : before)
-      if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].twin == t) going[condition[i] != 0].push_back(i);
+      if (!block.is_twin(i) && block.lanes[i].running && block.lanes[i].twin == t)
+        going[condition[i] != 0].push_back(i);
     // The reference decides by itself; any other twin exists only for its machines and goes where they go.
     if (t != block.reference()) {
       if (going[0].empty() && going[1].empty()) {

@@ -19,7 +19,8 @@ namespace {
 constexpr std::uint32_t kParameterSite = 0x80000000u, kMachineSite = 0x40000000u, kVisitSite = 0x20000000u;
 constexpr int kMostNumbers = 64;
 
-std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates, std::string otherwise) {
+std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates,
+                         std::string otherwise) {
   const std::string near = nearest_word(name, candidates);
   return near.empty() ? otherwise : "did you mean '" + near + "'?";
 }
@@ -33,18 +34,21 @@ class Refusal {
   [[noreturn]] void unknown_effect() const {
     std::vector<std::string_view> names;
     for (const Effect* e : effects()) names.push_back(e->name);
-    refuse(setting_.span, Code::E0305, "unknown effect", did_you_mean(setting_.name, names, "`abbe explain` lists them"));
+    refuse(setting_.span, Code::E0305, "unknown effect",
+           did_you_mean(setting_.name, names, "`abbe explain` lists them"));
   }
   [[noreturn]] void unknown_parameter(const Effect& effect, const std::string& name, Span span) const {
     std::vector<std::string_view> names;
     for (const EffectParameter& p : effect.parameters) names.push_back(p.name);
-    refuse(span, Code::E0306, fmt::format("it has no parameter '{}'", name), did_you_mean(name, names, fmt::format("it has: {}", fmt::join(names, ", "))));
+    refuse(span, Code::E0306, fmt::format("it has no parameter '{}'", name),
+           did_you_mean(name, names, fmt::format("it has: {}", fmt::join(names, ", "))));
   }
   [[noreturn]] void impossible(const EffectParameter& p, const std::string& value, Span span) const {
     const std::string help = !p.choices.empty() ? fmt::format("give one of: {}", fmt::join(p.choices, ", "))
-                             : p.is_code()      ? fmt::format("give a whole number from {:g} to {:g}", p.low, p.high)
-                                                : fmt::format("give a number from {:g} to {:g} {}", p.low, p.high, p.unit);
-    refuse(span, Code::E0307, fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
+        : p.is_code()                           ? fmt::format("give a whole number from {:g} to {:g}", p.low, p.high)
+                      : fmt::format("give a number from {:g} to {:g} {}", p.low, p.high, p.unit);
+    refuse(span, Code::E0307,
+           fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
   }
   [[noreturn]] void uncertain_choice(const EffectParameter& p, Span span) const {
     refuse(span, Code::E0307, fmt::format("{} is a choice and has no uncertainty", p.name), "leave \"u\" out");
@@ -53,7 +57,8 @@ class Refusal {
  private:
   [[noreturn]] void refuse(Span span, Code code, const std::string& what, const std::string& help) const {
     const std::string message = fmt::format("effect '{}' of {}: {}", setting_.name, whose_, what);
-    throw UserError(setting_.file ? diagnostic_at(*setting_.file, span, code, message, help) : diagnostic(code, message, help));
+    throw UserError(setting_.file ? diagnostic_at(*setting_.file, span, code, message, help)
+                                  : diagnostic(code, message, help));
   }
 
   const EffectSetting& setting_;
@@ -74,7 +79,8 @@ double checked_value(const EffectParameter& p, const EffectSetting::Value& given
     if (found == p.choices.end()) refusal.impossible(p, given.word, given.span);
     value = p.low + static_cast<double>(found - p.choices.begin());
   }
-  if (value < p.low || value > p.high || (p.is_code() && value != std::floor(value))) refusal.impossible(p, fmt::format("{:g}", value), given.span);
+  if (value < p.low || value > p.high || (p.is_code() && value != std::floor(value)))
+    refusal.impossible(p, fmt::format("{:g}", value), given.span);
   if (p.is_code() && given.u != 0) refusal.uncertain_choice(p, given.span);
   return value;
 }
@@ -83,13 +89,14 @@ double checked_value(const EffectParameter& p, const EffectSetting::Value& given
 bool shows(double along_normal_mm) { return std::fabs(along_normal_mm) >= 1e-9; }
 
 /// `count` standard normal numbers for every machine: [draw][machine].
-std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vector<std::uint32_t>& machine, std::uint32_t stream,
-                                   std::uint32_t site, const std::vector<std::uint32_t>& visit) {
+std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vector<std::uint32_t>& machine,
+                                   std::uint32_t stream, std::uint32_t site, const std::vector<std::uint32_t>& visit) {
   const std::size_t n = machine.size();
   std::vector<double> z((count + 1) / 2 * 2 * n);
   for (int pair = 0; 2 * pair < count; ++pair) {
     double* first = z.data() + 2 * pair * n;
-    normal_pairs(static_cast<int>(n), seed, machine.data(), stream, site, visit.data(), static_cast<std::uint32_t>(pair), first, first + n);
+    normal_pairs(static_cast<int>(n), seed, machine.data(), stream, site, visit.data(),
+                 static_cast<std::uint32_t>(pair), first, first + n);
   }
   return z;
 }
@@ -147,13 +154,14 @@ std::vector<EffectSet::Component> EffectSet::components_of(const Active& a) {
     components.push_back({zero, static_cast<int>(p)});
     components.back().theta[p] = 1;
   }
-  // Where all certain sizes are zero, they do nothing. (An effect may have no linear parameter: then nothing is uncertain either.)
+  // Where all certain sizes are zero, they do nothing. (An effect may have no linear parameter: then nothing
+  // is uncertain either.)
   if (!a.corrected && (components.empty() || certain != zero)) components.push_back({certain, -1});
   return components;
 }
 
-std::vector<double> EffectSet::weights(const Active& a, const std::vector<double>& theta, const std::vector<double>& machine_draws,
-                                       int lanes) {
+std::vector<double> EffectSet::weights(const Active& a, const std::vector<double>& theta,
+                                       const std::vector<double>& machine_draws, int lanes) {
   std::vector<double> weights;
   for (const Component& component : a.components) {
     std::vector<double> column(lanes, 1.0);
@@ -207,13 +215,15 @@ EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<
     for (std::uint32_t p = 0; p < a.value.size(); ++p) {
       const EffectParameter& parameter = a.effect->parameters[p];
       for (const std::uint32_t m : machines) {
-        const double drawn = a.value[p] + a.u[p] * normal_quantile(uniform_pair({seed, m, a.stream, kParameterSite | p, 0, 0}).a);
+        const double drawn =
+            a.value[p] + a.u[p] * normal_quantile(uniform_pair({seed, m, a.stream, kParameterSite | p, 0, 0}).a);
         // A period or a time constant outside its plausible range has no meaning; a size has.
         theta.push_back(parameter.linear ? drawn : std::clamp(drawn, parameter.low, parameter.high));
       }
     }
     if (a.effect->draws_per == DrawsPer::machine)
-      draws = normal_numbers(a.effect->draws, seed, machines, a.stream, kMachineSite, std::vector<std::uint32_t>(machines.size()));
+      draws = normal_numbers(a.effect->draws, seed, machines, a.stream, kMachineSite,
+                             std::vector<std::uint32_t>(machines.size()));
     lanes.weights.push_back(weights(a, theta, draws, lanes.lanes));
     lanes.theta.push_back(std::move(theta));
     lanes.machine_draws.push_back(std::move(draws));
@@ -223,7 +233,8 @@ EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<
 
 /// The machines of a group, in its order, and what the effects add to them.
 struct EffectSet::Sum {
-  Sum(const Group& g, const TouchBatch& batch, int lane_count) : group(g), n(static_cast<int>(g.slots.size())), lanes(lane_count) {
+  Sum(const Group& g, const TouchBatch& batch, int lane_count)
+      : group(g), n(static_cast<int>(g.slots.size())), lanes(lane_count) {
     for (const int slot : g.slots) {
       lane.push_back(batch.lane[slot]);
       machine.push_back(batch.machine[slot]);
@@ -254,34 +265,38 @@ void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std:
                     TouchBatch& batch, Acted& acted) const {
   if (group.slots.empty()) return;
   std::vector<int> anywhere, by_reading;
-  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e) (needs_raw_reading(*active_[e].effect) ? by_reading : anywhere).push_back(e);
+  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e)
+    (needs_raw_reading(*active_[e].effect) ? by_reading : anywhere).push_back(e);
   if (!anywhere.empty()) add_alike(anywhere, group, lanes, seed, site, batch, acted);
   if (by_reading.empty()) return;
   find_contact(batch);
   add_alike(by_reading, group, lanes, seed, site, batch, acted);
 }
 
-void EffectSet::add_alike(const std::vector<int>& which, const Group& group, const LaneParameters& lanes, std::uint64_t seed,
-                          std::uint32_t site, TouchBatch& batch, Acted& acted) const {
+void EffectSet::add_alike(const std::vector<int>& which, const Group& group, const LaneParameters& lanes,
+                          std::uint64_t seed, std::uint32_t site, TouchBatch& batch, Acted& acted) const {
   Sum sum(group, batch, lanes.lanes);
   for (const int e : which) {
     const Active& a = active_[e];
     std::vector<double> draws;
-    if (a.effect->draws_per == DrawsPer::touch) draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
+    if (a.effect->draws_per == DrawsPer::touch)
+      draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
     if (a.effect->draws_per == DrawsPer::visit)
       draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
     const bool own_scenes = needs_raw_reading(*a.effect) || (sees_temperatures(a) && !group.temperatures.empty());
     if (a.linear && !own_scenes)
       add_linear(a, lanes.weights[e], draws, sum, acted[e]);
     else
-      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, batch, sum, acted[e]);
+      add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, batch,
+                  sum, acted[e]);
   }
   auto& [x, y, z] = sum.error.column;
   add_weighted(sum.n, sum.terms, x.data(), y.data(), z.data());
   for (int i = 0; i < sum.n; ++i) batch.error.set(group.slots[i], batch.error.get(group.slots[i]) + sum.error.get(i));
 }
 
-void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, const std::vector<double>& draws, Sum& sum, char& acted) {
+void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, const std::vector<double>& draws,
+                           Sum& sum, char& acted) {
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
   const int terms = std::max(1, a.effect->draws);
   ABBE_CHECK(terms <= kMostNumbers);
@@ -305,15 +320,17 @@ void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, 
   }
 }
 
-void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch& batch,
-                            Sum& sum, char& acted) {
+void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws,
+                            const TouchBatch& batch, Sum& sum, char& acted) {
   const std::size_t parameters = a.value.size(), numbers = a.effect->draws;
   ABBE_CHECK(parameters <= kMostNumbers && numbers <= kMostNumbers);
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
   double values[kMostNumbers], z[kMostNumbers] = {};
   const double none[kMostNumbers] = {};
   TouchScene scene = *sum.group.scene, estimated = scene;
-  const auto estimate_there = [&] { return a.corrected ? a.effect->displace(estimated, a.value.data(), none) : Vec3{}; };
+  const auto estimate_there = [&] {
+    return a.corrected ? a.effect->displace(estimated, a.value.data(), none) : Vec3{};
+  };
   Vec3 estimate = estimate_there();
   for (int i = 0; i < sum.n; ++i) {
     if (!sum.group.temperatures.empty()) scene.temperature = sum.group.temperatures[i];
@@ -323,7 +340,8 @@ void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, c
       estimate = estimate_there();
     }
     for (std::size_t p = 0; p < parameters; ++p) values[p] = theta[p * sum.lanes + sum.lane[i]];
-    for (std::size_t j = 0; j < numbers; ++j) z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
+    for (std::size_t j = 0; j < numbers; ++j)
+      z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
     const Vec3 d = a.effect->displace(scene, values, z);
     if (!acted) acted = shows(dot(scene.normal, d - estimate));
     sum.error.set(i, sum.error.get(i) + d - estimate);

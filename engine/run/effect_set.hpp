@@ -1,13 +1,15 @@
-// The effects that act in a run: the settings of the machine file resolved against the registry, their parameters drawn for every
-// virtual machine, and their displacements added to touches.
+// The effects that act in a run: the settings of the machine file resolved against the registry, their
+// parameters drawn for every virtual machine, and their displacements added to touches.
 //
-// Cost: the scene of a touch is the same for all machines on one path. So an effect that is linear in what differs between machines
-// (its uncertain parameters, its draws) is evaluated once per touch for each of these, not once per machine:
+// Cost: the scene of a touch is the same for all machines on one path. So an effect that is linear in what
+// differs between machines (its uncertain parameters, its draws) is evaluated once per touch for each of
+// these, not once per machine:
 //   d = D(certain) + sum over the uncertain parameters p of theta_p D(unit p),   D(.) = sum over the draws j of z_j D(., unit j)
-// leaves a sum of vectors with weights by machine (lanes/weighted_sum.hpp). Other effects are sampled machine by machine, and so are
-// those for which not even the scene is the same for all: those that need the temperature of part or scales where every machine has its own,
-// and those that need the raw reading, which is where the axes of each machine stand after all other errors. What is
-// corrected is what the best estimates of parameters and temperatures together give.
+// leaves a sum of vectors with weights by machine (lanes/weighted_sum.hpp). Other effects are sampled machine
+// by machine, and so are those for which not even the scene is the same for all: those that need the
+// temperature of part or scales where every machine has its own, and those that need the raw reading, which
+// is where the axes of each machine stand after all other errors. What is corrected is what the best
+// estimates of parameters and temperatures together give.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +27,9 @@ namespace abbe {
 class EffectSet {
  public:
   EffectSet() = default;
-  /// Throws UserError, with the place of the setting: unknown effect or parameter (with the nearest known name), value outside its plausible
-  /// range, a choice that is none. `machine` names the machine in messages.
+  /// Throws UserError, with the place of the setting: unknown effect or parameter (with the nearest known
+  /// name), value outside its plausible range, a choice that is none. `machine` names the machine in
+  /// messages.
   EffectSet(const std::vector<EffectSetting>&, EffectUse, const std::string& machine);
 
   bool empty() const { return active_.empty(); }
@@ -35,7 +38,8 @@ class EffectSet {
   /// Does any effect depend on the temperature of part or scales?
   bool sees_temperatures() const;
 
-  /// What differs between the lanes of a block: parameters by effect, then [parameter][lane], and what follows from them.
+  /// What differs between the lanes of a block: parameters by effect, then [parameter][lane], and what
+  /// follows from them.
   struct LaneParameters {
     std::vector<std::vector<double>> theta;
     std::vector<std::vector<double>> machine_draws;  ///< by effect, [draw][lane], for DrawsPer::machine
@@ -55,16 +59,18 @@ class EffectSet {
   /// By effect, 0 or 1: whether it has moved a touch along its normal by more than rounding.
   using Acted = std::vector<char>;
   Acted none_acted() const { return Acted(active_.size()); }
-  /// Adds effect `k` (every effect when k < 0) to the errors of a group, which hold all errors but those of the effects, and notes in
-  /// `acted` which of them moved a touch. `site`: the ordinal of the touch.
-  void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&, Acted& acted) const;
+  /// Adds effect `k` (every effect when k < 0) to the errors of a group, which hold all errors but those of
+  /// the effects, and notes in `acted` which of them moved a touch. `site`: the ordinal of the touch.
+  void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&,
+           Acted& acted) const;
 
-  /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation of each of its unknowns.
+  /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation
+  /// of each of its unknowns.
   Vec3 estimate(const RecordedTouch&) const;
   struct Doubt {
     int effect = 0;
-    int parameter = -1, draw = -1;           ///< an uncertain parameter, or a number drawn at random
-    DrawsPer per = DrawsPer::machine;        ///< how often it is drawn anew
+    int parameter = -1, draw = -1;     ///< an uncertain parameter, or a number drawn at random
+    DrawsPer per = DrawsPer::machine;  ///< how often it is drawn anew
   };
   std::vector<Doubt> doubts() const;
   Vec3 one_sd(const Doubt&, const RecordedTouch&) const;
@@ -73,27 +79,28 @@ class EffectSet {
   /// One term of a linear effect: its displacement at these parameters times a weight by machine.
   struct Component {
     std::vector<double> theta;
-    int parameter = -1;      ///< uncertain, 1 in theta, its value is the weight; -1: the certain ones together, weight 1
+    int parameter = -1;  ///< uncertain, 1 in theta, its value is the weight; -1: the certain ones together, weight 1
   };
   struct Active {
     const Effect* effect = nullptr;
     std::uint32_t stream = 0;
     std::vector<double> value, u;
-    bool linear = false;     ///< in all that differs between machines
-    bool corrected = false;  ///< the estimate is taken out
+    bool linear = false;                ///< in all that differs between machines
+    bool corrected = false;             ///< the estimate is taken out
     std::vector<Component> components;  ///< of a linear effect; none when nothing remains of it
   };
-  struct Sum;                ///< of the effects on one group
+  struct Sum;  ///< of the effects on one group
   static bool is_linear(const Active&);
   static bool sees_temperatures(const Active&);
-  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&,
-                 Acted&) const;
+  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed,
+                 std::uint32_t site, TouchBatch&, Acted&) const;
   static std::vector<Component> components_of(const Active&);
-  static std::vector<double> weights(const Active&, const std::vector<double>& theta, const std::vector<double>& machine_draws,
-                                     int lanes);
-  static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&, char& acted);
-  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws, const TouchBatch&, Sum&,
-                          char& acted);
+  static std::vector<double> weights(const Active&, const std::vector<double>& theta,
+                                     const std::vector<double>& machine_draws, int lanes);
+  static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&,
+                         char& acted);
+  static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws,
+                          const TouchBatch&, Sum&, char& acted);
 
   std::vector<Active> active_;
 };

@@ -16,7 +16,9 @@ Element BlockRun::nominal_of(Lane& lane, plan::FeatureId feature) {
 namespace {
 
 /// The point of a line or axis that is nearest to q.
-Vec3 foot_on_axis(const Element& axis, const Vec3& q) { return axis.point + dot(q - axis.point, axis.direction) * axis.direction; }
+Vec3 foot_on_axis(const Element& axis, const Vec3& q) {
+  return axis.point + dot(q - axis.point, axis.direction) * axis.direction;
+}
 
 /// The touches of both faces; none when it is not known how far one of them reaches.
 std::vector<Vec3> faces_between(const FeatureState& a, const FeatureState& b) {
@@ -46,12 +48,14 @@ void BlockRun::operator()(const plan::Construct& construct) {
         from[k].point = foot_on_axis(from[k], nominal_of(lane, construct.from[k]).point);
     }
     const Element nominal = inverse(twin.X_WD) * state(twin, construct.result).nominal;
-    const Outcome<Element> made = construct.method->construct(shape, shapes, from, nominal, filled(lane, construct.arguments, construct.varying));
+    const Outcome<Element> made =
+        construct.method->construct(shape, shapes, from, nominal, filled(lane, construct.arguments, construct.varying));
     if (!made) return made.failure;
     Element element = made.value;
     if (shape == Shape::line) element.second = nominal.second;  // the normal of its surface
     std::vector<Vec3> faces;
-    if (construct.method->lies_between) faces = faces_between(state(lane, construct.from[0]), state(lane, construct.from[1]));
+    if (construct.method->lies_between)
+      faces = faces_between(state(lane, construct.from[0]), state(lane, construct.from[1]));
     FeatureState& result = state(lane, construct.result);
     result.actual = lane.X_WD * element;
     result.touched.clear();
@@ -82,7 +86,10 @@ void BlockRun::operator()(const plan::SetDatumFrame& set) {
       const plan::DatumRef& datum = set.datums[k];
       const Element* element = actual(i, datum.feature);
       if (!element) return "";
-      uses[k] = {acts_as(executor.plan_[datum.feature].kind->shape), *element, datum.gives_direction, datum.direction,
+      uses[k] = {acts_as(executor.plan_[datum.feature].kind->shape),
+                 *element,
+                 datum.gives_direction,
+                 datum.direction,
                  {datum.origin[0], datum.origin[1], datum.origin[2]}};
     }
     const Outcome<Rigid> made = datum_frame(block.lanes[i].X_WD, uses);
@@ -171,11 +178,11 @@ std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::Characterist
     const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * state(twin, m.feature).nominal;
     const Shape shape = acts_as(plan[m.feature].kind->shape);
     const Arguments arguments = filled(lane, size.arguments, size.varying);
-    const Outcome<double> value =
-        size.kind->evaluate(arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
+    const Outcome<double> value = size.kind->evaluate(arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
     if (!value) return trap(i, value.failure), std::nullopt;
-    limits.upper = limits.upper.value_or(0) + departure_mm(*size.kind, value.value, size.kind->limits(arguments, {&nominal, 1}),
-                                                          plan[m.feature].inner, m.condition);
+    limits.upper = limits.upper.value_or(0) +
+        departure_mm(*size.kind, value.value, size.kind->limits(arguments, {&nominal, 1}), plan[m.feature].inner,
+                     m.condition);
   }
   return limits;
 }
@@ -192,7 +199,8 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
   std::vector<Shape> shapes, datum_shapes;
   for (const auto id : features) shapes.push_back(acts_as(plan[id].kind->shape));
   for (const auto id : datums) datum_shapes.push_back(acts_as(plan[id].kind->shape));
-  std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()), nominal_datums(datums.size());
+  std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()),
+      nominal_datums(datums.size());
 
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
@@ -219,7 +227,8 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
     }
     const Arguments arguments = filled(lane, tolerance.arguments, tolerance.varying);
     const Outcome<double> made = tolerance.kind->evaluate(
-        arguments, {shapes, actuals, nominals, datum_shapes, datum_actuals, nominal_datums, touches, second_touches, faces});
+        arguments,
+        {shapes, actuals, nominals, datum_shapes, datum_actuals, nominal_datums, touches, second_touches, faces});
     if (!made) return made.failure;
     const auto limits = widened(i, def, tolerance.kind->limits(arguments, nominals));
     if (!limits) return "";
@@ -248,7 +257,8 @@ void BlockRun::operator()(const plan::Output& output) {
     record.features.push_back(inverse(lane.X_WD) * *element);
   }
   for (const plan::CharacteristicId id : output.characteristics) {
-    const auto latest = std::find_if(lane.values.rbegin(), lane.values.rend(), [&](const Value& v) { return v.characteristic == id; });
+    const auto latest =
+        std::find_if(lane.values.rbegin(), lane.values.rend(), [&](const Value& v) { return v.characteristic == id; });
     if (latest != lane.values.rend()) record.values.push_back({id, latest->value, latest->limits});
   }
   observed->outputs.push_back(std::move(record));

@@ -9,9 +9,15 @@
 namespace abbe {
 
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
-    : plan_(plan), machine_(machine), options_(options), effects_(machine.effects, options.effect_use, machine.name),
-      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()), aligns_(alignment_features(plan)),
-      keeps_touches_(plan.features.size(), 0), slots_(feature_slots(plan)), visits_(visit_counters(plan)) {
+    : plan_(plan),
+      machine_(machine),
+      options_(options),
+      effects_(machine.effects, options.effect_use, machine.name),
+      part_(options.workpiece ? Part(*options.workpiece, plan) : Part()),
+      aligns_(alignment_features(plan)),
+      keeps_touches_(plan.features.size(), 0),
+      slots_(feature_slots(plan)),
+      visits_(visit_counters(plan)) {
   for (const plan::CharacteristicDef& c : plan.characteristics) {
     const plan::ToleranceDef& tolerance = plan[c.tolerance];
     if (!needs_touches(*tolerance.kind, tolerance.arguments)) continue;
@@ -30,7 +36,8 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   }
   if (options.recorded) find_recorded_points();
   std::uint32_t touches = 0;
-  for (const plan::Operation& op : plan.operations) site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
+  for (const plan::Operation& op : plan.operations)
+    site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
 }
 
 void Executor::find_recorded_points() {
@@ -38,7 +45,8 @@ void Executor::find_recorded_points() {
     for (std::size_t f = 0; f < plan_.features.size(); ++f) {
       if (plan_.features[f].label != row.feature) continue;
       const Vec3 tip = row.position_mm + options_.placement_mm +
-                       (options_.recorded->point == RecordedPoint::surface && row.normal ? recorded_radius(row) * *row.normal : Vec3{});
+          (options_.recorded->point == RecordedPoint::surface && row.normal ? recorded_radius(row) * *row.normal
+                                                                            : Vec3{});
       recorded_.emplace(std::pair{static_cast<int>(f), static_cast<std::size_t>(row.touch - 1)}, tip);
     }
   }
@@ -50,16 +58,17 @@ double Executor::recorded_radius(const RecordingRow& row) const {
   return sensors_.empty() ? 0 : sensors_.front().radius_mm;
 }
 
-std::optional<Vec3> Executor::recorded_surface(plan::FeatureId feature, std::size_t touch, const Vec3& surface, const Vec3& normal,
-                                               double radius_mm) const {
+std::optional<Vec3> Executor::recorded_surface(plan::FeatureId feature, std::size_t touch, const Vec3& surface,
+                                               const Vec3& normal, double radius_mm) const {
   const auto found = recorded_.find({feature.value, touch});
   if (found == recorded_.end()) return std::nullopt;
   return surface + (dot(normal, found->second - surface) - radius_mm) * normal;
 }
 
 std::size_t Executor::lane_bytes() const {
-  return sizeof(Lane) + slots_.count * sizeof(FeatureState) + visits_.count * sizeof(std::uint32_t) + plan_.frames.size() * sizeof(std::optional<Rigid>) +
-         plan_.columns * sizeof(double) + plan_.characteristics.size() * sizeof(Value);
+  return sizeof(Lane) + slots_.count * sizeof(FeatureState) + visits_.count * sizeof(std::uint32_t) +
+      plan_.frames.size() * sizeof(std::optional<Rigid>) + plan_.columns * sizeof(double) +
+      plan_.characteristics.size() * sizeof(Value);
 }
 
 Block Executor::make_block(const VirtualMachines& machines, int first, int count) const {
@@ -75,8 +84,13 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
   const std::vector<std::uint32_t> index(machines.index.begin() + first, machines.index.begin() + first + count);
   const bool part_is_nominal = !part_.given() && !options_.recorded;
   const int nominal = part_is_nominal ? count : count + 1;
-  Block block{std::vector<Lane>(nominal + 1, start), count, acting_geometry(machines, first, count), effects_.draw(options_.seed, index),
-              effects_.none_acted(), {}, 0};
+  Block block{std::vector<Lane>(nominal + 1, start),
+              count,
+              acting_geometry(machines, first, count),
+              effects_.draw(options_.seed, index),
+              effects_.none_acted(),
+              {},
+              0};
   for (int i = 0; i < count; ++i) {
     block.lanes[i].machine_index = index[i];
     if (part_.given()) block.parts.push_back(part_.draw({options_.seed, index[i]}));
@@ -102,7 +116,8 @@ GeometryBlock Executor::acting_geometry(const VirtualMachines& machines, int fir
     const std::size_t size = basis_size(machine_.harmonics), begin = size * static_cast<std::size_t>(*only);
     for (const GeometryCoefficients* all : geometry) {
       alone.emplace_back(all->size(), 0.0);
-      std::copy_n(all->begin() + static_cast<std::ptrdiff_t>(begin), size, alone.back().begin() + static_cast<std::ptrdiff_t>(begin));
+      std::copy_n(all->begin() + static_cast<std::ptrdiff_t>(begin), size,
+                  alone.back().begin() + static_cast<std::ptrdiff_t>(begin));
     }
     for (int i = 0; i < count; ++i) geometry[i] = &alone[i];
   }
@@ -132,7 +147,8 @@ void BlockRun::run() {
   while (gather_lowest(), !active.empty()) {
     for (const int lane : active) {
       ++block.lanes[lane].pc;
-      if (++block.lanes[lane].fuel_used > kFuel) trap(lane, "the program does not end: two million operations were run (endless loop)");
+      if (++block.lanes[lane].fuel_used > kFuel)
+        trap(lane, "the program does not end: two million operations were run (endless loop)");
     }
     std::erase_if(active, [&](int lane) { return !block.lanes[lane].running; });
     std::visit(*this, executor.plan_.operations[operation].action);
@@ -157,9 +173,11 @@ void BlockRun::trap(int index, std::string reason) {
   lane.running = false;
   lane.trap = {operation, std::move(reason)};
   if (!block.is_twin(index)) return;
-  // Without an error-free machine on its path a virtual machine does not know where the part is, without a nominal lane a twin
-  // does not know where it was meant to be. A nominal lane without its twin has no path.
-  const auto depends = [&](int i) { return block.is_twin(i) ? block.lanes[i].nominal == index : block.lanes[i].twin == index; };
+  // Without an error-free machine on its path a virtual machine does not know where the part is, without a
+  // nominal lane a twin does not know where it was meant to be. A nominal lane without its twin has no path.
+  const auto depends = [&](int i) {
+    return block.is_twin(i) ? block.lanes[i].nominal == index : block.lanes[i].twin == index;
+  };
   const std::string why = block.lanes[index].trap.reason;
   for (int i = 0; i < static_cast<int>(block.lanes.size()); ++i)
     if (i != index && depends(i)) trap(i, why);

@@ -1,6 +1,7 @@
-// Runs a plan on one block of lanes. Every lane has its own program counter; the lanes at the lowest one go first, together, so
-// lanes that part at a condition meet again by themselves (re-convergence at thread frontiers, Diamos et al., MICRO 2011).
-// Lanes never see each other, so any order of work gives the same result.
+// Runs a plan on one block of lanes. Every lane has its own program counter; the lanes at the lowest one go
+// first, together, so lanes that part at a condition meet again by themselves (re-convergence at thread
+// frontiers, Diamos et al., MICRO 2011). Lanes never see each other, so any order of work gives the same
+// result.
 #pragma once
 
 #include <map>
@@ -19,7 +20,8 @@ namespace abbe {
 
 /// How many operations a lane may execute before it counts as caught in an endless loop.
 inline constexpr std::uint64_t kFuel = 2'000'000;
-static_assert(kFuel / 2 < kMostVisits, "visits must have addresses of their own: each takes two operations, itself and the jump back");
+static_assert(kFuel / 2 < kMostVisits,
+              "visits must have addresses of their own: each takes two operations, itself and the jump back");
 
 class Executor {
  public:
@@ -34,9 +36,9 @@ class Executor {
 
   /// What a machine did, for those who want more than results.
   struct Stop {
-    Vec3 reading_mm;                   ///< nominal scale readings
+    Vec3 reading_mm;  ///< nominal scale readings
     int operation = 0;
-    bool touch = false;                ///< else the target of a move
+    bool touch = false;  ///< else the target of a move
   };
   /// The fit of an error-free machine at one EndMeasure operation.
   struct KnownFit {
@@ -45,14 +47,14 @@ class Executor {
     Element element;
   };
   struct Observed {
-    std::vector<KnownFit> fits;        ///< of the twins
-    std::vector<OutputRecord> outputs; ///< of lane 0, which is the reference when there are no machines
-    std::vector<Stop> stops;           ///< of the reference: where the program asks the machine to go
-    FrameCount frames;                 ///< of the reference: in which it touches
-    std::vector<RecordingRow> rows;    ///< of lane 0: what it reported; coordinates of the program's machine system
-    std::vector<TouchAim> aims;        ///< by row
+    std::vector<KnownFit> fits;         ///< of the twins
+    std::vector<OutputRecord> outputs;  ///< of lane 0, which is the reference when there are no machines
+    std::vector<Stop> stops;            ///< of the reference: where the program asks the machine to go
+    FrameCount frames;                  ///< of the reference: in which it touches
+    std::vector<RecordingRow> rows;     ///< of lane 0: what it reported; coordinates of the program's machine system
+    std::vector<TouchAim> aims;         ///< by row
     std::set<double> approaches_mm, retracts_mm;  ///< of these touches: what SNSET said
-    std::set<bool> compensations;      ///< of these touches: whether temperatures were compensated
+    std::set<bool> compensations;                 ///< of these touches: whether temperatures were compensated
   };
   /// Makes the fits of the reference known, so that not every block has to make them again. Changes no result.
   void know(std::vector<KnownFit> fits);
@@ -63,8 +65,10 @@ class Executor {
 
  private:
   friend class BlockRun;
-  /// The surface point moved along its normal to where the recording has it; nothing when it has no such touch. `touch`: 0, 1, ...
-  std::optional<Vec3> recorded_surface(plan::FeatureId, std::size_t touch, const Vec3& surface, const Vec3& normal, double radius_mm) const;
+  /// The surface point moved along its normal to where the recording has it; nothing when it has no such
+  /// touch. `touch`: 0, 1, ...
+  std::optional<Vec3> recorded_surface(plan::FeatureId, std::size_t touch, const Vec3& surface, const Vec3& normal,
+                                       double radius_mm) const;
   void find_recorded_points();
   double recorded_radius(const RecordingRow&) const;
   const Element* known_fit(int operation, const std::vector<Vec3>& points) const;
@@ -76,12 +80,12 @@ class Executor {
   const Machine& machine_;
   const RunOptions& options_;
   std::multimap<int, KnownFit> known_fits_;  ///< by operation
-  std::vector<Sensor> sensors_;      ///< by SensorId
+  std::vector<Sensor> sensors_;              ///< by SensorId
   EffectSet effects_;
   Part part_;
   Rigid X_PW_;
   std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< tip centres by feature and touch, W; of options_.recorded
-  std::vector<char> aligns_;         ///< alignment_features
+  std::vector<char> aligns_;                              ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
   plan::FeatureSlots slots_;
   plan::VisitCounters visits_;

@@ -41,13 +41,15 @@ void BlockRun::operator()(const plan::SelectSensor& select) {
     Lane& lane = block.lanes[i];
     lane.sensor = select.sensor;
     if (!sensor.indexed) continue;
-    const bool stays = lane.head_indexed && lane.head_a_rad == sensor.head_a_rad && lane.head_b_rad == sensor.head_b_rad;
+    const bool stays =
+        lane.head_indexed && lane.head_a_rad == sensor.head_a_rad && lane.head_b_rad == sensor.head_b_rad;
     if (stays) continue;
     if (lane.motion) lane.motion->index_head();
     lane.head_indexed = true;
     lane.head_a_rad = sensor.head_a_rad;
     lane.head_b_rad = sensor.head_b_rad;
-    const UniformPair p = uniform_pair({executor.options_.noise_seed(), lane.machine_index, stream, 0, lane.indexings++, 0});
+    const UniformPair p =
+        uniform_pair({executor.options_.noise_seed(), lane.machine_index, stream, 0, lane.indexings++, 0});
     if (block.is_twin(i) || !executor.options_.contributors.head) continue;
     lane.head_error_a_rad = head.sd_a_rad * normal_quantile(p.a);
     lane.head_error_b_rad = head.sd_b_rad * normal_quantile(p.b);
@@ -109,7 +111,8 @@ Outcome<Target> BlockRun::pattern_target(Lane& lane, const plan::Touch& touch) {
   const plan::FeatureDef& def = executor.plan_[touch.feature];
   const FeatureState& feature = state(lane, touch.feature);
   const Rigid& X_WD = feature.defined_in;
-  const Element nominal = feature.own_nominal ? inverse(X_WD) * feature.nominal : executor.plan_[feature.definition].nominal;
+  const Element nominal =
+      feature.own_nominal ? inverse(X_WD) * feature.nominal : executor.plan_[feature.definition].nominal;
   const auto made = pattern_touch(def.kind->shape, nominal, def.inner, touch.pattern_index, touch.pattern_count);
   if (!made) return Outcome<Target>::failed(made.failure);
   return {{X_WD * made.value.point + lane.X_WD.R * value(lane, touch.point), X_WD.R * made.value.normal}};
@@ -145,9 +148,13 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   }
   const bool on_nominal_part = block.is_nominal(index);
   if (executor.options_.recorded && !on_nominal_part) {
-    const auto recorded = executor.recorded_surface(touch.feature, twin.points.size(), surface, unit(true_normal), sensor.radius_mm);
+    const auto recorded =
+        executor.recorded_surface(touch.feature, twin.points.size(), surface, unit(true_normal), sensor.radius_mm);
     if (!recorded)
-      return trap(index, "the recording has no touch " + std::to_string(twin.points.size() + 1) + " of '" + executor.plan_[touch.feature].label + "'"), false;
+      return trap(index,
+                  "the recording has no touch " + std::to_string(twin.points.size() + 1) + " of '" +
+                      executor.plan_[touch.feature].label + "'"),
+             false;
     surface = *recorded;
   }
   const Vec3 commanded = point + sensor.radius_mm * normal;
@@ -158,7 +165,8 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   targets[static_cast<std::size_t>(slot)] = {surface, unit(true_normal)};
   touch_batch.tip.set(slot, sensor.tip_from_mount_mm);
   touch_batch.reading.set(slot, commanded - executor.machine_.home_offset() - sensor.tip_from_mount_mm);
-  touch_batch.error.set(slot, lane.head_error_a_rad * sensor.per_rad_a_mm + lane.head_error_b_rad * sensor.per_rad_b_mm);
+  touch_batch.error.set(slot,
+                        lane.head_error_a_rad * sensor.per_rad_a_mm + lane.head_error_b_rad * sensor.per_rad_b_mm);
   touch_batch.radius[slot] = sensor.radius_mm;
   touch_batch.lane[slot] = index;
   touch_batch.machine[slot] = lane.machine_index;
@@ -174,12 +182,15 @@ void BlockRun::add_errors(int machines) {
   const int all = b.n;
   b.n = machines;  // the twins behind them stay free of errors
   if (act.geometry) {
-    const auto in = [](const Columns3& c) { return std::array<const double*, 3>{c.column[0].data(), c.column[1].data(), c.column[2].data()}; };
+    const auto in = [](const Columns3& c) {
+      return std::array<const double*, 3>{c.column[0].data(), c.column[1].data(), c.column[2].data()};
+    };
     const auto reading = in(b.reading), tip = in(b.tip);
     double* const error[3] = {b.error.column[0].data(), b.error.column[1].data(), b.error.column[2].data()};
     block.geometry.add_error(machines, b.lane.data(), reading.data(), tip.data(), error);
   }
-  if (act.probe) add_probe_noise(b, executor.machine_.probe, executor.options_.noise_seed(), executor.site_[operation], R_WR);
+  if (act.probe)
+    add_probe_noise(b, executor.machine_.probe, executor.options_.noise_seed(), executor.site_[operation], R_WR);
   b.n = all;
 }
 
@@ -226,8 +237,9 @@ Element reversed(Element e, Shape shape) {
   return e;
 }
 
-/// The fit of an error-free machine. Nominals in real programs are often dummies, so the best element is looked for from the points alone;
-/// but few points may suit several elements equally well, and then the nominal settles which one is meant.
+/// The fit of an error-free machine. Nominals in real programs are often dummies, so the best element is
+/// looked for from the points alone; but few points may suit several elements equally well, and then the
+/// nominal settles which one is meant.
 FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const Element& nominal) {
   FitProblem problem{shape, points, std::nullopt};
   if (shape == Shape::circle) problem.normal = nominal.direction;
@@ -240,8 +252,10 @@ FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const E
     nominal_is_meant = !near_nominal.error && (anywhere.error || near_nominal.rms <= anywhere.rms + kSameFit_mm);
   }
   FitSolution& solution = nominal_is_meant ? near_nominal : anywhere;
-  // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its open side by itself.
-  if (shape != Shape::cone && dot(solution.element.direction, nominal.direction) < 0) solution.element = reversed(solution.element, shape);
+  // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its
+  // open side by itself.
+  if (shape != Shape::cone && dot(solution.element.direction, nominal.direction) < 0)
+    solution.element = reversed(solution.element, shape);
   return std::move(solution);
 }
 
@@ -293,7 +307,8 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
       for (int axis = 0; axis < 3; ++axis) points_buffer[(3 * p + axis) * lanes.size() + k] = lane.points[p][axis];
     start[k] = (lane.X_WD * inverse(twin.X_WD)) * state(twin, feature).actual;
   }
-  executor.plan_[feature].kind->fit_lanes({points_buffer.data(), static_cast<int>(points), n, n}, start.data(), result.data(), failure.data());
+  executor.plan_[feature].kind->fit_lanes({points_buffer.data(), static_cast<int>(points), n, n}, start.data(),
+                                          result.data(), failure.data());
   for (int k = 0; k < n; ++k) {
     if (failure[k]) {
       trap(lanes[k], failure[k]);
@@ -323,8 +338,8 @@ void BlockRun::operator()(const plan::EndMeasure& end) {
   for_active([&](int i) -> std::string {
     const int have = static_cast<int>(block.lanes[i].points.size());
     if (have >= kind.minimum_points) return "";
-    return "a " + std::string(kind.word) + " needs at least " + std::to_string(kind.minimum_points) + " touches, this measurement has " +
-           std::to_string(have);
+    return "a " + std::string(kind.word) + " needs at least " + std::to_string(kind.minimum_points) +
+        " touches, this measurement has " + std::to_string(have);
   });
   keep_touches(end.feature);
   fit_twins(end.feature, end.criterion);

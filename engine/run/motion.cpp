@@ -23,7 +23,8 @@ void apply(MotionSettings& s, const plan::SetMotion& set, const Machine& machine
     case measuring_speed: s.measuring_mm_s = of(machine.motion.probing_speed_mm_s); break;
     case positioning_acceleration: s.positioning_mm_s2 = of(machine.motion.acceleration_mm_s2); break;
     case measuring_acceleration: s.measuring_mm_s2 = of(machine.motion.acceleration_mm_s2); break;
-    // These say how the controller searches, keeps clear or rounds corners; they change neither when nor how a touch happens.
+    // These say how the controller searches, keeps clear or rounds corners; they change neither when nor how
+    // a touch happens.
     case search:
     case clearance:
     case depth:

@@ -1,5 +1,6 @@
-// The motion model: when, how fast and in which direction the machine touches. It gives every touch the covariates that effects
-// need and the run its cycle time. Deliberately plain, and documented in docs/physics.md:
+// The motion model: when, how fast and in which direction the machine touches. It gives every touch the
+// covariates that effects need and the run its cycle time. Deliberately plain, and documented in
+// docs/physics.md:
 //
 // - A move is a straight line with a trapezoidal speed profile at the positioning speed and acceleration.
 // - A touch: move to the approach distance above the point; drive towards it at the measuring speed, starting from rest; at
@@ -14,8 +15,8 @@
 
 namespace abbe {
 
-inline constexpr double kIndexing_s = 3.0;       ///< typical of indexable heads (90 degrees, unlock to lock)
-inline constexpr double kTriggerDwell_s = 0.1;   ///< stop, latch the scales, turn round
+inline constexpr double kIndexing_s = 3.0;      ///< typical of indexable heads (90 degrees, unlock to lock)
+inline constexpr double kTriggerDwell_s = 0.1;  ///< stop, latch the scales, turn round
 
 struct MotionSettings {
   double approach_mm = 5, retract_mm = 5;
@@ -29,7 +30,7 @@ void apply(MotionSettings&, const plan::SetMotion&, const Machine&);
 /// What the motion is at the moment of a touch.
 struct TouchMotion {
   double time_s = 0, speed_mm_s = 0, acceleration_mm_s2 = 0, settled_s = 0;
-  Vec3 travel;                          ///< unit vector just before contact
+  Vec3 travel;  ///< unit vector just before contact
   int sense[3] = {1, 1, 1};
   double since_reversal_mm[3] = {0, 0, 0};
 };

@@ -12,19 +12,14 @@ namespace abbe {
 
 namespace {
 
-bool is_round(Shape shape) {
-  return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::cone;
-}
-bool has_diameter(Shape shape) {
-  return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::sphere;
-}
+bool is_round(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::cone; }
+bool has_diameter(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::sphere; }
 
 /// Features that the plan touches, by label in upper case.
 std::vector<std::string_view> touched_labels(const plan::Plan& plan) {
   std::vector<std::string_view> labels;
   for (const plan::Operation& op : plan.operations)
-    if (const auto* touch = std::get_if<plan::Touch>(&op.action))
-      labels.push_back(plan[touch->feature].label);
+    if (const auto* touch = std::get_if<plan::Touch>(&op.action)) labels.push_back(plan[touch->feature].label);
   std::sort(labels.begin(), labels.end());
   labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
   return labels;
@@ -33,10 +28,9 @@ std::vector<std::string_view> touched_labels(const plan::Plan& plan) {
 Diagnostic no_such_surface(const Workpiece& w, const Surface& surface, const plan::Plan& plan) {
   const std::vector<std::string_view> labels = touched_labels(plan);
   const std::string near = nearest_word(surface.label, labels);
-  return diagnostic_at(w.source, surface.label_span, Code::E0423,
-                       fmt::format("the program measures no feature '{}'", surface.label),
-                       near.empty() ? fmt::format("it measures: {}", fmt::join(labels, ", "))
-                                    : fmt::format("did you mean '{}'?", near));
+  return diagnostic_at(
+      w.source, surface.label_span, Code::E0423, fmt::format("the program measures no feature '{}'", surface.label),
+      near.empty() ? fmt::format("it measures: {}", fmt::join(labels, ", ")) : fmt::format("did you mean '{}'?", near));
 }
 
 /// The offset along the outward normal; that of a bore points to its axis.
@@ -55,8 +49,7 @@ struct CosSin {
 /// Cosine and sine of n phi from those of phi: powers of a complex number, without libm.
 CosSin times(int n, CosSin phi) {
   CosSin out;
-  for (; n > 0; --n)
-    out = {out.cos * phi.cos - out.sin * phi.sin, out.sin * phi.cos + out.cos * phi.sin};
+  for (; n > 0; --n) out = {out.cos * phi.cos - out.sin * phi.sin, out.sin * phi.cos + out.cos * phi.sin};
   return out;
 }
 
@@ -82,8 +75,7 @@ Part::Part(const Workpiece& workpiece, const plan::Plan& plan)
     bool found = false;
     for (int f = 0; f < static_cast<int>(plan.features.size()); ++f) {
       if (!same_label(plan.features[f].label, surface.label)) continue;
-      if (std::find(touched.begin(), touched.end(), plan.features[f].label) == touched.end())
-        continue;
+      if (std::find(touched.begin(), touched.end(), plan.features[f].label) == touched.end()) continue;
       if (!found) resolve(surface, {f}, plan, errors);
       found = true;
       surface_of_[f] = static_cast<int>(surfaces_.size()) - 1;
@@ -97,16 +89,14 @@ void Part::resolve(const Surface& surface, plan::FeatureId feature, const plan::
                    std::vector<Diagnostic>& errors) {
   const plan::FeatureDef& def = plan[feature];
   const auto refuse = [&](std::string_view what, std::string help) {
-    errors.push_back(diagnostic_at(
-        workpiece_->source, surface.label_span, Code::E0424,
-        fmt::format("feature '{}' is a {} and has no {}", def.label, def.kind->word, what),
-        std::move(help)));
+    errors.push_back(diagnostic_at(workpiece_->source, surface.label_span, Code::E0424,
+                                   fmt::format("feature '{}' is a {} and has no {}", def.label, def.kind->word, what),
+                                   std::move(help)));
   };
   if ((surface.diameter_mm || surface.diameter_deviation_mm) && !has_diameter(def.kind->shape))
     refuse("diameter", "give \"offset_um\", how far its surface lies out of the material");
   if (!surface.form.empty() && !is_round(def.kind->shape))
-    refuse("undulations",
-           "\"form\" is for circles, cylinders and cones; \"random_form_um\" is for every surface");
+    refuse("undulations", "\"form\" is for circles, cylinders and cones; \"random_form_um\" is for every surface");
   surfaces_.back().offset_mm = offset_of(surface, def);
 }
 
@@ -140,8 +130,7 @@ Part::Draw Part::draw(DrawFor who) const {
       double amplitude = deviation(h.amplitude_mm, harmonic + ".amplitude", who);
       if (!h.phase_half_turns) amplitude += h.amplitude_mm.value;
       const SinCos phase =
-          sin_cos_pi(h.phase_half_turns ? *h.phase_half_turns
-                                        : 2 * uniform_pair_for(harmonic + ".phase", who).a);
+          sin_cos_pi(h.phase_half_turns ? *h.phase_half_turns : 2 * uniform_pair_for(harmonic + ".phase", who).a);
       s.form.push_back({h.undulations, amplitude * phase.cos, -amplitude * phase.sin});
     }
     d.surfaces.push_back(std::move(s));
@@ -149,8 +138,8 @@ Part::Draw Part::draw(DrawFor who) const {
   return d;
 }
 
-Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed,
-                 const Temperatures& estimate, bool compensated, std::uint32_t site) const {
+Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed, const Temperatures& estimate,
+                 bool compensated, std::uint32_t site) const {
   constexpr std::uint32_t kRandomForm = stream_of("workpiece.random_form");
   const Vec3 strained = strain(*workpiece_, draw.thermal, estimate, compensated);
   Vec3 d{strained.x * from_fixed.x, strained.y * from_fixed.y, strained.z * from_fixed.z};
@@ -167,8 +156,7 @@ Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed
   // address.
   if (s.random_sd_mm != 0)
     proud +=
-        s.random_sd_mm *
-        normal_quantile(uniform_pair({draw.who.seed, draw.who.machine, kRandomForm, site, 0, 0}).a);
+        s.random_sd_mm * normal_quantile(uniform_pair({draw.who.seed, draw.who.machine, kRandomForm, site, 0, 0}).a);
   return d + proud * at.normal;
 }
 

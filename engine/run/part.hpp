@@ -56,8 +56,8 @@ class Part {
 
   /// d of a touch on a virtual machine, mm in W. `from_fixed`: the true surface point seen from the
   /// first one touched; `site`: ordinal of the touch in the plan.
-  Vec3 error(const Draw&, const PlaceOnPart&, const Vec3& from_fixed, const Temperatures& estimate,
-             bool compensated, std::uint32_t site) const;
+  Vec3 error(const Draw&, const PlaceOnPart&, const Vec3& from_fixed, const Temperatures& estimate, bool compensated,
+             std::uint32_t site) const;
 
  private:
   struct Resolved {

@@ -20,8 +20,9 @@ Vec3 middle_of(const std::vector<Vec3>& points) {
   return sum;
 }
 
-/// The point c that lies at one distance behind all touches of a feature: surface = c + rho normal, by least squares. Nothing for a feature
-/// that is touched from too few sides (a face, a line), which has no such point.
+/// The point c that lies at one distance behind all touches of a feature: surface = c + rho normal, by least
+/// squares. Nothing for a feature that is touched from too few sides (a face, a line), which has no such
+/// point.
 std::optional<Vec3> centre_of(const std::vector<const AimedTouch*>& touches) {
   std::vector<Vec3> normals, surfaces;
   for (const AimedTouch* t : touches) normals.push_back(t->normal), surfaces.push_back(t->surface);
@@ -31,7 +32,7 @@ std::optional<Vec3> centre_of(const std::vector<const AimedTouch*>& touches) {
     spread += dot(normals[i] - n, normals[i] - n);
     product += dot(normals[i] - n, surfaces[i] - s);
   }
-  constexpr double kFlat = 0.05;   // mean square spread of the normals
+  constexpr double kFlat = 0.05;  // mean square spread of the normals
   if (touches.size() < 3 || spread < kFlat * double(touches.size())) return std::nullopt;
   const double rho = product / spread;
   const Vec3 c = s - rho * n;

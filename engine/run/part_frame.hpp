@@ -1,12 +1,13 @@
 // The part's own coordinates, in which what the part does is given: where it grows, bows, or is out of form.
 //
-// In a program, the coordinate system in which most touches are made, of equally many the first. One for all touches: the part does not move
-// when the program changes its coordinate system.
+// In a program, the coordinate system in which most touches are made, of equally many the first. One for all
+// touches: the part does not move when the program changes its coordinate system.
 //
-// In a recording, which has no such systems, those of the machine in the first setup, with the centre of its targets as origin. Other
-// setups are brought onto them by what they share with it, with the best rigid transform (rigid_fit): the touches of the same feature and
-// index where these are the same points of the part, else the centres of the features that are touched from enough sides to have one
-// (balls, mostly). A setup that shares too little keeps the orientation of the machine's axes.
+// In a recording, which has no such systems, those of the machine in the first setup, with the centre of its
+// targets as origin. Other setups are brought onto them by what they share with it, with the best rigid
+// transform (rigid_fit): the touches of the same feature and index where these are the same points of the
+// part, else the centres of the features that are touched from enough sides to have one (balls, mostly). A
+// setup that shares too little keeps the orientation of the machine's axes.
 #pragma once
 
 #include <array>
@@ -31,14 +32,15 @@ class FrameCount {
     Rigid X_WD;
     int touches = 0, order = 0;
   };
-  std::map<std::array<long, 12>, Used> used_;   ///< by its numbers, rounded to 1 um and 1 urad: a system that is made again is the same
+  /// by its numbers, rounded to 1 um and 1 urad: a system that is made again is the same
+  std::map<std::array<long, 12>, Used> used_;
 };
 
 /// Where a touch was aimed, in the machine's coordinates.
 struct AimedTouch {
   int setup = 1;
   std::string feature;
-  int index = 1;              ///< of the touch in its feature
+  int index = 1;  ///< of the touch in its feature
   Vec3 surface, normal;
 };
 

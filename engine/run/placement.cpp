@@ -29,9 +29,10 @@ Placement find_placement(const plan::Plan& plan, const Machine& machine, const S
   placement.shift_mm.z = shift;
   placement.message = diagnostic(
       Code::W0303,
-      fmt::format("the touches need z readings from {:.0f} to {:.0f} mm, machine '{}' has {:.0f} to {:.0f}: the program's machine "
-                  "coordinates were shifted by {:+.0f} mm in z, to the middle of the travel",
-                  low, high, machine.name, first, last, shift),
+      fmt::format(
+          "the touches need z readings from {:.0f} to {:.0f} mm, machine '{}' has {:.0f} to {:.0f}: the program's machine "
+          "coordinates were shifted by {:+.0f} mm in z, to the middle of the travel",
+          low, high, machine.name, first, last, shift),
       fmt::format("say where the part stands with a line such as `$$! place 0 0 {:.0f}` (mm)", shift));
   return placement;
 }

@@ -1,9 +1,10 @@
 // Where the program's machine coordinate system lies in the machine.
 //
-// A program written on another machine has the coordinates of that machine: where its home is and which tip set the zero differ, above
-// all in height, because the table's height in machine coordinates depends on the length of the tip that was zeroed. So when a program
-// reaches outside the travel in z only, and would fit if shifted in z by no more than the travel, Abbe shifts it so that its touches
-// stand in the middle of the z travel and says so. In x and y nothing is guessed: there a touch outside the travel is an error.
+// A program written on another machine has the coordinates of that machine: where its home is and which tip
+// set the zero differ, above all in height, because the table's height in machine coordinates depends on the
+// length of the tip that was zeroed. So when a program reaches outside the travel in z only, and would fit if
+// shifted in z by no more than the travel, Abbe shifts it so that its touches stand in the middle of the z
+// travel and says so. In x and y nothing is guessed: there a touch outside the travel is an error.
 #pragma once
 
 #include <optional>
@@ -14,10 +15,11 @@ namespace abbe {
 
 struct Placement {
   Vec3 shift_mm;
-  std::optional<Diagnostic> message;   ///< the warning that names the shift
+  std::optional<Diagnostic> message;  ///< the warning that names the shift
 };
 
-/// The placement for a program that gives none itself. Throws UserError as run_plan does when the error-free machine cannot finish.
+/// The placement for a program that gives none itself. Throws UserError as run_plan does when the error-free
+/// machine cannot finish.
 Placement find_placement(const plan::Plan&, const Machine&, const SourceFile&);
 
 }  // namespace abbe

@@ -52,8 +52,10 @@ bool targets_are_true(const Workpiece& w, const Recording& recording, const std:
   for (const auto& [key, value] : recording.metadata) {
     if (key != "workpiece") continue;
     if (value == w.name) return true;
-    throw UserError(diagnostic(Code::E0548, fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, value, w.name),
-                               "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
+    throw UserError(diagnostic(
+        Code::E0548,
+        fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, value, w.name),
+        "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
   }
   return false;
 }
@@ -66,7 +68,8 @@ class PartReader {
   PartReader(const Workpiece& w, const RecordedTouches& t, bool shifts) : w_(w), t_(t), shifts_(shifts) {
     out_.expected_mm.assign(t.touches.size(), 0.0);
     out_.calibrated.assign(t.features.size(), 0);
-    for (std::size_t i = 0; i < t.touches.size(); ++i) touches_of_[t.touches[i].scene.feature].push_back(static_cast<int>(i));
+    for (std::size_t i = 0; i < t.touches.size(); ++i)
+      touches_of_[t.touches[i].scene.feature].push_back(static_cast<int>(i));
   }
 
   RecordedPart read() {
@@ -78,7 +81,8 @@ class PartReader {
 
  private:
   void add_surface(const Surface& s) {
-    const auto found = std::find_if(t_.features.begin(), t_.features.end(), [&](const std::string& label) { return same_label(label, s.label); });
+    const auto found = std::find_if(t_.features.begin(), t_.features.end(),
+                                    [&](const std::string& label) { return same_label(label, s.label); });
     if (found == t_.features.end()) return refuse_unknown(s);
     const int feature = static_cast<int>(found - t_.features.begin());
     const std::vector<int>& rows = touches_of_[feature];
@@ -90,16 +94,22 @@ class PartReader {
     if (!offset->exact()) set(add_doubt(), rows, offset->u());
     if (s.random_form_mm.value > 0) add_random_form(rows, s.random_form_mm.value);
     if (!s.form.empty())
-      out_.messages.push_back(diagnostic_at(w_.source, s.label_span, Code::W0549, fmt::format("the form of surface '{}' is not used: a diagnosis takes it as round", s.label),
-                                            "give targets with the form in them, or \"random_form_um\""));
+      out_.messages.push_back(
+          diagnostic_at(w_.source, s.label_span, Code::W0549,
+                        fmt::format("the form of surface '{}' is not used: a diagnosis takes it as round", s.label),
+                        "give targets with the form in them, or \"random_form_um\""));
   }
 
   void refuse_unknown(const Surface& s) {
     const std::vector<std::string_view> labels(t_.features.begin(), t_.features.end());
     const std::string near = nearest_word(s.label, labels);
-    errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0546, fmt::format("the recording has no feature '{}'", s.label),
-                                    near.empty() ? fmt::format("it has: {}", fmt::join(labels.begin(), labels.begin() + std::ptrdiff_t(std::min<std::size_t>(8, labels.size())), ", "))
-                                                 : fmt::format("did you mean '{}'?", near)));
+    errors_.push_back(diagnostic_at(
+        w_.source, s.label_span, Code::E0546, fmt::format("the recording has no feature '{}'", s.label),
+        near.empty()
+            ? fmt::format("it has: {}",
+                          fmt::join(labels.begin(),
+                                    labels.begin() + std::ptrdiff_t(std::min<std::size_t>(8, labels.size())), ", "))
+            : fmt::format("did you mean '{}'?", near)));
   }
 
   /// How far the surface lies beyond its target, along the outward normal.
@@ -107,8 +117,10 @@ class PartReader {
     if (!s.diameter_mm && !s.diameter_deviation_mm) return s.offset_mm;
     const std::optional<double> radius = round_radius(t_, rows);
     if (!radius) {
-      errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0547, fmt::format("the targets of '{}' do not lie on a circle, cylinder or sphere", s.label),
-                                      "a diameter belongs to a round feature with touches on several sides; give \"offset_um\" instead"));
+      errors_.push_back(diagnostic_at(
+          w_.source, s.label_span, Code::E0547,
+          fmt::format("the targets of '{}' do not lie on a circle, cylinder or sphere", s.label),
+          "a diameter belongs to a round feature with touches on several sides; give \"offset_um\" instead"));
       return std::nullopt;
     }
     const double per_diameter = *radius > 0 ? 0.5 : -0.5;
@@ -123,9 +135,13 @@ class PartReader {
     const double given = s.diameter_mm->value;
     const auto unit = foreign_unit(given, drawn_mm);
     constexpr double kAgree = 0.02;
-    const std::string cause = unit ? fmt::format(": it is in {}", unit->name) : std::abs(2 * given / drawn_mm - 1) < kAgree ? ": that is its radius" : "";
-    errors_.push_back(diagnostic_at(w_.source, s.label_span, Code::E0701, fmt::format("'{}' has a diameter of {:.6g} mm by its targets, not {:.6g}{}", s.label, drawn_mm, given, cause),
-                                    "diameter_mm is the calibrated diameter in millimetres"));
+    const std::string cause = unit                    ? fmt::format(": it is in {}", unit->name)
+        : std::abs(2 * given / drawn_mm - 1) < kAgree ? ": that is its radius"
+                                                      : "";
+    errors_.push_back(diagnostic_at(
+        w_.source, s.label_span, Code::E0701,
+        fmt::format("'{}' has a diameter of {:.6g} mm by its targets, not {:.6g}{}", s.label, drawn_mm, given, cause),
+        "diameter_mm is the calibrated diameter in millimetres"));
     return std::nullopt;
   }
 
@@ -140,7 +156,8 @@ class PartReader {
     constexpr double kSamePoint_mm = 1e-3;
     for (const int i : rows) {
       const Vec3& p = t_.touches[i].scene.on_part;
-      points[{std::lround(p.x / kSamePoint_mm), std::lround(p.y / kSamePoint_mm), std::lround(p.z / kSamePoint_mm)}].push_back(i);
+      points[{std::lround(p.x / kSamePoint_mm), std::lround(p.y / kSamePoint_mm), std::lround(p.z / kSamePoint_mm)}]
+          .push_back(i);
     }
     for (const auto& [point, same] : points) set(add_doubt(), same, sd_mm);
   }
@@ -169,7 +186,9 @@ class PartReader {
       std::vector<double>& column = add_doubt();
       for (std::size_t i = 0; i < moved.size(); ++i) column[i] = moved[i] - expected[i];
     };
-    doubt(w_.scale_cte_per_K, [&](ThermalDraw& d, double u) { d.scale_cte_per_K += u, d.part_cte_per_K += w_.part_cte_from_scale ? u : 0; });
+    doubt(w_.scale_cte_per_K, [&](ThermalDraw& d, double u) {
+      d.scale_cte_per_K += u, d.part_cte_per_K += w_.part_cte_from_scale ? u : 0;
+    });
     doubt(w_.part_cte_per_K, [](ThermalDraw& d, double u) { d.part_cte_per_K += u; });
     add_temperatures(doubt);
     doubt(w_.sensor_K, [](ThermalDraw& d, double u) { d.part_sensor_K = u; });
@@ -180,23 +199,29 @@ class PartReader {
   template <class Doubt>
   void add_temperatures(const Doubt& doubt) const {
     const bool linked = w_.part_minus_scale_K.has_value();
-    if (linked) doubt(*w_.part_minus_scale_K, [&](ThermalDraw& d, double u) { w_.part_follows_scale ? d.part_K = u : (d.scale_K.fill(-u), 0.0); });
+    if (linked)
+      doubt(*w_.part_minus_scale_K,
+            [&](ThermalDraw& d, double u) { w_.part_follows_scale ? d.part_K = u : (d.scale_K.fill(-u), 0.0); });
     if (!linked || !w_.part_follows_scale)
-      doubt(w_.part_C, [&](ThermalDraw& d, double u) { d.part_K = u; if (linked) d.scale_K.fill(u); });
+      doubt(w_.part_C, [&](ThermalDraw& d, double u) {
+        d.part_K = u;
+        if (linked) d.scale_K.fill(u);
+      });
     if (linked && !w_.part_follows_scale) return;
     for (int k = 0; k < 3; ++k) {
       const bool met = std::find(w_.scale_name, w_.scale_name + k, w_.scale_name[k]) != w_.scale_name + k;
-      if (!met) doubt(w_.scale_C[k], [&](ThermalDraw& d, double u) {
-        for (int j = 0; j < 3; ++j) d.scale_K[j] = w_.scale_name[j] == w_.scale_name[k] ? u : 0;
-        if (linked) d.part_K = d.scale_K[0];
-      });
+      if (!met)
+        doubt(w_.scale_C[k], [&](ThermalDraw& d, double u) {
+          for (int j = 0; j < 3; ++j) d.scale_K[j] = w_.scale_name[j] == w_.scale_name[k] ? u : 0;
+          if (linked) d.part_K = d.scale_K[0];
+        });
     }
   }
 
   const Workpiece& w_;
   const RecordedTouches& t_;
   bool shifts_;
-  std::map<int, std::vector<int>> touches_of_;   ///< by feature
+  std::map<int, std::vector<int>> touches_of_;  ///< by feature
   RecordedPart out_;
   std::vector<Diagnostic> errors_;
 };
@@ -218,7 +243,8 @@ void fill_from_workpiece(Recording& recording, const Workpiece& w) {
   }
 }
 
-RecordedPart recorded_part(const Workpiece& w, const Recording& recording, const RecordedTouches& t, const std::string& file) {
+RecordedPart recorded_part(const Workpiece& w, const Recording& recording, const RecordedTouches& t,
+                           const std::string& file) {
   return PartReader(w, t, !targets_are_true(w, recording, file)).read();
 }
 

@@ -1,5 +1,6 @@
-// Stylus systems in recordings. A recording names its sensors; what they are stands in the machine file, or, when the program defined
-// them (SNSDEF), in `# sensor NAME: ...` lines of the recording, so that it can be diagnosed without the program.
+// Stylus systems in recordings. A recording names its sensors; what they are stands in the machine file, or,
+// when the program defined them (SNSDEF), in `# sensor NAME: ...` lines of the recording, so that it can be
+// diagnosed without the program.
 #pragma once
 
 #include <string>
@@ -13,11 +14,13 @@
 
 namespace abbe {
 
-/// The metadata line of a sensor: key and value, "head_deg A B tip_in_r_mm x y z diameter_mm d ..." in the words of the machine file.
+/// The metadata line of a sensor: key and value, "head_deg A B tip_in_r_mm x y z diameter_mm d ..." in the
+/// words of the machine file.
 std::pair<std::string, std::string> sensor_line(const Sensor&, const Machine&);
 
-/// Gives a machine the sensors that a recording describes. Of one name the recording's counts, which says what was mounted then; a note says
-/// where the machine file has another. Throws UserError for a line that cannot be read.
+/// Gives a machine the sensors that a recording describes. Of one name the recording's counts, which says
+/// what was mounted then; a note says where the machine file has another. Throws UserError for a line that
+/// cannot be read.
 void add_recorded_sensors(const Recording&, Machine&, const std::string& file, std::vector<Diagnostic>& messages);
 
 }  // namespace abbe

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <numeric>
+#include <set>
 #include <variant>
 
 #include "engine/base/letter_case.hpp"
@@ -54,7 +54,8 @@ const std::vector<CovariateColumns>& covariate_columns() {
 using CovariateValue = std::variant<double, std::string>;
 using CovariateValues = std::vector<CovariateValue>;
 
-/// The angles of the head: those of the row, or where it has none those that are stated of the stylus it names. Empty where neither says.
+/// The angles of the head: those of the row, or where it has none those that are stated of the stylus it
+/// names. Empty where neither says.
 CovariateValues head_angles(const RecordingRow& r, const Sensor& sensor) {
   const bool stated = (r.head_a_deg && r.head_b_deg) || r.sensor;
   return stated ? CovariateValues{sensor.head_a_rad, sensor.head_b_rad} : CovariateValues{};
@@ -69,7 +70,9 @@ CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor)
     return v.size() == list.size() ? v : CovariateValues{};
   };
   const auto of = [](const std::optional<int>& v) { return v ? std::optional<double>(*v) : std::nullopt; };
-  const auto of_vector = [](const std::optional<Vec3>& v) { return v ? CovariateValues{v->x, v->y, v->z} : CovariateValues{}; };
+  const auto of_vector = [](const std::optional<Vec3>& v) {
+    return v ? CovariateValues{v->x, v->y, v->z} : CovariateValues{};
+  };
   switch (c) {
     case Covariate::position: return of_vector(r.target_mm);
     case Covariate::part_frame: return of_vector(r.target_mm);
@@ -86,7 +89,8 @@ CovariateValues values(Covariate c, const RecordingRow& r, const Sensor& sensor)
     case Covariate::gradients: return {};
     case Covariate::raw_reading: return of_vector(r.reading_mm);
     case Covariate::load: return given({r.load_kg});
-    case Covariate::visit: return head_angles(r, sensor).empty() ? CovariateValues{} : CovariateValues{double(r.visit.value_or(0))};
+    case Covariate::visit:
+      return head_angles(r, sensor).empty() ? CovariateValues{} : CovariateValues{double(r.visit.value_or(0))};
     case Covariate::qualification: return given({of(r.qualification)});
     case Covariate::feature: return {r.feature};
   }
@@ -112,9 +116,11 @@ void find_covariates(const Recording& recording, const std::vector<const Sensor*
 std::vector<int> order_of(const Recording& recording) {
   std::vector<int> order(recording.rows.size());
   std::iota(order.begin(), order.end(), 0);
-  const bool timed = std::all_of(recording.rows.begin(), recording.rows.end(), [](const RecordingRow& r) { return r.time_s.has_value(); });
+  const bool timed = std::all_of(recording.rows.begin(), recording.rows.end(),
+                                 [](const RecordingRow& r) { return r.time_s.has_value(); });
   if (timed)
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return *recording.rows[a].time_s < *recording.rows[b].time_s; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return *recording.rows[a].time_s < *recording.rows[b].time_s; });
   return order;
 }
 
@@ -161,9 +167,15 @@ class Sensors {
     for (const auto& [name, sensor] : machine_.sensors) names.push_back(name);
     if (std::any_of(names.begin(), names.end(), [&](std::string_view name) { return same_label(name, label); })) return;
     const std::string near = nearest_word(label, names);
-    throw UserError(diagnostic(Code::E0301, fmt::format("{}:{}: neither the recording nor machine '{}' says what sensor '{}' is", file_, row.line, machine_.name, label),
-                               near.empty() ? fmt::format("add the line '# sensor {}: head_deg A B tip_in_r_mm x y z diameter_mm d', or the sensor to the machine file", label)
-                                            : fmt::format("did you mean '{}'?", near)));
+    throw UserError(diagnostic(
+        Code::E0301,
+        fmt::format("{}:{}: neither the recording nor machine '{}' says what sensor '{}' is", file_, row.line,
+                    machine_.name, label),
+        near.empty()
+            ? fmt::format(
+                  "add the line '# sensor {}: head_deg A B tip_in_r_mm x y z diameter_mm d', or the sensor to the machine file",
+                  label)
+            : fmt::format("did you mean '{}'?", near)));
   }
 
   std::string machine_name(const std::string& label) const {
@@ -172,7 +184,7 @@ class Sensors {
       if (name == label) return name;
       names.push_back(name);
     }
-    const std::string near = nearest_word(label, names);   // the same but for case: resolve_sensor has accepted it
+    const std::string near = nearest_word(label, names);  // the same but for case: resolve_sensor has accepted it
     return near.empty() ? label : near;
   }
 
@@ -191,10 +203,11 @@ class Sensors {
     }
     if (said_) return;
     said_ = true;
-    out.messages.push_back(diagnostic(Code::W0541,
-                                      fmt::format("{}: rows do not name their stylus: '{}' is assumed{}", file_, def.label,
-                                                  def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
-                                      "add the column 'sensor', and the sensor to the machine file"));
+    out.messages.push_back(
+        diagnostic(Code::W0541,
+                   fmt::format("{}: rows do not name their stylus: '{}' is assumed{}", file_, def.label,
+                               def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
+                   "add the column 'sensor', and the sensor to the machine file"));
   }
 
   const Machine& machine_;
@@ -205,28 +218,34 @@ class Sensors {
 };
 
 /// How far the recording must be moved to lie inside the travel: nothing when it does.
-Vec3 placement(const Recording& recording, const Machine& machine, const std::vector<Vec3>& reading, RecordedTouches& out, const std::string& file) {
+Vec3 placement(const Recording& recording, const Machine& machine, const std::vector<Vec3>& reading,
+               RecordedTouches& out, const std::string& file) {
   Vec3 shift;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const int k = static_cast<int>(axis);
     const double end = machine[axis].direction * machine[axis].travel_mm;
-    const auto [low, high] = std::minmax_element(reading.begin(), reading.end(), [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; });
+    const auto [low, high] =
+        std::minmax_element(reading.begin(), reading.end(), [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; });
     if ((*low)[k] >= std::min(0.0, end) && (*high)[k] <= std::max(0.0, end)) continue;
     shift[k] = end / 2 - ((*low)[k] + (*high)[k]) / 2;
   }
   if (shift == Vec3{} || recording.rows.empty()) return shift;
-  out.messages.push_back(diagnostic(Code::W0542,
-                                    fmt::format("{}: the touches lie outside the travel of machine '{}'; they are taken as made in the middle of it, "
-                                                "{:.0f}, {:.0f}, {:.0f} mm from where they stand", file, machine.name, shift.x, shift.y, shift.z),
-                                    "errors of the machine depend on the place: record machine coordinates, or name the right machine"));
+  out.messages.push_back(diagnostic(
+      Code::W0542,
+      fmt::format("{}: the touches lie outside the travel of machine '{}'; they are taken as made in the middle of it, "
+                  "{:.0f}, {:.0f}, {:.0f} mm from where they stand",
+                  file, machine.name, shift.x, shift.y, shift.z),
+      "errors of the machine depend on the place: record machine coordinates, or name the right machine"));
   return shift;
 }
 
 /// How a part stood is not in its own coordinates.
 void doubt_axes(const Recording& recording, RecordedTouches& out, const std::string& file) {
   if (!recording.in_part_frame) return;
-  out.messages.push_back(diagnostic(Code::W0558, fmt::format("{}: in part coordinates; the axes of the part are taken for those of the machine", file),
-                                    "if the part stood turned, errors of machine, head and probe are sought in the wrong directions: record machine coordinates"));
+  out.messages.push_back(diagnostic(
+      Code::W0558,
+      fmt::format("{}: in part coordinates; the axes of the part are taken for those of the machine", file),
+      "if the part stood turned, errors of machine, head and probe are sought in the wrong directions: record machine coordinates"));
 }
 
 int label_index(std::vector<std::string>& labels, const std::string& label) {
@@ -260,7 +279,7 @@ void fill_covariates(const RecordingRow& row, const Machine& machine, int ordina
 void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
   constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
   int sense[3] = {1, 1, 1}, visit = 0;
-  std::map<std::pair<int, int>, int> visits;   // every run counts its own
+  std::map<std::pair<int, int>, int> visits;  // every run counts its own
   double a = 1e9, b = 1e9;
   for (RecordedTouch& t : touches) {
     for (int k = 0; k < 3; ++k) {
@@ -279,7 +298,8 @@ void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& tou
 void require_target(const RecordingRow& row, const std::string& file) {
   if (row.target_mm && row.normal) return;
   throw UserError(diagnostic(Code::E0543,
-                             fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature, row.target_mm ? "normal" : "target"),
+                             fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature,
+                                         row.target_mm ? "normal" : "target"),
                              "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
 }
 
@@ -313,7 +333,8 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   for (const RecordingRow& row : recording.rows) {
     const Sensor& sensor = sensors.of(row, out);
     sensor_of.push_back(&sensor);
-    const Vec3 tip = *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
+    const Vec3 tip =
+        *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
     readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
   }
   find_covariates(recording, sensor_of, out);
@@ -321,11 +342,13 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   const Vec3 shift = placement(recording, machine, readings, out, file);
   const auto surface_of = [&](std::size_t i) {
     const RecordingRow& row = recording.rows[i];
-    return recording.point == RecordedPoint::surface ? *row.target_mm : *row.target_mm - sensor_of[i]->radius_mm * *row.normal;
+    return recording.point == RecordedPoint::surface ? *row.target_mm
+                                                     : *row.target_mm - sensor_of[i]->radius_mm * *row.normal;
   };
   std::vector<AimedTouch> aimed;
   for (std::size_t i = 0; i < recording.rows.size(); ++i)
-    aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i), *recording.rows[i].normal});
+    aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i),
+                     *recording.rows[i].normal});
   const PartFrames part(aimed);
   for (const int i : order_of(recording)) {
     const RecordingRow& row = recording.rows[i];
@@ -373,13 +396,15 @@ void carry(const Rigid& X_MD, RecordingRow& row) {
 
 void complete_from_program(Recording& recording, const MachineRecord& nominal, const std::string& file) {
   std::map<std::pair<std::string, int>, std::size_t> partner;
-  for (std::size_t k = 0; k < nominal.recording.rows.size(); ++k) partner[{nominal.recording.rows[k].feature, nominal.recording.rows[k].touch}] = k;
+  for (std::size_t k = 0; k < nominal.recording.rows.size(); ++k)
+    partner[{nominal.recording.rows[k].feature, nominal.recording.rows[k].touch}] = k;
   for (const auto& line : nominal.recording.metadata) recording.metadata.push_back(line);
   std::vector<std::string> lost;
   for (RecordingRow& row : recording.rows) {
     const auto found = partner.find({row.feature, row.touch});
     if (found == partner.end()) {
-      if (!row.target_mm || !row.normal || recording.in_part_frame) lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
+      if (!row.target_mm || !row.normal || recording.in_part_frame)
+        lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
       continue;
     }
     RecordingRow from = nominal.recording.rows[found->second];
@@ -397,15 +422,19 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
   if (lost.empty()) return;
   const std::size_t all = lost.size();
   lost.resize(std::min<std::size_t>(all, 5));
-  throw UserError(diagnostic(Code::E0544,
-                             fmt::format("{}: {} rows are no touches of the program: {}{}", file, all, fmt::join(lost, ", "), all > lost.size() ? ", ..." : ""),
-                             fmt::format("the program has {} touches; rows are paired by feature and touch, counted from 1", nominal.recording.rows.size())));
+  throw UserError(
+      diagnostic(Code::E0544,
+                 fmt::format("{}: {} rows are no touches of the program: {}{}", file, all, fmt::join(lost, ", "),
+                             all > lost.size() ? ", ..." : ""),
+                 fmt::format("the program has {} touches; rows are paired by feature and touch, counted from 1",
+                             nominal.recording.rows.size())));
 }
 
 std::vector<std::string> columns_of(unsigned covariates) {
   std::vector<std::string> columns;
   for (const CovariateColumns& entry : covariate_columns())
-    if (covariates & static_cast<unsigned>(entry.covariate)) columns.insert(columns.end(), entry.columns.begin(), entry.columns.end());
+    if (covariates & static_cast<unsigned>(entry.covariate))
+      columns.insert(columns.end(), entry.columns.begin(), entry.columns.end());
   return columns;
 }
 

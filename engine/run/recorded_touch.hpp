@@ -1,11 +1,14 @@
-// Recorded touches as the effects and the machine model see them: the scene of every row of a recording, filled from what was logged
-// where a simulated touch is filled by the motion model. From here on simulation and diagnosis share all physics.
+// Recorded touches as the effects and the machine model see them: the scene of every row of a recording,
+// filled from what was logged where a simulated touch is filled by the motion model. From here on simulation
+// and diagnosis share all physics.
 //
-// A row is one scalar observation: residual = n . (recorded - target). Targets may lie anywhere; when they reach outside the travel of the
-// machine the whole recording is put into the middle of its volume, and a message says so, because where a part stood decides its errors.
+// A row is one scalar observation: residual = n . (recorded - target). Targets may lie anywhere; when they
+// reach outside the travel of the machine the whole recording is put into the middle of its volume, and a
+// message says so, because where a part stood decides its errors.
 //
-// Every setup has its own placement of the part. The part's own coordinates, which effects of the part need, are those of the first setup
-// with the centre of its targets as origin; other setups are brought onto them by the touches that they share (best rigid fit).
+// Every setup has its own placement of the part. The part's own coordinates, which effects of the part need,
+// are those of the first setup with the centre of its targets as origin; other setups are brought onto them
+// by the touches that they share (best rigid fit).
 #pragma once
 
 #include <set>
@@ -21,33 +24,36 @@
 namespace abbe {
 
 struct RecordedTouch {
-  TouchScene scene;                   ///< its readings are those at the target: free of the touch's own errors and noise
-  double residual_mm = 0;             ///< n . (recorded - target): positive when the surface seems too far out
-  Vec3 per_rad_a_mm, per_rad_b_mm;    ///< of the tip per radian of the head's angles, W
-  double beyond_target_mm = 0;        ///< along the normal, from there to where the axes stopped; 0 where no reading was logged
-  int row = 0;                        ///< index into the recording
+  TouchScene scene;                 ///< its readings are those at the target: free of the touch's own errors and noise
+  double residual_mm = 0;           ///< n . (recorded - target): positive when the surface seems too far out
+  Vec3 per_rad_a_mm, per_rad_b_mm;  ///< of the tip per radian of the head's angles, W
+  /// along the normal, from there to where the axes stopped; 0 where no reading was logged
+  double beyond_target_mm = 0;
+  int row = 0;  ///< index into the recording
 };
 
 /// The scene as an effect sees it: with the readings where the axes stopped, if it needs raw readings.
 TouchScene scene_for(const Effect&, const RecordedTouch&);
 
 struct RecordedTouches {
-  std::vector<RecordedTouch> touches; ///< in the order of time where it was logged, else of the rows
-  std::vector<std::string> features;  ///< labels by TouchScene::feature
-  std::vector<std::string> styli;     ///< by StylusScene::ordinal - 1: the name of the first sensor with that stylus
-  int tips = 0;                       ///< qualified tips: styli in each of their orientations
-  std::set<std::string> names;        ///< of the sensors; scenes point to them
-  unsigned known = 0;                 ///< Covariates that every row gives
-  unsigned varying = 0;               ///< of these, those that are not the same throughout
+  std::vector<RecordedTouch> touches;  ///< in the order of time where it was logged, else of the rows
+  std::vector<std::string> features;   ///< labels by TouchScene::feature
+  std::vector<std::string> styli;      ///< by StylusScene::ordinal - 1: the name of the first sensor with that stylus
+  int tips = 0;                        ///< qualified tips: styli in each of their orientations
+  std::set<std::string> names;         ///< of the sensors; scenes point to them
+  unsigned known = 0;                  ///< Covariates that every row gives
+  unsigned varying = 0;                ///< of these, those that are not the same throughout
   std::vector<Diagnostic> messages;
 };
 
-/// Fills what rows lack (target, normal, sensor, times, ...) from what an error-free machine makes of their program, pairing rows by feature
-/// and touch. Targets are of the point that the recording states. Part coordinates, those of the program at each touch, become machine
-/// coordinates: the program says where the part stands. Throws UserError when rows have no partner and need one: which, and what the program has.
+/// Fills what rows lack (target, normal, sensor, times, ...) from what an error-free machine makes of their
+/// program, pairing rows by feature and touch. Targets are of the point that the recording states. Part
+/// coordinates, those of the program at each touch, become machine coordinates: the program says where the
+/// part stands. Throws UserError when rows have no partner and need one: which, and what the program has.
 void complete_from_program(Recording&, const MachineRecord& nominal, const std::string& file);
 
-/// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that the machine does not know.
+/// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that
+/// the machine does not know.
 RecordedTouches recorded_touches(const Recording&, const Machine&, const std::string& file);
 
 /// The columns of a recording that hold these covariates, for messages: {"temp_part_C"}.

@@ -16,8 +16,8 @@ namespace {
 
 using Key = std::pair<int, int>;  // characteristic, visit
 
-/// What one block contributes; merged in block order, so that the result does not depend on threads. All blocks are kept until then, so
-/// of every value only what differs from machine to machine.
+/// What one block contributes; merged in block order, so that the result does not depend on threads. All
+/// blocks are kept until then, so of every value only what differs from machine to machine.
 struct BlockResult {
   struct Kept {
     plan::CharacteristicId characteristic;
@@ -31,7 +31,8 @@ struct BlockResult {
     std::optional<LaneTrap> trap;
   };
   std::vector<LaneResult> lanes;
-  std::map<Key, Value> elsewhere;  ///< what the error-free machine does not evaluate, on the twin of the first machine that did
+  /// what the error-free machine does not evaluate, on the twin of the first machine that did
+  std::map<Key, Value> elsewhere;
   std::uint64_t touches = 0;
   EffectSet::Acted acted;
 };
@@ -48,18 +49,21 @@ BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
 }
 
 /// Enters what `lane` evaluated and the error-free machine did not, as the lane's twin saw it.
-void keep_elsewhere(const Block& block, const Lane& lane, const std::set<Key>& referenced, std::map<Key, Value>& elsewhere) {
+void keep_elsewhere(const Block& block, const Lane& lane, const std::set<Key>& referenced,
+                    std::map<Key, Value>& elsewhere) {
   for (const Value& v : lane.values) {
     const Key key{v.characteristic.value, v.visit};
     if (referenced.contains(key) || elsewhere.contains(key)) continue;
     const std::vector<Value>& seen = block.lanes[lane.twin].values;
-    const auto twins = std::find_if(seen.begin(), seen.end(), [&](const Value& t) { return Key{t.characteristic.value, t.visit} == key; });
+    const auto twins = std::find_if(seen.begin(), seen.end(), [&](const Value& t) {
+      return Key{t.characteristic.value, t.visit} == key;
+    });
     elsewhere.emplace(key, twins != seen.end() ? *twins : v);  // a twin that stopped right here has none
   }
 }
 
-BlockResult run_block(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, const std::set<Key>& referenced,
-                      int first, int count) {
+BlockResult run_block(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines,
+                      const std::set<Key>& referenced, int first, int count) {
   Block block = executor.make_block(machines, first, count);
   executor.run(block);
   BlockResult result;
@@ -72,21 +76,24 @@ BlockResult run_block(const Executor& executor, const plan::Plan& plan, const Vi
   return result;
 }
 
-/// Lanes of one block: as many as asked for, but fewer for a long program, so that the memory of a block does not grow with it.
+/// Lanes of one block: as many as asked for, but fewer for a long program, so that the memory of a block does
+/// not grow with it.
 int lanes_of_block(const Executor& executor, const RunOptions& options) {
   constexpr std::size_t kBlockMemory = 64 << 20, kFewest = 8;
-  return std::max(1, std::min(options.block_lanes, static_cast<int>(std::max(kFewest, kBlockMemory / executor.lane_bytes()))));
+  return std::max(
+      1, std::min(options.block_lanes, static_cast<int>(std::max(kFewest, kBlockMemory / executor.lane_bytes()))));
 }
 
 /// Runs all blocks on `threads` threads; the first exception of a block ends the run.
-std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines, const RunOptions& options,
-                                    const std::set<Key>& referenced) {
+std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& plan, const VirtualMachines& machines,
+                                    const RunOptions& options, const std::set<Key>& referenced) {
   const int per_block = lanes_of_block(executor, options);
   const int blocks = (machines.size() + per_block - 1) / per_block;
   std::vector<BlockResult> results(blocks);
   on_threads(blocks, options.threads, [&](int b) {
     const int first = b * per_block;
-    results[static_cast<std::size_t>(b)] = run_block(executor, plan, machines, referenced, first, std::min(per_block, machines.size() - first));
+    results[static_cast<std::size_t>(b)] =
+        run_block(executor, plan, machines, referenced, first, std::min(per_block, machines.size() - first));
   });
   return results;
 }
@@ -97,7 +104,8 @@ std::pair<double, double> range(const MachineAxis& axis) {
 }
 
 /// Every touch of the error-free machine must lie inside the travel.
-void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine,
+                  const SourceFile& source) {
   constexpr std::size_t kShown = 10;
   std::vector<Diagnostic> errors;
   std::size_t outside = 0;
@@ -110,8 +118,9 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
       if (++outside > kShown) break;
       errors.push_back(diagnostic_at(
           source, plan.operations[stop.operation].span, Code::E0302,
-          fmt::format("this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
-                      machine.name, "xyz"[static_cast<int>(axis)], reading, low, high),
+          fmt::format(
+              "this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
+              machine.name, "xyz"[static_cast<int>(axis)], reading, low, high),
           "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine"));
       break;
     }
@@ -135,13 +144,15 @@ std::pair<Lane, Executor::Observed> run_alone(const Executor& executor) {
 bool evaluates(const plan::Operation& operation) { return std::holds_alternative<plan::Evaluate>(operation.action); }
 
 /// Runs the error-free machine alone and refuses what no machine could do.
-ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
+ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Machine& machine,
+                           const SourceFile& source) {
   auto [lane, observed] = run_alone(executor);
   if (!lane.trap.reason.empty()) {
     const plan::Operation& stopped = plan.operations[lane.trap.operation];
-    throw UserError(diagnostic_at(source, stopped.span, Code::E0304, "not even an error-free machine can go on here: " + lane.trap.reason,
-                                  evaluates(stopped) ? "correct the statement; `abbe run --only-valid` leaves this characteristic out"
-                                                     : "correct the statement"));
+    throw UserError(diagnostic_at(
+        source, stopped.span, Code::E0304, "not even an error-free machine can go on here: " + lane.trap.reason,
+        evaluates(stopped) ? "correct the statement; `abbe run --only-valid` leaves this characteristic out"
+                           : "correct the statement"));
   }
   check_travel(observed.stops, plan, machine, source);
   executor.know(std::move(observed.fits));
@@ -189,8 +200,8 @@ void add_acted(const std::vector<char>& of_some, std::vector<char>& of_all) {
   for (std::size_t k = 0; k < of_all.size(); ++k) of_all[k] |= of_some[k];
 }
 
-RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, const RunOptions& options,
-                   const SourceFile& source) {
+RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines,
+                   const RunOptions& options, const SourceFile& source) {
   Executor executor(plan, machine, options, source);
   ReferenceRun reference_ran = reference_run(executor, plan, machine, source);
   const Lane& reference = reference_ran.lane;
@@ -218,7 +229,8 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
         samples.machine.push_back(machine_number);
       }
       if (lane.trap)
-        result.traps.push_back({machine_number, lane.trap->operation, plan.operations[lane.trap->operation].line, lane.trap->reason});
+        result.traps.push_back(
+            {machine_number, lane.trap->operation, plan.operations[lane.trap->operation].line, lane.trap->reason});
       ++machine_number;
     }
   }
@@ -231,15 +243,15 @@ void check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions
   reference_run(executor, plan, machine, source);
 }
 
-std::optional<NoValue> evaluation_without_value(const plan::Plan& plan, const Machine& machine, const RunOptions& options,
-                                                const SourceFile& source) {
+std::optional<NoValue> evaluation_without_value(const plan::Plan& plan, const Machine& machine,
+                                                const RunOptions& options, const SourceFile& source) {
   const LaneTrap trap = run_alone(Executor(plan, machine, options, source)).first.trap;
   if (trap.reason.empty() || !evaluates(plan.operations[trap.operation])) return std::nullopt;
   return NoValue{trap.operation, trap.reason};
 }
 
-MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one, const RunOptions& options,
-                          const SourceFile& source) {
+MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one,
+                          const RunOptions& options, const SourceFile& source) {
   ABBE_CHECK(one.size() == 1);
   Executor executor(plan, machine, options, source);
   reference_run(executor, plan, machine, source);
@@ -248,12 +260,14 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   const LaneTrap& trap = block.lanes[0].trap;
   if (!trap.reason.empty()) {
     throw UserError(diagnostic_at(source, plan.operations[trap.operation].span, Code::E0308,
-                                  "the recorded machine cannot go on here: " + trap.reason, "choose another seed or smaller effects"));
+                                  "the recorded machine cannot go on here: " + trap.reason,
+                                  "choose another seed or smaller effects"));
   }
   MachineRecord record;
   record.recording.rows = std::move(observed.rows);
   record.aims = std::move(observed.aims);
-  for (const plan::SensorDef& def : plan.sensors) record.recording.metadata.push_back(sensor_line(resolve_sensor(def, machine, source), machine));
+  for (const plan::SensorDef& def : plan.sensors)
+    record.recording.metadata.push_back(sensor_line(resolve_sensor(def, machine, source), machine));
   // What columns do not hold, where it was the same throughout.
   const auto tell = [&](const char* key, const auto& values, auto text) {
     if (values.size() == 1) record.recording.metadata.emplace_back(key, text(*values.begin()));
@@ -261,7 +275,8 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   const auto length = [](double mm) { return fmt::format("{:.6g}", mm); };
   tell("approach_mm", observed.approaches_mm, length);
   tell("retract_mm", observed.retracts_mm, length);
-  if (options.workpiece) tell("temperature_compensation", observed.compensations, [](bool on) { return on ? "on" : "off"; });
+  if (options.workpiece)
+    tell("temperature_compensation", observed.compensations, [](bool on) { return on ? "on" : "off"; });
   record.outputs = std::move(observed.outputs);
   record.acted = std::move(block.acted);
   return record;

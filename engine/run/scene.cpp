@@ -69,15 +69,16 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     group.slots.push_back(slot);
     group.indexings.push_back(lane.indexings);
   }
-  const bool own_temperatures = executor.part_.given() && temperatures_vary(executor.part_.workpiece()) && effects.sees_temperatures();
+  const bool own_temperatures =
+      executor.part_.given() && temperatures_vary(executor.part_.workpiece()) && effects.sees_temperatures();
   for (int slot = machines; slot < touch_batch.n; ++slot) {
     const auto group = groups.find(touch_batch.lane[slot]);
     if (group == groups.end()) continue;
     const TouchScene scene = scene_of(touch, slot);
     group->second.scene = &scene;
     if (own_temperatures) set_temperatures(scene.temperature, group->second);
-    effects.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects, executor.options_.noise_seed(),
-                executor.site_[operation], touch_batch, block.acted);
+    effects.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects,
+                executor.options_.noise_seed(), executor.site_[operation], touch_batch, block.acted);
   }
 }
 
@@ -90,7 +91,8 @@ void BlockRun::set_temperatures(const Temperatures& estimate, EffectSet::Group& 
 void BlockRun::put_on_part(const plan::Touch& touch, Lane& twin, int slot) {
   const Mat3& R_WD = twin.X_WD.R;
   const Vec3 normal = touch_batch.surface_normal.get(slot);
-  places[slot] = {touch.feature, touch_batch.surface.get(slot), normal, state(twin, touch.feature).nominal, R_WD.cx, R_WD.cy};
+  places[slot] = {touch.feature, touch_batch.surface.get(slot), normal, state(twin, touch.feature).nominal, R_WD.cx,
+                  R_WD.cy};
   touch_batch.surface.set(slot, places[slot].point + executor.part_.known_offset_mm(places[slot]) * normal);
 }
 
@@ -105,8 +107,9 @@ void BlockRun::add_part(int machines) {
     const Lane& lane = block.lanes[touch_batch.lane[slot]];
     const Lane& twin = twin_of(lane);
     const Temperatures estimate = part.workpiece().temperatures(twin.last_touch.time_s);
-    const Vec3 d = part.error(block.parts[touch_batch.lane[slot]], places[slot], touch_batch.surface.get(slot) - *twin.fixed_point, estimate,
-                              lane.temperature_compensation, executor.site_[operation]);
+    const Vec3 d =
+        part.error(block.parts[touch_batch.lane[slot]], places[slot], touch_batch.surface.get(slot) - *twin.fixed_point,
+                   estimate, lane.temperature_compensation, executor.site_[operation]);
     touch_batch.error.set(slot, touch_batch.error.get(slot) + d);
   }
 }

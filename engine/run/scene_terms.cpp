@@ -1,5 +1,5 @@
-#include "engine/machine/geometry.hpp"
 #include "engine/run/scene_terms.hpp"
+#include "engine/machine/geometry.hpp"
 
 namespace abbe {
 

@@ -9,7 +9,8 @@ namespace abbe {
 
 /// The stylus system as effects see it.
 StylusScene stylus_scene(const Sensor&);
-/// How the machine is built: travel of the axes, what their carriages carry, and their levers, from the readings and the stylus of the scene.
+/// How the machine is built: travel of the axes, what their carriages carry, and their levers, from the
+/// readings and the stylus of the scene.
 void set_structure(const Machine&, TouchScene&);
 
 }  // namespace abbe

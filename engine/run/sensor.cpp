@@ -41,8 +41,9 @@ int stylus_ordinal(const Sensor& sensor, const std::vector<Sensor>& before) {
   constexpr double kSame_mm = 1e-6;
   int next = 1;
   for (const Sensor& other : before) {
-    const bool same = norm(other.tip_in_r_mm - sensor.tip_in_r_mm) < kSame_mm && std::abs(other.radius_mm - sensor.radius_mm) < kSame_mm &&
-                      std::abs(other.shaft_diameter_mm - sensor.shaft_diameter_mm) < kSame_mm && other.indexed == sensor.indexed;
+    const bool same = norm(other.tip_in_r_mm - sensor.tip_in_r_mm) < kSame_mm &&
+        std::abs(other.radius_mm - sensor.radius_mm) < kSame_mm &&
+        std::abs(other.shaft_diameter_mm - sensor.shaft_diameter_mm) < kSame_mm && other.indexed == sensor.indexed;
     if (same) return other.ordinal;
     next = std::max(next, other.ordinal + 1);
   }
@@ -56,7 +57,8 @@ Sensor resolve_sensor(const plan::SensorDef& definition, const Machine& machine,
   const Mat3 R_mounting = rotation({0, 0, 1}, turn);
   Sensor s;
   s.name = def.label;
-  // SNSDEF says nothing of the stylus: a shaft of tungsten carbide half as thick as the ball is what one would screw in.
+  // SNSDEF says nothing of the stylus: a shaft of tungsten carbide half as thick as the ball is what one
+  // would screw in.
   s.shaft_diameter_mm = named && named->shaft_diameter_mm > 0 ? named->shaft_diameter_mm : def.radius_mm;
   s.young_MPa = named ? 1000 * named->young_GPa : 620e3;
   s.cte_per_K = named ? 1e-6 * named->cte_ppm_per_K : 5e-6;

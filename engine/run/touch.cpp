@@ -39,7 +39,7 @@ void find_contact(TouchBatch& batch) {
   double* travel = batch.travel.data();
   for_lanes(batch.n, [=](int i) {
     const double ahead = m[0][i] * (c[0][i] - d[0][i] - p[0][i]) + m[1][i] * (c[1][i] - d[1][i] - p[1][i]) +
-                         m[2][i] * (c[2][i] - d[2][i] - p[2][i]);
+        m[2][i] * (c[2][i] - d[2][i] - p[2][i]);
     const double cosine = m[0][i] * n[0][i] + m[1][i] * n[1][i] + m[2][i] * n[2][i];
     travel[i] = (radius[i] - ahead) / cosine;
   });

@@ -19,8 +19,8 @@ int fewest(int n, double probability) {
 
 }  // namespace
 
-Conformity decide(double y, std::span<const double> errors, std::optional<double> lower,
-               std::optional<double> upper, double probability) {
+Conformity decide(double y, std::span<const double> errors, std::optional<double> lower, std::optional<double> upper,
+                  double probability) {
   const auto share_inside = [&](double sign) {
     std::vector<double> values(errors.begin(), errors.end());
     for (double& v : values) v = y + sign * v;

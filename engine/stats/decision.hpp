@@ -44,12 +44,11 @@ constexpr std::string_view name(Conformity conformity) {
 }
 
 /// On the value `y`. `errors` must not be empty; a missing limit does not bound.
-Conformity decide(double y, std::span<const double> errors, std::optional<double> lower,
-               std::optional<double> upper, double probability = kProvenProbability);
+Conformity decide(double y, std::span<const double> errors, std::optional<double> lower, std::optional<double> upper,
+                  double probability = kProvenProbability);
 
 /// g, never negative; none when no value conforms.
 std::optional<double> guard_band(std::span<const double> errors, std::optional<double> lower,
-                                 std::optional<double> upper,
-                                 double probability = kProvenProbability);
+                                 std::optional<double> upper, double probability = kProvenProbability);
 
 }  // namespace abbe

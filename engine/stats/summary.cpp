@@ -76,8 +76,7 @@ int shortest_first(const Sorted& y, Ranks symmetric) {
 double quantile_error(const Sorted& y, int rank) {
   const double n = y.n(), p = (rank - 0.5) / n;
   const double rank_error = std::sqrt(n * p * (1 - p));
-  const double low = std::max(1.0, rank - 1.96 * rank_error),
-               high = std::min(n, rank + 1.96 * rank_error);
+  const double low = std::max(1.0, rank - 1.96 * rank_error), high = std::min(n, rank + 1.96 * rank_error);
   return rank_error * (y.at(high) - y.at(low)) / (high - low);
 }
 
@@ -100,8 +99,7 @@ Summary summarize(std::span<const double> sample, double coverage) {
   s.symmetric = {y(low), y(high)};
   s.shortest = {y(shortest), y(shortest + ranks.width)};
   s.mean_error = s.u / std::sqrt(n);
-  const double variance_of_variance =
-      std::max(0.0, m.fourth - variance * variance * (n - 3) / (n - 1)) / n;
+  const double variance_of_variance = std::max(0.0, m.fourth - variance * variance * (n - 3) / (n - 1)) / n;
   s.u_error = s.u > 0 ? std::sqrt(variance_of_variance) / (2 * s.u) : 0;
   s.low_error = quantile_error(y, low);
   s.high_error = quantile_error(y, high);
@@ -112,15 +110,13 @@ double conformance_probability(std::span<const double> sample, std::optional<dou
                                std::optional<double> upper) {
   ABBE_CHECK(!sample.empty());
   const auto inside = [&](double v) { return (!lower || v >= *lower) && (!upper || v <= *upper); };
-  return static_cast<double>(std::count_if(sample.begin(), sample.end(), inside)) /
-         static_cast<double>(sample.size());
+  return static_cast<double>(std::count_if(sample.begin(), sample.end(), inside)) / static_cast<double>(sample.size());
 }
 
 double numerical_tolerance(double u, int digits) {
   if (!(u > 0)) return 0;
   int l = static_cast<int>(std::floor(std::log10(u))) - digits + 1;
-  if (std::round(u / std::pow(10.0, l)) >= std::pow(10.0, digits))
-    ++l;  // 0.0996 to two digits is 10 * 10^-2
+  if (std::round(u / std::pow(10.0, l)) >= std::pow(10.0, digits)) ++l;  // 0.0996 to two digits is 10 * 10^-2
   return 0.5 * std::pow(10.0, l);
 }
 

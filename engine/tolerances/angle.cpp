@@ -21,14 +21,11 @@ ToleranceLimits cone_limits(const Arguments& arguments, Elements nominal) {
   return {angle + arguments.number("lower"), angle + arguments.number("upper")};
 }
 
-Outcome<double> cone_angle(const Arguments&, const EvaluationInput& in) {
-  return {2 * in.actual[0].angle};
-}
+Outcome<double> cone_angle(const Arguments&, const EvaluationInput& in) { return {2 * in.actual[0].angle}; }
 
 const char* with_directions(const Arguments&, Shapes s) {
-  return is_spot(acts_as(s[0])) || is_spot(acts_as(s[1]))
-             ? "a point or a sphere has no direction to make an angle with"
-             : nullptr;
+  return is_spot(acts_as(s[0])) || is_spot(acts_as(s[1])) ? "a point or a sphere has no direction to make an angle with"
+                                                          : nullptr;
 }
 
 double expected(const Arguments& arguments) {

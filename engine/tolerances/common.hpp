@@ -10,10 +10,8 @@
 namespace abbe {
 
 // Deviations from a nominal value, or the limits themselves.
-#define ABBE_LENGTH_LIMITS \
-  "( NOMINL,nominal:length,lower:length,upper:length ; LIMIT,lower:length,upper:length )"
-#define ABBE_ANGLE_LIMITS \
-  "( NOMINL,nominal:angle,lower:angle,upper:angle ; LIMIT,lower:angle,upper:angle )"
+#define ABBE_LENGTH_LIMITS "( NOMINL,nominal:length,lower:length,upper:length ; LIMIT,lower:length,upper:length )"
+#define ABBE_ANGLE_LIMITS "( NOMINL,nominal:angle,lower:angle,upper:angle ; LIMIT,lower:angle,upper:angle )"
 // MMC and LMC widen the zone: material.hpp.
 #define ABBE_MATERIAL "[ material:MMC|LMC|RFS ]"
 #define ABBE_DATUM "datum:datum,[ datum_material:MMC|LMC|RFS ]"

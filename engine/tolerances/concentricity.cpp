@@ -16,9 +16,7 @@ namespace {
 const char* centred(const Arguments& arguments, Shapes shapes) {
   if (arguments.features("datum").size() > 3) return "a concentricity has at most three datums";
   const Shape s = acts_as(shapes[0]);
-  return has_axis(s) || has_centre(s)
-             ? nullptr
-             : "concentricity is for features with a centre or an axis";
+  return has_axis(s) || has_centre(s) ? nullptr : "concentricity is for features with a centre or an axis";
 }
 
 double off_centre(Shape shape, const Element& e) {
@@ -26,12 +24,15 @@ double off_centre(Shape shape, const Element& e) {
 }
 
 double off_axis(Shape shape, const Element& e) {
-  const auto across = [&](double t) { return std::hypot(e.point.x + t * e.direction.x, e.point.y + t * e.direction.y); };
+  const auto across = [&](double t) {
+    return std::hypot(e.point.x + t * e.direction.x, e.point.y + t * e.direction.y);
+  };
   return has_axis(shape) ? std::max(across(e.begin), across(e.end)) : across(0);
 }
 
 Outcome<double> concentricity(const Arguments&, const EvaluationInput& in) {
-  const bool plane_only = std::all_of(in.datum_shapes.begin(), in.datum_shapes.end(), [](Shape s) { return s == Shape::plane; });
+  const bool plane_only =
+      std::all_of(in.datum_shapes.begin(), in.datum_shapes.end(), [](Shape s) { return s == Shape::plane; });
   if (plane_only) return no_value("a concentricity needs a datum with an axis or a centre");
   const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
   if (!frame) return no_value(frame.failure);
@@ -44,7 +45,8 @@ Outcome<double> concentricity(const Arguments&, const EvaluationInput& in) {
 extern const ToleranceKind concentricity_tolerance{
     .word = "CONCEN",
     .signature = "zone:length," ABBE_MATERIAL "," ABBE_DATUM ",{ " ABBE_DATUM " }",
-    .help = "concentricity, coaxiality: twice the distance of a centre or of the ends of an axis from the datum axis or centre",
+    .help =
+        "concentricity, coaxiality: twice the distance of a centre or of the ends of an axis from the datum axis or centre",
     .example = "T(CC)=TOL/CONCEN,0.05,RFS,DAT(A)",
     .source = "ISO 22093:2011, TOL/CONCEN; ISO 1101:2017, clause 17",
     .unit = Unit::mm,

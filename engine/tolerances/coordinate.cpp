@@ -20,13 +20,9 @@ ToleranceLimits coordinate_limits(const Arguments& arguments, Elements) {
   return {arguments.number("lower"), arguments.number("upper")};
 }
 
-Unit unit(const Arguments& arguments) {
-  return arguments.text("axis") == "ANGLE" ? Unit::rad : Unit::mm;
-}
+Unit unit(const Arguments& arguments) { return arguments.text("axis") == "ANGLE" ? Unit::rad : Unit::mm; }
 
-Vec3 nominal_point(Shape shape, const Element& nominal) {
-  return shape == Shape::cone ? apex(nominal) : nominal.point;
-}
+Vec3 nominal_point(Shape shape, const Element& nominal) { return shape == Shape::cone ? apex(nominal) : nominal.point; }
 
 Vec3 actual_point(Shape shape, const Element& actual, const Vec3& nominal) {
   const Vec3 beside = nominal - actual.point;
@@ -46,8 +42,7 @@ Outcome<double> coordinate_deviation(const Arguments& arguments, const Evaluatio
   if (axis == "ANGLE") {
     if (std::hypot(a.x, a.y) < kOnAxis_mm || std::hypot(n.x, n.y) < kOnAxis_mm)
       return no_value("a point on the z axis has no polar angle");
-    return {std::atan2(n.x * a.y - n.y * a.x,
-                       n.x * a.x + n.y * a.y)};  // from n to a, within half a turn
+    return {std::atan2(n.x * a.y - n.y * a.x, n.x * a.x + n.y * a.y)};  // from n to a, within half a turn
   }
   const int k = axis[0] - 'X';
   return {a[k] - n[k]};

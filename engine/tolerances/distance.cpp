@@ -71,14 +71,12 @@ Interval plane_reach(const Element& plane, const Vec3& e, std::span<const Touche
 Interval reach(Shape shape, const Element& feature, const Vec3& e, std::span<const TouchedPoint> touches) {
   const double cosine = dot(feature.direction, e);
   switch (shape) {
-    case Shape::sphere:
-      return {-feature.size, feature.size};
+    case Shape::sphere: return {-feature.size, feature.size};
     case Shape::circle: {
       const double r = feature.size * std::sqrt(std::max(0.0, 1 - cosine * cosine));
       return {-r, r};
     }
-    case Shape::plane:
-      return plane_reach(feature, e, touches);
+    case Shape::plane: return plane_reach(feature, e, touches);
     case Shape::line:
     case Shape::cylinder:
     case Shape::cone: {
@@ -92,8 +90,7 @@ Interval reach(Shape shape, const Element& feature, const Vec3& e, std::span<con
       const double r = outline_reach(shape, feature, e);
       return {-r, r};
     }
-    default:
-      break;
+    default: break;
   }
   return {};
 }
@@ -154,8 +151,7 @@ Outcome<Ruler> straight(const Two& two) {
     if ((line[0] || line[1]) && !two.square()) return {from_end_to_end(two.from_to())};
     return {laid_along(two.direction(plane[0] ? 0 : 1), two.from_to())};
   }
-  if (line[0] || line[1])
-    return {from_end_to_end(perpendicular_part(two.from_to(), two.direction(line[0] ? 0 : 1)))};
+  if (line[0] || line[1]) return {from_end_to_end(perpendicular_part(two.from_to(), two.direction(line[0] ? 0 : 1)))};
   return {from_end_to_end(two.from_to())};
 }
 
@@ -175,8 +171,10 @@ bool is_signed(const Arguments& arguments) {
 
 /// From feature `i` to feature `j`.
 Outcome<double> measured(const Arguments& arguments, const EvaluationInput& in, int i, int j) {
-  const Outcome<Ruler> made = ruler(arguments, {{in.shapes[i], in.shapes[j]}, {&in.actual[i], &in.actual[j]},
-                                                {in.nominal[i].direction, in.nominal[j].direction}});
+  const Outcome<Ruler> made = ruler(arguments,
+                                    {{in.shapes[i], in.shapes[j]},
+                                     {&in.actual[i], &in.actual[j]},
+                                     {in.nominal[i].direction, in.nominal[j].direction}});
   if (!made) return no_value(made.failure);
   const Ruler& r = made.value;
   const std::string use = arguments.text("use", "AVG");
@@ -194,8 +192,10 @@ Outcome<double> measured(const Arguments& arguments, const EvaluationInput& in, 
 /// Lines whose nominals have no distance get 0, and nothing is evaluated.
 double nominal_distance(const Arguments& arguments, Shapes shapes, Elements nominal, int i, int j) {
   if (arguments.has("nominal")) return arguments.number("nominal");
-  const double d = ruler(arguments, {{shapes[i], shapes[j]}, {&nominal[i], &nominal[j]},
-                                     {nominal[i].direction, nominal[j].direction}}).value.distance;
+  const double d =
+      ruler(arguments,
+            {{shapes[i], shapes[j]}, {&nominal[i], &nominal[j]}, {nominal[i].direction, nominal[j].direction}})
+          .value.distance;
   return is_signed(arguments) ? d : std::fabs(d);
 }
 
@@ -211,9 +211,7 @@ double nominal_from(const Arguments& arguments, Shapes shapes, Elements nominal)
   return nominal_distance(arguments, shapes, nominal, 1, 0);
 }
 
-Outcome<double> between(const Arguments& arguments, const EvaluationInput& in) {
-  return measured(arguments, in, 0, 1);
-}
+Outcome<double> between(const Arguments& arguments, const EvaluationInput& in) { return measured(arguments, in, 0, 1); }
 
 Outcome<double> from_reference(const Arguments& arguments, const EvaluationInput& in) {
   return measured(arguments, in, 1, 0);
@@ -243,8 +241,7 @@ extern const ToleranceKind distance_between_tolerance{
 
 extern const ToleranceKind distance_from_tolerance{
     .word = "DISTWRT",
-    .signature =
-        ABBE_LENGTH_LIMITS ",reference:feature,axis:XAXIS|YAXIS|ZAXIS|PT2PT,[ use:AVG|MAX|MIN ]",
+    .signature = ABBE_LENGTH_LIMITS ",reference:feature,axis:XAXIS|YAXIS|ZAXIS|PT2PT,[ use:AVG|MAX|MIN ]",
     .help =
         "distance of a feature from a reference feature, as DISTB; signed only where the limits "
         "allow negative values",

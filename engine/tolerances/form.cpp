@@ -19,16 +19,13 @@ const char* line_only(const Arguments&, Shapes s) {
   return s[0] == Shape::line ? nullptr : "straightness is for lines";
 }
 const char* round_only(const Arguments&, Shapes s) {
-  return acts_as(s[0]) == Shape::circle || s[0] == Shape::sphere ? nullptr
-                                                        : "circularity is for circles and spheres";
+  return acts_as(s[0]) == Shape::circle || s[0] == Shape::sphere ? nullptr : "circularity is for circles and spheres";
 }
 const char* cylinder_only(const Arguments&, Shapes s) {
   return s[0] == Shape::cylinder ? nullptr : "cylindricity is for cylinders";
 }
 
-Outcome<double> spread(const Arguments&, const EvaluationInput& in) {
-  return {in.actual[0].high - in.actual[0].low};
-}
+Outcome<double> spread(const Arguments&, const EvaluationInput& in) { return {in.actual[0].high - in.actual[0].low}; }
 
 Outcome<double> straightness_value(const Arguments&, const EvaluationInput& in) { return {straightness(in)}; }
 
@@ -62,7 +59,9 @@ double range_along(const Vec3& w, std::span<const Vec3> points) {
   return high - low;
 }
 
-double range_along(const Vec3& w, std::span<const TouchedPoint> touches) { return range_along(w, actual_points(touches)); }
+double range_along(const Vec3& w, std::span<const TouchedPoint> touches) {
+  return range_along(w, actual_points(touches));
+}
 
 std::vector<Vec3> points_of_plane(const EvaluationInput& in) {
   if (in.faces.empty()) return actual_points(in.touches);

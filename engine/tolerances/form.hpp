@@ -16,9 +16,9 @@ double range_along(const Vec3& w, std::span<const Vec3>);
 /// The same of the touches.
 double range_along(const Vec3& w, std::span<const TouchedPoint>);
 
-/// What of the first feature, a plane, a zone must hold: the touches of a measured face; of a median plane the touches of its
-/// two faces, each at its foot on the plane (the derived median surface lies between them; ISO 17450-1: derived feature).
-/// None of another constructed plane.
+/// What of the first feature, a plane, a zone must hold: the touches of a measured face; of a median plane
+/// the touches of its two faces, each at its foot on the plane (the derived median surface lies between them;
+/// ISO 17450-1: derived feature). None of another constructed plane.
 std::vector<Vec3> points_of_plane(const EvaluationInput&);
 
 /// Why a constructed plane may have no zone.

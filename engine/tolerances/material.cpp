@@ -6,7 +6,8 @@
 
 namespace abbe {
 
-double departure_mm(const ToleranceKind& size, double value, const ToleranceLimits& limits, bool inner, Condition condition) {
+double departure_mm(const ToleranceKind& size, double value, const ToleranceLimits& limits, bool inner,
+                    Condition condition) {
   ABBE_CHECK(size.size_factor > 0 && limits.lower && limits.upper);
   // A hole has most material around it when it is small, a shaft when it is large.
   const bool from_lower = inner == (condition == Condition::maximum_material);

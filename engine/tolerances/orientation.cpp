@@ -31,14 +31,11 @@
 namespace abbe {
 namespace {
 
-bool is_straight(Shape s) {
-  return s == Shape::plane || s == Shape::line || s == Shape::cylinder || s == Shape::cone;
-}
+bool is_straight(Shape s) { return s == Shape::plane || s == Shape::line || s == Shape::cylinder || s == Shape::cone; }
 
 const char* with_extent(const Arguments&, Shapes shapes) {
-  return is_straight(acts_as(shapes[0]))
-             ? nullptr
-             : "an orientation tolerance is for planes, lines, cylinders and cones";
+  return is_straight(acts_as(shapes[0])) ? nullptr
+                                         : "an orientation tolerance is for planes, lines, cylinders and cones";
 }
 
 /// Of the angle that the directions of feature and datum shall make, from 0 to 90 degrees.
@@ -80,25 +77,25 @@ double line_zone(const EvaluationInput& in, const Vec3& datum, Inclination wante
   if (const std::optional<Vec3> normal = section_normal(in.touches, v)) return range_along(*normal, in.touches);
   const Vec3 middle = line.point + 0.5 * (line.begin + line.end) * line.direction;
   double radius = 0;
-  for (const TouchedPoint& touch : in.touches) radius = std::max(radius, norm(perpendicular_part(touch.actual - middle, v)));
+  for (const TouchedPoint& touch : in.touches)
+    radius = std::max(radius, norm(perpendicular_part(touch.actual - middle, v)));
   return 2 * radius;
 }
 
 template <Wanted wanted_for>
 Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in) {
   const Element& feature = in.actual[0];
-  if (is_spot(in.datum_shapes[0]))
-    return no_value("a point or a sphere is no datum for an orientation");
+  if (is_spot(in.datum_shapes[0])) return no_value("a point or a sphere is no datum for an orientation");
   const bool plane = in.shapes[0] == Shape::plane, line = in.shapes[0] == Shape::line;
   const Inclination wanted = wanted_for(arguments, plane == (in.datum_shapes[0] == Shape::plane));
   const Vec3 u = feature.direction, v = in.datums[0].direction;
   if (plane)
-    if (const std::vector<Vec3> points = points_of_plane(in); !points.empty()) return {range_along(zone_normal(u, v, wanted), points)};
+    if (const std::vector<Vec3> points = points_of_plane(in); !points.empty())
+      return {range_along(zone_normal(u, v, wanted), points)};
   if (line && !in.touches.empty()) return {line_zone(in, v, wanted)};
   const double extent = feature.end - feature.begin;
   if (!(extent > 0)) return no_value(kUnknownExtent);
-  const double slope =
-      std::fabs(wanted.cosine * norm(cross(u, v)) - wanted.sine * std::fabs(dot(u, v)));
+  const double slope = std::fabs(wanted.cosine * norm(cross(u, v)) - wanted.sine * std::fabs(dot(u, v)));
   const double form = plane || line ? feature.high - feature.low : 0;
   return {extent * slope + form};
 }
@@ -108,7 +105,8 @@ Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in
 extern const ToleranceKind perpendicularity_tolerance{
     .word = "PERP",
     .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "perpendicularity to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
+    .help =
+        "perpendicularity to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q1)=TOL/PERP,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/PERP; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -123,7 +121,8 @@ extern const ToleranceKind perpendicularity_tolerance{
 extern const ToleranceKind parallelism_tolerance{
     .word = "PARLEL",
     .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "parallelism to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
+    .help =
+        "parallelism to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q2)=TOL/PARLEL,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/PARLEL; ISO 1101:2017, clause 17",
     .unit = Unit::mm,
@@ -137,9 +136,9 @@ extern const ToleranceKind parallelism_tolerance{
 
 extern const ToleranceKind angularity_tolerance{
     .word = "ANGLR",
-    .signature =
-        "angle:angle,zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
-    .help = "angularity: at a given angle to a datum; of a plane or line the zone that holds its touches, of an axis over its measured length",
+    .signature = "angle:angle,zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
+    .help =
+        "angularity: at a given angle to a datum; of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q3)=TOL/ANGLR,30,0.05,DAT(A)",
     .source = "ISO 22093:2011, TOL/ANGLR; ISO 1101:2017, clause 17",
     .unit = Unit::mm,

@@ -29,15 +29,13 @@ bool is_space_zone(const Arguments& arguments) { return !is_flat_zone(arguments)
 
 const char* located(const Arguments& arguments, Shapes shapes) {
   if (arguments.features("datum").size() > 3) return "a position has at most three datums";
-  return acts_as(shapes[0]) == Shape::plane && is_flat_zone(arguments)
-             ? "the position of a plane is written 3D"
-             : nullptr;
+  return acts_as(shapes[0]) == Shape::plane && is_flat_zone(arguments) ? "the position of a plane is written 3D"
+                                                                       : nullptr;
 }
 
 double axis_deviation(const Element& actual, const Element& nominal) {
   auto from_nominal_axis = [&](double t) {
-    return norm(
-        perpendicular_part(actual.point + t * actual.direction - nominal.point, nominal.direction));
+    return norm(perpendicular_part(actual.point + t * actual.direction - nominal.point, nominal.direction));
   };
   return std::max(from_nominal_axis(actual.begin), from_nominal_axis(actual.end));
 }
@@ -83,8 +81,7 @@ Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) 
 
 extern const ToleranceKind true_position_tolerance{
     .word = "POS",
-    .signature =
-        "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
+    .signature = "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
     .help =
         "position: diameter of the zone about the nominal location, in the frame of the datums, of an "
         "axis over its measured length; "

@@ -29,7 +29,8 @@ ToleranceLimits profile_limits(const Arguments& arguments, Elements) {
 }
 
 Outcome<double> profile(const Arguments& arguments, const EvaluationInput& in) {
-  if (in.touches.empty()) return no_value("a profile is evaluated of the touches: the feature must be measured, not constructed");
+  if (in.touches.empty())
+    return no_value("a profile is evaluated of the touches: the feature must be measured, not constructed");
   Rigid own, meant;
   if (!in.datums.empty()) {
     const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);

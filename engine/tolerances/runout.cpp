@@ -38,7 +38,8 @@ struct Reading {
 
 Outcome<std::vector<Reading>> readings(const EvaluationInput& in) {
   using Made = Outcome<std::vector<Reading>>;
-  if (in.touches.empty()) return Made::failed("a run-out is evaluated of the touches: the feature must be measured, not constructed");
+  if (in.touches.empty())
+    return Made::failed("a run-out is evaluated of the touches: the feature must be measured, not constructed");
   const bool axis = std::any_of(in.datum_shapes.begin(), in.datum_shapes.end(),
                                 [](Shape s) { return has_axis(s) || s == Shape::circle; });
   if (!axis) return Made::failed("a run-out needs a datum with an axis");
@@ -57,7 +58,8 @@ Outcome<std::vector<Reading>> readings(const EvaluationInput& in) {
 }
 
 double range(std::span<const Reading> list) {
-  const auto [low, high] = std::minmax_element(list.begin(), list.end(), [](const Reading& a, const Reading& b) { return a.shown < b.shown; });
+  const auto [low, high] = std::minmax_element(list.begin(), list.end(),
+                                               [](const Reading& a, const Reading& b) { return a.shown < b.shown; });
   return high->shown - low->shown;
 }
 

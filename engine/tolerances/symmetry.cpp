@@ -35,8 +35,7 @@ Outcome<double> width_about(const EvaluationInput& in, const Vec3& origin, const
 
 Outcome<double> symmetry(const Arguments&, const EvaluationInput& in) {
   const Element &feature = in.actual[0], &datum = in.datums[0];
-  if (in.datum_shapes[0] == Shape::plane)
-    return width_about(in, datum.point, datum.direction);
+  if (in.datum_shapes[0] == Shape::plane) return width_about(in, datum.point, datum.direction);
   if (!has_axis(in.datum_shapes[0])) return no_value("the datum of a symmetry is a median plane or an axis");
   if (in.shapes[0] != Shape::plane)
     return no_value("about an axis only a median plane is symmetrical: for an axis or a centre use CONCEN");

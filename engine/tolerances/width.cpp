@@ -9,8 +9,7 @@ namespace {
 bool is_pair(Shape s) { return s == Shape::parallel_planes || s == Shape::symmetry_plane; }
 
 const char* two_sided(const Arguments& arguments, Shapes s) {
-  if (is_pair(s[0]))
-    return arguments.text("across") == "LONG" ? "two planes have one width only" : nullptr;
+  if (is_pair(s[0])) return arguments.text("across") == "LONG" ? "two planes have one width only" : nullptr;
   return is_outline(s[0]) ? nullptr : "a width is of parallel planes, slots, rectangles and ellipses";
 }
 
@@ -36,7 +35,8 @@ Outcome<double> actual_width(const Arguments& arguments, const EvaluationInput& 
 extern const ToleranceKind width_tolerance{
     .word = "WIDTH",
     .signature = "lower:length,upper:length,[ across:SHORT|LONG ]",
-    .help = "width of parallel planes, or of a slot, rectangle or ellipse (LONG: its length); deviations from the nominal",
+    .help =
+        "width of parallel planes, or of a slot, rectangle or ellipse (LONG: its length); deviations from the nominal",
     .example = "T(W1)=TOL/WIDTH,-0.05,0.05",
     .source = "ISO 22093:2011, TOL/WIDTH; least-squares size of ISO 14405-1",
     .unit = Unit::mm,

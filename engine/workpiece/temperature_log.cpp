@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::string_view kTime = "time_s";
 
-[[noreturn]] void refuse(const SourceFile& file, const CsvField& at, std::string message,
-                         std::string help) {
+[[noreturn]] void refuse(const SourceFile& file, const CsvField& at, std::string message, std::string help) {
   throw UserError(diagnostic_at(file, at.span, Code::E0425, std::move(message), std::move(help)));
 }
 
@@ -39,8 +38,7 @@ std::vector<std::vector<double>*> columns_of(const std::vector<CsvField>& header
     columns.push_back(column);
   }
   if (columns.size() < 2 || std::find(columns.begin(), columns.end(), &log.time_s) == columns.end())
-    refuse(file, header.front(),
-           "a temperature log needs the column 'time_s' and at least one temperature",
+    refuse(file, header.front(), "a temperature log needs the column 'time_s' and at least one temperature",
            "the first line is for example 'time_s,temp_part_C,temp_air_C'");
   return columns;
 }
@@ -48,8 +46,7 @@ std::vector<std::vector<double>*> columns_of(const std::vector<CsvField>& header
 double number(const SourceFile& file, const CsvField& field) {
   const std::optional<double> value = finite_number(field.text);
   if (!value)
-    refuse(file, field, fmt::format("'{}' is not a number", field.text),
-           "numbers have a decimal point: 20.15");
+    refuse(file, field, fmt::format("'{}' is not a number", field.text), "numbers have a decimal point: 20.15");
   return *value;
 }
 

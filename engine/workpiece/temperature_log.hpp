@@ -15,12 +15,11 @@ namespace abbe {
 
 struct TemperatureLog {
   enum Column { part, x, y, z, air };
-  static constexpr std::array<std::string_view, 5> kNames{"temp_part_C", "temp_x_C", "temp_y_C",
-                                                          "temp_z_C", "temp_air_C"};
+  static constexpr std::array<std::string_view, 5> kNames{"temp_part_C", "temp_x_C", "temp_y_C", "temp_z_C",
+                                                          "temp_air_C"};
 
-  std::vector<double> time_s;  ///< ascending
-  std::array<std::vector<double>, 5>
-      temperature_C;  ///< by Column; empty where the log has no such column
+  std::vector<double> time_s;                        ///< ascending
+  std::array<std::vector<double>, 5> temperature_C;  ///< by Column; empty where the log has no such column
 
   bool has(Column c) const { return !temperature_C[c].empty(); }
   /// Only for columns that the log has.

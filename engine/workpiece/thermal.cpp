@@ -12,8 +12,7 @@ Temperatures Workpiece::temperatures(double time_s) const {
   t.air = logged(TemperatureLog::air, other.air);
   t.part = logged(TemperatureLog::part, part_C.value);
   for (int k = 0; k < 3; ++k)
-    t.scale[k] =
-        logged(static_cast<TemperatureLog::Column>(TemperatureLog::x + k), scale_C[k].value);
+    t.scale[k] = logged(static_cast<TemperatureLog::Column>(TemperatureLog::x + k), scale_C[k].value);
   if (!part_minus_scale_K) return t;
   if (part_follows_scale) {
     t.part = t.scale[0] + part_minus_scale_K->value;
@@ -31,13 +30,11 @@ ThermalDraw draw_thermal(const Workpiece& w, DrawFor who) {
   d.part_K = deviation(w.part_C, "temperature.part_C", who);
   for (int k = 0; k < 3; ++k) {
     d.scale_K[k] = deviation(w.scale_C[k], w.scale_name[k], who);
-    d.scale_sensor_K[k] =
-        deviation(w.sensor_K, std::string("compensation.sensor_K.") + "xyz"[k], who);
+    d.scale_sensor_K[k] = deviation(w.sensor_K, std::string("compensation.sensor_K.") + "xyz"[k], who);
   }
   d.part_sensor_K = deviation(w.sensor_K, "compensation.sensor_K.part", who);
   if (!w.part_minus_scale_K) return d;
-  const double difference_K =
-      deviation(*w.part_minus_scale_K, "temperature.part_minus_scale_K", who);
+  const double difference_K = deviation(*w.part_minus_scale_K, "temperature.part_minus_scale_K", who);
   if (w.part_follows_scale) {
     d.part_K = d.scale_K[0] + difference_K;
   } else {
@@ -49,7 +46,7 @@ ThermalDraw draw_thermal(const Workpiece& w, DrawFor who) {
 bool temperatures_vary(const Workpiece& w) {
   const auto doubtful = [](const Uncertain& quantity) { return !quantity.exact(); };
   return doubtful(w.part_C) || std::any_of(w.scale_C, w.scale_C + 3, doubtful) ||
-         (w.part_minus_scale_K && doubtful(*w.part_minus_scale_K));
+      (w.part_minus_scale_K && doubtful(*w.part_minus_scale_K));
 }
 
 Temperatures drawn_temperatures(const Temperatures& estimate, const ThermalDraw& draw) {
@@ -59,8 +56,7 @@ Temperatures drawn_temperatures(const Temperatures& estimate, const ThermalDraw&
   return t;
 }
 
-Vec3 strain(const Workpiece& w, const ThermalDraw& d, const Temperatures& estimate,
-            bool compensated) {
+Vec3 strain(const Workpiece& w, const ThermalDraw& d, const Temperatures& estimate, bool compensated) {
   const double part_above_K = estimate.part + d.part_K - kReferenceTemperature_C;
   double of_part = d.part_cte_per_K * part_above_K;
   if (compensated) of_part -= w.assumed_part_cte_per_K * (part_above_K + d.part_sensor_K);

@@ -68,11 +68,11 @@ double read_shape(JsonObject& object, const Word& word) {
 double read_scale(JsonObject& object, const Word& word, double shape) {
   const bool width = object.has("half_width");
   if (width == object.has("u")) {
-    object.fault("half_width", Code::E0421,
-                 width ? "\"u\" and \"half_width\" say the same thing twice"
-                       : "neither \"u\" nor \"half_width\" is given",
-                 "give one of them: \"u\" is a standard uncertainty, \"half_width\" half the "
-                 "distance between the limits");
+    object.fault(
+        "half_width", Code::E0421,
+        width ? "\"u\" and \"half_width\" say the same thing twice" : "neither \"u\" nor \"half_width\" is given",
+        "give one of them: \"u\" is a standard uncertainty, \"half_width\" half the "
+        "distance between the limits");
     return 0;
   }
   if (!width) {
@@ -81,10 +81,9 @@ double read_scale(JsonObject& object, const Word& word, double shape) {
   }
   const double half_width = object.number("half_width", kNotNegative);
   if (!has_width(word.distribution))
-    object.fault(
-        "half_width", Code::E0421,
-        fmt::format("the distribution \"{}\" has no limits, so no \"half_width\"", word.word),
-        "give \"u\"; from an expanded uncertainty U it is U / k");
+    object.fault("half_width", Code::E0421,
+                 fmt::format("the distribution \"{}\" has no limits, so no \"half_width\"", word.word),
+                 "give \"u\"; from an expanded uncertainty U it is U / k");
   return half_width;
 }
 
@@ -100,8 +99,7 @@ std::optional<Deviation> read_deviation(JsonObject& object) {
   if (d.distribution == Distribution::curvilinear_trapezoid && d.shape > d.scale)
     object.fault(
         "inexactness", Code::E0421,
-        fmt::format("the inexactness {:g} of the half width is more than the half width {:.6g}",
-                    d.shape, d.scale),
+        fmt::format("the inexactness {:g} of the half width is more than the half width {:.6g}", d.shape, d.scale),
         "JCGM 101, 6.4.3: the limits are known within the inexactness, so they cannot cross");
   return d;
 }
@@ -129,8 +127,7 @@ double deviation(const Uncertain& quantity, std::string_view name, DrawFor who) 
   const std::uint32_t stream = stream_of(address(name));
   double sum = 0;
   for (std::uint32_t k = 0; k < quantity.components.size(); ++k)
-    sum +=
-        deviation(quantity.components[k], uniform_pair({who.seed, who.machine, stream, k, 0, 0}));
+    sum += deviation(quantity.components[k], uniform_pair({who.seed, who.machine, stream, k, 0, 0}));
   return sum;
 }
 
@@ -138,15 +135,12 @@ UniformPair uniform_pair_for(std::string_view name, DrawFor who) {
   return uniform_pair({who.seed, who.machine, stream_of(address(name)), 0, 0, 0});
 }
 
-Uncertain read_uncertain(JsonObject& object, std::string_view key, double otherwise,
-                         const NumberRange& range) {
-  if (object.kind_of(key) != JsonNode::Kind::object)
-    return {object.number_or(key, otherwise, range), {}};
+Uncertain read_uncertain(JsonObject& object, std::string_view key, double otherwise, const NumberRange& range) {
+  if (object.kind_of(key) != JsonNode::Kind::object) return {object.number_or(key, otherwise, range), {}};
   JsonObject written = object.object(key);
   Uncertain out{written.number("value", range), {}};
   const bool listed = written.has("components");
-  const bool alone = written.has("u") || written.has("half_width") || written.has("distribution") ||
-                     written.has("dof");
+  const bool alone = written.has("u") || written.has("half_width") || written.has("distribution") || written.has("dof");
   if (listed && alone)
     written.fault("components", Code::E0421,
                   fmt::format("\"{}\" has \"components\" and an uncertainty of its own", key),
@@ -154,12 +148,10 @@ Uncertain read_uncertain(JsonObject& object, std::string_view key, double otherw
   if (!listed && !alone) {
     for (const char* offered : {"u", "half_width", "dof"})
       written.number_or(offered, 0);  // to be suggested for a near word
-    written.fault("value", Code::E0421,
-                  fmt::format("\"{}\" is an object, but says nothing of an uncertainty", key),
+    written.fault("value", Code::E0421, fmt::format("\"{}\" is an object, but says nothing of an uncertainty", key),
                   "write the number alone, or add \"u\", \"half_width\" or \"components\"");
   }
-  for (JsonObject& component :
-       listed ? written.object_list("components") : std::vector<JsonObject>{})
+  for (JsonObject& component : listed ? written.object_list("components") : std::vector<JsonObject>{})
     if (const auto d = read_deviation(component)) out.components.push_back(*d);
   if (alone)
     if (const auto d = read_deviation(written)) out.components.push_back(*d);

@@ -67,7 +67,7 @@ struct Workpiece {
   bool part_follows_scale = false;
   TemperatureLog log;
   std::string log_file;  ///< that it was read from; empty without one
-  Temperatures other;  ///< air and gradients; part and scales are unused here
+  Temperatures other;    ///< air and gradients; part and scales are unused here
 
   bool compensated = false;  ///< at the start; TECOMP changes it
   double assumed_part_cte_per_K = 0, assumed_scale_cte_per_K = 0;

@@ -26,11 +26,8 @@ void twice(JsonObject& object, std::string_view key, std::string_view other) {
 /// A temperature without a coefficient of expansion would silently do nothing.
 void need_expansion(JsonObject& root) {
   JsonObject material = root.object_or_absent("material");
-  if (!root.has("temperature") || material.has("cte_ppm_per_K") ||
-      material.has("cte_minus_scale_ppm_per_K"))
-    return;
-  root.fault("temperature", Code::E0404,
-             "temperatures need the coefficient of expansion of the part",
+  if (!root.has("temperature") || material.has("cte_ppm_per_K") || material.has("cte_minus_scale_ppm_per_K")) return;
+  root.fault("temperature", Code::E0404, "temperatures need the coefficient of expansion of the part",
              "add \"material\": {\"cte_ppm_per_K\": 11.5}; 0 for a part that does not expand");
 }
 
@@ -38,18 +35,15 @@ void read_material(JsonObject material, JsonObject scales, Workpiece& w) {
   w.scale_cte_per_K = kPpm * read_uncertain(scales, "cte_ppm_per_K", 0, kExpansion);
   w.material = material.text_or("name", "");
   w.part_cte_from_scale = material.has("cte_minus_scale_ppm_per_K");
-  const std::string_view key =
-      w.part_cte_from_scale ? "cte_minus_scale_ppm_per_K" : "cte_ppm_per_K";
-  w.part_cte_per_K =
-      kPpm * read_uncertain(material, key, 0, w.part_cte_from_scale ? kAnyNumber : kExpansion);
+  const std::string_view key = w.part_cte_from_scale ? "cte_minus_scale_ppm_per_K" : "cte_ppm_per_K";
+  w.part_cte_per_K = kPpm * read_uncertain(material, key, 0, w.part_cte_from_scale ? kAnyNumber : kExpansion);
   if (!w.part_cte_from_scale) return;
   if (material.has("cte_ppm_per_K")) {
     read_uncertain(material, "cte_ppm_per_K");
     twice(material, "cte_minus_scale_ppm_per_K", "\"cte_ppm_per_K\"");
   }
   if (!scales.has("cte_ppm_per_K"))
-    material.fault(key, Code::E0404,
-                   "a coefficient relative to the scales needs that of the scales",
+    material.fault(key, Code::E0404, "a coefficient relative to the scales needs that of the scales",
                    "add \"scales\": {\"cte_ppm_per_K\": ...}");
 }
 
@@ -63,8 +57,7 @@ void read_scale_temperatures(JsonObject& t, Workpiece& w) {
     w.scale_name[k] = own ? "temperature." + key : "temperature.scale_C";
     if (own && t.has("scale_C")) twice(t, key, "\"scale_C\"");
     if (w.log.has(column) && (own || t.has("scale_C")))
-      twice(t, own ? key : "scale_C",
-            fmt::format("the column {} of the log", w.log.kNames[column]));
+      twice(t, own ? key : "scale_C", fmt::format("the column {} of the log", w.log.kNames[column]));
   }
 }
 
@@ -75,10 +68,9 @@ void read_difference(JsonObject& t, Workpiece& w) {
   bool single = false;
   for (int k = 0; k < 3; ++k)
     single |= t.has(fmt::format("scale_{}_C", "xyz"[k])) ||
-              w.log.has(static_cast<TemperatureLog::Column>(TemperatureLog::x + k));
+        w.log.has(static_cast<TemperatureLog::Column>(TemperatureLog::x + k));
   w.part_follows_scale = !part;
-  if (single || (part && t.has("scale_C")))
-    twice(t, "part_minus_scale_K", "the temperatures of part and scales");
+  if (single || (part && t.has("scale_C"))) twice(t, "part_minus_scale_K", "the temperatures of part and scales");
 }
 
 void read_log(JsonObject& t, Workpiece& w) {
@@ -93,21 +85,18 @@ void note_what_is_known(const JsonObject& t, Workpiece& w) {
   w.knows.part = difference || t.has("part_C") || w.log.has(TemperatureLog::part);
   w.knows.air = t.has("air_C") || w.log.has(TemperatureLog::air);
   for (int k = 0; k < 3; ++k)
-    w.knows.scale[k] = difference || t.has("scale_C") ||
-                       t.has(fmt::format("scale_{}_C", "xyz"[k])) ||
-                       w.log.has(static_cast<TemperatureLog::Column>(TemperatureLog::x + k));
+    w.knows.scale[k] = difference || t.has("scale_C") || t.has(fmt::format("scale_{}_C", "xyz"[k])) ||
+        w.log.has(static_cast<TemperatureLog::Column>(TemperatureLog::x + k));
 }
 
 void read_temperature(JsonObject t, Workpiece& w) {
   read_log(t, w);
   w.part_C = read_uncertain(t, "part_C", kReferenceTemperature_C, kTemperature);
-  if (t.has("part_C") && w.log.has(TemperatureLog::part))
-    twice(t, "part_C", "the column temp_part_C of the log");
+  if (t.has("part_C") && w.log.has(TemperatureLog::part)) twice(t, "part_C", "the column temp_part_C of the log");
   read_scale_temperatures(t, w);
   read_difference(t, w);
   w.other.air = t.number_or("air_C", kReferenceTemperature_C, kTemperature);
-  if (t.has("air_C") && w.log.has(TemperatureLog::air))
-    twice(t, "air_C", "the column temp_air_C of the log");
+  if (t.has("air_C") && w.log.has(TemperatureLog::air)) twice(t, "air_C", "the column temp_air_C of the log");
   w.other.table_top_minus_bottom_K = t.number_or("table_top_minus_bottom_K", 0);
   w.other.bridge_gradient_K = t.number_or("bridge_gradient_K", 0);
   w.other.legs_difference_K = t.number_or("legs_difference_K", 0);
@@ -116,24 +105,20 @@ void read_temperature(JsonObject t, Workpiece& w) {
 
 void read_compensation(JsonObject c, Workpiece& w) {
   w.compensated = c.flag_or("on", false);
-  const double part_cte =
-      w.part_cte_per_K.value + (w.part_cte_from_scale ? w.scale_cte_per_K.value : 0);
+  const double part_cte = w.part_cte_per_K.value + (w.part_cte_from_scale ? w.scale_cte_per_K.value : 0);
   w.assumed_part_cte_per_K = kPpm * c.number_or("cte_ppm_per_K", part_cte / kPpm, kExpansion);
-  w.assumed_scale_cte_per_K =
-      kPpm * c.number_or("scale_cte_ppm_per_K", w.scale_cte_per_K.value / kPpm, kExpansion);
+  w.assumed_scale_cte_per_K = kPpm * c.number_or("scale_cte_ppm_per_K", w.scale_cte_per_K.value / kPpm, kExpansion);
   w.sensor_K = read_uncertain(c, "sensor_K");
 }
 
 FormHarmonic read_harmonic(JsonObject object) {
   FormHarmonic h;
   if (!object.has("undulations"))
-    object.fault("undulations", Code::E0404,
-                 "a form error needs \"undulations\", how many waves go once around",
+    object.fault("undulations", Code::E0404, "a form error needs \"undulations\", how many waves go once around",
                  "2 for an oval, 3 for three lobes");
   h.undulations = object.integer_or("undulations", 2, 1, kMostUndulations);
   if (!object.has("amplitude_um"))
-    object.fault("amplitude_um", Code::E0404, "a form error needs \"amplitude_um\"",
-                 "half of its peak to valley");
+    object.fault("amplitude_um", Code::E0404, "a form error needs \"amplitude_um\"", "half of its peak to valley");
   h.amplitude_mm = kMmPerUm * read_uncertain(object, "amplitude_um");
   if (object.kind_of("phase_deg") == JsonNode::Kind::text) {
     object.one_of("phase_deg", object.text("phase_deg"), {"random"});
@@ -148,16 +133,13 @@ Surface read_surface(JsonObject object, std::string label, Span label_span) {
   s.label = std::move(label);
   s.label_span = label_span;
   s.offset_mm = kMmPerUm * read_uncertain(object, "offset_um");
-  if (object.has("diameter_mm"))
-    s.diameter_mm = read_uncertain(object, "diameter_mm", 0, kPositive);
+  if (object.has("diameter_mm")) s.diameter_mm = read_uncertain(object, "diameter_mm", 0, kPositive);
   if (object.has("diameter_deviation_um"))
     s.diameter_deviation_mm = kMmPerUm * read_uncertain(object, "diameter_deviation_um");
-  if (s.diameter_mm && s.diameter_deviation_mm)
-    twice(object, "diameter_deviation_um", "\"diameter_mm\"");
+  if (s.diameter_mm && s.diameter_deviation_mm) twice(object, "diameter_deviation_um", "\"diameter_mm\"");
   if (object.has("offset_um") && (s.diameter_mm || s.diameter_deviation_mm))
     twice(object, "offset_um", s.diameter_mm ? "\"diameter_mm\"" : "\"diameter_deviation_um\"");
-  for (const JsonObject& harmonic : object.object_list("form"))
-    s.form.push_back(read_harmonic(harmonic));
+  for (const JsonObject& harmonic : object.object_list("form")) s.form.push_back(read_harmonic(harmonic));
   s.random_form_mm = kMmPerUm * read_uncertain(object, "random_form_um", 0, kNotNegative);
   return s;
 }
@@ -166,10 +148,9 @@ void check_schema(JsonObject& root) {
   constexpr std::string_view kSchema = "abbe.workpiece/1";
   const std::string schema = root.text("schema");
   if (!schema.empty() && schema != kSchema)
-    root.fault(
-        "schema", Code::E0407,
-        fmt::format("the schema is \"{}\", but a workpiece file has \"{}\"", schema, kSchema),
-        "is this the right file? docs/formats.md describes workpiece files");
+    root.fault("schema", Code::E0407,
+               fmt::format("the schema is \"{}\", but a workpiece file has \"{}\"", schema, kSchema),
+               "is this the right file? docs/formats.md describes workpiece files");
 }
 
 void read_surfaces(JsonObject surfaces, Workpiece& w) {
@@ -189,13 +170,10 @@ bool Workpiece::has_form() const {
 }
 
 bool Workpiece::part_expands() const {
-  return part_cte_per_K.value != 0 || !part_cte_per_K.exact() ||
-         (part_cte_from_scale && scales_expand());
+  return part_cte_per_K.value != 0 || !part_cte_per_K.exact() || (part_cte_from_scale && scales_expand());
 }
 
-bool Workpiece::scales_expand() const {
-  return scale_cte_per_K.value != 0 || !scale_cte_per_K.exact();
-}
+bool Workpiece::scales_expand() const { return scale_cte_per_K.value != 0 || !scale_cte_per_K.exact(); }
 
 Workpiece parse_workpiece(const SourceFile& file) {
   JsonReader reader(file);

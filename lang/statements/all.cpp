@@ -6,21 +6,20 @@
 
 namespace abbe::lang {
 
-extern const Statement kDmismn, kFilnam, kEndfil, kUnits, kDecpl, kMode, kPrcomp, kSnset, kFedrat,
-    kAclrat, kFly, kFinpos, kWkplan, kGeoalg, kTecomp, kSnsmnt, kSnsdef, kSnslct, kFeat, kConst,
-    kMeas, kRmeas, kCalib, kPtmeas, kGoto, kFrom, kGohome, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol,
-    kOutput, kEval, kText, kDisply, kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause, kRead, kWrite,
-    kDecl, kAssign, kObtain, kPrompt, kValue, kIf, kElse, kEndif, kDo, kEnddo, kSelect, kCase,
-    kDftcas, kEndcas, kEndsel, kJumpto, kMacro, kEndmac, kCall, kInclud, kXtern, kExtfil, kEndxtn,
-    kDmismd;
+extern const Statement kDmismn, kFilnam, kEndfil, kUnits, kDecpl, kMode, kPrcomp, kSnset, kFedrat, kAclrat, kFly,
+    kFinpos, kWkplan, kGeoalg, kTecomp, kSnsmnt, kSnsdef, kSnslct, kFeat, kConst, kMeas, kRmeas, kCalib, kPtmeas, kGoto,
+    kFrom, kGohome, kEndmes, kDatdef, kDatset, kTrans, kRotate, kSave, kRecall, kTol, kOutput, kEval, kText, kDisply,
+    kDevice, kOpen, kClose, kVform, kDmesw, kDmeswv, kPause, kRead, kWrite, kDecl, kAssign, kObtain, kPrompt, kValue,
+    kIf, kElse, kEndif, kDo, kEnddo, kSelect, kCase, kDftcas, kEndcas, kEndsel, kJumpto, kMacro, kEndmac, kCall,
+    kInclud, kXtern, kExtfil, kEndxtn, kDmismd;
 
 std::span<const Statement* const> statements() {
   static constexpr std::array list = {
       // the frame of a program
       &kDmismn, &kFilnam, &kEndfil, &kUnits, &kMode, &kDmesw, &kDmeswv,
       // the machine
-      &kPrcomp, &kSnset, &kFedrat, &kAclrat, &kFly, &kFinpos, &kWkplan, &kGeoalg, &kTecomp,
-      &kSnsmnt, &kSnsdef, &kSnslct,
+      &kPrcomp, &kSnset, &kFedrat, &kAclrat, &kFly, &kFinpos, &kWkplan, &kGeoalg, &kTecomp, &kSnsmnt, &kSnsdef,
+      &kSnslct,
       // measuring
       &kFeat, &kMeas, &kRmeas, &kCalib, &kPtmeas, &kEndmes, &kGoto, &kFrom, &kGohome, &kConst,
       // coordinate systems
@@ -30,8 +29,8 @@ std::span<const Statement* const> statements() {
       // values
       &kDecl, &kAssign, &kObtain, &kPrompt, &kValue,
       // control
-      &kIf, &kElse, &kEndif, &kDo, &kEnddo, &kSelect, &kCase, &kDftcas, &kEndcas, &kEndsel,
-      &kJumpto, &kMacro, &kEndmac, &kCall, &kInclud, &kXtern, &kExtfil, &kEndxtn, &kDmismd,
+      &kIf, &kElse, &kEndif, &kDo, &kEnddo, &kSelect, &kCase, &kDftcas, &kEndcas, &kEndsel, &kJumpto, &kMacro, &kEndmac,
+      &kCall, &kInclud, &kXtern, &kExtfil, &kEndxtn, &kDmismd,
       // understood and skipped
       &kText, &kDisply, &kDevice, &kOpen, &kClose, &kVform, &kDecpl, &kPause, &kRead, &kWrite};
   return list;

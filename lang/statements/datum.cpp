@@ -35,13 +35,13 @@ void set_matrix_frame(Lowering& lowering, const RawStatement& raw, const Match& 
   const Vec3 x = vector_of(match, "xi"), y = vector_of(match, "yi"), z = vector_of(match, "zi");
   constexpr double kSlack = 1e-3;
   const bool square = std::fabs(norm(x) - 1) < kSlack && std::fabs(norm(y) - 1) < kSlack &&
-                      std::fabs(dot(x, y)) < kSlack && norm(cross(x, y) - z) < kSlack;
+      std::fabs(dot(x, y)) < kSlack && norm(cross(x, y) - z) < kSlack;
   if (!square)
     return lowering.error(Code::E0252, match.values[0].span, "these nine numbers are no rotation",
                           "each row is a unit vector, at right angles to the others, right-handed");
   const Vec3 first = unit(x), second = unit(perpendicular_part(y, first));
-  lowering.emit(plan::SetMatrixFrame{lowering.new_frame(raw),
-                                     {{first, second, cross(first, second)}, vector_of(match, "tx")}});
+  lowering.emit(
+      plan::SetMatrixFrame{lowering.new_frame(raw), {{first, second, cross(first, second)}, vector_of(match, "tx")}});
   lowering.frame_doubt.clear();
 }
 
@@ -72,8 +72,8 @@ void translate(Lowering& lowering, const RawStatement& raw, const Match& match) 
     if (value.type == ValueType::length) {
       shift.by = Lowering::operand(value);
     } else {
-      const auto id = value.type == ValueType::feature ? lowering.actual_feature(value.label)
-                                                       : lowering.datum(value.label);
+      const auto id =
+          value.type == ValueType::feature ? lowering.actual_feature(value.label) : lowering.datum(value.label);
       shift.from = id.value_or(plan::FeatureId{});
     }
     shifts.push_back(shift);
@@ -89,15 +89,14 @@ void rotate(Lowering& lowering, const RawStatement& raw, const Match& match) {
     operation.angle_rad = Lowering::operand(*angle);
   } else {
     const MatchedValue& to = match.values[1];
-    const auto id = to.type == ValueType::feature ? lowering.actual_feature(to.label)
-                                                  : lowering.datum(to.label);
+    const auto id = to.type == ValueType::feature ? lowering.actual_feature(to.label) : lowering.datum(to.label);
     operation.to = id.value_or(plan::FeatureId{});
     operation.toward = direction_of(match.text("toward"));
     if (operation.toward.axis == operation.axis)
-      lowering.error(Code::E0212, match.find("toward")->span,
-                     fmt::format("a rotation about {} cannot bring anything to {}",
-                                 match.text("axis"), match.text("toward")),
-                     "name a direction across the axis");
+      lowering.error(
+          Code::E0212, match.find("toward")->span,
+          fmt::format("a rotation about {} cannot bring anything to {}", match.text("axis"), match.text("toward")),
+          "name a direction across the axis");
   }
   if (lowering.failed) return;
   operation.result = lowering.new_frame(raw);
@@ -153,16 +152,15 @@ const Statement kDatset = {
     "D(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG",
     "ISO 22093, DATSET",
     set_frame};
-const Statement kTrans = {
-    "TRANS",
-    "D",
-    "at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ), "
-    "{ at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ) }",
-    "Moves the origin of the current coordinate system, to a feature or by a length.",
-    "D(PART)=TRANS/XORIG,FA(CORNER),ZORIG,-30",
-    "ISO 22093, TRANS",
-    translate,
-    Varying::taken};
+const Statement kTrans = {"TRANS",
+                          "D",
+                          "at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ), "
+                          "{ at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ) }",
+                          "Moves the origin of the current coordinate system, to a feature or by a length.",
+                          "D(PART)=TRANS/XORIG,FA(CORNER),ZORIG,-30",
+                          "ISO 22093, TRANS",
+                          translate,
+                          Varying::taken};
 const Statement kRotate = {"ROTATE",
                            "D",
                            "axis:XAXIS|YAXIS|ZAXIS, ( angle:angle ; ( to:feature ; to:datum ), "

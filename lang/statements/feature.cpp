@@ -23,8 +23,7 @@ void define_feature(Lowering& lowering, const RawStatement& raw, const Match& ma
   std::vector<plan::VaryingNumber> varying = Lowering::varying(*rest);
   const Outcome<Element> nominal = varying.empty() ? kind->nominal(*arguments) : Outcome<Element>{};
   if (!nominal)
-    return lowering.error(Code::E0208, raw.span,
-                          fmt::format("this {} cannot be: {}", kind->word, nominal.failure),
+    return lowering.error(Code::E0208, raw.span, fmt::format("this {} cannot be: {}", kind->word, nominal.failure),
                           fmt::format("a correct one: {}", kind->example));
   lowering.define(raw,
                   {raw.label->name, kind, nominal.value, arguments->text("side") == "INNER", raw.span,
@@ -39,8 +38,8 @@ std::vector<std::string_view> method_words() {
 }
 
 /// Whether the method makes this kind of feature of those kinds; reports why not.
-bool can_be_made(Lowering& lowering, const RawStatement& raw, plan::FeatureId result,
-                 const Construction& method, const Arguments& arguments) {
+bool can_be_made(Lowering& lowering, const RawStatement& raw, plan::FeatureId result, const Construction& method,
+                 const Arguments& arguments) {
   const auto shape = [&](plan::FeatureId id) { return acts_as(lowering.out.plan[id].kind->shape); };
   std::vector<Shape> from;
   for (const int id : arguments.features("from")) from.push_back(shape({id}));
@@ -52,8 +51,7 @@ bool can_be_made(Lowering& lowering, const RawStatement& raw, plan::FeatureId re
 }
 
 void construct(Lowering& lowering, const RawStatement& raw, const Match& match) {
-  const std::optional<plan::FeatureId> result =
-      lowering.defined_feature(match.find("feature")->label);
+  const std::optional<plan::FeatureId> result = lowering.defined_feature(match.find("feature")->label);
   if (result) check_kind(lowering, *match.find("kind"), *result);
   const MatchedValue& word = *match.find("method");
   const Construction* method = find_construction(word.text);

@@ -10,30 +10,29 @@ namespace {
 void begin_program(Lowering& lowering, const RawStatement& raw, const Match& match) {
   if (lowering.begin_line != 0)
     return lowering.error(Code::E0209, raw.word_span,
-                          fmt::format("a second program begins here; the first began in line {}",
-                                      lowering.begin_line),
+                          fmt::format("a second program begins here; the first began in line {}", lowering.begin_line),
                           "keep one program in a file; what follows is not part of this plan");
   lowering.begin_line = raw.line;
   lowering.out.plan.name = match.text("name");
 }
 
-void end_program(Lowering& lowering, const RawStatement& raw, const Match&) {
-  lowering.end_line = raw.line;
-}
+void end_program(Lowering& lowering, const RawStatement& raw, const Match&) { lowering.end_line = raw.line; }
 
 void set_units(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const Units before = lowering.units;
   const std::string length = match.text("unit");
-  lowering.units.mm_per_unit = length == "MM"     ? 1
-                               : length == "CM"   ? 10
-                               : length == "M"    ? 1000
-                               : length == "INCH" ? 25.4
-                                                  : 304.8;
+  lowering.units.mm_per_unit = length == "MM" ? 1
+      : length == "CM"                        ? 10
+      : length == "M"                         ? 1000
+      : length == "INCH"                      ? 25.4
+                                              : 304.8;
   lowering.units.rad_per_unit = match.text("angle") == "ANGRAD" ? 1 : Units::kRadPerDegree;
   lowering.unit_doubt.clear();
-  const bool changed = before.mm_per_unit != lowering.units.mm_per_unit || before.rad_per_unit != lowering.units.rad_per_unit;
+  const bool changed =
+      before.mm_per_unit != lowering.units.mm_per_unit || before.rad_per_unit != lowering.units.rad_per_unit;
   if (lowering.parted > 0 && changed)
-    lowering.error(Code::E0238, raw.span, "the units may not depend on a measured value", "write UNITS before the condition");
+    lowering.error(Code::E0238, raw.span, "the units may not depend on a measured value",
+                   "write UNITS before the condition");
 }
 
 void set_mode(Lowering& lowering, const RawStatement&, const Match& match) {
@@ -56,17 +55,15 @@ const Statement kDmismn = {"DMISMN",
                            "DMISMN/'gauge block',5.2",
                            "ISO 22093, DMISMN",
                            begin_program};
-const Statement kEndfil = {"ENDFIL",   "", "", "Ends the program.", "ENDFIL", "ISO 22093, ENDFIL",
-                           end_program};
-const Statement kUnits = {
-    "UNITS",
-    "",
-    "unit:MM|CM|M|INCH|FEET, angle:ANGDEC|ANGDMS|ANGRAD, [ temperature:TEMPC|TEMPF ]",
-    "Units of all lengths and angles that follow. ANGDMS also takes degrees:minutes:seconds. "
-    "Without it: mm, degrees.",
-    "UNITS/MM,ANGDEC",
-    "ISO 22093, UNITS",
-    set_units};
+const Statement kEndfil = {"ENDFIL", "", "", "Ends the program.", "ENDFIL", "ISO 22093, ENDFIL", end_program};
+const Statement kUnits = {"UNITS",
+                          "",
+                          "unit:MM|CM|M|INCH|FEET, angle:ANGDEC|ANGDMS|ANGRAD, [ temperature:TEMPC|TEMPF ]",
+                          "Units of all lengths and angles that follow. ANGDMS also takes degrees:minutes:seconds. "
+                          "Without it: mm, degrees.",
+                          "UNITS/MM,ANGDEC",
+                          "ISO 22093, UNITS",
+                          set_units};
 const Statement kMode = {
     "MODE",
     "",

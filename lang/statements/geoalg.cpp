@@ -12,10 +12,10 @@ namespace abbe::lang {
 namespace {
 
 FitCriterion criterion_of(std::string_view word) {
-  return word == "MINMAX"   ? FitCriterion::minimum_zone
-         : word == "MAXINS" ? FitCriterion::maximum_inscribed
-         : word == "MINCIR" ? FitCriterion::minimum_circumscribed
-                            : FitCriterion::least_squares;
+  return word == "MINMAX" ? FitCriterion::minimum_zone
+      : word == "MAXINS"  ? FitCriterion::maximum_inscribed
+      : word == "MINCIR"  ? FitCriterion::minimum_circumscribed
+                          : FitCriterion::least_squares;
 }
 
 void choose_criterion(Lowering& lowering, const RawStatement& raw, const Match& match) {

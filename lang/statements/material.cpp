@@ -22,8 +22,7 @@ struct Modified {
 
 bool widens(const MatchedValue& v) { return v.text == "MMC" || v.text == "LMC"; }
 
-std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Modified& m,
-                                                    const MatchedValue& use) {
+std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Modified& m, const MatchedValue& use) {
   const plan::ToleranceId* known = lowering.size_of.find(m.feature.value);
   if (!known) {
     const std::string& label = lowering.out.plan[m.feature].label;
@@ -34,15 +33,14 @@ std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Mo
                               label));
     return std::nullopt;
   }
-  return plan::MaterialCondition{
-      m.feature, *known,
-      m.word->text == "MMC" ? Condition::maximum_material : Condition::least_material};
+  return plan::MaterialCondition{m.feature, *known,
+                                 m.word->text == "MMC" ? Condition::maximum_material : Condition::least_material};
 }
 
 /// Why the frame of the datums does not simply move across the axis of the modified datum; nullptr
 /// when it does.
-const char* no_simple_shift(const plan::Plan& plan, const std::vector<Modified>& datums,
-                            const Modified& datum, plan::FeatureId feature) {
+const char* no_simple_shift(const plan::Plan& plan, const std::vector<Modified>& datums, const Modified& datum,
+                            plan::FeatureId feature) {
   const plan::FeatureDef &def = plan[datum.feature], &part = plan[feature];
   const Shape shape = acts_as(def.kind->shape);
   if (shape != Shape::cylinder && shape != Shape::circle) return "the datum is not a bore, a shaft or a circle";
@@ -67,10 +65,8 @@ void remember_size(Lowering& lowering, plan::FeatureId feature, plan::ToleranceI
   if (def.kind->size_factor > 0 && !length) lowering.size_of.set(feature.value, id);
 }
 
-std::vector<plan::MaterialCondition> material_conditions(Lowering& lowering,
-                                                         const ToleranceSymbol& symbol,
-                                                         plan::FeatureId feature,
-                                                         const MatchedValue& use) {
+std::vector<plan::MaterialCondition> material_conditions(Lowering& lowering, const ToleranceSymbol& symbol,
+                                                         plan::FeatureId feature, const MatchedValue& use) {
   std::vector<plan::MaterialCondition> out;
   std::vector<Modified> datums;
   for (const MatchedValue& v : symbol.match.values) {
@@ -82,8 +78,7 @@ std::vector<plan::MaterialCondition> material_conditions(Lowering& lowering,
   for (const Modified& datum : datums) {
     if (!datum.word) continue;
     if (const char* reason = no_simple_shift(lowering.out.plan, datums, datum, feature)) {
-      lowering.warn(Code::W0254, use.span,
-                    fmt::format("no datum shift is reckoned with: {}", reason),
+      lowering.warn(Code::W0254, use.span, fmt::format("no datum shift is reckoned with: {}", reason),
                     "it is judged with the datum where it was measured, which is the safe side");
     } else if (auto made = condition_of(lowering, datum, use)) {
       out.push_back(*made);

@@ -19,7 +19,6 @@ void remember_size(Lowering&, plan::FeatureId feature, plan::ToleranceId id);
 
 /// What MMC and LMC in `symbol`, evaluated of `feature`, come to; `use` is where it is evaluated.
 std::vector<plan::MaterialCondition> material_conditions(Lowering&, const ToleranceSymbol& symbol,
-                                                         plan::FeatureId feature,
-                                                         const MatchedValue& use);
+                                                         plan::FeatureId feature, const MatchedValue& use);
 
 }  // namespace abbe::lang

@@ -1,12 +1,12 @@
 // A measurement: MEAS, RMEAS or CALIB, then PTMEAS, up to ENDMES.
 //
-// RMEAS moves its touches by what a feature measured before lies beside its nominal: the machine goes where the part is, not
-// where the drawing has it. The true surface moves with the error-free machine, so what is left of it on a virtual machine is
-// the error of the earlier feature.
+// RMEAS moves its touches by what a feature measured before lies beside its nominal: the machine goes where
+// the part is, not where the drawing has it. The true surface moves with the error-free machine, so what is
+// left of it on a virtual machine is the error of the earlier feature.
 //
-// CALIB qualifies a sensor on a sphere. A virtual machine's sensors are qualified already: what qualification leaves of errors
-// is said by its machine file (head, probe and their effects). So the touches are made, take their time and give FA(sphere),
-// and the sensor stays as it is.
+// CALIB qualifies a sensor on a sphere. A virtual machine's sensors are qualified already: what qualification
+// leaves of errors is said by its machine file (head, probe and their effects). So the touches are made, take
+// their time and give FA(sphere), and the sensor stays as it is.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,9 +33,8 @@ void close_block(Lowering& lowering) {
   auto& operations = lowering.out.plan.operations;
   if (block.spoilt.empty()) {
     const auto criterion = lowering.criteria.find(lowering.out.plan[block.feature].kind->shape);
-    lowering.emit(plan::EndMeasure{block.feature, criterion == lowering.criteria.end()
-                                                      ? FitCriterion::least_squares
-                                                      : criterion->second});
+    lowering.emit(plan::EndMeasure{
+        block.feature, criterion == lowering.criteria.end() ? FitCriterion::least_squares : criterion->second});
     lowering.actuals.set(block.feature.value, {true, ""});
     return;
   }
@@ -52,8 +51,7 @@ void open_block(Lowering& lowering, const RawStatement& raw, const Match& match)
     const int line = lowering.measuring->line;
     lowering.measuring->spoilt = fmt::format("its MEAS in line {} has no ENDMES", line);
     close_block(lowering);
-    lowering.error(Code::E0205, raw.word_span,
-                   fmt::format("the MEAS of line {} has no ENDMES", line),
+    lowering.error(Code::E0205, raw.word_span, fmt::format("the MEAS of line {} has no ENDMES", line),
                    "end it before the next MEAS");
   }
   OpenMeasure block;
@@ -71,7 +69,9 @@ void open_block(Lowering& lowering, const RawStatement& raw, const Match& match)
   lowering.measuring = block;
 }
 
-void begin_measure(Lowering& lowering, const RawStatement& raw, const Match& match) { open_block(lowering, raw, match); }
+void begin_measure(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  open_block(lowering, raw, match);
+}
 
 /// The displacement of FA(f), or the part of it along an axis; nothing for F(f), the nominal itself.
 std::optional<plan::Point> displacement_of(Lowering& lowering, const Match& match) {
@@ -97,7 +97,8 @@ void begin_relative(Lowering& lowering, const RawStatement& raw, const Match& ma
   if (match.has("reference")) {
     displaced = displacement_of(lowering, match);
   } else {
-    lowering.warn(Code::W0255, match.find("radius")->span, "the touches that only look for the direction of the surface are left out",
+    lowering.warn(Code::W0255, match.find("radius")->span,
+                  "the touches that only look for the direction of the surface are left out",
                   "the machine drives along the vectors of PTMEAS");
   }
   const bool known = !lowering.failed;
@@ -158,7 +159,8 @@ void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
     return lowering.error(Code::E0203, block.span, "this MEAS has no PTMEAS, and MODE does not let the machine choose",
                           "give the points with PTMEAS, or write MODE/AUTO,PROG,MAN before it");
   if (pattern_help(kind.shape).empty())
-    return lowering.error(Code::E0203, block.span, fmt::format("this MEAS has no PTMEAS, and a {} has no default points", kind.word),
+    return lowering.error(Code::E0203, block.span,
+                          fmt::format("this MEAS has no PTMEAS, and a {} has no default points", kind.word),
                           "give the points with PTMEAS between MEAS and ENDMES");
   if (!lowering.sensor_selected && lowering.sensor_doubt.empty())
     return lowering.error(Code::E0207, block.span, "missing sensor: no sensor is selected here",
@@ -178,8 +180,10 @@ void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
 }
 
 void warn_of_scan(Lowering& lowering, const OpenMeasure& block) {
-  lowering.warn(Code::W0261, block.scan->first, fmt::format("{} default touches stand for this scan, which is not supported yet", block.declared),
-                "the feature is touched at its default points, not along the path; give PTMEAS, or leave out what needs it with --only-valid");
+  lowering.warn(
+      Code::W0261, block.scan->first,
+      fmt::format("{} default touches stand for this scan, which is not supported yet", block.declared),
+      "the feature is touched at its default points, not along the path; give PTMEAS, or leave out what needs it with --only-valid");
 }
 
 void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
@@ -195,15 +199,14 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
       measure_by_pattern(lowering, block);
       if (block.scan && !lowering.failed) warn_of_scan(lowering, block);
     } else if (block.touches < kind.minimum_points) {
-      lowering.error(Code::E0211, block.span,
-                     fmt::format("{} touches, but a {} needs at least {}", block.touches, kind.word,
-                                 kind.minimum_points),
-                     "add PTMEAS statements");
+      lowering.error(
+          Code::E0211, block.span,
+          fmt::format("{} touches, but a {} needs at least {}", block.touches, kind.word, kind.minimum_points),
+          "add PTMEAS statements");
     } else if (block.touches != block.declared) {
-      lowering.warn(
-          Code::W0221, block.count_span,
-          fmt::format("{} touches announced, {} PTMEAS given", block.declared, block.touches),
-          "the touches given are measured", std::to_string(block.touches));
+      lowering.warn(Code::W0221, block.count_span,
+                    fmt::format("{} touches announced, {} PTMEAS given", block.declared, block.touches),
+                    "the touches given are measured", std::to_string(block.touches));
     }
     if (lowering.failed) block.spoilt = lowering.blame();
   }
@@ -256,9 +259,8 @@ const Statement kPtmeas = {"PTMEAS",
                            "ISO 22093, PTMEAS",
                            touch,
                            Varying::taken};
-const Statement kEndmes = {"ENDMES",   "",
-                           "",         "Ends a measurement and fits the feature to its touches.",
-                           "ENDMES",   "ISO 22093, ENDMES",
-                           end_measure};
+const Statement kEndmes = {
+    "ENDMES",   "", "", "Ends a measurement and fits the feature to its touches.", "ENDMES", "ISO 22093, ENDMES",
+    end_measure};
 
 }  // namespace abbe::lang

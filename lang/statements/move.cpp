@@ -15,7 +15,8 @@ plan::Point point_of(Lowering& lowering, const Match& match) {
 /// INCR: a distance along a vector, from where the tip is.
 void go_by(Lowering& lowering, const Match& match) {
   if (is_varying(match, "i"))
-    return lowering.error(Code::E0231, match.find("i")->span, "the direction of GOTO/INCR must be known before the machine runs",
+    return lowering.error(Code::E0231, match.find("i")->span,
+                          "the direction of GOTO/INCR must be known before the machine runs",
                           "give the point instead: GOTO/x,y,z takes measured values");
   const std::optional<Vec3> along = direction_vector(lowering, match, "i");
   if (!along) return;
@@ -28,13 +29,15 @@ void go_by(Lowering& lowering, const Match& match) {
 
 void go(Lowering& lowering, const RawStatement& raw, const Match& match) {
   if (const MatchedValue* turn = match.find("turn")) {
-    lowering.error(Code::E0256, turn->span, fmt::format("GOTO does not turn the head here: {} and what follows it cannot be used", turn->text),
+    lowering.error(Code::E0256, turn->span,
+                   fmt::format("GOTO does not turn the head here: {} and what follows it cannot be used", turn->text),
                    "define a sensor for every orientation with SNSDEF and turn the head with SNSLCT");
     lowering.sensor_doubt = lowering.blame();
     return;
   }
   if (match.used < raw.arguments.size())
-    return lowering.error(Code::E0108, raw.arguments[match.used].span, "GOTO has an argument too many", "for example: GOTO/10,20,30");
+    return lowering.error(Code::E0108, raw.arguments[match.used].span, "GOTO has an argument too many",
+                          "for example: GOTO/10,20,30");
   if (match.has("distance")) return go_by(lowering, match);
   lowering.emit(plan::Move{point_of(lowering, match)});
 }
@@ -46,7 +49,8 @@ void set_home(Lowering& lowering, const RawStatement&, const Match& match) {
 
 void go_home(Lowering& lowering, const RawStatement& raw, const Match&) {
   if (!lowering.home_known)
-    lowering.warn(Code::W0257, raw.word_span, "no FROM says where home is: GOHOME moves nowhere", "write FROM/x,y,z before it");
+    lowering.warn(Code::W0257, raw.word_span, "no FROM says where home is: GOHOME moves nowhere",
+                  "write FROM/x,y,z before it");
   lowering.emit(plan::GoHome{});
 }
 
@@ -54,17 +58,16 @@ void go_home(Lowering& lowering, const RawStatement& raw, const Match&) {
 
 extern const Statement kGoto, kFrom, kGohome;
 
-const Statement kGoto = {
-    "GOTO",
-    "",
-    "( POL, r:length, a:angle, h:length ; INCR, distance:length, i:number, j:number, k:number ; "
-    "[ CART ], x:length, y:length, z:length ), [ turn:HEADCS|PROBCS|DATUMCS|SNSLCT|WRIST ], ...",
-    "Moves the centre of the tip to a point of the current coordinate system; POL: radius, angle, "
-    "height; INCR: by a distance along a vector. The head is turned by SNSLCT, not by GOTO.",
-    "GOTO/10,20,30",
-    "ISO 22093, GOTO",
-    go,
-    Varying::taken};
+const Statement kGoto = {"GOTO",
+                         "",
+                         "( POL, r:length, a:angle, h:length ; INCR, distance:length, i:number, j:number, k:number ; "
+                         "[ CART ], x:length, y:length, z:length ), [ turn:HEADCS|PROBCS|DATUMCS|SNSLCT|WRIST ], ...",
+                         "Moves the centre of the tip to a point of the current coordinate system; POL: radius, angle, "
+                         "height; INCR: by a distance along a vector. The head is turned by SNSLCT, not by GOTO.",
+                         "GOTO/10,20,30",
+                         "ISO 22093, GOTO",
+                         go,
+                         Varying::taken};
 const Statement kFrom = {
     "FROM",
     "",
@@ -74,6 +77,7 @@ const Statement kFrom = {
     "ISO 22093, FROM",
     set_home,
     Varying::taken};
-const Statement kGohome = {"GOHOME", "", "", "Moves the centre of the tip to where FROM says.", "GOHOME", "ISO 22093, GOHOME", go_home};
+const Statement kGohome = {
+    "GOHOME", "", "", "Moves the centre of the tip to where FROM says.", "GOHOME", "ISO 22093, GOHOME", go_home};
 
 }  // namespace abbe::lang

@@ -1,8 +1,9 @@
 // OBTAIN: what a feature, tolerance or sensor is, argument by argument.
 //
-// Arguments are counted as the statement has them, its word being the first: in FA(P)=FEAT/POINT,CART,x,y,z,i,j,k the x is
-// number 4. F, T and S are what the program defined. FA is the feature as measured, in the form of its FEAT statement and the
-// current coordinate system. TA is the evaluated tolerance in the form of the result file: TA(T)=TOL/DIAM,value,INTOL.
+// Arguments are counted as the statement has them, its word being the first: in
+// FA(P)=FEAT/POINT,CART,x,y,z,i,j,k the x is number 4. F, T and S are what the program defined. FA is the
+// feature as measured, in the form of its FEAT statement and the current coordinate system. TA is the
+// evaluated tolerance in the form of the result file: TA(T)=TOL/DIAM,value,INTOL.
 #include <fmt/format.h>
 
 #include <array>
@@ -40,20 +41,26 @@ Vec3 given(const Form& form, std::string_view letters, std::string_view suffix) 
 double sign_of(double v) { return v < 0 ? -1 : 1; }
 
 /// The first component of the vector named by a letter (x for places, i for directions) and a suffix.
-std::optional<Reading> vector_reading(const plan::FeatureDef& def, const Form& form, char letter, std::string_view suffix) {
+std::optional<Reading> vector_reading(const plan::FeatureDef& def, const Form& form, char letter,
+                                      std::string_view suffix) {
   const Shape shape = def.kind->shape;
   const Element& nominal = def.nominal;
   const bool place = letter == 'x', faces = shape == Shape::parallel_planes;
-  if (suffix.empty()) return place ? Reading{shape == Shape::cone ? plan::Quantity::apex_x : plan::Quantity::x} : Reading{plan::Quantity::i};
+  if (suffix.empty())
+    return place ? Reading{shape == Shape::cone ? plan::Quantity::apex_x : plan::Quantity::x}
+                 : Reading{plan::Quantity::i};
   if (suffix == "s" || suffix == "n") return Reading{plan::Quantity::second_i};
   const bool first = suffix == "1";
   if (place && shape == Shape::line) return Reading{first ? plan::Quantity::begin_x : plan::Quantity::end_x};
   if (place && shape == Shape::ellipse) return Reading{first ? plan::Quantity::focus1_x : plan::Quantity::focus2_x};
-  if (place && faces) return Reading{dot(given(form, "xyz", suffix) - nominal.point, nominal.direction) > 0 ? plan::Quantity::face1_x : plan::Quantity::face2_x};
+  if (place && faces)
+    return Reading{dot(given(form, "xyz", suffix) - nominal.point, nominal.direction) > 0 ? plan::Quantity::face1_x
+                                                                                          : plan::Quantity::face2_x};
   if (faces) return Reading{plan::Quantity::i, sign_of(dot(given(form, "ijk", suffix), nominal.direction))};
   if (shape == Shape::slot || (shape == Shape::rectangle && first)) return Reading{plan::Quantity::second_i};
   if (shape == Shape::rectangle && suffix == "2")
-    return Reading{plan::Quantity::third_i, sign_of(dot(given(form, "ijk", "2"), cross(nominal.direction, nominal.second)))};
+    return Reading{plan::Quantity::third_i,
+                   sign_of(dot(given(form, "ijk", "2"), cross(nominal.direction, nominal.second)))};
   return shape == Shape::rectangle ? std::optional(Reading{plan::Quantity::i}) : std::nullopt;
 }
 
@@ -68,7 +75,8 @@ std::optional<Reading> size_reading(const plan::FeatureDef& def, const Form& for
   if (name == "majdia" || name == "len1") return Reading{plan::Quantity::radius, 2};
   if (name == "mindia" || name == "len2") return Reading{plan::Quantity::minor_radius, 2};
   if (name == "width") return Reading{shape == Shape::slot ? plan::Quantity::minor_radius : plan::Quantity::radius, 2};
-  if (name == "length") return shape == Shape::slot ? Reading{plan::Quantity::radius, 2} : Reading{plan::Quantity::length};
+  if (name == "length")
+    return shape == Shape::slot ? Reading{plan::Quantity::radius, 2} : Reading{plan::Quantity::length};
   if (name == "len3") return Reading{plan::Quantity::length};
   if (name == "angle") return Reading{plan::Quantity::angle, 2};
   return name == "sweep" ? std::optional(Reading{plan::Quantity::angle}) : std::nullopt;
@@ -83,7 +91,9 @@ std::optional<Reading> reading_of(const plan::FeatureDef& def, const Form& form,
     const std::size_t component = letters.find(letter);
     if (component == std::string_view::npos || suffix.size() > 1) continue;
     std::optional<Reading> reading = vector_reading(def, form, letters[0], suffix);
-    if (reading) reading->quantity = static_cast<plan::Quantity>(static_cast<int>(reading->quantity) + static_cast<int>(component));
+    if (reading)
+      reading->quantity =
+          static_cast<plan::Quantity>(static_cast<int>(reading->quantity) + static_cast<int>(component));
     return reading;
   }
   return name == "h" ? Reading{plan::Quantity::z} : size_reading(def, form, name);
@@ -113,16 +123,19 @@ Value written(Lowering& lowering, const FormItem& item) {
 }
 
 /// The argument that an index names, the word of the statement being the first; nothing after an error.
-const FormItem* indexed(Lowering& lowering, const Form& form, const MatchedValue& index, std::string_view what, std::string_view word,
-                        std::string_view example) {
-  static const FormItem words[] = {{"FEAT", "", false, {}, {}}, {"TOL", "", false, {}, {}}, {"SNSDEF", "", false, {}, {}}};
+const FormItem* indexed(Lowering& lowering, const Form& form, const MatchedValue& index, std::string_view what,
+                        std::string_view word, std::string_view example) {
+  static const FormItem words[] = {
+      {"FEAT", "", false, {}, {}}, {"TOL", "", false, {}, {}}, {"SNSDEF", "", false, {}, {}}};
   if (index.number == 1)
     for (const FormItem& item : words)
       if (item.text == word) return &item;
   const double k = index.number - 2;
   if (k >= 0 && k < static_cast<double>(form.size())) return &form[static_cast<std::size_t>(k)];
-  lowering.error(Code::E0245, index.span, fmt::format("{} has {} arguments, {} counted as 1; there is no {}", what, form.size() + 1, word, index.number),
-                 fmt::format("for example: {}", example));
+  lowering.error(
+      Code::E0245, index.span,
+      fmt::format("{} has {} arguments, {} counted as 1; there is no {}", what, form.size() + 1, word, index.number),
+      fmt::format("for example: {}", example));
   return nullptr;
 }
 
@@ -138,9 +151,11 @@ std::optional<Value> from_feature(Lowering& lowering, const MatchedValue& label,
   if (!actual || !item->is_number || item->name == "start") return written(lowering, *item);
   const double unit = to_program(item->type, lowering.units);
   if (item->name == "r" || item->name == "a") {
-    const plan::Expression x = obtained(lowering, *feature, plan::Quantity::x), y = obtained(lowering, *feature, plan::Quantity::y);
+    const plan::Expression x = obtained(lowering, *feature, plan::Quantity::x),
+                           y = obtained(lowering, *feature, plan::Quantity::y);
     const plan::Expression squares = combine(Op2::add, combine(Op2::multiply, x, x), combine(Op2::multiply, y, y));
-    return Value{Type::real, {scaled(item->name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
+    return Value{Type::real,
+                 {scaled(item->name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
   }
   const std::optional<Reading> reading = reading_of(def, form, item->name);
   ABBE_CHECK(reading);
@@ -160,14 +175,17 @@ std::vector<std::string> result_form(const ToleranceKind& kind, const Arguments&
   return form;
 }
 
-std::optional<Value> from_evaluation(Lowering& lowering, const ToleranceSymbol& symbol, const MatchedValue& label, const MatchedValue& index) {
+std::optional<Value> from_evaluation(Lowering& lowering, const ToleranceSymbol& symbol, const MatchedValue& label,
+                                     const MatchedValue& index) {
   std::vector<plan::CharacteristicId> evaluated;
   for (std::size_t c = 0; c < lowering.out.plan.characteristics.size(); ++c) {
     const plan::CharacteristicId id{static_cast<int>(c)};
-    if (upper(lowering.out.plan[lowering.out.plan[id].tolerance].label) == upper(label.label.name)) evaluated.push_back(id);
+    if (upper(lowering.out.plan[lowering.out.plan[id].tolerance].label) == upper(label.label.name))
+      evaluated.push_back(id);
   }
   if (evaluated.empty()) {
-    lowering.error(Code::E0245, label.span, fmt::format("TA({}) is not evaluated above", label.label.name), "evaluate it first: OUTPUT/FA(feature),TA(tolerance) or EVAL");
+    lowering.error(Code::E0245, label.span, fmt::format("TA({}) is not evaluated above", label.label.name),
+                   "evaluate it first: OUTPUT/FA(feature),TA(tolerance) or EVAL");
     return std::nullopt;
   }
   const Arguments& arguments = lowering.out.plan[lowering.out.plan[evaluated.back()].tolerance].arguments;
@@ -178,7 +196,9 @@ std::optional<Value> from_evaluation(Lowering& lowering, const ToleranceSymbol& 
   };
   const std::vector<std::string> form = result_form(*symbol.kind, arguments);
   if (index.number < 1 || index.number > static_cast<double>(form.size())) {
-    lowering.error(Code::E0245, index.span, fmt::format("TA({}) has {} arguments, TOL counted as 1; there is no {}", label.label.name, form.size(), index.number),
+    lowering.error(Code::E0245, index.span,
+                   fmt::format("TA({}) has {} arguments, TOL counted as 1; there is no {}", label.label.name,
+                               form.size(), index.number),
                    "in the result file it is TOL/" + std::string(symbol.kind->word) + ",...,value,INTOL");
     return std::nullopt;
   }
@@ -194,7 +214,8 @@ std::optional<Value> from_tolerance(Lowering& lowering, const MatchedValue& labe
   const ToleranceSymbol* symbol = lowering.tolerance(label.label);
   if (!symbol) return std::nullopt;
   if (label.label.kind == "TA") return from_evaluation(lowering, *symbol, label, index);
-  const FormItem* item = indexed(lowering, symbol->form, index, fmt::format("T({})", label.label.name), "TOL", symbol->kind->example);
+  const FormItem* item =
+      indexed(lowering, symbol->form, index, fmt::format("T({})", label.label.name), "TOL", symbol->kind->example);
   return item ? std::optional(written(lowering, *item)) : std::nullopt;
 }
 
@@ -203,17 +224,22 @@ std::optional<Value> from_sensor(Lowering& lowering, const MatchedValue& label, 
   if (!sensor) return std::nullopt;
   const auto form = lowering.sensor_forms.find(sensor->value);
   if (form == lowering.sensor_forms.end()) {
-    lowering.error(Code::E0245, label.span, fmt::format("{}({}) is described by the machine file, not by the program", label.label.kind, label.label.name),
-                   "define it with SNSDEF to read its numbers");
+    lowering.error(
+        Code::E0245, label.span,
+        fmt::format("{}({}) is described by the machine file, not by the program", label.label.kind, label.label.name),
+        "define it with SNSDEF to read its numbers");
     return std::nullopt;
   }
-  const FormItem* item = indexed(lowering, form->second, index, fmt::format("S({})", label.label.name), "SNSDEF", "S(P1)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4");
+  const FormItem* item = indexed(lowering, form->second, index, fmt::format("S({})", label.label.name), "SNSDEF",
+                                 "S(P1)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4");
   return item ? std::optional(written(lowering, *item)) : std::nullopt;
 }
 
 void obtain(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const MatchedValue& what = match.values[0];
-  const auto from = what.type == ValueType::feature ? from_feature : what.type == ValueType::sensor ? from_sensor : from_tolerance;
+  const auto from = what.type == ValueType::feature ? from_feature
+      : what.type == ValueType::sensor              ? from_sensor
+                                                    : from_tolerance;
   const std::optional<Value> value = from(lowering, what, *match.find("index"));
   if (value) assign_to_label(lowering, raw, *value);
 }
@@ -221,13 +247,14 @@ void obtain(Lowering& lowering, const RawStatement& raw, const Match& match) {
 }  // namespace
 
 extern const Statement kObtain;
-const Statement kObtain = {"OBTAIN",
-                           "=",
-                           "( feature:feature ; tolerance:tolerance ; sensor:sensor ), index:integer",
-                           "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as measured, in the current "
-                           "coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
-                           "X=OBTAIN/FA(BORE),5",
-                           "ISO 22093, OBTAIN",
-                           obtain};
+const Statement kObtain = {
+    "OBTAIN",
+    "=",
+    "( feature:feature ; tolerance:tolerance ; sensor:sensor ), index:integer",
+    "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as measured, in the current "
+    "coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
+    "X=OBTAIN/FA(BORE),5",
+    "ISO 22093, OBTAIN",
+    obtain};
 
 }  // namespace abbe::lang

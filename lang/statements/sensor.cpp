@@ -19,8 +19,7 @@ namespace {
 constexpr double kOneDegree = kPi / 180;
 
 void set_mount(Lowering& lowering, const RawStatement&, const Match& match) {
-  const std::optional<Vec3> x = direction_vector(lowering, match, "xi"),
-                            z = direction_vector(lowering, match, "zi");
+  const std::optional<Vec3> x = direction_vector(lowering, match, "xi"), z = direction_vector(lowering, match, "zi");
   if (!x || !z) return;
   if (std::hypot(x->x, x->y) < 1e-6 || std::fabs(std::fabs(z->z) - 1) > 1e-6)
     return lowering.error(Code::E0210, match.find("xi")->span,
@@ -40,8 +39,7 @@ Vec3 stylus_direction(double a_rad, double b_rad) {
 /// Head angles that make the stylus point along `direction`; B is zero when it hangs down.
 void point_head(plan::SensorDef& def, const Vec3& direction) {
   def.head_a_rad = std::acos(std::fmax(-1, std::fmin(1, -direction.z)));
-  def.head_b_rad =
-      std::hypot(direction.x, direction.y) > 0 ? std::atan2(direction.y + 0.0, direction.x) : 0;
+  def.head_b_rad = std::hypot(direction.x, direction.y) > 0 ? std::atan2(direction.y + 0.0, direction.x) : 0;
 }
 
 void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& def) {
@@ -53,22 +51,19 @@ void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& 
   const Vec3 stylus = stylus_direction(def.head_a_rad, def.head_b_rad);
   const bool straight_mount = std::fabs(std::fabs(along->z) - 1) < 1e-9;
   if (straight_mount || norm(cross(*along, stylus)) < std::sin(kOneDegree)) return;
-  lowering.warn(
-      Code::W0223, match.find("i")->span,
-      "this vector is neither along the ram nor along the stylus that the head angles give",
-      "the head angles hold; 0,0,-1 is the usual vector");
+  lowering.warn(Code::W0223, match.find("i")->span,
+                "this vector is neither along the ram nor along the stylus that the head angles give",
+                "the head angles hold; 0,0,-1 is the usual vector");
 }
 
 /// CART and VEC on the head: the head turns so that the stylus reaches from the head's centre to
 /// the tip.
-void indexed_by_vector(Lowering& lowering, const Match& match, plan::SensorDef& def,
-                       bool cartesian) {
+void indexed_by_vector(Lowering& lowering, const Match& match, plan::SensorDef& def, bool cartesian) {
   const std::optional<Vec3> to_tip = direction_vector(lowering, match, cartesian ? "dx" : "i");
   if (!to_tip) return;
   const Vec3 direction = to_tip->z > 0 ? -*to_tip : *to_tip;  // a stylus hangs down in either sign
   point_head(def, direction);
-  def.tip_in_r = {0, 0,
-                  -(cartesian ? norm(vector_of(match, "dx")) : std::fabs(match.number("len")))};
+  def.tip_in_r = {0, 0, -(cartesian ? norm(vector_of(match, "dx")) : std::fabs(match.number("len")))};
 }
 
 void fixed(Lowering& lowering, const Match& match, plan::SensorDef& def, bool cartesian) {
@@ -96,8 +91,7 @@ void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& mat
   }
   def.radius_mm = match.number("diam") / 2;
   if (def.radius_mm <= 0)
-    lowering.error(Code::E0210, match.find("diam")->span,
-                   "the diameter of the tip must be greater than zero",
+    lowering.error(Code::E0210, match.find("diam")->span, "the diameter of the tip must be greater than zero",
                    "give the diameter of the ball");
   if (lowering.failed) return;
   if (lowering.mount) {
@@ -154,12 +148,9 @@ const Statement kSnsdef = {
     "ISO 22093, SNSDEF",
     define_sensor};
 const Statement kSnslct = {
-    "SNSLCT",
-    "",
-    "sensor:sensor",
-    "Puts a sensor to use. SA(name) not defined in the program comes from the machine file.",
-    "SNSLCT/S(P1)",
-    "ISO 22093, SNSLCT",
+    "SNSLCT",        "",
+    "sensor:sensor", "Puts a sensor to use. SA(name) not defined in the program comes from the machine file.",
+    "SNSLCT/S(P1)",  "ISO 22093, SNSLCT",
     select_sensor};
 
 }  // namespace abbe::lang

@@ -14,12 +14,13 @@ using plan::MotionSetting;
 void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match) {
   const std::string word = match.text("setting");
   if (const MatchedValue* surface = match.find("surface"))
-    return lowering.warn(Code::W0122, surface->span, fmt::format("{} of a surface is skipped", word), "nothing depends on it: collisions are not looked for");
-  const MotionSetting setting = word == "APPRCH"   ? MotionSetting::approach
-                                : word == "SEARCH" ? MotionSetting::search
-                                : word == "RETRCT" ? MotionSetting::retract
-                                : word == "CLRSRF" ? MotionSetting::clearance
-                                                   : MotionSetting::depth;
+    return lowering.warn(Code::W0122, surface->span, fmt::format("{} of a surface is skipped", word),
+                         "nothing depends on it: collisions are not looked for");
+  const MotionSetting setting = word == "APPRCH" ? MotionSetting::approach
+      : word == "SEARCH"                         ? MotionSetting::search
+      : word == "RETRCT"                         ? MotionSetting::retract
+      : word == "CLRSRF"                         ? MotionSetting::clearance
+                                                 : MotionSetting::depth;
   lowering.emit(plan::SetMotion{setting, match.number("distance", 0)});
 }
 
@@ -37,16 +38,17 @@ void set_level(Lowering& lowering, MotionSetting setting, const MatchedValue& le
 bool moves(Lowering& lowering, const Match& match, std::string_view what) {
   const MatchedValue& value = *match.find("value");
   if (value.number > 0) return true;
-  lowering.error(Code::E0106, value.span, fmt::format("{} of {:g} moves nothing", what, value.number), "give a number greater than zero");
+  lowering.error(Code::E0106, value.span, fmt::format("{} of {:g} moves nothing", what, value.number),
+                 "give a number greater than zero");
   return false;
 }
 
 void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
   if (!match.has("speed")) return;  // ROTVEL: of a rotary table, which is not here
   const std::string what = match.text("speed"), unit = match.text("unit");
-  const MotionSetting setting = what == "POSVEL"   ? MotionSetting::positioning_speed
-                                : what == "MESVEL" ? MotionSetting::measuring_speed
-                                                   : MotionSetting::scan_speed;
+  const MotionSetting setting = what == "POSVEL" ? MotionSetting::positioning_speed
+      : what == "MESVEL"                         ? MotionSetting::measuring_speed
+                                                 : MotionSetting::scan_speed;
   if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
   if (!moves(lowering, match, "a speed")) return;
   const double mm = unit == "MPM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
@@ -55,16 +57,14 @@ void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
 }
 
 void set_acceleration(Lowering& lowering, const RawStatement&, const Match& match) {
-  const MotionSetting setting = match.text("acceleration") == "POSACL"
-                                    ? MotionSetting::positioning_acceleration
-                                    : MotionSetting::measuring_acceleration;
+  const MotionSetting setting = match.text("acceleration") == "POSACL" ? MotionSetting::positioning_acceleration
+                                                                       : MotionSetting::measuring_acceleration;
   if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
   if (!moves(lowering, match, "an acceleration")) return;
   const std::string unit = match.text("unit");
   const double mm = unit == "MPMM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
   const double square_seconds = unit == "MPMM" || unit == "IPMM" ? 3600 : 1;
-  lowering.emit(
-      plan::SetMotion{setting, match.number("value") * mm / square_seconds, unit == "PCENT"});
+  lowering.emit(plan::SetMotion{setting, match.number("value") * mm / square_seconds, unit == "PCENT"});
 }
 
 void set_fly(Lowering& lowering, const RawStatement&, const Match& match) {
@@ -107,18 +107,16 @@ const Statement kAclrat = {
     "ACLRAT/MESACL,MMPSS,100",
     "ISO 22093, ACLRAT",
     set_acceleration};
-const Statement kFly = {
-    "FLY",
-    "",
-    "( radius:length ; OFF )",
-    "Passes intermediate positions within this radius instead of stopping there.",
-    "FLY/5.0",
-    "ISO 22093, FLY",
-    set_fly};
-const Statement kPrcomp = {
-    "PRCOMP",        "",
-    "state:ON|OFF",  "ON: a touch yields the point of the surface. OFF: the centre of the tip.",
-    "PRCOMP/ON",     "ISO 22093, PRCOMP",
-    set_compensation};
+const Statement kFly = {"FLY",
+                        "",
+                        "( radius:length ; OFF )",
+                        "Passes intermediate positions within this radius instead of stopping there.",
+                        "FLY/5.0",
+                        "ISO 22093, FLY",
+                        set_fly};
+const Statement kPrcomp = {"PRCOMP",        "",
+                           "state:ON|OFF",  "ON: a touch yields the point of the surface. OFF: the centre of the tip.",
+                           "PRCOMP/ON",     "ISO 22093, PRCOMP",
+                           set_compensation};
 
 }  // namespace abbe::lang

@@ -15,7 +15,9 @@ void no_effect(Lowering& lowering, const RawStatement& raw, const Match&) {
                 "the results are those without it");
 }
 
-void name_result(Lowering& lowering, const RawStatement&, const Match& match) { lowering.out.plan.result_name = match.text("name"); }
+void name_result(Lowering& lowering, const RawStatement&, const Match& match) {
+  lowering.out.plan.result_name = match.text("name");
+}
 
 void read_file(Lowering& lowering, const RawStatement& raw, const Match&) {
   lowering.error(Code::E0258, raw.span, "READ takes values from a file of the real machine, which is not here",
@@ -30,8 +32,8 @@ void write_file(Lowering& lowering, const RawStatement& raw, const Match&) {
 
 }  // namespace
 
-extern const Statement kFilnam, kDisply, kText, kDevice, kOpen, kClose, kVform, kDecpl, kFinpos,
-    kWkplan, kPause, kRead, kWrite;
+extern const Statement kFilnam, kDisply, kText, kDevice, kOpen, kClose, kVform, kDecpl, kFinpos, kWkplan, kPause, kRead,
+    kWrite;
 
 const Statement kFilnam = {"FILNAM",
                            "",
@@ -40,13 +42,8 @@ const Statement kFilnam = {"FILNAM",
                            "FILNAM/'results',5.2",
                            "ISO 22093, FILNAM",
                            name_result};
-const Statement kDisply = {"DISPLY",
-                           "",
-                           "...",
-                           "Where results are shown. Skipped.",
-                           "DISPLY/TERM,DMIS",
-                           "ISO 22093, DISPLY",
-                           skip};
+const Statement kDisply = {
+    "DISPLY", "", "...", "Where results are shown. Skipped.", "DISPLY/TERM,DMIS", "ISO 22093, DISPLY", skip};
 const Statement kText = {"TEXT",
                          "",
                          "to:OPER|MAN|OUTFIL|QUERY, ...",
@@ -61,30 +58,20 @@ const Statement kDevice = {"DEVICE",
                            "DID(OUT)=DEVICE/STOR,'results.dmo'",
                            "ISO 22093, DEVICE",
                            skip};
-const Statement kOpen = {"OPEN",
-                         "",
-                         "device:label, ...",
-                         "Opens a device. Skipped.",
-                         "OPEN/DID(OUT),FDATA,DMIS,OUTPUT",
-                         "ISO 22093, OPEN",
-                         skip};
-const Statement kClose = {"CLOSE",
-                          "",
-                          "device:label, ...",
-                          "Closes a device. Skipped.",
-                          "CLOSE/DID(OUT)",
-                          "ISO 22093, CLOSE",
-                          skip};
-const Statement kVform = {
-    "VFORM", "*", "...", "Form of a report. Skipped.", "V(R)=VFORM/ALL", "ISO 22093, VFORM", skip};
-const Statement kDecpl = {
-    "DECPL",
-    "*",
-    "...",
-    "Decimal places of results. Skipped: reports show what the uncertainty allows.",
-    "DECPL/ALL,DV(3)",
-    "ISO 22093, DECPL",
+const Statement kOpen = {
+    "OPEN", "", "device:label, ...", "Opens a device. Skipped.", "OPEN/DID(OUT),FDATA,DMIS,OUTPUT", "ISO 22093, OPEN",
     skip};
+const Statement kClose = {
+    "CLOSE", "", "device:label, ...", "Closes a device. Skipped.", "CLOSE/DID(OUT)", "ISO 22093, CLOSE", skip};
+const Statement kVform = {"VFORM", "*", "...", "Form of a report. Skipped.", "V(R)=VFORM/ALL", "ISO 22093, VFORM",
+                          skip};
+const Statement kDecpl = {"DECPL",
+                          "*",
+                          "...",
+                          "Decimal places of results. Skipped: reports show what the uncertainty allows.",
+                          "DECPL/ALL,DV(3)",
+                          "ISO 22093, DECPL",
+                          skip};
 const Statement kFinpos = {"FINPOS",
                            "",
                            "state:ON|OFF",
@@ -101,12 +88,9 @@ const Statement kWkplan = {
     "ISO 22093, WKPLAN",
     skip};
 const Statement kPause = {
-    "PAUSE",
-    "",
-    "...",
-    "Waits for the operator (not in the standard). Accepted with a warning: it has no effect.",
-    "PAUSE",
-    "production programs",
+    "PAUSE",  "",
+    "...",    "Waits for the operator (not in the standard). Accepted with a warning: it has no effect.",
+    "PAUSE",  "production programs",
     no_effect};
 const Statement kRead = {"READ",
                          "",

@@ -5,8 +5,8 @@
 
 namespace abbe::lang {
 
-/// Assigns to X or X[i] as the statement's label names it; a variable that is not declared takes the type of the value, with a
-/// warning. False after an error.
+/// Assigns to X or X[i] as the statement's label names it; a variable that is not declared takes the type of
+/// the value, with a warning. False after an error.
 bool assign_to_label(Lowering&, const RawStatement&, Value);
 
 }  // namespace abbe::lang

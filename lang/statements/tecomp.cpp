@@ -1,5 +1,5 @@
-// TECOMP: temperature compensation by the controller. What it reckons with (coefficients, errors of the sensors) stands in the
-// workpiece file, because a virtual machine has to know the true values as well.
+// TECOMP: temperature compensation by the controller. What it reckons with (coefficients, errors of the
+// sensors) stands in the workpiece file, because a virtual machine has to know the true values as well.
 #include "lang/statement.hpp"
 
 namespace abbe::lang {

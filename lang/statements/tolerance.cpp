@@ -28,8 +28,7 @@ bool same_arguments(const Match& a, const Match& b) {
 
 /// Production programs define T(1) hundreds of times. That is legal, so it is said once for each
 /// label, and only when the meaning changes.
-void note_redefinition(Lowering& lowering, const RawStatement& raw, const ToleranceKind& kind,
-                       const Match& match) {
+void note_redefinition(Lowering& lowering, const RawStatement& raw, const ToleranceKind& kind, const Match& match) {
   const ToleranceSymbol* known = lowering.symbols.tolerances.find(upper(raw.label->name));
   if (!known || (known->kind == &kind && same_arguments(known->match, match))) return;
   if (!lowering.reported_words.insert("T:" + upper(raw.label->name)).second) return;
@@ -47,24 +46,23 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
       lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used, Varying::taken);
   if (!rest) return;
   if (const MatchedValue* unit = rest->find("unit_zone"))
-    lowering.warn(Code::W0122, unit->span, "the zone per unit of area is not evaluated", "the value and its uncertainty are of the flatness of the whole surface");
+    lowering.warn(Code::W0122, unit->span, "the zone per unit of area is not evaluated",
+                  "the value and its uncertainty are of the flatness of the whole surface");
   note_redefinition(lowering, raw, *kind, *rest);
   auto instances = std::make_shared<std::map<std::vector<int>, plan::ToleranceId>>();
-  lowering.symbols.tolerances.set(upper(raw.label->name),
-                                  {kind, *rest, raw.span, raw.label->name, std::move(instances), written_form(raw, *rest)});
+  lowering.symbols.tolerances.set(
+      upper(raw.label->name), {kind, *rest, raw.span, raw.label->name, std::move(instances), written_form(raw, *rest)});
 }
 
 /// The features and datums that the labels of the tolerance mean now; -1 for one that cannot be
 /// used.
-std::vector<int> operands_now(Lowering& lowering, const ToleranceSymbol& symbol,
-                              const MatchedValue& use) {
+std::vector<int> operands_now(Lowering& lowering, const ToleranceSymbol& symbol, const MatchedValue& use) {
   std::vector<int> ids;
   for (const MatchedValue& v : symbol.match.values) {
     if (v.type != ValueType::feature && v.type != ValueType::datum) continue;
     LabelRef label = v.label;
     label.span = use.span;  // the mistake shows where the tolerance is used
-    const auto id =
-        v.type == ValueType::feature ? lowering.actual_feature(label) : lowering.datum(label);
+    const auto id = v.type == ValueType::feature ? lowering.actual_feature(label) : lowering.datum(label);
     ids.push_back(id ? id->value : -1);
   }
   return ids;
@@ -72,8 +70,7 @@ std::vector<int> operands_now(Lowering& lowering, const ToleranceSymbol& symbol,
 
 /// The definition with its labels resolved to what they mean now; the same one for the same
 /// meaning.
-std::optional<plan::ToleranceId> instance(Lowering& lowering, const ToleranceSymbol& symbol,
-                                          const MatchedValue& use) {
+std::optional<plan::ToleranceId> instance(Lowering& lowering, const ToleranceSymbol& symbol, const MatchedValue& use) {
   const std::vector<int> ids = operands_now(lowering, symbol, use);
   if (lowering.failed) return std::nullopt;
   const plan::ToleranceId id{static_cast<int>(lowering.out.plan.tolerances.size())};
@@ -85,34 +82,32 @@ std::optional<plan::ToleranceId> instance(Lowering& lowering, const ToleranceSym
 }
 
 /// One feature of OUTPUT has this shape; the tolerance says whether it suits.
-void evaluate(Lowering& lowering, const RawStatement& raw,
-              const std::vector<plan::FeatureId>& features, const MatchedValue& use) {
+void evaluate(Lowering& lowering, const RawStatement& raw, const std::vector<plan::FeatureId>& features,
+              const MatchedValue& use) {
   const ToleranceSymbol* symbol = lowering.tolerance(use.label);
   if (!symbol) return;
   const ToleranceKind& kind = *symbol->kind;
   if (static_cast<int>(features.size()) != kind.features)
-    return lowering.error(
-        Code::E0213, use.span,
-        fmt::format("{} takes {} feature{}, {} given", kind.word, kind.features,
-                    kind.features == 1 ? "" : "s", features.size()),
-        fmt::format("write {}/{},{}({})", raw.word, kind.features == 1 ? "FA(a)" : "FA(a),FA(b)",
-                    use.label.kind, use.label.name));
+    return lowering.error(Code::E0213, use.span,
+                          fmt::format("{} takes {} feature{}, {} given", kind.word, kind.features,
+                                      kind.features == 1 ? "" : "s", features.size()),
+                          fmt::format("write {}/{},{}({})", raw.word, kind.features == 1 ? "FA(a)" : "FA(a),FA(b)",
+                                      use.label.kind, use.label.name));
   const std::optional<plan::ToleranceId> tolerance = instance(lowering, *symbol, use);
   if (!tolerance) return;
   std::vector<Shape> shapes;
   for (const plan::FeatureId id : features) shapes.push_back(lowering.out.plan[id].kind->shape);
   if (const char* reason = kind.applies(lowering.out.plan[*tolerance].arguments, shapes))
-    return lowering.error(Code::E0214, use.span,
-                          fmt::format("{} cannot be evaluated here: {}", kind.word, reason),
+    return lowering.error(Code::E0214, use.span, fmt::format("{} cannot be evaluated here: {}", kind.word, reason),
                           fmt::format("`abbe explain {}` says what it applies to", kind.word));
   const plan::CharacteristicId id{static_cast<int>(lowering.out.plan.characteristics.size())};
   lowering.out.plan.characteristics.push_back(
-      {features, *tolerance, raw.span, raw.line,
-       material_conditions(lowering, *symbol, features.front(), use)});
+      {features, *tolerance, raw.span, raw.line, material_conditions(lowering, *symbol, features.front(), use)});
   lowering.emit(plan::Evaluate{id});
 }
 
-/// What the result file repeats of an OUTPUT without knowing more of it: sensors, and labels of reports and of what identifies the part.
+/// What the result file repeats of an OUTPUT without knowing more of it: sensors, and labels of reports and
+/// of what identifies the part.
 std::vector<std::string> only_named(const Match& match) {
   std::vector<std::string> labels;
   for (const MatchedValue& v : match.values)
@@ -121,7 +116,8 @@ std::vector<std::string> only_named(const Match& match) {
 }
 
 /// What goes to the result file: the features, and the characteristics evaluated from `first` on.
-void emit_output(Lowering& lowering, const std::vector<plan::FeatureId>& features, std::size_t first, const Match& match) {
+void emit_output(Lowering& lowering, const std::vector<plan::FeatureId>& features, std::size_t first,
+                 const Match& match) {
   plan::Output out{features, {}, only_named(match)};
   for (std::size_t k = first; k < lowering.out.plan.characteristics.size(); ++k)
     out.characteristics.push_back({static_cast<int>(k)});
@@ -137,8 +133,7 @@ std::string names_of_features(const Match& match) {
 }
 
 /// The tolerances of size of this statement serve its other tolerances, whatever their order.
-void remember_sizes(Lowering& lowering, plan::FeatureId feature,
-                    const std::vector<const MatchedValue*>& tolerances) {
+void remember_sizes(Lowering& lowering, plan::FeatureId feature, const std::vector<const MatchedValue*>& tolerances) {
   for (const MatchedValue* use : tolerances) {
     const ToleranceSymbol* symbol = lowering.symbols.tolerances.find(upper(use->label.name));
     if (!symbol) continue;
@@ -162,15 +157,13 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   std::vector<const MatchedValue*> tolerances;
   for (const MatchedValue& v : match.values) {
     if (v.type == ValueType::tolerance) tolerances.push_back(&v);
-    if (v.type == ValueType::feature)
-      features.push_back(lowering.actual_feature(v.label).value_or(plan::FeatureId{}));
+    if (v.type == ValueType::feature) features.push_back(lowering.actual_feature(v.label).value_or(plan::FeatureId{}));
     if (v.type == ValueType::frame)
       if (const auto frame = lowering.frame(v.label)) lowering.emit(plan::OutputFrame{*frame});
     if (v.type == ValueType::sensor) lowering.sensor(v.label);
     if (v.type == ValueType::label) check_report_label(lowering, v);
   }
-  if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty())
-    lowering.fail(lowering.doubt());
+  if (!lowering.failed && !tolerances.empty() && !lowering.doubt().empty()) lowering.fail(lowering.doubt());
   const std::string feature = names_of_features(match);
   const std::size_t first_characteristic = lowering.out.plan.characteristics.size();
   const bool features_failed = lowering.failed;
@@ -184,14 +177,12 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
     if (!features_failed) evaluate(lowering, raw, features, *use);
     if (!lowering.failed) continue;
     lowering.out.lost.push_back(
-        {raw.line, feature,
-         fmt::format("{}({}): {}", use->label.kind, use->label.name, lowering.failure)});
+        {raw.line, feature, fmt::format("{}({}): {}", use->label.kind, use->label.name, lowering.failure)});
     if (!any_failed) first_failure = lowering.failure;
     any_failed = true;
   }
   if (raw.word == "OUTPUT" && !features_failed) emit_output(lowering, features, first_characteristic, match);
-  if (tolerances.empty() && any_failed)
-    lowering.out.lost.push_back({raw.line, feature, first_failure});
+  if (tolerances.empty() && any_failed) lowering.out.lost.push_back({raw.line, feature, first_failure});
   lowering.failed = any_failed;
   lowering.failure = first_failure;
 }
@@ -200,14 +191,13 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
 
 extern const Statement kTol, kOutput, kEval;
 
-const Statement kTol = {
-    "TOL",
-    "T",
-    "kind:word, ...",
-    "Defines a tolerance. Its datums may be bound later, before OUTPUT or EVAL.",
-    "T(ROUND)=TOL/CIRLTY,0.01",
-    "ISO 22093, TOL",
-    define_tolerance};
+const Statement kTol = {"TOL",
+                        "T",
+                        "kind:word, ...",
+                        "Defines a tolerance. Its datums may be bound later, before OUTPUT or EVAL.",
+                        "T(ROUND)=TOL/CIRLTY,0.01",
+                        "ISO 22093, TOL",
+                        define_tolerance};
 const Statement kOutput = {
     "OUTPUT",
     "",
@@ -218,13 +208,12 @@ const Statement kOutput = {
     "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
     "ISO 22093, OUTPUT",
     output};
-const Statement kEval = {
-    "EVAL",
-    "",
-    "feature:feature, { feature:feature }, tolerance:tolerance, { tolerance:tolerance }",
-    "Evaluates tolerances without putting out the features.",
-    "EVAL/FA(BORE),T(ROUND)",
-    "ISO 22093, EVAL",
-    output};
+const Statement kEval = {"EVAL",
+                         "",
+                         "feature:feature, { feature:feature }, tolerance:tolerance, { tolerance:tolerance }",
+                         "Evaluates tolerances without putting out the features.",
+                         "EVAL/FA(BORE),T(ROUND)",
+                         "ISO 22093, EVAL",
+                         output};
 
 }  // namespace abbe::lang

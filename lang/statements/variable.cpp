@@ -12,7 +12,8 @@ namespace abbe::lang {
 bool assign_to_label(Lowering& lowering, const RawStatement& raw, Value value) {
   const std::string& written = raw.label->name;
   const std::size_t bracket = written.find('[');
-  const std::string name = written.substr(0, written.find_last_not_of(" \t", bracket == std::string::npos ? bracket : bracket - 1) + 1);
+  const std::string name =
+      written.substr(0, written.find_last_not_of(" \t", bracket == std::string::npos ? bracket : bracket - 1) + 1);
   std::optional<Value> index;
   if (bracket != std::string::npos) {
     const std::string& code = raw.code->text();
@@ -22,18 +23,26 @@ bool assign_to_label(Lowering& lowering, const RawStatement& raw, Value value) {
     index = lowering.value(inner);
     if (!index) return false;
     if (!index->is_number()) {
-      lowering.error(Code::E0236, raw.label->span, fmt::format("an index is a whole number, this is {}", name_of(index->type)));
+      lowering.error(Code::E0236, raw.label->span,
+                     fmt::format("an index is a whole number, this is {}", name_of(index->type)));
       return false;
     }
   }
   Variable* variable = find_variable(lowering, name);
   if (!variable && !index) {
-    lowering.warn(Code::W0124, raw.label->span, fmt::format("{} is not declared: it is taken as {}", name, name_of(value.type)),
+    lowering.warn(Code::W0124, raw.label->span,
+                  fmt::format("{} is not declared: it is taken as {}", name, name_of(value.type)),
                   fmt::format("declare it: DECL/{},{}", name_of(value.type), name));
     variable = &declare(lowering, name, value.type, 0, 0, false);
   }
   try {
-    if (!variable) throw Mistake{Code::E0230, 0, 0, fmt::format("{} is no variable here", name), fmt::format("declare it: DECL/REAL,{}[10]", name), ""};
+    if (!variable)
+      throw Mistake{Code::E0230,
+                    0,
+                    0,
+                    fmt::format("{} is no variable here", name),
+                    fmt::format("declare it: DECL/REAL,{}[10]", name),
+                    ""};
     assign(lowering, *variable, index, std::move(value));
     return true;
   } catch (const Mistake& m) {
@@ -47,22 +56,26 @@ namespace {
 constexpr double kMostElements = 10000;
 
 Type type_of(const std::string& word) {
-  return word == "BOOL"                     ? Type::boolean
-         : word == "INTGR" || word == "LONG" ? Type::integer
-         : word == "CHAR"                   ? Type::text
-         : word == "VECTOR"                 ? Type::vector
-                                            : Type::real;
+  return word == "BOOL"                   ? Type::boolean
+      : word == "INTGR" || word == "LONG" ? Type::integer
+      : word == "CHAR"                    ? Type::text
+      : word == "VECTOR"                  ? Type::vector
+                                          : Type::real;
 }
 
 /// NAME or NAME[size]; name and size, or nothing after an error.
 std::optional<std::pair<std::string, int>> declared(Lowering& lowering, const RawArgument& a) {
   const std::size_t bracket = a.text.find_first_of("[(");
-  const std::string name = a.text.substr(0, a.text.find_last_not_of(" \t", bracket == std::string::npos ? bracket : bracket - 1) + 1);
-  const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80; };
+  const std::string name =
+      a.text.substr(0, a.text.find_last_not_of(" \t", bracket == std::string::npos ? bracket : bracket - 1) + 1);
+  const auto letter = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+  };
   bool sound = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0]));
   for (const char c : name) sound = sound && letter(c);
   if (!sound || a.kind == RawArgument::Kind::text) {
-    lowering.error(Code::E0243, a.span, fmt::format("'{}' is no name for a variable", a.text), "a name has letters, digits and _ and does not begin with a digit");
+    lowering.error(Code::E0243, a.span, fmt::format("'{}' is no name for a variable", a.text),
+                   "a name has letters, digits and _ and does not begin with a digit");
     return std::nullopt;
   }
   if (bracket == std::string::npos) return std::pair{name, 0};
@@ -72,7 +85,8 @@ std::optional<std::pair<std::string, int>> declared(Lowering& lowering, const Ra
   const std::optional<Value> size = lowering.value(inner);
   if (!size) return std::nullopt;
   if (!size->is_number() || !size->known() || !(size->constant() >= 1 && size->constant() <= kMostElements)) {
-    lowering.error(Code::E0243, a.span, fmt::format("an array has 1 to {} elements", kMostElements), fmt::format("write {}[10] for ten elements; there is one index", name));
+    lowering.error(Code::E0243, a.span, fmt::format("an array has 1 to {} elements", kMostElements),
+                   fmt::format("write {}[10] for ten elements; there is one index", name));
     return std::nullopt;
   }
   return std::pair{name, static_cast<int>(size->constant())};
@@ -90,7 +104,8 @@ void declare_all(Lowering& lowering, const RawStatement& raw, const Match& match
     const bool global = scope != "LOCAL" || lowering.scopes.empty();
     const std::string key = (global ? "" : lowering.scopes.back()) + upper(name->first);
     const auto known = lowering.variables.find(key);
-    const bool repeats = known != lowering.variables.end() && known->second.type == type && known->second.size == name->second;
+    const bool repeats =
+        known != lowering.variables.end() && known->second.type == type && known->second.size == name->second;
     if (repeats) continue;  // a DECL in a loop or said again: the variable keeps its value
     declare(lowering, name->first, type, length, name->second, global);
   }
@@ -115,19 +130,24 @@ void prompt(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const std::string name = raw.label->name.substr(0, raw.label->name.find_first_of(" ["));
   const auto answer = lowering.answers.find(upper(name));
   if (answer == lowering.answers.end())
-    return lowering.error(Code::E0235, raw.span, fmt::format("nobody is here to answer '{}'", match.text("question")),
-                          fmt::format("give the answer on the command line, --answer {0}=VALUE, or in the program: $$! answer {0}=VALUE", name));
+    return lowering.error(
+        Code::E0235, raw.span, fmt::format("nobody is here to answer '{}'", match.text("question")),
+        fmt::format("give the answer on the command line, --answer {0}=VALUE, or in the program: $$! answer {0}=VALUE",
+                    name));
   if (const auto value = answer_value(lowering, answer->second, find_variable(lowering, name)))
     assign_to_label(lowering, raw, *value);
   else
-    lowering.error(Code::E0235, raw.span, fmt::format("the answer '{}' is no value for {}", answer->second, name), fmt::format("--answer {}=VALUE takes a number, TRUE or FALSE here", name));
+    lowering.error(Code::E0235, raw.span, fmt::format("the answer '{}' is no value for {}", answer->second, name),
+                   fmt::format("--answer {}=VALUE takes a number, TRUE or FALSE here", name));
 }
 
 void setting(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const std::string word = match.text("word");
   const std::string* found = lowering.settings.find(match.has("which") ? word + "," + match.text("which") : word);
   if (!found)
-    return lowering.error(Code::E0244, match.find("word")->span, fmt::format("{} has not been set above on every path", word), "VALUE reads what the last statement of that word set");
+    return lowering.error(Code::E0244, match.find("word")->span,
+                          fmt::format("{} has not been set above on every path", word),
+                          "VALUE reads what the last statement of that word set");
   if (const auto value = answer_value(lowering, *found, nullptr)) assign_to_label(lowering, raw, *value);
 }
 
@@ -135,35 +155,39 @@ void setting(Lowering& lowering, const RawStatement& raw, const Match& match) {
 
 extern const Statement kDecl, kAssign, kPrompt, kValue;
 
-const Statement kDecl = {"DECL",
-                         "",
-                         "[ scope:GLOBAL|COMMON|LOCAL ], ( type:CHAR, length:integer ; type:BOOL|INTGR|LONG|REAL|DOUBLE|CHAR|VECTOR ), ...",
-                         "Declares variables, or arrays: X[10]. In a macro they are local to the call, unless GLOBAL or COMMON.",
-                         "DECL/REAL,X,Y,DEV[10]",
-                         "ISO 22093, DECL",
-                         declare_all};
-const Statement kAssign = {"ASSIGN",
-                           "=",
-                           "value:value",
-                           "Gives a variable a value. INTGR cuts fractions off. What depends on a measured value differs from machine to machine.",
-                           "X=ASSIGN/2*SQRT(Y)+1",
-                           "ISO 22093, ASSIGN",
-                           assign_value,
-                           Varying::taken};
-const Statement kPrompt = {"PROMPT",
-                           "=",
-                           "question:text, ...",
-                           "Asks the operator. Here the answer comes from the command line, --answer X=VALUE, or from a directive: $$! answer X=VALUE.",
-                           "X=PROMPT/'serial number'",
-                           "ISO 22093, PROMPT",
-                           prompt};
-const Statement kValue = {"VALUE",
-                          "=",
-                          "word:word, [ which:word ]",
-                          "A setting in force: the first argument of the last statement of that word (VALUE/UNITS), or the last argument of the last one that began with a "
-                          "second word (VALUE/SNSET,APPRCH).",
-                          "X=VALUE/SNSET,APPRCH",
-                          "ISO 22093, VALUE",
-                          setting};
+const Statement kDecl = {
+    "DECL",
+    "",
+    "[ scope:GLOBAL|COMMON|LOCAL ], ( type:CHAR, length:integer ; type:BOOL|INTGR|LONG|REAL|DOUBLE|CHAR|VECTOR ), ...",
+    "Declares variables, or arrays: X[10]. In a macro they are local to the call, unless GLOBAL or COMMON.",
+    "DECL/REAL,X,Y,DEV[10]",
+    "ISO 22093, DECL",
+    declare_all};
+const Statement kAssign = {
+    "ASSIGN",
+    "=",
+    "value:value",
+    "Gives a variable a value. INTGR cuts fractions off. What depends on a measured value differs from machine to machine.",
+    "X=ASSIGN/2*SQRT(Y)+1",
+    "ISO 22093, ASSIGN",
+    assign_value,
+    Varying::taken};
+const Statement kPrompt = {
+    "PROMPT",
+    "=",
+    "question:text, ...",
+    "Asks the operator. Here the answer comes from the command line, --answer X=VALUE, or from a directive: $$! answer X=VALUE.",
+    "X=PROMPT/'serial number'",
+    "ISO 22093, PROMPT",
+    prompt};
+const Statement kValue = {
+    "VALUE",
+    "=",
+    "word:word, [ which:word ]",
+    "A setting in force: the first argument of the last statement of that word (VALUE/UNITS), or the last argument of the last one that began with a "
+    "second word (VALUE/SNSET,APPRCH).",
+    "X=VALUE/SNSET,APPRCH",
+    "ISO 22093, VALUE",
+    setting};
 
 }  // namespace abbe::lang

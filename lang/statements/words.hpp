@@ -16,9 +16,7 @@ inline Axis axis_of(std::string_view word) {
   if (word.starts_with('-')) word.remove_prefix(1);
   return word[0] == 'X' ? Axis::x : word[0] == 'Y' ? Axis::y : Axis::z;
 }
-inline AxisDirection direction_of(std::string_view word) {
-  return {axis_of(word), word.starts_with('-') ? -1 : 1};
-}
+inline AxisDirection direction_of(std::string_view word) { return {axis_of(word), word.starts_with('-') ? -1 : 1}; }
 
 /// Three numbers of the match that begin at the one named `first`.
 inline Vec3 vector_of(const Match& match, std::string_view first) {
@@ -33,13 +31,11 @@ inline bool is_varying(const Match& match, std::string_view first) {
 }
 
 /// The same as a unit vector; an error at its first component when it is zero.
-inline std::optional<Vec3> direction_vector(Lowering& lowering, const Match& match,
-                                            std::string_view first) {
+inline std::optional<Vec3> direction_vector(Lowering& lowering, const Match& match, std::string_view first) {
   const Vec3 v = vector_of(match, first);
   const double length = norm(v);
   if (length > 0) return v / length;
-  lowering.error(Code::E0208, match.find(first)->span, "this vector is zero",
-                 "give a direction, for example 0,0,1");
+  lowering.error(Code::E0208, match.find(first)->span, "this vector is zero", "give a direction, for example 0,0,1");
   return std::nullopt;
 }
 
@@ -50,7 +46,7 @@ std::vector<std::string_view> feature_words();
 void check_kind(Lowering&, const MatchedValue& written, plan::FeatureId);
 /// The error for a word that no registry has: `what` is the statement, `role` what the word should
 /// have named.
-void unknown_kind(Lowering&, const MatchedValue& written, std::string_view what,
-                  std::string_view role, const std::vector<std::string_view>& known);
+void unknown_kind(Lowering&, const MatchedValue& written, std::string_view what, std::string_view role,
+                  const std::vector<std::string_view>& known);
 
 }  // namespace abbe::lang

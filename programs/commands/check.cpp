@@ -1,5 +1,6 @@
-// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Only the error-free machine runs them, on
-// the machine that the program names. Where it names none, the default machine shows what no machine can do.
+// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Only the
+// error-free machine runs them, on the machine that the program names. Where it names none, the default
+// machine shows what no machine can do.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -13,13 +14,15 @@
 namespace abbe {
 namespace {
 
-/// Errors of a file that a directive names, or that it cannot be read: where they stand in that file, else at the directive.
+/// Errors of a file that a directive names, or that it cannot be read: where they stand in that file, else at
+/// the directive.
 void add_at(const UserError& error, const SourceFile& source, Span directive, Sink& sink) {
   for (const Diagnostic& d : error.diagnostics())
     sink.add(d.span ? d : diagnostic_at(source, directive, d.code, d.message, d.help));
 }
 
-/// What an error-free machine cannot do, whatever the machine is: travels and sensors are those of the machine that the command line will name.
+/// What an error-free machine cannot do, whatever the machine is: travels and sensors are those of the
+/// machine that the command line will name.
 void check_on_any_machine(const CompiledProgram& program, const RunOptions& options, Sink& sink) {
   try {
     check_plan(program.compilation.plan, read_machine(kDefaultMachine), options, program.source);
@@ -44,8 +47,10 @@ void check_on_machine(const CompiledProgram& program, Sink& sink) {
   if (!asked.machine) return check_on_any_machine(program, options, sink);
   try {
     const Machine machine = read_machine(machine_name(program, std::nullopt));
-    for (const Diagnostic& d : machine_warnings(machine)) sink.add(diagnostic_at(program.source, asked.machine_span, d.code, d.message, d.help));
-    const Placement found = asked.place_mm ? Placement{*asked.place_mm, {}} : find_placement(plan, machine, program.source);
+    for (const Diagnostic& d : machine_warnings(machine))
+      sink.add(diagnostic_at(program.source, asked.machine_span, d.code, d.message, d.help));
+    const Placement found =
+        asked.place_mm ? Placement{*asked.place_mm, {}} : find_placement(plan, machine, program.source);
     if (found.message) sink.add(*found.message);
     options.placement_mm = found.shift_mm;
     check_plan(plan, machine, options, program.source);
@@ -90,8 +95,7 @@ std::string indented(const nlohmann::ordered_json& json) {
 
 int check_command(const CheckOptions& options) {
   const bool as_json = options.format == "json";
-  nlohmann::ordered_json messages = nlohmann::ordered_json::array(),
-                         plans = nlohmann::ordered_json::object();
+  nlohmann::ordered_json messages = nlohmann::ordered_json::array(), plans = nlohmann::ordered_json::object();
   std::size_t errors = 0, warnings = 0;
   std::string result;
   for (const std::string& program : options.programs) {

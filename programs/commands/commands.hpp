@@ -1,8 +1,8 @@
 // The commands of `abbe`: one options struct and one function for each, in a file of its own beside this header.
 //
 // options.cpp fills the struct from the command line and calls the function. A command prints its result on stdout, its
-// messages on stderr (terminal.hpp), and returns the exit code. It may throw UserError (abbe.cpp renders it and exits with
-// 2); anything else that escapes is a fault of ours and exits with 3.
+// messages on stderr (terminal.hpp), and returns the exit code. It may throw UserError (abbe.cpp renders it
+// and exits with 2); anything else that escapes is a fault of ours and exits with 3.
 #pragma once
 
 #include <array>
@@ -22,18 +22,18 @@ inline constexpr int kFault = 3;     ///< internal fault
 
 struct RunCommandOptions {
   StudyRequest request;
-  std::string format = "text";     ///< a name of report_writers()
-  std::optional<std::string> csv;  ///< where every sample goes
-  std::optional<std::string> dmo;  ///< where the result file of the error-free machine goes
+  std::string format = "text";        ///< a name of report_writers()
+  std::optional<std::string> csv;     ///< where every sample goes
+  std::optional<std::string> dmo;     ///< where the result file of the error-free machine goes
   std::optional<std::string> report;  ///< where the page goes
 };
 int run_command(const RunCommandOptions&);
 
 struct CheckOptions {
   std::vector<std::string> programs;
-  bool plan = false;            ///< also print the plan of each program
+  bool plan = false;                           ///< also print the plan of each program
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
-  std::string format = "text";  ///< text or json
+  std::string format = "text";                 ///< text or json
 };
 int check_command(const CheckOptions&);
 
@@ -53,37 +53,37 @@ struct FitOptions {
 int fit_command(const FitOptions&);
 
 struct MachineOptions {
-  std::string action;      ///< list, show, screen, init
-  std::string machine;     ///< file or shipped name; for init the new file's name; empty for list
-  int machines = 1000;     ///< how many accepted machines `screen` draws
+  std::string action;   ///< list, show, screen, init
+  std::string machine;  ///< file or shipped name; for init the new file's name; empty for list
+  int machines = 1000;  ///< how many accepted machines `screen` draws
   std::uint64_t seed = 1;
-  int threads = 0;         ///< 0: all of the computer
+  int threads = 0;  ///< 0: all of the computer
   std::string format = "text";
 };
 int machine_command(const MachineOptions&);
 
 struct RecordOptions {
-  std::string program, output;              ///< output: where the recording goes, CSV
-  std::optional<std::string> dmo;           ///< where the result file of the recorded machine goes
+  std::string program, output;     ///< output: where the recording goes, CSV
+  std::optional<std::string> dmo;  ///< where the result file of the recorded machine goes
   std::optional<std::string> machine, workpiece;
   std::optional<std::uint64_t> seed;
-  int run = 1;                              ///< which repeat: the same machine, other noise
-  int setup = 1;                            ///< which placement of the part
+  int run = 1;                                 ///< which repeat: the same machine, other noise
+  int setup = 1;                               ///< which placement of the part
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
-  std::vector<std::string> with;            ///< "EFFECT" or "EFFECT:parameter=value,..."
+  std::vector<std::string> with;               ///< "EFFECT" or "EFFECT:parameter=value,..."
 };
 int record_command(const RecordOptions&);
 
 struct DiagnoseCommandOptions {
   std::vector<std::string> recordings;
   std::optional<std::string> program, machine, workpiece;
-  std::optional<std::string> known;         ///< machine file of an earlier diagnosis
-  std::optional<std::string> report;        ///< where the page goes, HTML
-  std::optional<std::string> model_out;     ///< where the machine file with what was found goes
+  std::optional<std::string> known;      ///< machine file of an earlier diagnosis
+  std::optional<std::string> report;     ///< where the page goes, HTML
+  std::optional<std::string> model_out;  ///< where the machine file with what was found goes
   std::optional<std::uint64_t> seed;
-  int threads = 0;                          ///< 0: all of the computer
+  int threads = 0;  ///< 0: all of the computer
   bool design_only = false, fail_on_mismatch = false;
-  std::string format = "text";              ///< text or json
+  std::string format = "text";  ///< text or json
 };
 int diagnose_command(const DiagnoseCommandOptions&);
 

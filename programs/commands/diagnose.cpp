@@ -22,9 +22,16 @@ namespace {
 /// What an error-free machine would record of the program: targets, normals, sensors.
 MachineRecord nominal_record(const CompiledProgram& program, const Machine& machine) {
   RunOptions run;
-  run.contributors = {.geometry = false, .head = false, .probe = false, .only_component = {}, .part = false, .effects = false, .only_effect = {}};
+  run.contributors = {.geometry = false,
+                      .head = false,
+                      .probe = false,
+                      .only_component = {},
+                      .part = false,
+                      .effects = false,
+                      .only_effect = {}};
   const plan::Plan& plan = program.compilation.plan;
-  run.placement_mm = program.compilation.directives.place_mm ? *program.compilation.directives.place_mm : find_placement(plan, machine, program.source).shift_mm;
+  run.placement_mm = program.compilation.directives.place_mm ? *program.compilation.directives.place_mm
+                                                             : find_placement(plan, machine, program.source).shift_mm;
   return record_plan(plan, machine, screened_machines(machine, 1, 1, 1), run, program.source);
 }
 
@@ -39,7 +46,8 @@ std::optional<std::pair<double, double>> time_span(const Recording& r) {
   return span;
 }
 
-/// A machine takes one recording at a time: where two overlap, the clock was set anew between them, and the next one counts as measured later.
+/// A machine takes one recording at a time: where two overlap, the clock was set anew between them, and the
+/// next one counts as measured later.
 void continue_clock(const Recording& before, Recording& next, const std::string& file) {
   constexpr double kPause_s = 60;
   const auto past = time_span(before), own = time_span(next);
@@ -47,8 +55,11 @@ void continue_clock(const Recording& before, Recording& next, const std::string&
   const double later_s = past->second + kPause_s - own->first;
   for (RecordingRow& row : next.rows)
     if (row.time_s) *row.time_s += later_s;
-  print_messages({diagnostic(Code::N0708, fmt::format("{}: its times overlap those of the recording ahead of it; they count as {:.0f} s later", file, later_s),
-                             "if it was measured at another time, write its true times into time_s")});
+  print_messages(
+      {diagnostic(Code::N0708,
+                  fmt::format("{}: its times overlap those of the recording ahead of it; they count as {:.0f} s later",
+                              file, later_s),
+                  "if it was measured at another time, write its true times into time_s")});
 }
 
 std::string machine_in(const Recording& recording) {
@@ -60,17 +71,24 @@ std::string machine_in(const Recording& recording) {
 /// A file given twice is no repeat: nothing was measured again.
 void refuse_copy(const Recording& before, const std::string& name, const Recording& next, const std::string& copy) {
   const auto same = [](const RecordingRow& a, const RecordingRow& b) {
-    return a.feature == b.feature && a.touch == b.touch && a.setup == b.setup && a.run == b.run && a.position_mm == b.position_mm && a.time_s == b.time_s;
+    return a.feature == b.feature && a.touch == b.touch && a.setup == b.setup && a.run == b.run &&
+        a.position_mm == b.position_mm && a.time_s == b.time_s;
   };
-  if (std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), same) == before.rows.end()) return;
-  throw UserError(diagnostic(Code::E0713, fmt::format("'{}' holds the same touches as '{}'", copy, name), "give each recording once; a repeat has other values, and another 'run'"));
+  if (std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), same) ==
+      before.rows.end())
+    return;
+  throw UserError(diagnostic(Code::E0713, fmt::format("'{}' holds the same touches as '{}'", copy, name),
+                             "give each recording once; a repeat has other values, and another 'run'"));
 }
 
 /// Recordings of one machine belong together.
 void doubt_machine(const Recording& first, const std::string& name, const Recording& next, const std::string& file) {
   const std::string one = machine_in(first), other = machine_in(next);
   if (!one.empty() && !other.empty() && one != other)
-    print_messages({diagnostic(Code::W0714, fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, one, file, other), "judge each machine by its own recordings")});
+    print_messages({diagnostic(
+        Code::W0714,
+        fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, one, file, other),
+        "judge each machine by its own recordings")});
 }
 
 /// Several files are one recording; their frames must agree.
@@ -84,13 +102,15 @@ Recording joined(const std::vector<SourceFile>& files) {
       continue;
     }
     if (one.in_part_frame != all.in_part_frame || one.point != all.point)
-      throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", files[0].name(), name),
+      throw UserError(diagnostic(Code::E0707,
+                                 fmt::format("'{}' and '{}' have different frames or points", files[0].name(), name),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
     refuse_copy(all, files[0].name(), one, name);
     doubt_machine(all, files[0].name(), one, name);
     continue_clock(all, one, name);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
-    all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());   // new styli; of what is said twice the first counts
+    // new styli; of what is said twice the first counts
+    all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());
   }
   return all;
 }
@@ -111,7 +131,8 @@ struct Files {
 };
 
 /// Before the work: a diagnosis takes minutes. `programs`: those that were compiled, with their modules.
-void protect_files(const DiagnoseCommandOptions& options, const Files& read, const std::vector<std::string>& programs, const std::string& machine) {
+void protect_files(const DiagnoseCommandOptions& options, const Files& read, const std::vector<std::string>& programs,
+                   const std::string& machine) {
   std::vector<std::string> inputs = programs;
   inputs.push_back(machine);
   for (const std::string& file : files_of(read.workpiece)) inputs.push_back(file);
@@ -121,7 +142,7 @@ void protect_files(const DiagnoseCommandOptions& options, const Files& read, con
 
 struct Answer {
   Diagnosis diagnosis;
-  std::string machine;                ///< that it was compared with
+  std::string machine;  ///< that it was compared with
 };
 
 Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
@@ -134,12 +155,15 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
 Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
   Recording recording = joined(read.recordings);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  const std::string name = machine_of(options, [&] { return recorded_machine(machine_in(recording), options.recordings); });
-  const std::optional<CompiledProgram> program = options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
+  const std::string name =
+      machine_of(options, [&] { return recorded_machine(machine_in(recording), options.recordings); });
+  const std::optional<CompiledProgram> program =
+      options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
   Machine machine = read_machine(name);
   if (options.known && machine.known_state.empty())
-    print_messages({diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name), "`abbe diagnose --model-out` writes one; --machine takes a file without")});
+    print_messages({diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name),
+                               "`abbe diagnose --model-out` writes one; --machine takes a file without")});
   if (program) complete_from_program(recording, nominal_record(*program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   std::vector<Diagnostic> messages;
@@ -161,12 +185,16 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   how.threads = thread_count(options.threads);
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
-  const auto [d, machine] = are_values(read.recordings) ? of_values(options, read, how) : of_touches(options, read, how);
+  const auto [d, machine] =
+      are_values(read.recordings) ? of_values(options, read, how) : of_touches(options, read, how);
   print_messages(d.messages);
   if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(machine), d));
-  if (options.report) write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));
+  if (options.report)
+    write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));
   print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d));
-  return options.fail_on_mismatch && d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known) ? kNo : kDone;
+  return options.fail_on_mismatch && d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known)
+      ? kNo
+      : kDone;
 }
 
 }  // namespace abbe

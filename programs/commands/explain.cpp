@@ -46,10 +46,8 @@ std::optional<std::string> explain_effect(const std::string& name) {
 
 std::string overview() {
   std::string out = lang::list_of_words() + "\nEffects\n";
-  for (const Effect* effect : effects())
-    out += fmt::format("  {:<34} {}\n", effect->name, effect->title);
-  return out +
-         "\n`abbe explain WORD` explains a word, an effect, or the code of a message (E0110).\n";
+  for (const Effect* effect : effects()) out += fmt::format("  {:<34} {}\n", effect->name, effect->title);
+  return out + "\n`abbe explain WORD` explains a word, an effect, or the code of a message (E0110).\n";
 }
 
 [[noreturn]] void unknown(const std::string& word) {
@@ -57,18 +55,17 @@ std::string overview() {
   for (const Effect* effect : effects()) candidates.push_back(effect->name);
   for (const CodeInfo& code : all_codes()) candidates.push_back(code.name);
   const std::string near = nearest_word(word, candidates);
-  throw UserError(diagnostic(
-      Code::E0609, fmt::format("there is nothing to explain under '{}'", word),
-      near.empty() ? "`abbe explain` lists the words" : fmt::format("did you mean {}?", near)));
+  throw UserError(diagnostic(Code::E0609, fmt::format("there is nothing to explain under '{}'", word),
+                             near.empty() ? "`abbe explain` lists the words" : fmt::format("did you mean {}?", near)));
 }
 
 [[noreturn]] void no_figure(const std::string& what, const std::string& word) {
   std::vector<std::string_view> names;
   for (const Effect* effect : effects()) names.push_back(effect->name);
   const std::string near = nearest_word(word, names);
-  throw UserError(diagnostic(Code::E0431, what,
-                             near.empty() ? "`abbe explain` lists the effects; each has a figure"
-                                          : fmt::format("did you mean {}?", near)));
+  throw UserError(diagnostic(
+      Code::E0431, what,
+      near.empty() ? "`abbe explain` lists the effects; each has a figure" : fmt::format("did you mean {}?", near)));
 }
 
 /// The specification of the figure of an effect; nothing else has one.

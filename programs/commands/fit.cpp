@@ -26,12 +26,9 @@ struct ElementNames {
   const char *point, *direction, *size;
 };
 constexpr ElementNames kElements[] = {
-    {"line", Shape::line, "point", "direction", ""},
-    {"plane", Shape::plane, "point", "normal", ""},
-    {"circle", Shape::circle, "center", "normal", "radius"},
-    {"sphere", Shape::sphere, "center", "", "radius"},
-    {"cylinder", Shape::cylinder, "point", "axis", "radius"},
-    {"cone", Shape::cone, "point", "axis", "radius"},
+    {"line", Shape::line, "point", "direction", ""},           {"plane", Shape::plane, "point", "normal", ""},
+    {"circle", Shape::circle, "center", "normal", "radius"},   {"sphere", Shape::sphere, "center", "", "radius"},
+    {"cylinder", Shape::cylinder, "point", "axis", "radius"},  {"cone", Shape::cone, "point", "axis", "radius"},
     {"torus", Shape::torus, "center", "axis", "major_radius"},
 };
 
@@ -49,9 +46,9 @@ const ElementNames& element_named(std::string word) {
 }
 
 std::string needs(const ElementNames& names) {
-  const char* spread = names.shape == Shape::line                                     ? ""
-                       : names.shape == Shape::plane || names.shape == Shape::circle ? ", not all on one line"
-                                                                                      : ", not all in one plane";
+  const char* spread = names.shape == Shape::line                   ? ""
+      : names.shape == Shape::plane || names.shape == Shape::circle ? ", not all on one line"
+                                                                    : ", not all in one plane";
   return fmt::format("a {} needs at least {} different points{}, and every coordinate a finite number", names.name,
                      feature_kind(names.shape).minimum_points, spread);
 }
@@ -104,8 +101,8 @@ int fit_command(const FitOptions& options) {
   const FitSolution solution = fit_points(problem);
   if (solution.error) {
     Diagnostic d = diagnostic(Code::E0505,
-                              fmt::format("no {} can be fitted to {} points: {} ({})", names.name, problem.points.size(),
-                                          solution.error->message, solution.error->code),
+                              fmt::format("no {} can be fitted to {} points: {} ({})", names.name,
+                                          problem.points.size(), solution.error->message, solution.error->code),
                               needs(names));
     d.file = options.points;
     throw UserError(d);

@@ -17,8 +17,7 @@ int format_command(const FormatOptions& options) {
     const bool changes = text != source.text();
     differ += changes ? 1 : 0;
     if (options.check) {
-      if (changes)
-        print_result(fmt::format("{}: not formatted; `abbe format --write` does it\n", path));
+      if (changes) print_result(fmt::format("{}: not formatted; `abbe format --write` does it\n", path));
     } else if (options.write) {
       if (changes) write_whole(path, text);
     } else {

@@ -23,21 +23,16 @@ int list(const MachineOptions& options) {
   for (const std::string& name : shipped_machines()) {
     const Machine m = read_machine(name);
     const Specification& spec = m.specification;
-    text += fmt::format("{:<20} {:g} x {:g} x {:g} mm, MPE {} ({})\n", name, m.axes[0].travel_mm,
-                        m.axes[1].travel_mm, m.axes[2].travel_mm, length_mpe_text(spec.mpe),
-                        spec.standard);
-    machines.push_back(
-        {{"name", name},
-         {"travel_mm", {m.axes[0].travel_mm, m.axes[1].travel_mm, m.axes[2].travel_mm}},
-         {"mpe", length_mpe_json(spec.mpe)},
-         {"standard", spec.standard}});
+    text += fmt::format("{:<20} {:g} x {:g} x {:g} mm, MPE {} ({})\n", name, m.axes[0].travel_mm, m.axes[1].travel_mm,
+                        m.axes[2].travel_mm, length_mpe_text(spec.mpe), spec.standard);
+    machines.push_back({{"name", name},
+                        {"travel_mm", {m.axes[0].travel_mm, m.axes[1].travel_mm, m.axes[2].travel_mm}},
+                        {"mpe", length_mpe_json(spec.mpe)},
+                        {"standard", spec.standard}});
   }
-  print_result(
-      options.format == "json"
-          ? nlohmann::ordered_json{{"schema", "abbe.machine_list/1"}, {"machines", machines}}.dump(
-                2) +
-                "\n"
-          : text);
+  print_result(options.format == "json"
+                   ? nlohmann::ordered_json{{"schema", "abbe.machine_list/1"}, {"machines", machines}}.dump(2) + "\n"
+                   : text);
   return kDone;
 }
 
@@ -57,13 +52,11 @@ int show(const MachineOptions& options) {
   report.tested = virtual_acceptance_test(report.machine, report.drawn.geometry[0]);
   report.messages = machine_warnings(report.machine);
   if (options.format != "json") print_messages(report.messages);
-  print_result(options.format == "json" ? machine_report_json(report)
-                                        : machine_report_text(report));
+  print_result(options.format == "json" ? machine_report_json(report) : machine_report_text(report));
   return kDone;
 }
 
-LineReport line_report(const TestLine& line, std::size_t number,
-                       const std::vector<TestResult>& results) {
+LineReport line_report(const TestLine& line, std::size_t number, const std::vector<TestResult>& results) {
   LineReport out{line, 0, 0, 0};
   std::vector<double> worst;
   for (const TestResult& result : results) {
@@ -81,8 +74,7 @@ LineReport line_report(const TestLine& line, std::size_t number,
 
 int screen(const MachineOptions& options) {
   if (options.machines < 1)
-    throw UserError(diagnostic(
-        Code::E0603, fmt::format("--machines is {}, but must be at least 1", options.machines)));
+    throw UserError(diagnostic(Code::E0603, fmt::format("--machines is {}, but must be at least 1", options.machines)));
   ScreeningReport report;
   report.machine = usable_machine(options.machine);
   report.seed = options.seed;
@@ -95,12 +87,11 @@ int screen(const MachineOptions& options) {
   for (const GeometryCoefficients& one : machines.geometry)
     results.push_back(virtual_acceptance_test(report.machine, one));
   const auto lines = test_lines(report.machine);
-  for (std::size_t k = 0; k < lines.size(); ++k)
-    report.lines.push_back(line_report(lines[k], k, results));
+  for (std::size_t k = 0; k < lines.size(); ++k) report.lines.push_back(line_report(lines[k], k, results));
   report.probe = probe_checks(report.machine, options.seed);
   progress.show("looking for a factor on e_max");
-  report.suggested = suggest_e_max_factor(report.machine, options.seed, kSuggestionCandidates,
-                                          thread_count(options.threads));
+  report.suggested =
+      suggest_e_max_factor(report.machine, options.seed, kSuggestionCandidates, thread_count(options.threads));
   report.messages = machine_warnings(report.machine);
   if (const auto warning =
           screening_warning(report.machine, report.counts, options.seed, thread_count(options.threads)))
@@ -116,8 +107,7 @@ int screen(const MachineOptions& options) {
 std::string machine_template(const std::string& name) {
   constexpr std::string_view kPaper = "coord3-mc16";
   const auto files = shipped_machine_files();
-  const auto paper = std::find_if(files.begin(), files.end(),
-                                  [&](const ShippedFile& f) { return f.name == kPaper; });
+  const auto paper = std::find_if(files.begin(), files.end(), [&](const ShippedFile& f) { return f.name == kPaper; });
   std::string text(paper->text);
   const std::string own_name = fmt::format("\"name\": \"{}\"", kPaper);
   return text.replace(text.find(own_name), own_name.size(), fmt::format("\"name\": \"{}\"", name));
@@ -127,28 +117,22 @@ std::string machine_template(const std::string& name) {
 int init(const MachineOptions& options) {
   constexpr std::string_view kEnding = ".json";
   const bool to_file = options.machine.ends_with(kEnding);
-  const std::string name =
-      to_file ? std::filesystem::path(options.machine).stem().string() : options.machine;
-  const auto plain = [](unsigned char c) {
-    return std::isalnum(c) || c == '-' || c == '_' || c == '.';
-  };
+  const std::string name = to_file ? std::filesystem::path(options.machine).stem().string() : options.machine;
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; };
   if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
-    throw UserError(diagnostic(
-        Code::E0603, fmt::format("'{}' cannot be the name of a machine", name),
-        "use letters, digits, '-', '_' and '.'; with .json at the end the file is written"));
+    throw UserError(diagnostic(Code::E0603, fmt::format("'{}' cannot be the name of a machine", name),
+                               "use letters, digits, '-', '_' and '.'; with .json at the end the file is written"));
   if (to_file && std::filesystem::exists(options.machine))
-    throw UserError(diagnostic(
-        Code::E0602, fmt::format("'{}' exists already and was left as it is", options.machine),
-        "choose another name, or delete the file first"));
+    throw UserError(diagnostic(Code::E0602, fmt::format("'{}' exists already and was left as it is", options.machine),
+                               "choose another name, or delete the file first"));
   const std::string text = machine_template(name);
   if (!to_file) {
     print_result(text);
     return kDone;
   }
   write_whole(options.machine, text);
-  print_result(fmt::format(
-      "wrote {}: adapt it to your machine, then look at it with `abbe machine show {}`\n",
-      options.machine, options.machine));
+  print_result(fmt::format("wrote {}: adapt it to your machine, then look at it with `abbe machine show {}`\n",
+                           options.machine, options.machine));
   return kDone;
 }
 

@@ -57,8 +57,7 @@ Json component_json(const MachineReport& report, Component component) {
   for (int i = 0; i < kSamples; ++i) {
     const double reading_mm = axis.direction * axis.travel_mm * i / (kSamples - 1);
     readings.push_back(reading_mm);
-    values.push_back(error_at(machine, report.drawn.geometry[0], component, reading_mm) *
-                     (rotation ? 1e6 : 1e3));
+    values.push_back(error_at(machine, report.drawn.geometry[0], component, reading_mm) * (rotation ? 1e6 : 1e3));
   }
   Json out{{"s", spec.linear}, {"c", spec.curvature}};
   out[rotation ? "e_max_um_per_m2" : "e_max_um_per_m"] = as_given(spec.e_max * (rotation ? 1e6 : 1e3));
@@ -97,8 +96,7 @@ Json effects_json(const Machine& machine) {
   for (const EffectSetting& effect : machine.effects) {
     Json parameters = Json::object();
     for (const auto& [key, value] : effect.parameters)
-      parameters[key] =
-          value.word.empty() ? Json{{"value", value.value}, {"u", value.u}} : Json(value.word);
+      parameters[key] = value.word.empty() ? Json{{"value", value.value}, {"u", value.u}} : Json(value.word);
     out.push_back({{"name", effect.name}, {"parameters", parameters}});
   }
   return out;
@@ -107,14 +105,11 @@ Json effects_json(const Machine& machine) {
 Json bounds_json(const Machine& machine) {
   Json out = Json::array();
   for (const InfluenceBound& b : machine.bounds)
-    out.push_back(
-        {{"influence", b.influence}, {"at_most_um", as_given(b.at_most_mm * 1e3)}, {"source", b.source}});
+    out.push_back({{"influence", b.influence}, {"at_most_um", as_given(b.at_most_mm * 1e3)}, {"source", b.source}});
   return out;
 }
 
-std::string dump(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json test_line_json(const TestLine& line) {
   Json mpe_um = Json::array();
@@ -130,8 +125,7 @@ Json test_line_json(const TestLine& line) {
 
 Json line_json(const LineReport& report) {
   Json out = test_line_json(report.line);
-  out["error_over_mpe"] = {
-      {"median", report.median}, {"p95", report.p95}, {"largest", report.largest}};
+  out["error_over_mpe"] = {{"median", report.median}, {"p95", report.p95}, {"largest", report.largest}};
   return out;
 }
 
@@ -140,8 +134,7 @@ Json tested_lines_json(const MachineReport& report) {
   Json out = Json::array();
   for (std::size_t k = 0; k < report.lines.size(); ++k) {
     Json line = test_line_json(report.lines[k]);
-    for (const double error_mm : report.tested.error_mm[k])
-      line["error_um"].push_back(error_mm * 1e3);
+    for (const double error_mm : report.tested.error_mm[k]) line["error_um"].push_back(error_mm * 1e3);
     out.push_back(line);
   }
   return out;
@@ -150,26 +143,22 @@ Json tested_lines_json(const MachineReport& report) {
 /// d of the drawn machine over its volume: each component nested by the readings of x, y, z.
 Json error_state_json(const MachineReport& report) {
   constexpr int kReadings = 11;
-  const ErrorState state =
-      error_state(report.machine, report.drawn.geometry[0], kTestTip, kReadings);
+  const ErrorState state = error_state(report.machine, report.drawn.geometry[0], kTestTip, kReadings);
   Json out{{"tip_mm", triple_json(state.tip_mm)}};
-  for (int axis = 0; axis < 3; ++axis)
-    out[fmt::format("reading_{}_mm", kAxisNames[axis])] = state.reading_mm[axis];
+  for (int axis = 0; axis < 3; ++axis) out[fmt::format("reading_{}_mm", kAxisNames[axis])] = state.reading_mm[axis];
   for (int axis = 0; axis < 3; ++axis) {
     Json& d_um = out[fmt::format("d_{}_um", kAxisNames[axis])];
     for (int ix = 0; ix < kReadings; ++ix)
       for (int iy = 0; iy < kReadings; ++iy)
-        for (int iz = 0; iz < kReadings; ++iz)
-          d_um[ix][iy].push_back(1e3 * state.at(ix, iy, iz)[axis]);
+        for (int iz = 0; iz < kReadings; ++iz) d_um[ix][iy].push_back(1e3 * state.at(ix, iy, iz)[axis]);
   }
   return out;
 }
 
 Json suggestion_json(const std::optional<SuggestedFactor>& suggested) {
   if (!suggested) return nullptr;
-  return {{"factor", suggested->factor},
-          {"share_accepted", suggested->share_accepted},
-          {"largest", suggested->largest}};
+  return {
+      {"factor", suggested->factor}, {"share_accepted", suggested->share_accepted}, {"largest", suggested->largest}};
 }
 
 }  // namespace
@@ -214,8 +203,7 @@ std::string machine_report_json(const MachineReport& report) {
        {"sensors", sensors_json(m)},
        {"effects", effects_json(m)},
        {"bounds", bounds_json(m)},
-       {"virtual_machine",
-        {{"seed", report.seed}, {"candidate", report.drawn.index[0]}, {"v", report.drawn.v[0]}}},
+       {"virtual_machine", {{"seed", report.seed}, {"candidate", report.drawn.index[0]}, {"v", report.drawn.v[0]}}},
        {"components", components},
        {"error_state", error_state_json(report)},
        {"lines", tested_lines_json(report)},
@@ -232,21 +220,20 @@ std::string screening_json(const ScreeningReport& report) {
                      {"limit_um", as_given(check.limit_mm * 1e3)},
                      {"median_um", check.median_mm * 1e3},
                      {"share_passed", check.share_passed}});
-  return dump(
-      {{"schema", "abbe.screening/1"},
-       {"machine", report.machine.name},
-       {"seed", report.seed},
-       {"specification", specification(report.machine.specification)},
-       {"machines",
-        {{"used", c.used},
-         {"generated", c.generated},
-         {"failed_mpe", c.failed_mpe},
-         {"too_small", c.too_small},
-         {"share_accepted", c.share_accepted()}}},
-       {"suggested_e_max_factor", suggestion_json(report.suggested)},
-       {"lines", lines},
-       {"probe", probe},
-       {"messages", messages(report.messages)}});
+  return dump({{"schema", "abbe.screening/1"},
+               {"machine", report.machine.name},
+               {"seed", report.seed},
+               {"specification", specification(report.machine.specification)},
+               {"machines",
+                {{"used", c.used},
+                 {"generated", c.generated},
+                 {"failed_mpe", c.failed_mpe},
+                 {"too_small", c.too_small},
+                 {"share_accepted", c.share_accepted()}}},
+               {"suggested_e_max_factor", suggestion_json(report.suggested)},
+               {"lines", lines},
+               {"probe", probe},
+               {"messages", messages(report.messages)}});
 }
 
 }  // namespace abbe

@@ -63,8 +63,7 @@ class Canvas {
 };
 
 /// The lines [first, last) of one test.
-Canvas length_canvas(const MachineReport& report, const LengthMpe& mpe, std::size_t first,
-                     std::size_t last) {
+Canvas length_canvas(const MachineReport& report, const LengthMpe& mpe, std::size_t first, std::size_t last) {
   double longest_mm = 0, range_mm = 0;
   for (std::size_t k = first; k < last; ++k)
     for (int m = 0; m < kLengthsPerLine; ++m) {
@@ -102,8 +101,7 @@ double shown(double value) { return std::fabs(value) < 0.005 ? 0 : value; }
 
 std::string error_state_text(const MachineReport& report) {
   constexpr int kReadings = 3;  // home, middle, end
-  const ErrorState state =
-      error_state(report.machine, report.drawn.geometry[0], kTestTip, kReadings);
+  const ErrorState state = error_state(report.machine, report.drawn.geometry[0], kTestTip, kReadings);
   std::string out = fmt::format(
       "\nIts error state d (measured = true + d), um, with the tip {:g} mm below the mount, over the "
       "scale readings\n  {:>8} {:>8}",
@@ -131,9 +129,8 @@ std::string length_test_text(const MachineReport& report) {
   for (std::size_t first = 0, last = 0; first < lines.size(); first = last) {
     while (last < lines.size() && lines[last].test == lines[first].test) ++last;
     const LengthMpe& mpe = lines[first].test == "E150" ? *spec.e150_mpe : spec.mpe;
-    out += fmt::format(
-        "\nIts test {} after {}: error over length, um; · MPE(l) = {}, * several lengths\n",
-        lines[first].test, spec.standard, length_mpe_text(mpe));
+    out += fmt::format("\nIts test {} after {}: error over length, um; · MPE(l) = {}, * several lengths\n",
+                       lines[first].test, spec.standard, length_mpe_text(mpe));
     out += length_canvas(report, mpe, first, last).text() + length_rows(report, first, last);
   }
   return out;

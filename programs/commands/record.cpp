@@ -18,19 +18,23 @@ namespace abbe {
 namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw UserError(diagnostic(Code::E0610, fmt::format("--with {}: {}", text, why),
-                             "write --with EFFECT or --with EFFECT:parameter=value,parameter=value; `abbe explain EFFECT` lists the parameters"));
+  throw UserError(diagnostic(
+      Code::E0610, fmt::format("--with {}: {}", text, why),
+      "write --with EFFECT or --with EFFECT:parameter=value,parameter=value; `abbe explain EFFECT` lists the parameters"));
 }
 
 /// "value" as a number, or as the word of a choice.
 EffectSetting::Value parameter_value(const std::string& text) {
   EffectSetting::Value value;
-  if (const std::optional<double> number = finite_number(text)) value.value = *number;
-  else value.word = text;
+  if (const std::optional<double> number = finite_number(text))
+    value.value = *number;
+  else
+    value.word = text;
   return value;
 }
 
-/// EFFECT[:name=value,...]. An effect without parameters acts with the typical size of its first one: a size of zero would do nothing.
+/// EFFECT[:name=value,...]. An effect without parameters acts with the typical size of its first one: a size
+/// of zero would do nothing.
 EffectSetting effect_setting(const std::string& text) {
   EffectSetting setting;
   setting.option = "--with " + text;
@@ -45,8 +49,10 @@ EffectSetting effect_setting(const std::string& text) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string item = text.substr(begin, end - begin);
     const std::size_t equals = item.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == item.size()) refuse(text, fmt::format("'{}' is not parameter=value", item));
-    const bool first = setting.parameters.emplace(item.substr(0, equals), parameter_value(item.substr(equals + 1))).second;
+    if (equals == std::string::npos || equals == 0 || equals + 1 == item.size())
+      refuse(text, fmt::format("'{}' is not parameter=value", item));
+    const bool first =
+        setting.parameters.emplace(item.substr(0, equals), parameter_value(item.substr(equals + 1))).second;
     if (!first) refuse(text, fmt::format("'{}' is given twice", item.substr(0, equals)));
     begin = end + 1;
   }
@@ -58,12 +64,16 @@ void tell_idle(const std::vector<std::string>& with, const Machine& machine, con
   const std::size_t own = machine.effects.size() - with.size();
   for (std::size_t k = 0; k < with.size(); ++k) {
     if (acted[own + k]) continue;
-    print_messages({diagnostic(Code::W0615, fmt::format("--with {}: it moves no touch of this program", with[k]),
-                               fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file", machine.effects[own + k].name))});
+    print_messages({diagnostic(
+        Code::W0615, fmt::format("--with {}: it moves no touch of this program", with[k]),
+        fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file",
+                    machine.effects[own + k].name))});
   }
 }
 
-std::string describe(const std::vector<std::string>& with) { return with.empty() ? "none" : fmt::format("{}", fmt::join(with, " ")); }
+std::string describe(const std::vector<std::string>& with) {
+  return with.empty() ? "none" : fmt::format("{}", fmt::join(with, " "));
+}
 
 }  // namespace
 
@@ -84,13 +94,17 @@ int record_command(const RecordOptions& options) {
   run.seed = options.seed.value_or(asked.seed.value_or(1));
   run.repeat = options.run - 1;
   run.setup = options.setup;
-  run.placement_mm = asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
+  run.placement_mm =
+      asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
   MachineRecord record = record_plan(plan, machine, one, run, program.source);
   auto& metadata = record.recording.metadata;
-  const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name}, {"program", program.source.name()}, {"seed", std::to_string(run.seed)},
-                                                        {"effects", describe(options.with)}, {"made_by", "abbe " ABBE_VERSION}};
+  const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name},
+                                                        {"program", program.source.name()},
+                                                        {"seed", std::to_string(run.seed)},
+                                                        {"effects", describe(options.with)},
+                                                        {"made_by", "abbe " ABBE_VERSION}};
   metadata.insert(metadata.begin(), std::begin(origin), std::end(origin));
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);
   write_whole(options.output, to_csv(record.recording));

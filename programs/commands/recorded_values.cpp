@@ -41,7 +41,9 @@ ValueRecording from_result(const SourceFile& file) {
     out.rows.push_back(std::move(row));
   }
   if (out.rows.empty())
-    throw UserError(diagnostic(Code::E0557, fmt::format("{}: no evaluated tolerance (TA) stands in this result file", file.name()), "let the program put them out: OUTPUT/FA(...),TA(...)"));
+    throw UserError(diagnostic(Code::E0557,
+                               fmt::format("{}: no evaluated tolerance (TA) stands in this result file", file.name()),
+                               "let the program put them out: OUTPUT/FA(...),TA(...)"));
   return out;
 }
 
@@ -50,10 +52,12 @@ bool is_result(const std::string& file) { return file.ends_with(".dmo") || file.
 }  // namespace
 
 bool are_values(const std::vector<SourceFile>& files) {
-  const auto count = std::count_if(files.begin(), files.end(), [](const SourceFile& f) { return is_result(f.name()) || is_value_recording(f); });
+  const auto count = std::count_if(files.begin(), files.end(),
+                                   [](const SourceFile& f) { return is_result(f.name()) || is_value_recording(f); });
   if (count > 0 && files.size() > 1)
-    throw UserError(diagnostic(Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), files.front().name()),
-                               "put the values of one machine into one file; the columns 'program' and 'run' keep them apart"));
+    throw UserError(diagnostic(
+        Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), files.front().name()),
+        "put the values of one machine into one file; the columns 'program' and 'run' keep them apart"));
   return count > 0;
 }
 
@@ -63,10 +67,12 @@ std::string recorded_machine(const std::string& named, const std::vector<std::st
     if (const std::string file = beside(recording, named); std::filesystem::is_regular_file(file)) return file;
   const std::vector<std::string> shipped = shipped_machines();
   if (std::find(shipped.begin(), shipped.end(), named) != shipped.end() || std::filesystem::exists(named)) return named;
-  throw UserError(diagnostic(Code::E0411,
-                             fmt::format("{}: '# machine: {}' names neither a file, beside the recording or in this folder, nor a shipped machine",
-                                         fmt::join(recordings, ", "), named),
-                             "give --machine, put the machine file beside the recording, or correct the line"));
+  throw UserError(diagnostic(
+      Code::E0411,
+      fmt::format(
+          "{}: '# machine: {}' names neither a file, beside the recording or in this folder, nor a shipped machine",
+          fmt::join(recordings, ", "), named),
+      "give --machine, put the machine file beside the recording, or correct the line"));
 }
 
 RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program)
@@ -75,8 +81,9 @@ RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::
   for (const ValueRow& row : recording_.rows) {
     if (std::find(names_.begin(), names_.end(), row.program) != names_.end()) continue;
     if (row.program.empty() && !program)
-      throw UserError(diagnostic_at(recording_.source, row.span, Code::E0555, "which program evaluated this value is not said",
-                                    "give --program P.dmi, or a column 'program' with its path as seen from this file"));
+      throw UserError(
+          diagnostic_at(recording_.source, row.span, Code::E0555, "which program evaluated this value is not said",
+                        "give --program P.dmi, or a column 'program' with its path as seen from this file"));
     names_.push_back(row.program);
     programs_.push_back(usable_program(row.program.empty() ? *program : (folder / row.program).string()));
   }
@@ -101,7 +108,8 @@ Diagnosis RecordedValues::diagnosis(const Machine& machine, const DiagnoseOption
     const CompiledProgram& p = programs_[k];
     const plan::Plan& plan = p.compilation.plan;
     const auto& place = p.compilation.directives.place_mm;
-    programs.push_back({names_[k], &plan, &p.source, place ? *place : find_placement(plan, machine, p.source).shift_mm});
+    programs.push_back(
+        {names_[k], &plan, &p.source, place ? *place : find_placement(plan, machine, p.source).shift_mm});
   }
   return diagnose_values(recording_, programs, machine, how);
 }

@@ -6,11 +6,13 @@
 
 namespace abbe {
 
-/// Whether these recordings are tables of values, not of touches. Throws UserError when several files are and so cannot be one machine's.
+/// Whether these recordings are tables of values, not of touches. Throws UserError when several files are and
+/// so cannot be one machine's.
 bool are_values(const std::vector<SourceFile>& files);
 
-/// The machine that one of these recordings names, as read_machine takes it: a file beside one of them, a shipped machine, or a file as seen
-/// from here; empty: `named` is. Throws UserError when there is none of these.
+/// The machine that one of these recordings names, as read_machine takes it: a file beside one of them, a
+/// shipped machine, or a file as seen from here; empty: `named` is. Throws UserError when there is none of
+/// these.
 std::string recorded_machine(const std::string& named, const std::vector<std::string>& recordings);
 
 /// A recording of values with everything that its diagnosis needs.
@@ -18,7 +20,8 @@ class RecordedValues {
  public:
   /// `program`: of rows that name none. Programs that rows name lie as seen from the file.
   RecordedValues(const SourceFile& file, const std::optional<std::string>& program);
-  /// The machine that the recording or its first program names; empty: none does. Throws UserError as recorded_machine does.
+  /// The machine that the recording or its first program names; empty: none does. Throws UserError as
+  /// recorded_machine does.
   std::string machine() const;
   /// The programs and their modules.
   std::vector<std::string> files() const;
@@ -26,8 +29,8 @@ class RecordedValues {
 
  private:
   ValueRecording recording_;
-  std::vector<std::string> names_;             ///< as the rows say
-  std::vector<CompiledProgram> programs_;      ///< in the order of names_
+  std::vector<std::string> names_;         ///< as the rows say
+  std::vector<CompiledProgram> programs_;  ///< in the order of names_
 };
 
 }  // namespace abbe

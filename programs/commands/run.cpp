@@ -15,21 +15,20 @@ namespace abbe {
 namespace {
 
 void refuse_errors(const CompiledProgram& program) {
-  const auto errors =
-      std::count_if(program.messages.begin(), program.messages.end(),
-                    [](const Diagnostic& d) { return d.severity() == Severity::error; });
-  throw UserError(
-      diagnostic(Code::E0604,
-                 fmt::format("'{}' has {} error{} and was not run", program.source.name(), errors,
-                             errors == 1 ? "" : "s"),
-                 "correct the program, or leave those statements out with --only-valid"));
+  const auto errors = std::count_if(program.messages.begin(), program.messages.end(),
+                                    [](const Diagnostic& d) { return d.severity() == Severity::error; });
+  throw UserError(diagnostic(
+      Code::E0604,
+      fmt::format("'{}' has {} error{} and was not run", program.source.name(), errors, errors == 1 ? "" : "s"),
+      "correct the program, or leave those statements out with --only-valid"));
 }
 
 }  // namespace
 
 int run_command(const RunCommandOptions& options) {
   const ReportWriter* writer = find_report_writer(options.format);
-  CompiledProgram program = compile_program(options.request.program, {options.request.answers, options.request.only_valid});
+  CompiledProgram program =
+      compile_program(options.request.program, {options.request.answers, options.request.only_valid});
   print_messages(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
   const StudyInputs inputs = read_inputs(program, options.request.settings);
@@ -37,10 +36,12 @@ int run_command(const RunCommandOptions& options) {
   if (options.request.only_valid) leave_out_what_has_no_value(program, inputs);
 
   ProgressLine line;
-  const Study study = study_program(program, options.request.settings, inputs,
-                                    [&](std::string_view step) { line.show(step); });
+  const Study study =
+      study_program(program, options.request.settings, inputs, [&](std::string_view step) { line.show(step); });
   if (options.csv) write_whole(*options.csv, samples_csv(program.compilation.plan, study));
-  if (options.dmo) write_whole(*options.dmo, dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
+  if (options.dmo)
+    write_whole(*options.dmo,
+                dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
   if (options.report) write_whole(*options.report, find_report_writer("html")->write(study.report));
   print_result(writer->write(study.report));
   return kDone;

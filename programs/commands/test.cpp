@@ -34,10 +34,8 @@ std::vector<std::string> programs_of(const std::vector<std::string>& paths) {
       continue;
     }
     std::vector<std::string> below;
-    for (const auto& entry :
-         fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
-      if (entry.is_regular_file() && is_program(entry.path()))
-        below.push_back(entry.path().string());
+    for (const auto& entry : fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
+      if (entry.is_regular_file() && is_program(entry.path())) below.push_back(entry.path().string());
     std::sort(below.begin(), below.end());
     found.insert(found.end(), below.begin(), below.end());
   }
@@ -45,10 +43,8 @@ std::vector<std::string> programs_of(const std::vector<std::string>& paths) {
 }
 
 /// Every expectation of a program that cannot be run fails for the same reason.
-void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectations,
-              const std::string& reason) {
-  for (const lang::Expectation& e : expectations)
-    suite.cases.push_back({e.text, e.line, reason, false});
+void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectations, const std::string& reason) {
+  for (const lang::Expectation& e : expectations) suite.cases.push_back({e.text, e.line, reason, false});
 }
 
 /// Errors of a program by where they stand: in its `$$!` directives, or in its statements.
@@ -72,15 +68,13 @@ Errors errors_of(const CompiledProgram& program) {
 
 /// A directive that cannot be read must fail, not vanish. Expectations that were read are judged by
 /// themselves.
-void fail_unreadable(TestSuite& suite, const Errors& errors,
-                     const std::vector<lang::Expectation>& expectations) {
+void fail_unreadable(TestSuite& suite, const Errors& errors, const std::vector<lang::Expectation>& expectations) {
   for (const Diagnostic& d : errors.directives) {
-    const bool read = std::any_of(expectations.begin(), expectations.end(),
-                                  [&](const auto& e) { return e.line == d.place.line; });
+    const bool read =
+        std::any_of(expectations.begin(), expectations.end(), [&](const auto& e) { return e.line == d.place.line; });
     if (!read)
-      suite.cases.push_back({d.source_line, d.place.line,
-                             fmt::format("{} {}; {}", info(d.code).name, d.message, d.help),
-                             false});
+      suite.cases.push_back(
+          {d.source_line, d.place.line, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help), false});
   }
 }
 
@@ -106,11 +100,11 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
     fail(error);
     return suite;
   }
-  if (options.junit) refuse_overwriting(inputs.files, {*options.junit});  // a mistake of the command, not of the program
+  // a mistake of the command, not of the program
+  if (options.junit) refuse_overwriting(inputs.files, {*options.junit});
   try {
-    const Study study = study_program(program, options.settings, inputs, [&](std::string_view step) {
-      progress.show(fmt::format("{}: {}", path, step));
-    });
+    const Study study = study_program(program, options.settings, inputs,
+                                      [&](std::string_view step) { progress.show(fmt::format("{}: {}", path, step)); });
     for (const lang::Expectation& e : expectations) {
       const ExpectationVerdict verdict = judge(e, study.report);
       suite.cases.push_back({e.text, e.line, verdict.outcome, verdict.passed});
@@ -134,15 +128,13 @@ int test_command(const TestOptions& options) {
     if (suite.cases.empty()) continue;
     for (const TestCase& c : suite.cases) {
       ++(c.passed ? passed : failed);
-      print_result(
-          fmt::format("{}  {}:{}: {}\n", c.passed ? "ok  " : "FAIL", path, c.line, c.outcome));
+      print_result(fmt::format("{}  {}:{}: {}\n", c.passed ? "ok  " : "FAIL", path, c.line, c.outcome));
     }
     suites.push_back(std::move(suite));
   }
   if (suites.empty())
-    throw UserError(diagnostic(
-        Code::E0607, "no program with an expectation was found",
-        "write a line such as `$$! expect TA(LEN) u95 between 0.003 0.005` into a .dmi file"));
+    throw UserError(diagnostic(Code::E0607, "no program with an expectation was found",
+                               "write a line such as `$$! expect TA(LEN) u95 between 0.003 0.005` into a .dmi file"));
   if (options.junit) write_whole(*options.junit, junit_xml(suites));
   print_result(fmt::format("{} passed, {} failed\n", passed, failed));
   return failed ? kNo : kDone;

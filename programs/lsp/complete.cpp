@@ -29,36 +29,32 @@ void add_labels(Proposals& out, const std::vector<lang::LabelUse>& uses, std::st
                 const std::string& form) {
   for (const lang::LabelUse& use : uses)
     if (use.definition && use.kind == kind)
-      out.push_back({fmt::format(fmt::runtime(form), use.name),
-                     kind.empty() ? Kind::variable : Kind::reference, ""});
+      out.push_back({fmt::format(fmt::runtime(form), use.name), kind.empty() ? Kind::variable : Kind::reference, ""});
 }
 
 /// Labels whole, in the form that the signature of the statement takes.
-void add_labels_of(Proposals& out, const lang::Statement& statement,
-                   const std::vector<lang::LabelUse>& uses) {
+void add_labels_of(Proposals& out, const lang::Statement& statement, const std::vector<lang::LabelUse>& uses) {
   struct Form {
     std::string_view type, kind, form;
   };
-  const bool nominal =
-      statement.word == "MEAS" || statement.word == "CONST" || statement.word == "RMEAS";
-  const std::array forms = {Form{":feature", "F", nominal ? "F({})" : "FA({})"},
-                            Form{":tolerance", "T", "TA({})"}, Form{":datum", "DAT", "DAT({})"},
-                            Form{":sensor", "S", "S({})"}, Form{":frame", "D", "D({})"}};
+  const bool nominal = statement.word == "MEAS" || statement.word == "CONST" || statement.word == "RMEAS";
+  const std::array forms = {Form{":feature", "F", nominal ? "F({})" : "FA({})"}, Form{":tolerance", "T", "TA({})"},
+                            Form{":datum", "DAT", "DAT({})"}, Form{":sensor", "S", "S({})"},
+                            Form{":frame", "D", "D({})"}};
   for (const Form& form : forms)
     if (statement.signature.find(form.type) != std::string_view::npos)
       add_labels(out, uses, form.kind, std::string(form.form));
   // What a kind of feature, tolerance or construction takes is published elsewhere.
   if (statement.word == "CONST") add_labels(out, uses, "F", "FA({})");
-  if (statement.word == "TOL")
-    add_labels(out, uses, "DAT", "DAT({})"), add_labels(out, uses, "F", "FA({})");
+  if (statement.word == "TOL") add_labels(out, uses, "DAT", "DAT({})"), add_labels(out, uses, "F", "FA({})");
   add_labels(out, uses, "", "{}");
 }
 
 void add_major_words(Proposals& out) {
   for (const std::string_view word : lang::major_words()) {
     const lang::Statement* statement = lang::find_statement(word);
-    out.push_back({std::string(word), Kind::keyword,
-                   statement ? std::string(statement->example) : "not supported yet"});
+    out.push_back(
+        {std::string(word), Kind::keyword, statement ? std::string(statement->example) : "not supported yet"});
   }
 }
 
@@ -81,8 +77,7 @@ std::optional<lang::RawStatement> statement_so_far(std::string_view code) {
   return lines.empty() ? std::nullopt : lang::parse_statement(lines.front(), text, ignored);
 }
 
-void add_behind_slash(Proposals& out, std::string_view code,
-                      const std::vector<lang::LabelUse>& uses) {
+void add_behind_slash(Proposals& out, std::string_view code, const std::vector<lang::LabelUse>& uses) {
   if (const std::string kind = open_label_kind(code); !kind.empty())
     return add_labels(out, uses, lang::shared_kind(kind), "{}");
   const auto raw = statement_so_far(code);
@@ -95,8 +90,7 @@ void add_behind_slash(Proposals& out, std::string_view code,
 
 }  // namespace
 
-Proposals proposals(const SourceFile& source, const std::vector<lang::LabelUse>& uses,
-                    std::uint32_t offset) {
+Proposals proposals(const SourceFile& source, const std::vector<lang::LabelUse>& uses, std::uint32_t offset) {
   const lang::LogicalLine line = typed_line(source, offset);
   const std::string& code = line.code.text();
   Proposals out;
@@ -113,10 +107,8 @@ Proposals proposals(const SourceFile& source, const std::vector<lang::LabelUse>&
   } else {
     add_major_words(out);
   }
-  std::sort(out.begin(), out.end(),
-            [](const Proposal& a, const Proposal& b) { return a.text < b.text; });
-  out.erase(std::unique(out.begin(), out.end(),
-                        [](const Proposal& a, const Proposal& b) { return a.text == b.text; }),
+  std::sort(out.begin(), out.end(), [](const Proposal& a, const Proposal& b) { return a.text < b.text; });
+  out.erase(std::unique(out.begin(), out.end(), [](const Proposal& a, const Proposal& b) { return a.text == b.text; }),
             out.end());
   return out;
 }

@@ -21,7 +21,6 @@ struct Proposal {
 };
 
 /// In alphabetical order, each once. The editor filters by what is typed already.
-std::vector<Proposal> proposals(const SourceFile&, const std::vector<lang::LabelUse>&,
-                                std::uint32_t offset);
+std::vector<Proposal> proposals(const SourceFile&, const std::vector<lang::LabelUse>&, std::uint32_t offset);
 
 }  // namespace abbe::lsp

@@ -72,8 +72,7 @@ std::string path_of(const std::string& uri) {
   for (std::size_t i = kScheme.size(); i < uri.size(); ++i) {
     unsigned value = 0;
     const char* const digits = uri.data() + i + 1;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
       path += static_cast<char>(value);
       i += 2;
     } else {
@@ -83,22 +82,17 @@ std::string path_of(const std::string& uri) {
   return path;
 }
 
-Document::Document(std::string uri, std::string text)
-    : uri_(std::move(uri)), source_(path_of(uri_), std::move(text)) {
+Document::Document(std::string uri, std::string text) : uri_(std::move(uri)), source_(path_of(uri_), std::move(text)) {
   Sink sink;
   lang::compile(source_, sink);
   messages_ = sink.sorted();
   uses_ = lang::label_uses(source_);
 }
 
-json Document::location(Span span) const {
-  return {{"uri", uri_}, {"range", range(source_, span)}};
-}
+json Document::location(Span span) const { return {{"uri", uri_}, {"range", range(source_, span)}}; }
 
 json Document::message(const Diagnostic& d) const {
-  const int severity = d.severity() == Severity::error     ? 1
-                       : d.severity() == Severity::warning ? 2
-                                                           : 3;
+  const int severity = d.severity() == Severity::error ? 1 : d.severity() == Severity::warning ? 2 : 3;
   return {{"range", range(source_, d.span.value_or(Span{}))},
           {"severity", severity},
           {"code", info(d.code).name},
@@ -122,8 +116,8 @@ json Document::hover(std::uint32_t offset) const {
   if (const lang::LabelUse* use = use_at(offset)) {
     const lang::LabelUse* definition = lang::definition_of(uses_, *use);
     if (!definition) return markdown(label_text(*use) + " is not defined in this program");
-    return markdown(fmt::format("{}\nline {}", source_.text(definition->statement),
-                                source_.place(definition->span.begin).line));
+    return markdown(
+        fmt::format("{}\nline {}", source_.text(definition->statement), source_.place(definition->span.begin).line));
   }
   const auto help = lang::explain_word(word_at(source_.text(), offset));
   return help ? markdown(*help) : json(nullptr);
@@ -139,8 +133,7 @@ json Document::references(std::uint32_t offset, bool with_definition) const {
   json list = json::array();
   const lang::LabelUse* use = use_at(offset);
   for (const lang::LabelUse& other : uses_)
-    if (use && other.same_label(*use) && (with_definition || !other.definition))
-      list.push_back(location(other.span));
+    if (use && other.same_label(*use) && (with_definition || !other.definition)) list.push_back(location(other.span));
   return list;
 }
 
@@ -162,8 +155,7 @@ json Document::outline() const {
   };
   for (const lang::LabelUse& use : uses_) {
     if (!use.definition) continue;
-    const Span whole{std::min(use.span.begin, use.statement.begin),
-                     std::max(use.span.end, use.statement.end)};
+    const Span whole{std::min(use.span.begin, use.statement.begin), std::max(use.span.end, use.statement.end)};
     const std::string_view text = source_.text(whole);
     const std::size_t equals = text.find('=');
     add(label_text(use), symbol_of(use.kind), whole, use.span,
@@ -175,8 +167,8 @@ json Document::outline() const {
     if (!raw) continue;
     const bool measures = raw->word == "MEAS" || raw->word == "RMEAS" || raw->word == "CALIB";
     if (measures || raw->word == "OUTPUT")
-      add(std::string(source_.text(raw->span)), measures ? Symbol::method : Symbol::event,
-          raw->span, raw->word_span, "");
+      add(std::string(source_.text(raw->span)), measures ? Symbol::method : Symbol::event, raw->span, raw->word_span,
+          "");
   }
   return list;
 }

@@ -56,8 +56,7 @@ class Server {
     const json id = message.is_object() && message.contains("id") ? message["id"] : json(nullptr);
     if (!message.is_object() || !message.contains("method")) {
       // An answer to a request of ours would come here; we make none.
-      if (!message.is_object())
-        fail(id, {Fault::invalid_request, "a message is an object with a method"});
+      if (!message.is_object()) fail(id, {Fault::invalid_request, "a message is an object with a method"});
       return std::nullopt;
     }
     try {
@@ -80,9 +79,7 @@ class Server {
 
  private:
   /// Names and labels may hold bytes that are not UTF-8; JSON must not.
-  void send(const json& message) {
-    write_message(out_, message.dump(-1, ' ', false, json::error_handler_t::replace));
-  }
+  void send(const json& message) { write_message(out_, message.dump(-1, ' ', false, json::error_handler_t::replace)); }
 
   /// Notices get no answer, not even when they are wrong.
   std::optional<int> fail(const json& id, const RequestError& error) {
@@ -119,8 +116,7 @@ class Server {
 
   const Document& document(const json& p) const {
     const auto it = documents_.find(p.at("textDocument").at("uri").get<std::string>());
-    if (it == documents_.end())
-      throw RequestError{Fault::invalid_parameters, "this document is not open"};
+    if (it == documents_.end()) throw RequestError{Fault::invalid_parameters, "this document is not open"};
     return it->second;
   }
 
@@ -142,16 +138,15 @@ class Server {
     const auto place = [&] { return offset_of(document(p).source(), p.at("position")); };
     if (question == "hover") return document(p).hover(place());
     if (question == "definition") return document(p).definition(place());
-    if (question == "references")
-      return document(p).references(place(), p.at("context").at("includeDeclaration"));
+    if (question == "references") return document(p).references(place(), p.at("context").at("includeDeclaration"));
     if (question == "completion") return document(p).completion(place());
     if (question == "documentSymbol") return document(p).outline();
     if (question == "foldingRange") return document(p).folding();
     if (question == "formatting") return document(p).formatting();
     if (question == "codeAction") {
       const SourceFile& source = document(p).source();
-      return document(p).fixes({offset_of(source, p.at("range").at("start")),
-                                offset_of(source, p.at("range").at("end"))});
+      return document(p).fixes(
+          {offset_of(source, p.at("range").at("start")), offset_of(source, p.at("range").at("end"))});
     }
     throw RequestError{Fault::unknown_method, "there is no method textDocument/" + question};
   }

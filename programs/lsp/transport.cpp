@@ -33,8 +33,8 @@ std::optional<std::string> read_message(std::FILE* in) {
     const std::size_t begin = line->find_first_not_of(' ', kLength.size());
     std::size_t value = 0;
     const char* const end = line->data() + line->size();
-    if (begin == std::string::npos ||
-        std::from_chars(line->data() + begin, end, value).ptr != end || value > kLongestMessage)
+    if (begin == std::string::npos || std::from_chars(line->data() + begin, end, value).ptr != end ||
+        value > kLongestMessage)
       return std::nullopt;
     length = value;
   }

@@ -15,24 +15,20 @@ namespace abbe {
 namespace {
 
 bool part_of_word(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '(' ||
-         c == ')';
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.' || c == '(' || c == ')';
 }
 
 bool begins_with(const std::string& word, const std::string& beginning) {
   return word.size() >= beginning.size() &&
-         std::equal(
-             beginning.begin(), beginning.end(), word.begin(),
-             [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); });
+      std::equal(beginning.begin(), beginning.end(), word.begin(),
+                 [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); });
 }
 
 /// The word that is being typed. A name inside `FA(` begins behind the parenthesis; the operand of a command is a path.
 std::string last_word(const std::string& line, bool inside_parenthesis) {
   if (line.starts_with('.')) return line.substr(line.find_last_of(" /") + 1);
   std::size_t begin = line.size();
-  while (begin > 0 && part_of_word(line[begin - 1]) &&
-         !(inside_parenthesis && line[begin - 1] == '('))
-    --begin;
+  while (begin > 0 && part_of_word(line[begin - 1]) && !(inside_parenthesis && line[begin - 1] == '(')) --begin;
   return line.substr(begin);
 }
 
@@ -68,7 +64,8 @@ struct LineEditor::Terminal {
     el_set(edit, EL_HIST, history, past);
     el_set(edit, EL_ADDFN, "abbe-complete", "complete the word", &Terminal::complete_word);
     el_set(edit, EL_BIND, "^I", "abbe-complete", nullptr);
-    // While a line is typed ^C drops that line and not the session; while figures are computed it ends the program as ever.
+    // While a line is typed ^C drops that line and not the session; while figures are computed it ends the
+    // program as ever.
     el_set(edit, EL_SETTY, "-d", "-isig", nullptr);
     el_set(edit, EL_ADDFN, "abbe-drop", "drop the line", &Terminal::drop_line);
     el_set(edit, EL_BIND, "^C", "abbe-drop", nullptr);
@@ -108,8 +105,7 @@ struct LineEditor::Terminal {
     constexpr int kShown = 60;
     int shown = 0;
     for (const std::string& word : words) {
-      if (!begins_with(word, last_word(line, false)) && !begins_with(word, last_word(line, true)))
-        continue;
+      if (!begins_with(word, last_word(line, false)) && !begins_with(word, last_word(line, true))) continue;
       if (shown == kShown) std::fputs(" ...", stdout);
       if (++shown <= kShown) std::fprintf(stdout, "%s%s", shown == 1 ? "\n" : " ", word.c_str());
     }

@@ -46,22 +46,18 @@ bool premature(Code code) {
   return code == Code::W0225 || code == Code::W0226 || code == Code::E0215 || code == Code::E0205;
 }
 
-int line_count(const std::string& text) {
-  return static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-}
+int line_count(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
 /// Two significant digits of the uncertainty.
-int decimals_for(double u) {
-  return u > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 0, 9) : 6;
-}
+int decimals_for(double u) { return u > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 0, 9) : 6; }
 
 std::string result_line(const CharacteristicReport& c) {
   const double u95 = (c.summary.symmetric.high - c.summary.symmetric.low) / 2;
   const int digits = decimals_for(u95);
-  const std::string value = c.reference ? fmt::format("{:.{}f} {}", *c.reference, digits, c.unit)
-                                        : "no value on the error-free machine";
-  return fmt::format("TA({}) of FA({}): {}, u95 {:.{}f} {}\n", c.tolerance,
-                     fmt::join(c.features, "), FA("), value, u95, digits, c.unit);
+  const std::string value =
+      c.reference ? fmt::format("{:.{}f} {}", *c.reference, digits, c.unit) : "no value on the error-free machine";
+  return fmt::format("TA({}) of FA({}): {}, u95 {:.{}f} {}\n", c.tolerance, fmt::join(c.features, "), FA("), value, u95,
+                     digits, c.unit);
 }
 
 }  // namespace
@@ -78,9 +74,8 @@ CompiledProgram Session::compiled(const std::string& text) const {
   lang::Compilation compilation = lang::compile(source, sink);
   std::vector<Diagnostic> messages = sink.sorted();
   std::erase_if(messages, [](const Diagnostic& d) { return premature(d.code); });
-  const bool errors = std::any_of(messages.begin(), messages.end(), [](const Diagnostic& d) {
-    return d.severity() == Severity::error;
-  });
+  const bool errors = std::any_of(messages.begin(), messages.end(),
+                                  [](const Diagnostic& d) { return d.severity() == Severity::error; });
   return {std::move(source), std::move(compilation), std::move(messages), errors};
 }
 
@@ -88,8 +83,7 @@ std::string Session::enter(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t");
   if (first != std::string::npos && line[first] == '.') return command(line.substr(first));
   if (pending_.empty() && first == std::string::npos) return "";
-  if (pending_.empty() && word_of(line) == "ENDFIL")
-    return "the session goes on; .save writes the ENDFIL\n";
+  if (pending_.empty() && word_of(line) == "ENDFIL") return "the session goes on; .save writes the ENDFIL\n";
   pending_ += line + "\n";
   if (!complete(pending_)) return "";
   return entry(std::exchange(pending_, ""));
@@ -147,12 +141,13 @@ std::vector<std::string> Session::completions(const std::string& line) const {
       const std::size_t path = line.find_first_not_of(' ', blank);
       if (blank != std::string::npos) return file_names(path == std::string::npos ? "" : line.substr(path));
     }
-    for (const Command& c : commands()) words.push_back(std::string(c.word) + (c.form.find(' ') == std::string_view::npos ? "" : " "));
+    for (const Command& c : commands())
+      words.push_back(std::string(c.word) + (c.form.find(' ') == std::string_view::npos ? "" : " "));
     return words;
   }
   const SourceFile source("session", text() + pending_ + line);
-  for (lsp::Proposal& p : lsp::proposals(source, lang::label_uses(source),
-                                         static_cast<std::uint32_t>(source.text().size()))) {
+  for (lsp::Proposal& p :
+       lsp::proposals(source, lang::label_uses(source), static_cast<std::uint32_t>(source.text().size()))) {
     // A name behind `FA(` ends with the parenthesis.
     const bool inside = p.kind == lsp::Proposal::Kind::reference && p.text.find('(') == std::string::npos;
     words.push_back(inside ? p.text + ")" : std::move(p.text));

@@ -25,8 +25,7 @@ std::string without_end(const SourceFile& source) {
     const auto raw = lang::parse_statement(lines[i], source, ignored);
     if (raw && raw->word == "ENDFIL") continue;
     const int end = i + 1 < lines.size() ? lines[i + 1].line : source.line_count() + 1;
-    for (int number = lines[i].line; number < end; ++number)
-      text += std::string(source.line(number)) + "\n";
+    for (int number = lines[i].line; number < end; ++number) text += std::string(source.line(number)) + "\n";
   }
   while (text.ends_with("\n\n")) text.pop_back();
   return text == "\n" ? "" : text;
@@ -40,14 +39,13 @@ std::string bare_label(const std::string& operand) {
 }
 
 [[noreturn]] void missing(const Session::Command& command, const char* what) {
-  throw UserError(diagnostic(Code::E0613, fmt::format("{} needs {}", command.word, what),
-                             fmt::format("write {}", command.form)));
+  throw UserError(
+      diagnostic(Code::E0613, fmt::format("{} needs {}", command.word, what), fmt::format("write {}", command.form)));
 }
 
 const Session::Command& command_named(std::string_view word) {
   const auto& all = Session::commands();
-  return *std::find_if(all.begin(), all.end(),
-                       [&](const Session::Command& c) { return c.word == word; });
+  return *std::find_if(all.begin(), all.end(), [&](const Session::Command& c) { return c.word == word; });
 }
 
 }  // namespace
@@ -57,14 +55,11 @@ const std::vector<Session::Command>& Session::commands() {
       {".help", ".help", "this list", &Session::help},
       {".list", ".list", "the program so far", &Session::list},
       {".run", ".run", "evaluate everything again", &Session::run},
-      {".undo", ".undo", "take the last entry back, or the one that is being typed",
-       &Session::undo},
-      {".machine", ".machine [NAME]", "the machine to use: a file, or the name of a shipped one",
-       &Session::machine},
+      {".undo", ".undo", "take the last entry back, or the one that is being typed", &Session::undo},
+      {".machine", ".machine [NAME]", "the machine to use: a file, or the name of a shipped one", &Session::machine},
       {".machines", ".machines [N]", "how many virtual machines", &Session::machines},
       {".sensor", ".sensor [LABEL...]",
-       "tip, Abbe levers and uncertainty of standard tasks, for every stylus system or some",
-       &Session::sensor},
+       "tip, Abbe levers and uncertainty of standard tasks, for every stylus system or some", &Session::sensor},
       {".compare", ".compare A B", "the same for two, with their ratio", &Session::compare},
       {".load", ".load FILE", "begin with the program in a file", &Session::load_command},
       {".save", ".save [FILE]", "write the program to a file", &Session::save},
@@ -79,15 +74,14 @@ std::string Session::command(const std::string& line) {
   std::vector<std::string> operands;
   for (std::string operand; words >> operand;) operands.push_back(operand);
   try {
-    const auto it = std::find_if(commands().begin(), commands().end(),
-                                 [&](const Command& c) { return c.word == word; });
+    const auto it =
+        std::find_if(commands().begin(), commands().end(), [&](const Command& c) { return c.word == word; });
     if (it != commands().end()) return (this->*it->run)(operands);
     std::vector<std::string_view> known;
     for (const Command& c : commands()) known.push_back(c.word);
     const std::string near = nearest_word(word, known);
-    throw UserError(diagnostic(
-        Code::E0612, fmt::format("there is no command {}", word),
-        near.empty() ? ".help lists the commands" : fmt::format("did you mean {}?", near)));
+    throw UserError(diagnostic(Code::E0612, fmt::format("there is no command {}", word),
+                               near.empty() ? ".help lists the commands" : fmt::format("did you mean {}?", near)));
   } catch (const UserError& error) {
     std::string out;
     for (const Diagnostic& d : error.diagnostics()) out += render(d);
@@ -99,15 +93,14 @@ std::string Session::help(const std::vector<std::string>&) {
   std::string out = "A line is a statement of DMIS, or one of these commands:\n";
   for (const Command& c : commands()) out += fmt::format("  {:<22}{}\n", c.form, c.help);
   return out +
-         "Blocks (MEAS..ENDMES, IF..ENDIF, ...) are taken when they are complete. OUTPUT and EVAL "
-         "show their results at once.\n";
+      "Blocks (MEAS..ENDMES, IF..ENDIF, ...) are taken when they are complete. OUTPUT and EVAL "
+      "show their results at once.\n";
 }
 
 std::string Session::list(const std::vector<std::string>&) {
   const SourceFile source("", text());
   std::string out;
-  for (int line = 1; line < source.line_count(); ++line)
-    out += fmt::format("{:>4}  {}\n", line, source.line(line));
+  for (int line = 1; line < source.line_count(); ++line) out += fmt::format("{:>4}  {}\n", line, source.line(line));
   return out.empty() ? "nothing has been entered\n" : out;
 }
 
@@ -136,17 +129,15 @@ std::string Session::machine(const std::vector<std::string>& operands) {
     settings_.machine = operands[0];
   }
   const Machine now = read_machine(machine_name(compiled(text()), settings_.machine));
-  return fmt::format("machine {}: travel {:.0f} x {:.0f} x {:.0f} mm\n", now.name,
-                     now.axes[0].travel_mm, now.axes[1].travel_mm, now.axes[2].travel_mm);
+  return fmt::format("machine {}: travel {:.0f} x {:.0f} x {:.0f} mm\n", now.name, now.axes[0].travel_mm,
+                     now.axes[1].travel_mm, now.axes[2].travel_mm);
 }
 
 std::string Session::machines(const std::vector<std::string>& operands) {
   if (!operands.empty()) {
     const std::string& digits = operands[0];
-    const bool whole =
-        digits.size() < 8 && digits.find_first_not_of("0123456789") == std::string::npos;
-    if (!whole || std::stoi(digits) < 2)
-      missing(command_named(".machines"), "a whole number from 2 on");
+    const bool whole = digits.size() < 8 && digits.find_first_not_of("0123456789") == std::string::npos;
+    if (!whole || std::stoi(digits) < 2) missing(command_named(".machines"), "a whole number from 2 on");
     settings_.machines = std::stoi(digits);
   }
   return fmt::format("{} virtual machines\n", settings_.machines.value_or(kDefaultMachines));
@@ -156,13 +147,10 @@ std::vector<plan::SensorDef> Session::candidates(const std::vector<std::string>&
   const CompiledProgram program = compiled(text());
   std::vector<plan::SensorDef> known;
   const auto add = [&](const plan::SensorDef& def) {
-    std::erase_if(known, [&](const plan::SensorDef& k) {
-      return upper(k.label) == upper(def.label);
-    });
+    std::erase_if(known, [&](const plan::SensorDef& k) { return upper(k.label) == upper(def.label); });
     known.push_back(def);
   };
-  for (const auto& [name, sensor] :
-       read_machine(machine_name(program, settings_.machine)).sensors) {
+  for (const auto& [name, sensor] : read_machine(machine_name(program, settings_.machine)).sensors) {
     plan::SensorDef def;
     def.label = name;
     def.from_machine_file = true;
@@ -178,10 +166,9 @@ std::vector<plan::SensorDef> Session::candidates(const std::vector<std::string>&
       return upper(def.label) == upper(bare_label(label));
     });
     if (it == known.end())
-      throw UserError(diagnostic(Code::E0614,
-                                 fmt::format("there is no sensor '{}'", bare_label(label)),
-                                 known.empty() ? "define one with S(name)=SNSDEF/..."
-                                               : fmt::format("known: {}", fmt::join(names, ", "))));
+      throw UserError(diagnostic(
+          Code::E0614, fmt::format("there is no sensor '{}'", bare_label(label)),
+          known.empty() ? "define one with S(name)=SNSDEF/..." : fmt::format("known: {}", fmt::join(names, ", "))));
     chosen.push_back(*it);
   }
   return chosen;
@@ -189,12 +176,11 @@ std::vector<plan::SensorDef> Session::candidates(const std::vector<std::string>&
 
 std::string Session::sensor(const std::vector<std::string>& operands) {
   const std::vector<plan::SensorDef> sensors = candidates(operands);
-  if (sensors.empty())
-    return "no sensor is defined: enter S(name)=SNSDEF/..., or use a machine file with sensors\n";
+  if (sensors.empty()) return "no sensor is defined: enter S(name)=SNSDEF/..., or use a machine file with sensors\n";
   const CompiledProgram program = compiled(text());
   const Machine now = read_machine(machine_name(program, settings_.machine));
   return sensor_table(sensor_figures(sensors, now, program.source, settings_)) +
-         fmt::format(
+      fmt::format(
              "lengths of {:.0f} mm along X, Y, Z and a sphere of 30 mm with 25 points, in the "
              "middle of {};\n"
              "form: upper 95 % limit\n",
@@ -210,8 +196,7 @@ std::string Session::compare(const std::vector<std::string>& operands) {
   if (!figures[0].tasks || !figures[1].tasks) return out;
   const TaskUncertainties &a = *figures[0].tasks, &b = *figures[1].tasks;
   out += fmt::format("{:<70}", fmt::format("{} / {}", figures[1].label, figures[0].label));
-  for (std::size_t k = 0; k < 3; ++k)
-    out += fmt::format("{:>9.2f}", b.length_mm[k] / a.length_mm[k]);
+  for (std::size_t k = 0; k < 3; ++k) out += fmt::format("{:>9.2f}", b.length_mm[k] / a.length_mm[k]);
   return out + fmt::format("{:>9.2f}{:>9.2f}\n", b.size_mm / a.size_mm, b.form_mm / a.form_mm);
 }
 
@@ -229,8 +214,9 @@ std::string Session::load(const std::string& path) {
   const std::size_t count = program.compilation.plan.characteristics.size();
   entries_ = {{text, count}};
   pending_.clear();
-  return out + fmt::format("{}: {} lines, {}{}\n", path, std::count(text.begin(), text.end(), '\n'),
-                           counted(count, "characteristic"), count > 0 ? "; .run evaluates" : "");
+  return out +
+      fmt::format("{}: {} lines, {}{}\n", path, std::count(text.begin(), text.end(), '\n'),
+                  counted(count, "characteristic"), count > 0 ? "; .run evaluates" : "");
 }
 
 std::string Session::load_command(const std::vector<std::string>& operands) {
@@ -243,8 +229,8 @@ std::string Session::save(const std::vector<std::string>& operands) {
   if (path.empty()) missing(command_named(".save"), "a file");
   Sink sink;
   lang::compile(SourceFile("session", text()), sink);
-  const bool has_begin = std::none_of(sink.list().begin(), sink.list().end(),
-                                      [](const Diagnostic& d) { return d.code == Code::W0226; });
+  const bool has_begin =
+      std::none_of(sink.list().begin(), sink.list().end(), [](const Diagnostic& d) { return d.code == Code::W0226; });
   write_whole(path, (has_begin ? "" : "DMISMN/'session',5.2\n") + text() + "ENDFIL\n");
   path_ = path;
   return fmt::format("{} written\n", path);

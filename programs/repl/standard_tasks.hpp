@@ -19,7 +19,7 @@ namespace abbe {
 
 struct TaskUncertainties {
   std::array<double, 3> length_mm{};  ///< u95 of a length along X, Y, Z
-  double size_mm = 0, form_mm = 0;  ///< u95 of the sphere's diameter; upper 95 % limit of its form
+  double size_mm = 0, form_mm = 0;    ///< u95 of the sphere's diameter; upper 95 % limit of its form
 };
 
 struct SensorFigures {
@@ -32,9 +32,8 @@ struct SensorFigures {
 /// The figures of each candidate, on the machines that `settings` asks for. `source` is what the
 /// candidates were read from. Throws UserError as read_machine does, and for a sensor that the
 /// machine file lacks.
-std::vector<SensorFigures> sensor_figures(const std::vector<plan::SensorDef>& candidates,
-                                          const Machine&, const SourceFile& source,
-                                          const StudySettings& settings);
+std::vector<SensorFigures> sensor_figures(const std::vector<plan::SensorDef>& candidates, const Machine&,
+                                          const SourceFile& source, const StudySettings& settings);
 
 /// The figures side by side, one line for each sensor.
 std::string sensor_table(const std::vector<SensorFigures>&);

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files [COMPILER EIGEN]
+"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files|format [COMPILER EIGEN]
 
 includes  every #include of a layer names that layer or one that CMakeLists.txt lets it use; the heavy libraries stay where they belong
 headers   every header compiles alone
 codes     every message code is exercised by a test
 files     no file is longer than 500 lines
+format    every file is as `make format` leaves it; other versions of clang-format than Debian 12 has may disagree, so others are not asked
 """
 import concurrent.futures
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -23,8 +25,8 @@ CONFINED = {
 }
 
 
-def sources(*suffixes):
-    for folder in ("engine", "lang", "programs"):
+def sources(*suffixes, folders=("engine", "lang", "programs")):
+    for folder in folders:
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix in suffixes:
                 yield path
@@ -102,9 +104,19 @@ def check_files():
     return wrong
 
 
+def check_format():
+    if not shutil.which("clang-format-14"):
+        print("format: skipped, clang-format-14 is not installed")
+        sys.exit(77)
+    files = [str(path) for path in sources(".cpp", ".hpp", folders=("engine", "lang", "programs", "tests"))]
+    run = subprocess.run(["clang-format-14", "--dry-run", *files], cwd=ROOT, capture_output=True, text=True)
+    unformatted = sorted({line.split(":")[0] for line in run.stderr.splitlines() if "[-Wclang-format-violations]" in line})
+    return [f"{pathlib.Path(path).relative_to(ROOT)}: `make format` would change it" for path in unformatted] or run.stderr.splitlines()
+
+
 def main():
     what = sys.argv[1]
-    wrong = {"includes": check_includes, "codes": check_codes, "files": check_files,
+    wrong = {"includes": check_includes, "codes": check_codes, "files": check_files, "format": check_format,
              "headers": lambda: check_headers(*sys.argv[2:])}[what]()
     print("\n".join(wrong) if wrong else f"{what}: good")
     return 1 if wrong else 0

@@ -41,13 +41,11 @@ Outcome exercise(const std::string& text) {
   Sink sink;
   const lang::Compilation compilation = lang::compile(source, sink);
   for (const Diagnostic& d : sink.list()) {
-    require(d.span && d.span->begin <= d.span->end && d.span->end <= text.size(),
-            "a message without a place", text);
+    require(d.span && d.span->begin <= d.span->end && d.span->end <= text.size(), "a message without a place", text);
     require(!d.message.empty() && !render(d).empty(), "a message without words", text);
   }
   for (const lang::LabelUse& use : lang::label_uses(source))
-    require(use.span.begin <= use.span.end && use.span.end <= text.size(),
-            "a label outside the text", text);
+    require(use.span.begin <= use.span.end && use.span.end <= text.size(), "a label outside the text", text);
 
   const std::string formatted = lang::format(source);
   const SourceFile again("fuzz.dmi", formatted);
@@ -55,8 +53,7 @@ Outcome exercise(const std::string& text) {
   Sink formatted_sink;
   require(to_text(lang::compile(again, formatted_sink).plan) == to_text(compilation.plan),
           "formatting changes the plan", text);
-  require(sink.list().size() == formatted_sink.list().size(), "formatting changes the messages",
-          text);
+  require(sink.list().size() == formatted_sink.list().size(), "formatting changes the messages", text);
   return {!sink.has_errors(), runs(compilation.plan, source)};
 }
 

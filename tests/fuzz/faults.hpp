@@ -5,8 +5,8 @@
 
 namespace abbe::fuzz {
 
-/// Commits "overrun" (writes behind the end of an array), "overflow" (of a signed integer) or "leak" (memory that nothing
-/// points to). Returns 0 when nothing stopped it, 2 for any other name.
+/// Commits "overrun" (writes behind the end of an array), "overflow" (of a signed integer) or "leak" (memory
+/// that nothing points to). Returns 0 when nothing stopped it, 2 for any other name.
 int commit_fault(std::string_view name);
 
 }  // namespace abbe::fuzz

@@ -29,7 +29,5 @@ int main(int argc, char** argv) {
     take(damaged(random_program(random), random_program(random), random));
   }
   std::printf("%d texts: %d without errors, %d run\n", total, compiled, ran);
-  return total > count && compiled > total / 50 && ran > total / 20
-             ? 0
-             : 1;  // else it tests too little
+  return total > count && compiled > total / 50 && ran > total / 20 ? 0 : 1;  // else it tests too little
 }

@@ -43,8 +43,9 @@ Matrix perturbed_machines(const RecordedTouches& t, const Machine& machine) {
   return out;
 }
 
-/// Mean and covariance of the coefficients over screened machines. The 18 functions are drawn independently, so their covariances are
-/// taken apart; what the screening couples between them is small and would drown in the noise of the sample.
+/// Mean and covariance of the coefficients over screened machines. The 18 functions are drawn independently,
+/// so their covariances are taken apart; what the screening couples between them is small and would drown in
+/// the noise of the sample.
 KnownGeometry ensemble(const Machine& machine, std::uint64_t seed, int threads) {
   const VirtualMachines sample = screened_machines(machine, seed, kEnsemble, threads);
   const int basis = basis_size(machine.harmonics), size = kComponents * basis;
@@ -56,7 +57,8 @@ KnownGeometry ensemble(const Machine& machine, std::uint64_t seed, int threads) 
   for (int c = 0; c < kComponents; ++c) {
     const Matrix part = values.middleCols(c * basis, basis);
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(part.transpose() * part / double(sample.size() - 1));
-    out.factor.block(c * basis, c * basis, basis, basis) = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    out.factor.block(c * basis, c * basis, basis, basis) =
+        solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
   }
   return out;
 }
@@ -119,9 +121,10 @@ void add_head(const RecordedTouches& t, const Machine& machine, Columns& random)
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;
     if (s.stylus.indexed) visits[{s.run, s.visit}].push_back(static_cast<int>(i));
-    qualified[{s.stylus.ordinal, s.stylus.head_a_rad, s.stylus.head_b_rad, s.qualification}].push_back(static_cast<int>(i));
+    qualified[{s.stylus.ordinal, s.stylus.head_a_rad, s.stylus.head_b_rad, s.qualification}].push_back(
+        static_cast<int>(i));
   }
-  const auto sensitivity = [&](const std::vector<int>& rows, double sd_rad, Vec3 RecordedTouch::* per_rad) {
+  const auto sensitivity = [&](const std::vector<int>& rows, double sd_rad, Vec3 RecordedTouch::*per_rad) {
     if (sd_rad <= 0) return;
     Vector& column = random.add();
     for (const int i : rows) column(i) = kUmPerMm * sd_rad * dot(t.touches[i].scene.normal, t.touches[i].*per_rad);
@@ -148,7 +151,8 @@ void group_noise(const RecordedTouches& t, const Machine& machine, Baseline& out
     const StylusScene& s = t.touches[i].scene.stylus;
     styli[{std::round(s.length_mm), s.radius_mm}].push_back(static_cast<int>(i));
   }
-  const bool apart = std::all_of(styli.begin(), styli.end(), [](const auto& s) { return int(s.second.size()) >= kEnough; });
+  const bool apart =
+      std::all_of(styli.begin(), styli.end(), [](const auto& s) { return int(s.second.size()) >= kEnough; });
   m.noise_group.assign(t.touches.size(), 0);
   m.noise_groups = 0;
   for (const auto& [stylus, rows] : styli) {
@@ -176,13 +180,20 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   Columns free(n), random(n);
   add_poses(t, free);
   if (options.surfaces == Surfaces::unknown_size)
-    add_unknown_offsets(t, [](const RecordedTouch& touch, int) { return touch.scene.feature; }, free);
+    add_unknown_offsets(
+        t, [](const RecordedTouch& touch, int) { return touch.scene.feature; }, free);
   if (options.surfaces == Surfaces::unknown)
-    add_unknown_offsets(t, [](const RecordedTouch& touch, int) {
-      return std::tuple(touch.scene.feature, std::lround(1e3 * touch.scene.point.x), std::lround(1e3 * touch.scene.point.y), std::lround(1e3 * touch.scene.point.z));
-    }, free);
+    add_unknown_offsets(
+        t,
+        [](const RecordedTouch& touch, int) {
+          return std::tuple(touch.scene.feature, std::lround(1e3 * touch.scene.point.x),
+                            std::lround(1e3 * touch.scene.point.y), std::lround(1e3 * touch.scene.point.z));
+        },
+        free);
   out.geometry_um = perturbed_machines(t, machine);
-  const KnownGeometry known = options.known ? *options.known : options.sampled ? *options.sampled : ensemble(machine, options.seed, options.threads);
+  const KnownGeometry known = options.known ? *options.known
+      : options.sampled                     ? *options.sampled
+                                            : ensemble(machine, options.seed, options.threads);
   out.mean = known.mean;
   out.factor = known.factor;
   out.surfaces = options.surfaces;
@@ -198,8 +209,9 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
     m.rough = rough_geometry(t, machine, kLine);
     m.uneven = uneven_functions(t, machine);
   } else {
-    m.scale_spread = 0.3;            // an earlier recording has found the scale
-    m.largest_scale = 2;             // what that left open may be wrong by some tens of per cent, not by a multiple: that is another machine
+    m.scale_spread = 0.3;  // an earlier recording has found the scale
+    // what that left open may be wrong by some tens of per cent, not by a multiple: that is another machine
+    m.largest_scale = 2;
     // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.
     constexpr double kNotFollowed = 0.4;
     const Matrix rough = rough_geometry(t, machine, 0);
@@ -214,7 +226,8 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   m.follows.assign(n, 0);
   for (Eigen::Index i = 1; i < n; ++i) {
     const TouchScene &a = t.touches[i - 1].scene, &b = t.touches[i].scene;
-    m.follows[i] = a.stylus.ordinal == b.stylus.ordinal && a.setup == b.setup && a.run == b.run && m.noise_group[i] == m.noise_group[i - 1];
+    m.follows[i] = a.stylus.ordinal == b.stylus.ordinal && a.setup == b.setup && a.run == b.run &&
+        m.noise_group[i] == m.noise_group[i - 1];
   }
   return out;
 }
@@ -224,7 +237,8 @@ KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, const std::
   const Projection project(m, h);
   const Matrix z = project(m.random);
   Matrix precision = z.transpose() * z;
-  for (Eigen::Index k = 0; k < precision.rows(); ++k) precision(k, k) += m.random_group[static_cast<std::size_t>(k)] == 0 ? 1 / (h.scale * h.scale) : 1;
+  for (Eigen::Index k = 0; k < precision.rows(); ++k)
+    precision(k, k) += m.random_group[static_cast<std::size_t>(k)] == 0 ? 1 / (h.scale * h.scale) : 1;
   const Eigen::LLT<Matrix> llt(precision);
   const Vector mean = llt.solve(z.transpose() * project(m.y));
   const Matrix covariance = llt.solve(Matrix::Identity(precision.rows(), precision.cols()));

@@ -1,13 +1,16 @@
 // The baseline: what the simulated ensemble of virtual machines may do to a recording, as a linear-Gaussian model.
 //
-// The error functions of virtual machines are linear in their coefficients (engine/machine/geometry.hpp). So one run of perturbed
-// machines, each with one coefficient of 1, through the same kernel that simulates touches gives the sensitivities, and the covariance of
-// the coefficients comes from a sample of screened machines: no second physics. The head adds its indexing errors by visit, and every
-// qualified stylus the uncertainty of its qualification. Each setup has a free placement (six unknowns). Surfaces whose true place nobody
-// knows get an unknown each: by feature (its size) or by touch (then only differences between runs are judged).
+// The error functions of virtual machines are linear in their coefficients (engine/machine/geometry.hpp). So
+// one run of perturbed machines, each with one coefficient of 1, through the same kernel that simulates
+// touches gives the sensitivities, and the covariance of the coefficients comes from a sample of screened
+// machines: no second physics. The head adds its indexing errors by visit, and every qualified stylus the
+// uncertainty of its qualification. Each setup has a free placement (six unknowns). Surfaces whose true place
+// nobody knows get an unknown each: by feature (its size) or by touch (then only differences between runs are
+// judged).
 //
-// *Fresh*: the covariance follows from the specification alone. *Known machine*: mean and covariance of the coefficients are those that
-// an earlier diagnosis of the same machine left (known_state of the machine file).
+// *Fresh*: the covariance follows from the specification alone. *Known machine*: mean and covariance of the
+// coefficients are those that an earlier diagnosis of the same machine left (known_state of the machine
+// file).
 #pragma once
 
 #include <optional>
@@ -23,7 +26,7 @@ namespace abbe::diagnose {
 /// What is known of the coefficients of the error functions beyond the specification; mm, rad.
 struct KnownGeometry {
   Vector mean;
-  Matrix factor;                    ///< covariance = factor factor'
+  Matrix factor;  ///< covariance = factor factor'
 };
 
 /// Whether the true places of surfaces are known.
@@ -39,9 +42,9 @@ struct BaselineOptions {
 
 struct Baseline {
   LinearModel model;
-  Matrix geometry_um;               ///< rows x coefficients: um per unit coefficient
-  Matrix factor;                    ///< covariance of the coefficients = factor factor', before its scale is estimated
-  Vector mean;                      ///< of the coefficients
+  Matrix geometry_um;  ///< rows x coefficients: um per unit coefficient
+  Matrix factor;       ///< covariance of the coefficients = factor factor', before its scale is estimated
+  Vector mean;         ///< of the coefficients
   Surfaces surfaces = Surfaces::calibrated;
   std::optional<LengthError> beyond;     ///< a length that is worse than the specification allows
   std::vector<std::string> noise_names;  ///< of the groups of rows with a common noise
@@ -49,7 +52,8 @@ struct Baseline {
 
 Baseline baseline_of(const RecordedTouches&, const Machine&, const BaselineOptions&);
 
-/// Standard deviation of a qualified tip centre, over that of the probe: a sphere of eight touches (3 / 8 of the variance of one).
+/// Standard deviation of a qualified tip centre, over that of the probe: a sphere of eight touches (3 / 8 of
+/// the variance of one).
 inline constexpr double kQualificationShare = 0.6;
 /// Machines that the covariance of the coefficients is taken from.
 inline constexpr int kEnsemble = 800;

@@ -6,9 +6,10 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kPlacement = 6;      // unknowns of one setup; they stand before those of the surfaces
+constexpr int kPlacement = 6;  // unknowns of one setup; they stand before those of the surfaces
 
-/// Whether a column of the unknowns is the place of a surface (or of one point of it) that is calibrated: ones in its rows.
+/// Whether a column of the unknowns is the place of a surface (or of one point of it) that is calibrated:
+/// ones in its rows.
 bool of_calibrated_surface(const Vector& column, const RecordedPart& part, const RecordedTouches& t) {
   for (Eigen::Index i = 0; i < column.size(); ++i) {
     if (column(i) == 0) continue;
@@ -29,11 +30,13 @@ void calibrate(const RecordedPart& part, const RecordedTouches& t, Baseline& bas
   for (const RecordedTouch& touch : t.touches) setups.insert(touch.scene.setup);
   std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < m.free.cols(); ++k)
-    if (k < kPlacement * static_cast<Eigen::Index>(setups.size()) || !of_calibrated_surface(m.free.col(k), part, t)) kept.push_back(k);
+    if (k < kPlacement * static_cast<Eigen::Index>(setups.size()) || !of_calibrated_surface(m.free.col(k), part, t))
+      kept.push_back(k);
   m.free = Matrix(m.free(Eigen::all, kept));
   for (const std::vector<double>& doubt : part.doubt_mm) {
     m.random.conservativeResize(Eigen::NoChange, m.random.cols() + 1);
-    m.random.col(m.random.cols() - 1) = kUmPerMm * Eigen::Map<const Vector>(doubt.data(), static_cast<Eigen::Index>(doubt.size()));
+    m.random.col(m.random.cols() - 1) =
+        kUmPerMm * Eigen::Map<const Vector>(doubt.data(), static_cast<Eigen::Index>(doubt.size()));
     m.random_group.push_back(1);
   }
 }

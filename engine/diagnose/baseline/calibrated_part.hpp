@@ -1,6 +1,7 @@
-// The part of a workpiece file in the baseline of a diagnosis: what is expected of it is taken from the residuals, what is uncertain of it
-// is one more random column each, and a surface that is calibrated is no longer an unknown. So a sphere of known size tells a tip radius
-// from the size of the sphere, which nothing else can.
+// The part of a workpiece file in the baseline of a diagnosis: what is expected of it is taken from the
+// residuals, what is uncertain of it is one more random column each, and a surface that is calibrated is no
+// longer an unknown. So a sphere of known size tells a tip radius from the size of the sphere, which nothing
+// else can.
 #pragma once
 
 #include "engine/diagnose/baseline/baseline.hpp"

@@ -1,5 +1,5 @@
-// Recordings that no physics explains: another unit, swapped axes, normals the wrong way, rows twice. Each is recognised by what would mend
-// it, and said instead of being diagnosed.
+// Recordings that no physics explains: another unit, swapped axes, normals the wrong way, rows twice. Each is
+// recognised by what would mend it, and said instead of being diagnosed.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,8 +17,9 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kGross_mm = 0.5;      // median distance from the targets beyond which something other than errors is at work
-constexpr double kMends = 0.05;        // share of it that a remedy may leave
+// median distance from the targets beyond which something other than errors is at work
+constexpr double kGross_mm = 0.5;
+constexpr double kMends = 0.05;  // share of it that a remedy may leave
 
 template <class Remedy>
 double left_by(const Recording& r, Remedy remedy) {
@@ -31,7 +32,8 @@ double left_by(const Recording& r, Remedy remedy) {
   throw UserError(diagnostic(Code::E0701, fmt::format("{}: {}", file, what), std::move(help)));
 }
 
-/// How large the whole is, wherever it stands: half of the points lie no further from the middle. 0 for one point touched again and again.
+/// How large the whole is, wherever it stands: half of the points lie no further from the middle. 0 for one
+/// point touched again and again.
 template <class Point>
 double size_of(const Recording& r, Point point) {
   Vec3 middle;
@@ -50,15 +52,17 @@ double reach_of(const Recording& r, const Machine& machine) {
   std::vector<double> reach;
   for (const RecordingRow& row : r.rows) {
     double most = 0;
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) most = std::max(most, std::abs((*row.target_mm)[static_cast<int>(axis)]) / machine[axis].travel_mm);
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+      most = std::max(most, std::abs((*row.target_mm)[static_cast<int>(axis)]) / machine[axis].travel_mm);
     reach.push_back(most);
   }
   return median(std::move(reach));
 }
 
-/// How far the scales travelled from touch to touch, over how far the tip did: half of the ratios are smaller. Only between touches of one
-/// stylus in one orientation, because the readings jump where the head turns, and of one setup, because `frame: part` does not tell that the
-/// part was moved. Nothing where no two such touches with readings lie apart.
+/// How far the scales travelled from touch to touch, over how far the tip did: half of the ratios are
+/// smaller. Only between touches of one stylus in one orientation, because the readings jump where the head
+/// turns, and of one setup, because `frame: part` does not tell that the part was moved. Nothing where no two
+/// such touches with readings lie apart.
 std::optional<double> reading_per_position(const Recording& r) {
   constexpr double kApart_mm = 1;
   using Mounted = std::tuple<int, std::optional<std::string>, std::optional<double>, std::optional<double>>;
@@ -77,7 +81,8 @@ void check_readings(const Recording& r, const std::string& file) {
   const std::optional<double> ratio = reading_per_position(r);
   const auto unit = ratio ? foreign_unit(*ratio, 1) : std::nullopt;
   if (unit)
-    refuse(file, fmt::format("the scale readings are in {}, the recorded positions in millimetres", unit->name), fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
+    refuse(file, fmt::format("the scale readings are in {}, the recorded positions in millimetres", unit->name),
+           fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
 }
 
 /// Positions and targets in different units, or both in one that this machine makes impossible.
@@ -88,23 +93,44 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
   const double largest = std::max({machine[Axis::x].travel_mm, machine[Axis::y].travel_mm, machine[Axis::z].travel_mm});
   const bool targets_possible = meant > kLeast_mm && meant < largest;
   if (const auto unit = foreign_unit(recorded, meant); unit && targets_possible)
-    refuse(file, fmt::format("the recorded positions are in {}, the targets in millimetres", unit->name), fmt::format("multiply x, y, z by {:g}", unit->mm));
+    refuse(file, fmt::format("the recorded positions are in {}, the targets in millimetres", unit->name),
+           fmt::format("multiply x, y, z by {:g}", unit->mm));
   if (const auto unit = foreign_unit(meant, recorded))
-    refuse(file, fmt::format("the targets are in {}, the recorded positions in millimetres", unit->name), fmt::format("multiply tx, ty, tz by {:g}", unit->mm));
+    refuse(file, fmt::format("the targets are in {}, the recorded positions in millimetres", unit->name),
+           fmt::format("multiply tx, ty, tz by {:g}", unit->mm));
   if (meant > 0 && reach_of(r, machine) > kFar)
-    refuse(file, fmt::format("positions and targets reach more than {:g} times as far as machine '{}' travels: they are in micrometres", kFar, machine.name), "multiply x, y, z, tx, ty, tz by 0.001");
+    refuse(
+        file,
+        fmt::format(
+            "positions and targets reach more than {:g} times as far as machine '{}' travels: they are in micrometres",
+            kFar, machine.name),
+        "multiply x, y, z, tx, ty, tz by 0.001");
   if (meant > 0 && meant < kLeast_mm && reach_of(r, machine) < kNear)
-    refuse(file, fmt::format("half of the touches lie within {:.2g} mm, close to the machine's zero: positions and targets are in metres", meant), "multiply x, y, z, tx, ty, tz by 1000");
+    refuse(
+        file,
+        fmt::format(
+            "half of the touches lie within {:.2g} mm, close to the machine's zero: positions and targets are in metres",
+            meant),
+        "multiply x, y, z, tx, ty, tz by 1000");
 }
 
 void check_axes(const Recording& r, const std::string& file, double gross) {
   constexpr std::array<std::array<int, 3>, 5> orders = {{{1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
   for (const auto& o : orders)
-    if (left_by(r, [&](const RecordingRow& row) { return Vec3{row.position_mm[o[0]], row.position_mm[o[1]], row.position_mm[o[2]]}; }) < kMends * gross)
-      refuse(file, "the axes of the recorded positions are swapped", fmt::format("write the columns x, y, z as they are now {}, {}, {}", "xyz"[o[0]], "xyz"[o[1]], "xyz"[o[2]]));
+    if (left_by(r, [&](const RecordingRow& row) {
+          return Vec3{row.position_mm[o[0]], row.position_mm[o[1]], row.position_mm[o[2]]};
+        }) < kMends * gross)
+      refuse(
+          file, "the axes of the recorded positions are swapped",
+          fmt::format("write the columns x, y, z as they are now {}, {}, {}", "xyz"[o[0]], "xyz"[o[1]], "xyz"[o[2]]));
   for (int axis = 0; axis < 3; ++axis)
-    if (left_by(r, [&](const RecordingRow& row) { Vec3 p = row.position_mm; p[axis] = -p[axis]; return p; }) < kMends * gross)
-      refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]), "correct the sign in the recording");
+    if (left_by(r, [&](const RecordingRow& row) {
+          Vec3 p = row.position_mm;
+          p[axis] = -p[axis];
+          return p;
+        }) < kMends * gross)
+      refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]),
+             "correct the sign in the recording");
 }
 
 /// A machine travels against the normal that it touches.
@@ -113,8 +139,9 @@ void check_normals(const Recording& r, const std::string& file) {
   for (const RecordingRow& row : r.rows)
     if (row.normal && row.travel) along.push_back(dot(*row.normal, *row.travel));
   if (along.empty() || median(std::move(along)) < 0) return;
-  refuse(file, "the machine travels along the normals, out of the material, not against them",
-         "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
+  refuse(
+      file, "the machine travels along the normals, out of the material, not against them",
+      "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
 }
 
 }  // namespace
@@ -126,24 +153,31 @@ Recording without_copies(const Recording& recorded, const std::string& file, std
   std::size_t copies = 0;
   std::string first;
   for (const RecordingRow& row : recorded.rows) {
-    const auto [at, fresh] = seen.emplace(std::tuple(row.feature, row.touch, row.setup, row.run, row.sensor.value_or(""), row.time_s), &row);
+    const auto [at, fresh] =
+        seen.emplace(std::tuple(row.feature, row.touch, row.setup, row.run, row.sensor.value_or(""), row.time_s), &row);
     if (fresh) {
       out.rows.push_back(row);
       continue;
     }
-    const std::string which = fmt::format("'{}' touch {} (lines {} and {})", row.feature, row.touch, at->second->line, row.line);
+    const std::string which =
+        fmt::format("'{}' touch {} (lines {} and {})", row.feature, row.touch, at->second->line, row.line);
     if (!(at->second->position_mm == row.position_mm))
-      throw UserError(diagnostic(Code::E0713, fmt::format("{}: {} has two values at one time, in one setup and run", file, which),
+      throw UserError(diagnostic(Code::E0713,
+                                 fmt::format("{}: {} has two values at one time, in one setup and run", file, which),
                                  "give repeats another 'run', a part that was moved another 'setup'"));
     if (copies++ == 0) first = which;
   }
   if (copies > 0)
-    messages.push_back(diagnostic(Code::W0702, fmt::format("{}: {} rows stand there twice, the first is {}; they count once", file, copies, first), "remove one of each pair"));
+    messages.push_back(
+        diagnostic(Code::W0702,
+                   fmt::format("{}: {} rows stand there twice, the first is {}; they count once", file, copies, first),
+                   "remove one of each pair"));
   return out;
 }
 
 void check_data(const Recording& r, const Machine& machine, const std::string& file) {
-  const bool complete = std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
+  const bool complete =
+      std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
   if (!complete) return;  // recorded_touches() says what is missing
   check_normals(r, file);
   check_units(r, machine, file);

@@ -13,12 +13,14 @@ namespace {
 constexpr const char* kSchema = "abbe.known_state/1";
 
 [[noreturn]] void refuse(const Machine& machine, const std::string& what) {
-  throw UserError(diagnostic(Code::E0706, fmt::format("the known_state of machine '{}' cannot be used: {}", machine.name, what),
+  throw UserError(diagnostic(Code::E0706,
+                             fmt::format("the known_state of machine '{}' cannot be used: {}", machine.name, what),
                              "make it anew: abbe diagnose CALIBRATION.csv --machine M --model-out KNOWN.json"));
 }
 
 Vector vector_of(const Machine& machine, const nlohmann::json& list, Eigen::Index size) {
-  if (!list.is_array() || static_cast<Eigen::Index>(list.size()) != size) refuse(machine, fmt::format("a list of {} numbers is expected", size));
+  if (!list.is_array() || static_cast<Eigen::Index>(list.size()) != size)
+    refuse(machine, fmt::format("a list of {} numbers is expected", size));
   Vector v(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     if (!list[static_cast<std::size_t>(k)].is_number()) refuse(machine, "a list holds something that is no number");
@@ -39,7 +41,8 @@ std::optional<KnownGeometry> read_known_state(const Machine& machine) {
   if (machine.known_state.empty()) return std::nullopt;
   const nlohmann::json state = nlohmann::json::parse(machine.known_state, nullptr, false);
   const auto schema = state.find("schema");
-  if (schema == state.end() || *schema != nlohmann::json(kSchema)) refuse(machine, fmt::format("\"schema\": \"{}\" is missing", kSchema));
+  if (schema == state.end() || *schema != nlohmann::json(kSchema))
+    refuse(machine, fmt::format("\"schema\": \"{}\" is missing", kSchema));
   const Eigen::Index size = kComponents * basis_size(machine.harmonics);
   for (const char* key : {"mean", "factor"})
     if (!state.contains(key)) refuse(machine, fmt::format("\"{}\" is missing", key));
@@ -47,7 +50,8 @@ std::optional<KnownGeometry> read_known_state(const Machine& machine) {
   out.mean = vector_of(machine, state["mean"], size);
   if (!state["factor"].is_array() || state["factor"].empty()) refuse(machine, "\"factor\" is a list of columns");
   out.factor.resize(size, static_cast<Eigen::Index>(state["factor"].size()));
-  for (std::size_t k = 0; k < state["factor"].size(); ++k) out.factor.col(static_cast<Eigen::Index>(k)) = vector_of(machine, state["factor"][k], size);
+  for (std::size_t k = 0; k < state["factor"].size(); ++k)
+    out.factor.col(static_cast<Eigen::Index>(k)) = vector_of(machine, state["factor"][k], size);
   return out;
 }
 

@@ -9,7 +9,9 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kAlong = 0.9999;   ///< cosine between a normal and the length, at most 0.8 degrees: a length touched across depends on where the part stood
+/// cosine between a normal and the length, at most 0.8 degrees: a length touched across depends on where the
+/// part stood
+constexpr double kAlong = 0.9999;
 
 bool comparable(const TouchScene& a, const TouchScene& b) {
   return a.setup == b.setup && a.run == b.run && a.stylus.tip_ordinal == b.stylus.tip_ordinal && a.visit == b.visit;
@@ -33,15 +35,20 @@ LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, c
       if (length < kLeast_mm || !comparable(a, b)) continue;
       const double along_a = dot(a.normal, between) / length, along_b = dot(b.normal, between) / length;
       if (std::min(std::abs(along_a), std::abs(along_b)) < kAlong) continue;
-      const LengthError e{length, (along_a * residuals_um(Eigen::Index(i)) - along_b * residuals_um(Eigen::Index(j))) / kUmPerMm, specification.mpe.at(length)};
-      worst.insert(std::find_if(worst.begin(), worst.end(), [&](const LengthError& other) { return share(other) < share(e); }), e);
+      const LengthError e{
+          length, (along_a * residuals_um(Eigen::Index(i)) - along_b * residuals_um(Eigen::Index(j))) / kUmPerMm,
+          specification.mpe.at(length)};
+      worst.insert(
+          std::find_if(worst.begin(), worst.end(), [&](const LengthError& other) { return share(other) < share(e); }),
+          e);
       if (worst.size() > kCount) worst.pop_back();
     }
   }
   return worst.size() < kCount ? LengthError{} : worst.back();
 }
 
-std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Vector& residuals_um, const Machine& machine) {
+std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Vector& residuals_um,
+                                                const Machine& machine) {
   constexpr double kElsewhere = 1.5, kDeviations = 4;
   const double touch_mm = norm(machine.probe.sd_mm) / std::sqrt(3.0);
   const LengthError e = worst_length(t, residuals_um, machine.specification);

@@ -1,5 +1,6 @@
-// What ISO 10360-2 limits, seen in a recording: lengths between touches of calibrated surfaces that face each other or the same way. They do
-// not depend on where the part stood, and a machine that has passed its acceptance test does not get them wrong by more than its MPE.
+// What ISO 10360-2 limits, seen in a recording: lengths between touches of calibrated surfaces that face each
+// other or the same way. They do not depend on where the part stood, and a machine that has passed its
+// acceptance test does not get them wrong by more than its MPE.
 #pragma once
 
 #include <optional>
@@ -14,13 +15,14 @@ namespace abbe::diagnose {
 /// The residuals of a recording without what the placement of its setups makes of them, um.
 Vector without_placement(const LinearModel&);
 
-/// The worst length, as a share of its MPE, but for the two that are worse: one touch of dirt spoils several. Lengths of one setup, run and
-/// qualified tip, whose ends are touched along them. All 0 where there are no such lengths.
-/// `residuals_um`: without_placement(), for normals are never quite along a length.
+/// The worst length, as a share of its MPE, but for the two that are worse: one touch of dirt spoils several.
+/// Lengths of one setup, run and qualified tip, whose ends are touched along them. All 0 where there are no
+/// such lengths. `residuals_um`: without_placement(), for normals are never quite along a length.
 LengthError worst_length(const RecordedTouches&, const Vector& residuals_um, const Specification&);
 
-/// That length, where it is worse than what any machine of this specification makes of it, elsewhere in its volume and with other styli than in
-/// the acceptance test: by half as much again as its MPE, and what two touches scatter by.
+/// That length, where it is worse than what any machine of this specification makes of it, elsewhere in its
+/// volume and with other styli than in the acceptance test: by half as much again as its MPE, and what two
+/// touches scatter by.
 std::optional<LengthError> beyond_specification(const RecordedTouches&, const Vector& residuals_um, const Machine&);
 
 /// Of a recording with such a length: larger errors of the machine than those of its specification are no explanation.

@@ -33,7 +33,8 @@ void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& ba
     } else if (doubt.per == DrawsPer::visit) {
       std::map<int, Vector> visits;
       for (Eigen::Index i = 0; i < column.size(); ++i)
-        visits.try_emplace(t.touches[static_cast<std::size_t>(i)].scene.visit, Vector::Zero(column.size())).first->second(i) = column(i);
+        visits.try_emplace(t.touches[static_cast<std::size_t>(i)].scene.visit, Vector::Zero(column.size()))
+            .first->second(i) = column(i);
       for (const auto& [visit, part] : visits) append(m, part);
     } else {
       append(m, column);

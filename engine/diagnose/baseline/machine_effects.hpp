@@ -1,6 +1,6 @@
-// Effects that the machine file already has are part of the model that a recording is compared with: their best estimates are taken from
-// the residuals, their uncertain sizes and random numbers are further unknowns of the baseline. So a machine that an earlier diagnosis
-// improved is judged as it is known now.
+// Effects that the machine file already has are part of the model that a recording is compared with: their
+// best estimates are taken from the residuals, their uncertain sizes and random numbers are further unknowns
+// of the baseline. So a machine that an earlier diagnosis improved is judged as it is known now.
 #pragma once
 
 #include "engine/diagnose/baseline/baseline.hpp"

@@ -1,6 +1,7 @@
-// Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers. They are left out, or they would
-// spoil the fit. Dirt strikes single touches by chance, though: touches next to each other, of one stylus one after the other, or of one place
-// again and again, that are all off, are a mismatch with a cause, and stay in.
+// Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers.
+// They are left out, or they would spoil the fit. Dirt strikes single touches by chance, though: touches next
+// to each other, of one stylus one after the other, or of one place again and again, that are all off, are a
+// mismatch with a cause, and stay in.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,12 +15,13 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kMaskings = 8;
-/// Probability of so many pairs of neighbours among touches struck by chance, below which they are no chance. One pair may be one piece of dirt.
+/// Probability of so many pairs of neighbours among touches struck by chance, below which they are no chance.
+/// One pair may be one piece of dirt.
 constexpr double kChance = 0.005;
 constexpr int kLeastPairs = 2;
 
-/// By how much the middle half of the residuals scatters less than the fit says, where gross outliers have spoilt the fit; 1 otherwise. Tails
-/// of the kind that sensors have do not spoil it so much.
+/// By how much the middle half of the residuals scatters less than the fit says, where gross outliers have
+/// spoilt the fit; 1 otherwise. Tails of the kind that sensors have do not spoil it so much.
 double spoilt(const Vector& standardised) {
   constexpr double kNormal = 1.4826, kTails = 2;
   std::vector<double> size;
@@ -74,14 +76,17 @@ double at_least(int n, double expected) {
 /// Outliers that are no chance: in more pairs of neighbours than chance makes.
 std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows, const std::vector<char>& masked) {
   const auto place = [&](const RecordedTouch& touch) { return std::tuple(touch.scene.feature, rows[touch.row].touch); };
-  const Pairs relations[] = {followers(t, [](const RecordedTouch& touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
-                             followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, place)};
-  const double n = static_cast<double>(masked.size()), m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
+  const Pairs relations[] = {
+      followers(t, [](const RecordedTouch& touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
+      followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, place)};
+  const double n = static_cast<double>(masked.size()),
+               m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
   std::vector<char> out(masked.size(), 0);
   for (const Pairs& pairs : relations) {
     int both = 0;
     for (const auto& [a, b] : pairs) both += masked[a] && masked[b] ? 1 : 0;
-    if (both < kLeastPairs || at_least(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance) continue;
+    if (both < kLeastPairs || at_least(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance)
+      continue;
     for (const auto& [a, b] : pairs)
       if (masked[a] && masked[b]) out[a] = out[b] = 1;
   }
@@ -94,7 +99,8 @@ void mask_outliers(Case& c) {
   mask(c, std::vector<char>(c.touches.touches.size(), 0));
   const std::vector<char> kept = systematic(c.touches, c.recording->rows.data(), c.masked);
   if (std::count(kept.begin(), kept.end(), 1) > 0) mask(c, kept);
-  if (std::count(c.masked.begin(), c.masked.end(), 1) > 0) c.off_um = beyond_prediction(compact(c.baseline.model), c.hyper, c.masked);
+  if (std::count(c.masked.begin(), c.masked.end(), 1) > 0)
+    c.off_um = beyond_prediction(compact(c.baseline.model), c.hyper, c.masked);
   c.rows.clear();
   for (std::size_t i = 0; i < c.masked.size(); ++i)
     if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));

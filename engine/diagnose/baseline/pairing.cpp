@@ -1,6 +1,6 @@
-// Touches that are paired with the wrong targets: a row of another feature, numbers that count from another touch. Labels and numbers agree
-// then, but not the places. What a machine and a part do to a touch lies along the normal; beside its target it is only as far as the part was
-// not aligned.
+// Touches that are paired with the wrong targets: a row of another feature, numbers that count from another
+// touch. Labels and numbers agree then, but not the places. What a machine and a part do to a touch lies
+// along the normal; beside its target it is only as far as the part was not aligned.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,13 +16,15 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kBeside_mm = 5;       // more than an alignment leaves
+constexpr double kBeside_mm = 5;  // more than an alignment leaves
 
-/// How far each row lies beside its target, in the direction in which it lies least: as the part was put on its targets along the normals, or
-/// as whole places agree best, because some recordings leave shifts along a surface open.
+/// How far each row lies beside its target, in the direction in which it lies least: as the part was put on
+/// its targets along the normals, or as whole places agree best, because some recordings leave shifts along a
+/// surface open.
 std::vector<double> beside_targets(const Recording& r) {
   std::map<int, std::pair<std::vector<Vec3>, std::vector<Vec3>>> setups;
-  for (const RecordingRow& row : r.rows) setups[row.setup].first.push_back(row.position_mm), setups[row.setup].second.push_back(*row.target_mm);
+  for (const RecordingRow& row : r.rows)
+    setups[row.setup].first.push_back(row.position_mm), setups[row.setup].second.push_back(*row.target_mm);
   std::map<int, std::optional<Rigid>> places;
   for (const auto& [setup, points] : setups) places[setup] = rigid_fit(points.first, points.second);
   std::vector<double> beside;
@@ -37,7 +39,8 @@ std::vector<double> beside_targets(const Recording& r) {
 /// What is too far beside a target, by feature: in a narrow bore, where another direction of the surface begins.
 std::vector<double> limits(const RecordedTouches& t) {
   std::vector<std::vector<int>> touches_of(t.features.size());
-  for (std::size_t i = 0; i < t.touches.size(); ++i) touches_of[static_cast<std::size_t>(t.touches[i].scene.feature)].push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < t.touches.size(); ++i)
+    touches_of[static_cast<std::size_t>(t.touches[i].scene.feature)].push_back(static_cast<int>(i));
   std::vector<double> out;
   for (const std::vector<int>& rows : touches_of) {
     const std::optional<double> radius = round_radius(t, rows);
@@ -48,7 +51,8 @@ std::vector<double> limits(const RecordedTouches& t) {
 
 }  // namespace
 
-void check_pairing(const Recording& r, const RecordedTouches& t, const std::string& file, std::vector<Diagnostic>& messages) {
+void check_pairing(const Recording& r, const RecordedTouches& t, const std::string& file,
+                   std::vector<Diagnostic>& messages) {
   constexpr double kFew = 0.1;
   constexpr std::size_t kTold = 3;
   const std::vector<double> beside = beside_targets(r), limit = limits(t);
@@ -57,13 +61,16 @@ void check_pairing(const Recording& r, const RecordedTouches& t, const std::stri
     const double off = beside[static_cast<std::size_t>(touch.row)];
     if (off < limit[static_cast<std::size_t>(touch.scene.feature)]) continue;
     const RecordingRow& row = r.rows[static_cast<std::size_t>(touch.row)];
-    astray.push_back(fmt::format("touch {} of '{}' (line {}) lies {:.1f} mm beside its target", row.touch, row.feature, row.line, off));
+    astray.push_back(fmt::format("touch {} of '{}' (line {}) lies {:.1f} mm beside its target", row.touch, row.feature,
+                                 row.line, off));
   }
   if (astray.empty()) return;
   const std::size_t all = astray.size();
   astray.resize(std::min(all, kTold));
-  const std::string text = fmt::format("{}: {}{}", file, fmt::join(astray, ", "), all > kTold ? fmt::format(", and {} more do", all - kTold) : "");
-  const std::string help = "rows are paired with targets by feature and touch, counted from 1: check labels and numbers";
+  const std::string text = fmt::format("{}: {}{}", file, fmt::join(astray, ", "),
+                                       all > kTold ? fmt::format(", and {} more do", all - kTold) : "");
+  const std::string help =
+      "rows are paired with targets by feature and touch, counted from 1: check labels and numbers";
   if (double(all) > kFew * double(t.touches.size())) throw UserError(diagnostic(Code::E0711, text, help));
   messages.push_back(diagnostic(Code::W0712, text, help));
 }

@@ -65,7 +65,8 @@ Matrix function_columns(const RecordedTouches& t, const Machine& machine, const 
         if (axis_of(static_cast<Component>(c)) != static_cast<Axis>(axis)) continue;
         AxisErrors unit;
         unit.value[c] = machine.components[static_cast<std::size_t>(c)].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
-        const double um = kUmPerMm * dot(s.normal, geometric_error(machine, unit, s.reading, s.stylus.tip_from_mount_mm));
+        const double um =
+            kUmPerMm * dot(s.normal, geometric_error(machine, unit, s.reading, s.stylus.tip_from_mount_mm));
         out.row(static_cast<Eigen::Index>(i)).segment(c * kKnots, kKnots) = um * f;
       }
     }
@@ -75,7 +76,9 @@ Matrix function_columns(const RecordedTouches& t, const Machine& machine, const 
 
 }  // namespace
 
-Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double line) { return function_columns(t, machine, Functions(kLengths, line)); }
+Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double line) {
+  return function_columns(t, machine, Functions(kLengths, line));
+}
 
 std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {
   const Matrix all = function_columns(t, machine, Functions(kShortLengths, 0));

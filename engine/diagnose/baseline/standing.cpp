@@ -17,18 +17,19 @@ namespace {
 using Rows = std::vector<const RecordingRow*>;
 constexpr int kUnknowns = 7;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-using Motion = Eigen::Matrix<double, kUnknowns, 1>;   // shift, turn, and what all touches are too far out
+using Motion = Eigen::Matrix<double, kUnknowns, 1>;  // shift, turn, and what all touches are too far out
 
 /// What carries a setup to its targets.
 struct Back {
   Rigid X;
-  double out_mm = 0;                      ///< that all touches lie too far out: a wrong tip
+  double out_mm = 0;  ///< that all touches lie too far out: a wrong tip
 };
 
 /// How far each touch lies beyond its target, once the part is carried back.
 std::vector<double> beyond(const Rows& rows, const Back& back) {
   std::vector<double> r;
-  for (const RecordingRow* row : rows) r.push_back(dot(*row->normal, back.X * row->position_mm - *row->target_mm) - back.out_mm);
+  for (const RecordingRow* row : rows)
+    r.push_back(dot(*row->normal, back.X * row->position_mm - *row->target_mm) - back.out_mm);
   return r;
 }
 
@@ -46,11 +47,12 @@ std::pair<Vec3, double> extent_of(const Rows& rows) {
   return {middle, extent};
 }
 
-/// The small motion that lessens the weighted sum of squares most: a shift, a turn about `middle` times `extent`, and with `tip` a length
-/// along all normals.
-Motion step(const Rows& rows, const Back& back, bool tip, const Vec3& middle, double extent, const std::vector<double>& r) {
+/// The small motion that lessens the weighted sum of squares most: a shift, a turn about `middle` times
+/// `extent`, and with `tip` a length along all normals.
+Motion step(const Rows& rows, const Back& back, bool tip, const Vec3& middle, double extent,
+            const std::vector<double>& r) {
   constexpr double kLeast_mm = 1e-6, kShare = 0.01, kUnseen = 1e-6;
-  double floor = kLeast_mm;              // below this a residual counts by its square
+  double floor = kLeast_mm;  // below this a residual counts by its square
   for (const double x : r) floor += kShare * std::abs(x) / double(r.size());
   Square a = Square::Zero();
   Motion b = Motion::Zero();
@@ -65,7 +67,8 @@ Motion step(const Rows& rows, const Back& back, bool tip, const Vec3& middle, do
   Motion motion = Motion::Zero();
   for (int k = 0; k < kUnknowns; ++k) {
     const double seen = solver.eigenvalues()(k);
-    if (seen > kUnseen * solver.eigenvalues()(kUnknowns - 1)) motion += solver.eigenvectors().col(k).dot(b) / seen * solver.eigenvectors().col(k);
+    if (seen > kUnseen * solver.eigenvalues()(kUnknowns - 1))
+      motion += solver.eigenvectors().col(k).dot(b) / seen * solver.eigenvectors().col(k);
   }
   return motion;
 }
@@ -103,11 +106,13 @@ double angle_deg(const Mat3& R) {
   return std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1) * 180 / kPi;
 }
 
-/// Whether a tip explains it with the part where it should be, and the placement only with the part turned far: about the axis of a ring, which
-/// shortens all that is seen along its normals, and which no touch of a ring can tell.
+/// Whether a tip explains it with the part where it should be, and the placement only with the part turned
+/// far: about the axis of a ring, which shortens all that is seen along its normals, and which no touch of a
+/// ring can tell.
 bool instead_of_a_turn(const Rows& rows, const Back& tip, const Back& back) {
   constexpr double kAlike_mm = 0.05, kFar_deg = 1, kShare = 0.1;
-  return angle_deg(back.X.R) > kFar_deg && angle_deg(tip.X.R) < kShare * angle_deg(back.X.R) && middle_size(beyond(rows, tip)) < middle_size(beyond(rows, back)) + kAlike_mm;
+  return angle_deg(back.X.R) > kFar_deg && angle_deg(tip.X.R) < kShare * angle_deg(back.X.R) &&
+      middle_size(beyond(rows, tip)) < middle_size(beyond(rows, back)) + kAlike_mm;
 }
 
 /// One length along all normals mends what no placement does: no physics of a touch is so large and so even.
@@ -118,18 +123,23 @@ void refuse_wrong_tip(const Rows& rows, const Back& back, double most_out_mm, co
   const bool turned = instead_of_a_turn(rows, in_place, back);
   if (turned) with_tip = in_place;
   const double out = with_tip.out_mm;
-  if (std::abs(out) < most_out_mm || (!turned && middle_size(beyond(rows, with_tip)) > kMends * middle_size(beyond(rows, back)))) return;
-  throw UserError(diagnostic(Code::E0701,
-                             fmt::format("{}: every touch is {:.3f} mm too far {} along its normal: a tip radius, or a tip diameter, that was {}, or another tip than the file says",
-                                         file, std::abs(out), out > 0 ? "out" : "in", out > 0 ? "added once too often" : "taken off once too often"),
-                             "check the line '# point: tip_centre|surface', the sign of the compensation, the tip, and whether targets are tip centres too; "
-                             "where it is the size of the features that is not known, say '# surfaces: unknown_size'"));
+  if (std::abs(out) < most_out_mm ||
+      (!turned && middle_size(beyond(rows, with_tip)) > kMends * middle_size(beyond(rows, back))))
+    return;
+  throw UserError(diagnostic(
+      Code::E0701,
+      fmt::format(
+          "{}: every touch is {:.3f} mm too far {} along its normal: a tip radius, or a tip diameter, that was {}, or another tip than the file says",
+          file, std::abs(out), out > 0 ? "out" : "in", out > 0 ? "added once too often" : "taken off once too often"),
+      "check the line '# point: tip_centre|surface', the sign of the compensation, the tip, and whether targets are tip centres too; "
+      "where it is the size of the features that is not known, say '# surfaces: unknown_size'"));
 }
 
 }  // namespace
 
-Recording put_on_targets(const Recording& recorded, double most_out_mm, const std::string& file, std::vector<Diagnostic>& messages) {
-  constexpr double kNoticeable_mm = 0.05;   // up to this the linear placement is good to 0.1 um
+Recording put_on_targets(const Recording& recorded, double most_out_mm, const std::string& file,
+                         std::vector<Diagnostic>& messages) {
+  constexpr double kNoticeable_mm = 0.05;  // up to this the linear placement is good to 0.1 um
   std::map<int, Rows> setups;
   for (const RecordingRow& row : recorded.rows)
     if (row.target_mm && row.normal) setups[row.setup].push_back(&row);
@@ -144,10 +154,12 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
     if (change < kNoticeable_mm) continue;
     const Vec3 middle = extent_of(rows).first;
     back[setup] = X;
-    messages.push_back(diagnostic(Code::N0709,
-                                  fmt::format("{}: in setup {} the part stood {:.2f} mm beside its targets and turned by {:.3f} degrees; that is taken out", file, setup,
-                                              norm(inverse(X) * middle - middle), angle_deg(X.R)),
-                                  "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
+    messages.push_back(diagnostic(
+        Code::N0709,
+        fmt::format(
+            "{}: in setup {} the part stood {:.2f} mm beside its targets and turned by {:.3f} degrees; that is taken out",
+            file, setup, norm(inverse(X) * middle - middle), angle_deg(X.R)),
+        "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
   }
   Recording out = recorded;
   for (RecordingRow& row : out.rows)

@@ -1,4 +1,5 @@
-// From the registry of effects to explanations: no physics here, only the effects' own displacements on the recorded scenes.
+// From the registry of effects to explanations: no physics here, only the effects' own displacements on the
+// recorded scenes.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,8 @@ namespace abbe::diagnose {
 namespace {
 
 /// Covariates that must not only be known but differ, or nothing of the effect can be told from a constant.
-constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::acceleration | Covariate::part_temperature |
-                               Covariate::scale_temperature | Covariate::air_temperature | Covariate::load;
+constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::acceleration |
+    Covariate::part_temperature | Covariate::scale_temperature | Covariate::air_temperature | Covariate::load;
 /// Covariates that a scene has by itself, whatever was logged.
 constexpr unsigned kImplied = Covariate::gradients | Covariate::qualification | Covariate::visit;
 
@@ -26,8 +27,9 @@ unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
   return absent | constant;
 }
 
-/// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation, though one that cannot be
-/// judged: a deviation from 20 degrees C that nobody noted, a load that nobody weighed.
+/// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation,
+/// though one that cannot be judged: a deviation from 20 degrees C that nobody noted, a load that nobody
+/// weighed.
 TouchScene with_surrogates(TouchScene scene, unsigned known) {
   const auto unknown = [known](Covariate c) { return (known & static_cast<unsigned>(c)) == 0; };
   if (unknown(Covariate::part_temperature)) scene.temperature.part = 21;
@@ -43,13 +45,15 @@ class Evaluation {
     for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t.known));
   }
 
-  Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws, int visit = -1) const {
+  Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws,
+                int visit = -1) const {
     Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes_.size()));
     const std::vector<double> none(draws.size(), 0.0);
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       if ((scenes_[i].run >= change.run) == change.gone) continue;
       const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
-      r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
+      r(static_cast<Eigen::Index>(i)) =
+          kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
     }
     return r;
   }
@@ -70,7 +74,9 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
   std::vector<Block> list(1);
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const bool linear = effect.parameters[p].linear, varied = !linear && search[p].kind == Search::Kind::tried;
-    const std::vector<double> values = linear ? std::vector{0.0} : varied ? search[p].values : std::vector{search[p].values[0]};
+    const std::vector<double> values = linear ? std::vector{0.0}
+        : varied                              ? search[p].values
+                                              : std::vector{search[p].values[0]};
     const std::vector<Cell> cells = varied ? cells_of(search[p]) : std::vector<Cell>{{values[0], values[0]}};
     std::vector<Block> longer;
     for (const Block& prefix : list) {
@@ -88,9 +94,10 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
 /// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
 constexpr std::size_t kMostChanges = 8, kMostGone = 4;
 
-/// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after a crash, a mend or a change of the
-/// weather, and what is gone, a dirty tip that was cleaned. What happens at a moment happens between the runs then; what goes on in time, or is
-/// drawn anew in every visit, is new by itself.
+/// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after
+/// a crash, a mend or a change of the weather, and what is gone, a dirty tip that was cleaned. What happens
+/// at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new
+/// by itself.
 std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::vector<LaterRun>& later) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
@@ -113,7 +120,8 @@ std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, c
 /// The columns of one variant: each linear parameter by itself, along each direction and phase that is spanned.
 class VariantColumns {
  public:
-  VariantColumns(const Effect& effect, const std::vector<Search>& search, const Evaluation& evaluate) : effect_(effect), evaluate_(evaluate) {
+  VariantColumns(const Effect& effect, const std::vector<Search>& search, const Evaluation& evaluate)
+      : effect_(effect), evaluate_(evaluate) {
     for (std::size_t p = 0; p < search.size(); ++p) {
       if (search[p].kind == Search::Kind::direction) direction_ = static_cast<int>(p);
       if (search[p].kind == Search::Kind::phase) phases_.push_back(static_cast<int>(p));
@@ -139,8 +147,10 @@ class VariantColumns {
         if (direction_ >= 0) theta[direction_] = d;
         for (const int at : phases_) theta[at] = 90.0 * phase;
         const Column column{p, d + 3 * phase, unit};
-        if (effect_.draws == 0) append(block, column, evaluate_.column(theta, block.change, {}));
-        else add_draws(theta, column, block);
+        if (effect_.draws == 0)
+          append(block, column, evaluate_.column(theta, block.change, {}));
+        else
+          add_draws(theta, column, block);
       }
     }
   }
@@ -150,7 +160,8 @@ class VariantColumns {
     for (int j = 0; j < effect_.draws; ++j) {
       std::vector<double> z(effect_.draws, 0.0);
       z[j] = 1;
-      for (const int visit : visits) append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.change, z, visit));
+      for (const int visit : visits)
+        append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.change, z, visit));
     }
   }
 
@@ -168,7 +179,8 @@ class VariantColumns {
   std::vector<int> phases_;
 };
 
-/// Whether an earlier variant of the same explanation has the same columns: it turns on a parameter without influence here.
+/// Whether an earlier variant of the same explanation has the same columns: it turns on a parameter without
+/// influence here.
 bool repeats(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
   for (const int k : of.blocks) {
     const Matrix& other = blocks[k].signature;
@@ -211,12 +223,14 @@ std::vector<Search> searches(const Effect& effect, const RecordedTouches& t, dou
   std::vector<Search> list;
   for (const EffectParameter& p : effect.parameters) {
     list.push_back(search_of(p, t));
-    if (p.name == "period_um") std::erase_if(list.back().values, [&](double period_um) { return period_um < least_period_um; });
+    if (p.name == "period_um")
+      std::erase_if(list.back().values, [&](double period_um) { return period_um < least_period_um; });
   }
   return list;
 }
 
-void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out, double least_period_um = 0) {
+void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out,
+                double least_period_um = 0) {
   Explanation explanation;
   explanation.name = std::string(effect.name);
   explanation.effect = &effect;
@@ -237,15 +251,18 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
 }
 
-void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out, double least_period_um = 0) {
+void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out,
+                   double least_period_um = 0) {
   for (const Effect* effect : effects())
-    if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings) add_effect(*effect, t, rows, out, least_period_um);
+    if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings)
+      add_effect(*effect, t, rows, out, least_period_um);
 }
 
 }  // namespace
 
 std::string_view name(Factor f) {
-  constexpr std::string_view names[] = {"time", "position", "direction", "head", "sensor", "setup", "feature", "run", "temperature", "speed"};
+  constexpr std::string_view names[] = {"time",  "position", "direction", "head",        "sensor",
+                                        "setup", "feature",  "run",       "temperature", "speed"};
   return names[static_cast<int>(f)];
 }
 
@@ -262,7 +279,8 @@ std::vector<LaterRun> later_runs(const RecordedTouches& t, const std::vector<int
   for (const int i : rows) begin.emplace(scene(i).run, (std::exchange(before, scene(i).time_s) + scene(i).time_s) / 2);
   begin.erase(begin.begin());
   std::vector<LaterRun> out;
-  for (const auto& [run, between_s] : begin) out.push_back({run, {double(out.size()), double(out.size() + 1)}, between_s});
+  for (const auto& [run, between_s] : begin)
+    out.push_back({run, {double(out.size()), double(out.size() + 1)}, between_s});
   return out;
 }
 
@@ -277,7 +295,8 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
   return out;
 }
 
-Block variant_at(const Effect& effect, const std::vector<double>& theta, RunChange change, const RecordedTouches& t, const std::vector<int>& rows) {
+Block variant_at(const Effect& effect, const std::vector<double>& theta, RunChange change, const RecordedTouches& t,
+                 const std::vector<int>& rows) {
   Block block;
   block.theta = theta;
   block.change = change;
@@ -309,7 +328,8 @@ Matrix compressed(const Matrix& m) {
   return m * solver.eigenvectors().rightCols(values.size() - first);
 }
 
-Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows, const std::vector<std::string>& names) {
+Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows,
+                                const std::vector<std::string>& names) {
   Explanations out;
   for (const std::string& name : names) add_effect(*find_effect(name), t, rows, out);
   for (Explanation& e : out.list) e.prior = 1.0 / double(out.list.size());
@@ -324,8 +344,9 @@ Explanations explanations_without_readings(const RecordedTouches& t, const std::
   return out;
 }
 
-void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, double step_um, Explanations& out) {
-  constexpr double kSteps = 8;   // the second harmonic too
+void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, double step_um,
+                                  Explanations& out) {
+  constexpr double kSteps = 8;  // the second harmonic too
   add_catalogue(t, rows, true, out, kSteps * step_um);
   share_priors(out);
 }

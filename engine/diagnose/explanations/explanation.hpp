@@ -1,6 +1,7 @@
-// What may explain a mismatch: every effect of the registry, and OTHER, a flexible pattern in each factor for physics that the catalogue
-// does not have. An explanation is a list of blocks (its variants: which axis, which period, which moment); a block is a set of columns,
-// um per prior standard deviation, whose coefficients are drawn together.
+// What may explain a mismatch: every effect of the registry, and OTHER, a flexible pattern in each factor for
+// physics that the catalogue does not have. An explanation is a list of blocks (its variants: which axis,
+// which period, which moment); a block is a set of columns, um per prior standard deviation, whose
+// coefficients are drawn together.
 #pragma once
 
 #include <optional>
@@ -13,7 +14,8 @@
 
 namespace abbe::diagnose {
 
-/// Signal-to-noise at which a search over the whole catalogue detects, and names, with a power of 80 % at 1 % false alarms.
+/// Signal-to-noise at which a search over the whole catalogue detects, and names, with a power of 80 % at 1 %
+/// false alarms.
 inline constexpr double kDetects = 4.5, kNames = 5.5;
 /// Share of the information beyond which nothing is left to tell two effects apart.
 inline constexpr double kInseparable = 0.03;
@@ -26,9 +28,9 @@ std::string_view name(Factor);
 
 /// One column of a block before its columns are joined: which linear parameter (or draw) it belongs to.
 struct Column {
-  int parameter = -1;             ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
-  int part = 0;                   ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
-  double unit = 1;                ///< parameter value of one prior standard deviation
+  int parameter = -1;  ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
+  int part = 0;        ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
+  double unit = 1;     ///< parameter value of one prior standard deviation
 };
 
 /// The values of a parameter that one value stands for.
@@ -36,7 +38,8 @@ struct Cell {
   double low = 0, high = 0;
 };
 
-/// How large the coefficients of a block are, in standard deviations of their prior, and how much that is believed before the data.
+/// How large the coefficients of a block are, in standard deviations of their prior, and how much that is
+/// believed before the data.
 struct Size {
   double factor = 1;
   double log_prior = 0;
@@ -44,26 +47,30 @@ struct Size {
 
 struct Block {
   int explanation = 0;
-  std::vector<double> theta;      ///< the effect's parameters; those of `columns` are placeholders
-  std::vector<Cell> cells;        ///< by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is possible
-  RunChange change;               ///< what changed between runs
-  Cell runs;                      ///< of a change: the stretch of later runs that its run stands for, as places in their order
-  double weight = 1;              ///< belief before the data in this variant, among those of its explanation
-  bool finest = false;            ///< no touch tells the values within its cells apart
+  std::vector<double> theta;  ///< the effect's parameters; those of `columns` are placeholders
+  /// by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is
+  /// possible
+  std::vector<Cell> cells;
+  RunChange change;     ///< what changed between runs
+  Cell runs;            ///< of a change: the stretch of later runs that its run stands for, as places in their order
+  double weight = 1;    ///< belief before the data in this variant, among those of its explanation
+  bool finest = false;  ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
-  Matrix signature;               ///< rows x columns, um per prior standard deviation
-  std::vector<Size> sizes;        ///< at which it is judged; none: where the recording that judges it has signal-to-noise ratios that can tell anything
-  bool joined = false;            ///< columns are combinations of the original ones: no parameter can be read from them
+  Matrix signature;  ///< rows x columns, um per prior standard deviation
+  /// at which it is judged; none: where the recording that judges it has signal-to-noise ratios that can tell
+  /// anything
+  std::vector<Size> sizes;
+  bool joined = false;  ///< columns are combinations of the original ones: no parameter can be read from them
 };
 
 struct Explanation {
-  std::string name;               ///< of the effect, or "OTHER time"
-  const Effect* effect = nullptr; ///< none: OTHER
+  std::string name;                ///< of the effect, or "OTHER time"
+  const Effect* effect = nullptr;  ///< none: OTHER
   Factor factor = Factor::position;
-  std::string shape;              ///< of OTHER: "smooth", "quick", ...
-  bool of_one_factor = false;     ///< of OTHER: a function of its factor alone, which an empirical effect can follow
-  double prior = 0;               ///< probability among all explanations
-  unsigned missing = 0;           ///< covariates that are absent or constant: it cannot be judged
+  std::string shape;           ///< of OTHER: "smooth", "quick", ...
+  bool of_one_factor = false;  ///< of OTHER: a function of its factor alone, which an empirical effect can follow
+  double prior = 0;            ///< probability among all explanations
+  unsigned missing = 0;        ///< covariates that are absent or constant: it cannot be judged
   std::vector<int> blocks;
 };
 
@@ -74,31 +81,33 @@ struct Explanations {
     const Effect* effect;
     unsigned missing;
   };
-  std::vector<Unjudged> unjudged; ///< effects that this recording cannot judge
+  std::vector<Unjudged> unjudged;  ///< effects that this recording cannot judge
 };
 
 /// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
 inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
-/// Every explanation for these touches but those that look at raw readings, which are added once the readings are free of noise
-/// (own_noise.cpp); `rows`: which touches take part.
+/// Every explanation for these touches but those that look at raw readings, which are added once the readings
+/// are free of noise (own_noise.cpp); `rows`: which touches take part.
 Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
-/// `step_um`: of the recorded positions. What their rounding does is periodic in the readings too, and so nothing is sought within a few steps.
+/// `step_um`: of the recorded positions. What their rounding does is periodic in the readings too, and so
+/// nothing is sought within a few steps.
 void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, double step_um, Explanations&);
 
 /// What cannot be judged, in the order of the catalogue, with the columns that are missing.
 std::vector<CannotJudge> cannot_judge(const Explanations&);
 
 /// The effects of these names only, in the order of the names.
-Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows, const std::vector<std::string>& names);
+Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows,
+                                const std::vector<std::string>& names);
 
 /// Appends the blocks of OTHER (patterns/).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
 /// Where something may have changed between runs: in front of one of a stretch of runs.
 struct LaterRun {
-  int from_run = 0;               ///< the middle one, which stands for all
-  Cell runs;                      ///< places in the order of the later runs: from low, up to high without it
-  double between_s = 0;           ///< a moment in front of it
+  int from_run = 0;      ///< the middle one, which stands for all
+  Cell runs;             ///< places in the order of the later runs: from low, up to high without it
+  double between_s = 0;  ///< a moment in front of it
 };
 /// Every run but that of the lowest number.
 std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);
@@ -108,10 +117,12 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
 std::optional<std::size_t> moment_of(const Effect&);
 
 /// A variant of an effect at these parameters, with this change; no columns where the effect does nothing there.
-Block variant_at(const Effect&, const std::vector<double>& theta, RunChange, const RecordedTouches&, const std::vector<int>& rows);
+Block variant_at(const Effect&, const std::vector<double>& theta, RunChange, const RecordedTouches&,
+                 const std::vector<int>& rows);
 
-/// Belief in each variant of an explanation: the same, but for those that change between runs, which hold a tenth together. What is gone counts
-/// half of what is new: where only differences between runs are seen, the two are the same.
+/// Belief in each variant of an explanation: the same, but for those that change between runs, which hold a
+/// tenth together. What is gone counts half of what is new: where only differences between runs are seen, the
+/// two are the same.
 void share_belief(const Explanation&, std::vector<Block>&);
 
 /// The same space with as few orthogonal columns as its rank needs.

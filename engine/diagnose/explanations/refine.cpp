@@ -1,6 +1,7 @@
-// The grid of the search is as coarse as a small effect allows; a large one tells its moment or period much more closely, and on the coarse
-// grid would leave a remainder that no longer looks like it. Where the recording speaks for an effect, the cells of its likeliest variants are
-// therefore divided, and again, as in adaptive quadrature: the sum of likelihood times cell is the evidence.
+// The grid of the search is as coarse as a small effect allows; a large one tells its moment or period much
+// more closely, and on the coarse grid would leave a remainder that no longer looks like it. Where the
+// recording speaks for an effect, the cells of its likeliest variants are therefore divided, and again, as in
+// adaptive quadrature: the sum of likelihood times cell is the evidence.
 #include <algorithm>
 #include <cmath>
 
@@ -20,10 +21,13 @@ constexpr double kSame_um = 1e-9;
 bool of_several_runs(const Block& b) { return b.runs.high > b.runs.low + 1; }
 
 bool divisible(const Block& b) {
-  return !b.finest && (of_several_runs(b) || std::any_of(b.cells.begin(), b.cells.end(), [](const Cell& cell) { return cell.high > cell.low; }));
+  return !b.finest && (of_several_runs(b) || std::any_of(b.cells.begin(), b.cells.end(), [](const Cell& cell) {
+                         return cell.high > cell.low;
+                       }));
 }
 
-/// The effects that may be the name, likeliest first. How far they are below a pattern tells nothing yet: on the coarse grid it may be far.
+/// The effects that may be the name, likeliest first. How far they are below a pattern tells nothing yet: on
+/// the coarse grid it may be far.
 std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
   std::vector<std::pair<double, int>> order;
   for (std::size_t k = 0; k < all.list.size(); ++k)
@@ -35,28 +39,36 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
   return list;
 }
 
-/// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is that of the runs.
+/// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is
+/// that of the runs.
 bool neighbours(const Block& a, const Block& b, const Effect& effect) {
   const auto touch = [](const Cell& x, const Cell& y) {
     const double rounding = 1e-9 * (std::abs(x.low) + std::abs(x.high));
     return x.low <= y.high + rounding && y.low <= x.high + rounding;
   };
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
-  if (a.change != b.change && !(of_runs && a.change.run > 0 && b.change.run > 0 && a.change.gone == b.change.gone && touch(a.runs, b.runs))) return false;
+  if (a.change != b.change &&
+      !(of_runs && a.change.run > 0 && b.change.run > 0 && a.change.gone == b.change.gone && touch(a.runs, b.runs)))
+    return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
     if (!(of_runs && moment_of(effect) == p) && !touch(a.cells[p], b.cells[p])) return false;
   return true;
 }
 
-/// The likeliest divisible variants, and those beside the likeliest: the value that stands for a cell may be the wrong one.
+/// The likeliest divisible variants, and those beside the likeliest: the value that stands for a cell may be
+/// the wrong one.
 std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, const Evidence& evidence) {
   const auto block = [&](int b) -> const Block& { return all.blocks[static_cast<std::size_t>(b)]; };
-  const auto belief = [&](int b) { return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(block(b).weight); };
+  const auto belief = [&](int b) {
+    return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(block(b).weight);
+  };
   std::vector<int> order = e.blocks, list;
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool likely = k < kMostCells && belief(order[k]) > belief(order[0]) - kFarBelow;
-    if (divisible(block(order[k])) && (likely || neighbours(block(order[0]), block(order[k]), *e.effect))) list.push_back(order[k]);
+    if (divisible(block(order[k])) && (likely || neighbours(block(order[0]), block(order[k]), *e.effect)))
+      list.push_back(order[k]);
   }
   return list;
 }
@@ -71,11 +83,13 @@ struct Part {
 std::vector<Part> thirds(const Cell& cell) {
   std::vector<Part> out;
   const double step = (cell.high - cell.low) / kParts;
-  for (int k = 0; k < kParts; ++k) out.push_back({{cell.low + k * step, cell.low + (k + 1) * step}, cell.low + (k + 0.5) * step});
+  for (int k = 0; k < kParts; ++k)
+    out.push_back({{cell.low + k * step, cell.low + (k + 1) * step}, cell.low + (k + 0.5) * step});
   return out;
 }
 
-/// A stretch of time in parts with the same number of gaps between touches: only in which gap a moment lies can be told, and a pause is one.
+/// A stretch of time in parts with the same number of gaps between touches: only in which gap a moment lies
+/// can be told, and a pause is one.
 std::vector<Part> thirds_of_touches(const Cell& cell, const RecordedTouches& t) {
   std::vector<double> ends{cell.low};
   for (const RecordedTouch& touch : t.touches)
@@ -95,7 +109,8 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
   std::vector<LaterRun> stretch;
   for (const LaterRun& c : changes)
     if (c.runs.low >= whole.runs.low && c.runs.high <= whole.runs.high) stretch.push_back(c);
-  const std::vector<LaterRun> parts = of_several_runs(whole) ? in_stretches(stretch, kParts) : std::vector<LaterRun>{{whole.change.run, whole.runs, 0}};
+  const std::vector<LaterRun> parts =
+      of_several_runs(whole) ? in_stretches(stretch, kParts) : std::vector<LaterRun>{{whole.change.run, whole.runs, 0}};
   std::vector<Block> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
@@ -111,17 +126,19 @@ void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& 
   const std::optional<std::size_t> moment = moment_of(effect);
   if (!moment || part.change.run == 0) return;
   for (const LaterRun& c : changes)
-    if (c.from_run == part.change.run) part.theta[*moment] = c.between_s, part.cells[*moment] = {c.between_s, c.between_s};
+    if (c.from_run == part.change.run)
+      part.theta[*moment] = c.between_s, part.cells[*moment] = {c.between_s, c.between_s};
 }
 
 /// The cell in thirds along every parameter that it has an extent in, and along its runs.
-std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t, const std::vector<LaterRun>& changes) {
+std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t,
+                            const std::vector<LaterRun>& changes) {
   std::vector<Block> list = thirds_of_runs(whole, changes);
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
-    const std::vector<Part> parts = cell.high <= cell.low                    ? std::vector<Part>{{cell, whole.theta[p]}}
-                                    : effect.parameters[p].name == "t0_s" ? thirds_of_touches(cell, t)
-                                                                          : thirds(cell);
+    const std::vector<Part> parts = cell.high <= cell.low ? std::vector<Part>{{cell, whole.theta[p]}}
+        : effect.parameters[p].name == "t0_s"             ? thirds_of_touches(cell, t)
+                                                          : thirds(cell);
     std::vector<Block> longer;
     for (const Block& prefix : list) {
       for (const Part& at : parts) {
@@ -145,7 +162,8 @@ bool same(const Block& a, const Block& b) {
 /// Divides one variant of an explanation, unless its parts are all the same.
 void divide(const Case& c, Explanations& all, int explanation, int which) {
   Explanation& e = all.list[static_cast<std::size_t>(explanation)];
-  std::vector<Block> parts = parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
+  std::vector<Block> parts =
+      parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
   for (Block& part : parts) {
     Block made = variant_at(*e.effect, part.theta, part.change, c.touches, c.rows);
     part.columns = std::move(made.columns);
@@ -170,7 +188,8 @@ void refine(const Case& c, Explanations& all, EvidenceSearch& search) {
   for (int step = 0; step < kSteps; ++step) {
     const std::size_t before = all.blocks.size();
     for (const int k : candidates(all, search.evidence()))
-      for (const int b : cells_to_divide(all, all.list[static_cast<std::size_t>(k)], search.evidence())) divide(c, all, k, b);
+      for (const int b : cells_to_divide(all, all.list[static_cast<std::size_t>(k)], search.evidence()))
+        divide(c, all, k, b);
     if (all.blocks.size() == before) return;
     search.extend(all, before);
   }

@@ -13,7 +13,9 @@ namespace {
 
 constexpr int kMoments = 32, kFrequencies = 28, kPlaces = 9;
 
-double duration(const RecordedTouches& t) { return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s); }
+double duration(const RecordedTouches& t) {
+  return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
+}
 
 /// Moments between touches, evenly over the sequence: a step cannot be placed better than between two touches.
 std::vector<double> moments(const RecordedTouches& t) {
@@ -45,7 +47,8 @@ std::vector<double> places(const RecordedTouches& t) {
   for (const RecordedTouch& touch : t.touches)
     for (int k = 0; k < 3; ++k) readings.insert(std::round(touch.scene.reading[k] / 10) * 10);
   std::vector<double> all(readings.begin(), readings.end()), list;
-  for (int k = 1; k <= 3 * kPlaces; ++k) list.push_back(all[std::min(all.size() - 1, k * all.size() / (3 * kPlaces + 1))] + 5);
+  for (int k = 1; k <= 3 * kPlaces; ++k)
+    list.push_back(all[std::min(all.size() - 1, k * all.size() / (3 * kPlaces + 1))] + 5);
   list.erase(std::unique(list.begin(), list.end()), list.end());
   return list;
 }
@@ -81,7 +84,8 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
   if (p.name == "tau_s") return {Kind::tried, time_constants(t), true};
   if (p.name == "position_mm") return {Kind::tried, places(t), true};
   if (p.name == "second_phase_deg" || (p.name == "phase_deg" && p.low < -180)) return {Kind::phase, {0, 90}};
-  if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}, true};  // a tripod: 120 degrees are all
+  // a tripod: 120 degrees are all
+  if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}, true};
   const auto found = tried.find(p.name);
   if (found != tried.end()) return {Kind::tried, found->second};
   return {Kind::fixed, {p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))}};
@@ -99,7 +103,8 @@ std::vector<Cell> cells_of(const Search& search) {
   const auto half_above = [&](std::size_t k) { return (sorted[k + 1] - sorted[k]) / 2; };
   for (const double v : search.values) {
     const auto k = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), v) - sorted.begin());
-    const double below = k > 0 ? half_above(k - 1) : half_above(0), above = k < last ? half_above(k) : half_above(last - 1);
+    const double below = k > 0 ? half_above(k - 1) : half_above(0),
+                 above = k < last ? half_above(k) : half_above(last - 1);
     cells.push_back({v - below, v + above});
   }
   return cells;

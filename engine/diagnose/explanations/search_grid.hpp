@@ -1,6 +1,7 @@
-// Which values a diagnosis tries for the parameters of an effect in which its displacement is not linear. By name, because a name means
-// the same in every effect (interfaces, section 5): moments within the recording, periods and time constants in proportion to its
-// length, the common signal periods of scales, choices one by one. A parameter that is not named here stays at its standard value.
+// Which values a diagnosis tries for the parameters of an effect in which its displacement is not linear. By
+// name, because a name means the same in every effect (interfaces, section 5): moments within the recording,
+// periods and time constants in proportion to its length, the common signal periods of scales, choices one by
+// one. A parameter that is not named here stays at its standard value.
 #pragma once
 
 #include <vector>
@@ -19,7 +20,8 @@ struct Search {
   };
   Kind kind = Kind::fixed;
   std::vector<double> values;
-  bool between = false;   ///< of `tried`: values between these are possible too, and sought where the recording asks for them
+  /// of `tried`: values between these are possible too, and sought where the recording asks for them
+  bool between = false;
 };
 
 /// What each value of a list stands for: up to halfway to its neighbours, and as far beyond the ends.

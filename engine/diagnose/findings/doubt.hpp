@@ -19,24 +19,29 @@ inline constexpr double kTold = 0.9;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
 /// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.
 inline constexpr double kDoubted = 0.5;
-inline double believed(double probability, bool doubted) { return doubted ? std::min(probability, kDoubted) : probability; }
+inline double believed(double probability, bool doubted) {
+  return doubted ? std::min(probability, kDoubted) : probability;
+}
 
 /// Whether every size is inside the catalogue's range.
 inline bool plausible(const std::vector<DiagnosedParameter>& parameters) {
   return std::all_of(parameters.begin(), parameters.end(), [](const DiagnosedParameter& p) { return p.plausible; });
 }
 /// Of a size that is not, no machine file may have a setting either.
-inline constexpr const char* kNoSuchSize = " No such effect has such a size: the name may be wrong, and no machine file carries it.";
+inline constexpr const char* kNoSuchSize =
+    " No such effect has such a size: the name may be wrong, and no machine file carries it.";
 
 inline EffectSetting setting_of(const std::string& effect, const std::vector<DiagnosedParameter>& parameters) {
   EffectSetting setting{effect, {}};
-  for (const DiagnosedParameter& p : parameters) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+  for (const DiagnosedParameter& p : parameters)
+    setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
   return setting;
 }
 
-/// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ± 0.02 N may be none.
+/// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ±
+/// 0.02 N may be none.
 inline EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
-  constexpr double kWithin = 1.96;   // standard uncertainties: the 95 % interval reaches it
+  constexpr double kWithin = 1.96;  // standard uncertainties: the 95 % interval reaches it
   for (const EffectParameter& p : effect.parameters) {
     const auto found = setting.parameters.find(std::string(p.name));
     if (!p.linear || found == setting.parameters.end()) continue;

@@ -16,7 +16,7 @@ namespace {
 /// Several settings are fitted together: a pattern over position is the sum of one along each axis.
 struct Piece {
   const Effect* effect = nullptr;
-  std::vector<double> theta;         ///< choices and ranges; the linear parameters are 0
+  std::vector<double> theta;  ///< choices and ranges; the linear parameters are 0
 };
 
 Piece piece(const Effect& effect) {
@@ -41,7 +41,8 @@ std::vector<Piece> offsets(const Case& c, bool by_sensor) {
   std::set<std::vector<double>> groups;
   for (const int i : c.rows) {
     const StylusScene& s = c.touches.touches[static_cast<std::size_t>(i)].scene.stylus;
-    groups.insert(by_sensor ? std::vector<double>{0, double(s.ordinal), 0, 0} : std::vector<double>{1, 0, s.head_a_rad / kDegree, s.head_b_rad / kDegree});
+    groups.insert(by_sensor ? std::vector<double>{0, double(s.ordinal), 0, 0}
+                            : std::vector<double>{1, 0, s.head_a_rad / kDegree, s.head_b_rad / kDegree});
   }
   std::vector<Piece> list;
   for (const std::vector<double>& g : groups) {
@@ -51,14 +52,16 @@ std::vector<Piece> offsets(const Case& c, bool by_sensor) {
   return list;
 }
 
-/// Effects that follow an explanation's pattern; none where it is a function of two factors, or of what another program does not share.
+/// Effects that follow an explanation's pattern; none where it is a function of two factors, or of what
+/// another program does not share.
 std::vector<Piece> pieces_of(const Case& c, const Explanation& e) {
   if (!e.of_one_factor) return {};
   switch (e.factor) {
     case Factor::time: return {curve(c, CurveCoordinate::time)};
     case Factor::position: {
       std::vector<Piece> list{curve(c, CurveCoordinate::x), curve(c, CurveCoordinate::y), curve(c, CurveCoordinate::z)};
-      if (e.shape == "height") list.push_back(piece(kEmpiricalDirection));   // along the normal: on a ball, place and direction are one
+      // along the normal: on a ball, place and direction are one
+      if (e.shape == "height") list.push_back(piece(kEmpiricalDirection));
       return list;
     }
     case Factor::temperature: return {curve(c, CurveCoordinate::part_temperature)};
@@ -93,7 +96,8 @@ Basis basis_of(const Case& c, const std::vector<Piece>& pieces) {
       b.columns.conservativeResize(static_cast<Eigen::Index>(c.rows.size()), b.columns.cols() + 1);
       for (std::size_t i = 0; i < c.rows.size(); ++i) {
         const TouchScene& scene = c.touches.touches[static_cast<std::size_t>(c.rows[i])].scene;
-        b.columns(static_cast<Eigen::Index>(i), b.columns.cols() - 1) = kUmPerMm * dot(scene.normal, pieces[k].effect->displace(scene, theta.data(), nullptr));
+        b.columns(static_cast<Eigen::Index>(i), b.columns.cols() - 1) =
+            kUmPerMm * dot(scene.normal, pieces[k].effect->displace(scene, theta.data(), nullptr));
       }
       b.of.emplace_back(k, p);
     }
@@ -101,7 +105,8 @@ Basis basis_of(const Case& c, const std::vector<Piece>& pieces) {
   return b;
 }
 
-/// A pattern over these belongs to the part or to the day, not to the machine: in another program the same place is another feature.
+/// A pattern over these belongs to the part or to the day, not to the machine: in another program the same
+/// place is another feature.
 bool of_the_occasion(Factor f) { return f == Factor::setup || f == Factor::feature || f == Factor::run; }
 
 struct Fit {
@@ -130,13 +135,14 @@ EffectSetting setting_of(const Piece& piece) {
     if (parameter.linear) continue;
     EffectSetting::Value& v = s.parameters[std::string(parameter.name)];
     v.value = piece.theta[p];
-    if (!parameter.choices.empty()) v.word = parameter.choices[static_cast<std::size_t>(std::lround(piece.theta[p] - parameter.low))];
+    if (!parameter.choices.empty())
+      v.word = parameter.choices[static_cast<std::size_t>(std::lround(piece.theta[p] - parameter.low))];
   }
   return s;
 }
 
-/// The likeliest pattern that an effect can follow, which need not be the likeliest of all. None where nothing follows it that the recording
-/// speaks for.
+/// The likeliest pattern that an effect can follow, which need not be the likeliest of all. None where
+/// nothing follows it that the recording speaks for.
 const Explanation* carried(const Case& c, const Finding& f) {
   const Explanation* best = nullptr;
   double most = 0;
@@ -166,7 +172,7 @@ std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& re
   one.blocks.emplace_back();
   one.blocks.back().signature = basis.columns;
   const EvidenceSearch search(with_free(c.model, signatures_of(c, result.findings)), result.hyper, one);
-  if (search.evidence().log_bayes[0] <= 0) return {};   // what follows the pattern so badly would spoil what was right
+  if (search.evidence().log_bayes[0] <= 0) return {};  // what follows the pattern so badly would spoil what was right
   const Fit fit = fitted(search.information(0));
   std::vector<EffectSetting> settings;
   for (const Piece& p : pieces) settings.push_back(setting_of(p));

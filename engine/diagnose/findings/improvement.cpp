@@ -1,11 +1,12 @@
 // Whether the named model predicts data that it has not seen better than the baseline does: grouped leave-one-out.
 //
-// log p(y_g | rest, model) - log p(y_g | rest, baseline) = log B(all) - log B(all but g), B the Bayes factor of the explanation with all its
-// variants and sizes: so nothing of a held-out group enters the choice of a variant or of a size, and terms of improper priors cancel. Model
-// and baseline have each their own noise and size of the machine's errors: those of the whole recording with what was found and without.
-// The scheme is the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time.
-// The residuals that are shown are those of the same predictions: of each group from the others, by the machine as they show it, without and
-// with what was found.
+// log p(y_g | rest, model) - log p(y_g | rest, baseline) = log B(all) - log B(all but g), B the Bayes factor
+// of the explanation with all its variants and sizes: so nothing of a held-out group enters the choice of a
+// variant or of a size, and terms of improper priors cancel. Model and baseline have each their own noise and
+// size of the machine's errors: those of the whole recording with what was found and without. The scheme is
+// the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time. The
+// residuals that are shown are those of the same predictions: of each group from the others, by the machine
+// as they show it, without and with what was found.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ namespace {
 
 struct Scheme {
   std::string name;
-  std::vector<int> group;            ///< by row of the model
+  std::vector<int> group;  ///< by row of the model
 };
 
 std::map<int, double> touches_of(const Scheme& s) {
@@ -32,7 +33,8 @@ std::map<int, double> touches_of(const Scheme& s) {
 /// Whether its groups can be predicted from one another: at least three, none of which is most of the recording.
 bool comparable(const Scheme& s) {
   const std::map<int, double> count = touches_of(s);
-  const auto largest = std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto largest =
+      std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return count.size() >= 3 && 2 * largest->second <= double(s.group.size());
 }
 
@@ -44,9 +46,11 @@ Scheme scheme_of(const Case& c) {
   };
   std::map<std::pair<double, double>, int> orientation;
   const Scheme candidates[] = {
-      by("leave-one-setup-out", [](const TouchScene& s) { return s.setup; }), by("leave-one-run-out", [](const TouchScene& s) { return s.run; }),
+      by("leave-one-setup-out", [](const TouchScene& s) { return s.setup; }),
+      by("leave-one-run-out", [](const TouchScene& s) { return s.run; }),
       by("leave-one-orientation-out", [&](const TouchScene& s) {
-        return orientation.emplace(std::pair{s.stylus.head_a_rad, s.stylus.head_b_rad}, int(orientation.size())).first->second;
+        return orientation.emplace(std::pair{s.stylus.head_a_rad, s.stylus.head_b_rad}, int(orientation.size()))
+            .first->second;
       })};
   for (const Scheme& s : candidates)
     if (comparable(s)) return s;
@@ -73,8 +77,8 @@ std::vector<Eigen::Index> outside(const Scheme& s, int group) {
 /// What one explanation gains on every group, and what it was taken for there.
 struct HeldOut {
   std::vector<double> gain;
-  std::vector<double> null;          ///< log likelihood of the group without it
-  std::vector<Matrix> columns;       ///< by group, over all rows, um per standard deviation
+  std::vector<double> null;     ///< log likelihood of the group without it
+  std::vector<Matrix> columns;  ///< by group, over all rows, um per standard deviation
 };
 
 /// The likeliest variant of the one explanation of a search at its likeliest size, over all rows.
@@ -91,10 +95,12 @@ Matrix likeliest(const EvidenceSearch& search, const Explanations& on_all_rows) 
   return factor * on_all_rows.blocks[static_cast<std::size_t>(block)].signature;
 }
 
-HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model, const Hyperparameters& h) {
+HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model,
+                 const Hyperparameters& h) {
   Explanations all = only(c.explanations, {explanation});
   const EvidenceSearch sizes(model, h, all);
-  for (std::size_t b = 0; b < all.blocks.size(); ++b) all.blocks[b].sizes = sizes.sizes(static_cast<int>(b));   // one prior for all groups
+  // one prior for all groups
+  for (std::size_t b = 0; b < all.blocks.size(); ++b) all.blocks[b].sizes = sizes.sizes(static_cast<int>(b));
   const Evidence complete = EvidenceSearch(model, h, all).evidence();
   HeldOut out;
   for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end())) {
@@ -111,8 +117,10 @@ void append(Matrix& columns, const Matrix& more) {
   columns.rightCols(more.cols()) = more;
 }
 
-/// What columns, each with a coefficient of standard deviation 1, are expected to do to all rows, given those outside of a group.
-Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& scheme, int group, const Matrix& columns) {
+/// What columns, each with a coefficient of standard deviation 1, are expected to do to all rows, given those
+/// outside of a group.
+Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& scheme, int group,
+                const Matrix& columns) {
   const Precision precision(without_rows(m, of_group(scheme, group)), h);
   const Precision::Seen seen = precision.seen(columns(outside(scheme, group), Eigen::all));
   const Matrix g = inner(seen, seen) + Matrix::Identity(columns.cols(), columns.cols());
@@ -142,7 +150,8 @@ double sum(const std::vector<double>& v) {
   return s;
 }
 
-/// Standard error of the sum over groups, of which the larger ones gain more: the ratio estimator of gain per touch (Cochran 1977, 6.3).
+/// Standard error of the sum over groups, of which the larger ones gain more: the ratio estimator of gain per
+/// touch (Cochran 1977, 6.3).
 double standard_error(const std::vector<double>& gain, const Scheme& scheme) {
   const double n = double(gain.size()), per_touch = sum(gain) / double(scheme.group.size());
   double square = 0;
@@ -156,7 +165,8 @@ void tell_residuals(const Case& c, const Vector& before, const Vector& after, Di
     const RecordedTouch& t = c.touches.touches[c.rows[k]];
     const RecordingRow& row = c.recording->rows[t.row];
     const auto at = static_cast<Eigen::Index>(k);
-    out.residuals.push_back({row.feature, row.touch, row.setup, row.run, t.scene.time_s, t.scene.point.x, t.scene.point.y, t.scene.point.z, before(at), after(at)});
+    out.residuals.push_back({row.feature, row.touch, row.setup, row.run, t.scene.time_s, t.scene.point.x,
+                             t.scene.point.y, t.scene.point.z, before(at), after(at)});
   }
 }
 
@@ -166,7 +176,8 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   const Scheme scheme = scheme_of(c);
   const std::set<int> groups(scheme.group.begin(), scheme.group.end());
   const LinearModel machine = likelier_ensemble(c, c.model);
-  // Before and after by one machine, as it is beside what was found: one that takes the mismatch for its own errors predicts worse than none.
+  // Before and after by one machine, as it is beside what was found: one that takes the mismatch for its own
+  // errors predicts worse than none.
   Vector before = Vector::Zero(machine.y.size());
   for (const int g : groups) before += beyond_prediction(machine, result.hyper, of_group(scheme, g));
   std::vector<int> named;
@@ -181,10 +192,11 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
     std::vector<const Matrix*> found;
     for (std::size_t j = 0; j < k; ++j) found.push_back(&c.explanations.blocks[blocks[j]].signature);
     const HeldOut h = held_out(c, scheme, named[k], with_free(c.model, found), result.hyper);
-    for (std::size_t g = 0; g < gain.size(); ++g) gain[g] += h.gain[g] + (k == 0 ? h.null[g] - baseline[g] : 0), append(columns[g], h.columns[g]);
+    for (std::size_t g = 0; g < gain.size(); ++g)
+      gain[g] += h.gain[g] + (k == 0 ? h.null[g] - baseline[g] : 0), append(columns[g], h.columns[g]);
   }
   Vector after = Vector::Zero(machine.y.size());
-  LinearModel without = c.model;   // what was found, as the other groups show it
+  LinearModel without = c.model;  // what was found, as the other groups show it
   std::size_t at = 0;
   for (const int g : groups) {
     const Vector predicted = expected(machine, result.hyper, scheme, g, columns[at++]);
@@ -202,7 +214,9 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   i.rms_after_um = rms(after);
   i.bias_before_um = bias(before, before - after);
   i.bias_after_um = bias(after, before - after);
-  const auto chi2_per_dof = [&](const LinearModel& m) { return leave_one_out(m, result.hyper).squaredNorm() / double(m.y.size()); };
+  const auto chi2_per_dof = [&](const LinearModel& m) {
+    return leave_one_out(m, result.hyper).squaredNorm() / double(m.y.size());
+  };
   i.chi2_per_dof_before = chi2_per_dof(c.model);
   i.chi2_per_dof_after = chi2_per_dof(without);
   out.improvement = i;
@@ -210,10 +224,12 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   // The runner-up: the best explanation outside the named sets.
   int second = -1;
   for (std::size_t k = 0; k < c.explanations.list.size(); ++k) {
-    const bool in_set = std::any_of(result.findings.begin(), result.findings.end(),
-                                    [&](const Finding& f) { return std::find(f.set.begin(), f.set.end(), int(k)) != f.set.end(); });
+    const bool in_set = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& f) {
+      return std::find(f.set.begin(), f.set.end(), int(k)) != f.set.end();
+    });
     if (in_set || !c.explanations.list[k].effect || int(k) == named.front()) continue;
-    if (second < 0 || result.first.log_bayes[k] > result.first.log_bayes[static_cast<std::size_t>(second)]) second = static_cast<int>(k);
+    if (second < 0 || result.first.log_bayes[k] > result.first.log_bayes[static_cast<std::size_t>(second)])
+      second = static_cast<int>(k);
   }
   if (second < 0) return;
   const Explanation& e = c.explanations.list[static_cast<std::size_t>(second)];

@@ -1,11 +1,12 @@
-// In which factor a mismatch lies. Every explanation shows in one factor: an effect in that of which it is a function, or in the run where it
-// is new in one; OTHER in its own. A factor is believed as much as all its explanations together, so a mismatch that has a name lies where that
-// physics acts, and one that has none where the best pattern of no physics lies.
+// In which factor a mismatch lies. Every explanation shows in one factor: an effect in that of which it is a
+// function, or in the run where it is new in one; OTHER in its own. A factor is believed as much as all its
+// explanations together, so a mismatch that has a name lies where that physics acts, and one that has none
+// where the best pattern of no physics lies.
+#include <fmt/format.h>
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <iterator>
 #include <map>
 
@@ -18,7 +19,7 @@ namespace {
 /// The pattern that a block takes in this recording, um by row: the posterior mean at its best size.
 struct Pattern {
   Vector values;
-  double energy = 0;        ///< twice the log-likelihood that it gains
+  double energy = 0;  ///< twice the log-likelihood that it gains
 };
 
 Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) {
@@ -29,7 +30,8 @@ Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) 
     const Matrix m = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (s * s);
     const Eigen::LLT<Matrix> llt(m);
     const Vector mean = llt.solve(info.u);
-    const double score = 0.5 * info.u.dot(mean) - llt.matrixLLT().diagonal().array().log().sum() - double(info.g.rows()) * std::log(s) + log_prior;
+    const double score = 0.5 * info.u.dot(mean) - llt.matrixLLT().diagonal().array().log().sum() -
+        double(info.g.rows()) * std::log(s) + log_prior;
     if (score < best_score) continue;
     best_score = score;
     best = {block.signature * mean, info.u.dot(mean)};
@@ -57,9 +59,12 @@ bool differs(const Case& c, Value value) {
 /// Whether the recording can show anything in a factor: its touches differ there.
 bool varies(const Case& c, Factor factor) {
   switch (factor) {
-    case Factor::temperature: return std::any_of(std::begin(kThermometers), std::end(kThermometers), [&](const Thermometer& t) { return differs(c, t.of); });
+    case Factor::temperature:
+      return std::any_of(std::begin(kThermometers), std::end(kThermometers),
+                         [&](const Thermometer& t) { return differs(c, t.of); });
     case Factor::speed: return differs(c, [](const TouchScene& s) { return s.speed_mm_s; });
-    case Factor::head: return differs(c, [](const TouchScene& s) { return std::pair(s.stylus.head_a_rad, s.stylus.head_b_rad); });
+    case Factor::head:
+      return differs(c, [](const TouchScene& s) { return std::pair(s.stylus.head_a_rad, s.stylus.head_b_rad); });
     case Factor::sensor: return differs(c, [](const TouchScene& s) { return s.stylus.ordinal; });
     case Factor::setup: return differs(c, [](const TouchScene& s) { return s.setup; });
     case Factor::run: return differs(c, [](const TouchScene& s) { return s.run; });
@@ -84,13 +89,17 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     constexpr double kNearlyEverywhere = 2.0 / 3;
     double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
     for (const auto& [weight, k] : order) low = std::min(low, value(scene(k))), high = std::max(high, value(scene(k)));
-    for (std::size_t k = 0; k < c.rows.size(); ++k) first = std::min(first, value(scene(static_cast<int>(k)))), last = std::max(last, value(scene(static_cast<int>(k))));
-    if (high - low < kNearlyEverywhere * (last - first)) out.emplace_back(name, fmt::format("{:.0f} to {:.0f} {}", low, high, unit));
+    for (std::size_t k = 0; k < c.rows.size(); ++k)
+      first = std::min(first, value(scene(static_cast<int>(k)))),
+      last = std::max(last, value(scene(static_cast<int>(k))));
+    if (high - low < kNearlyEverywhere * (last - first))
+      out.emplace_back(name, fmt::format("{:.0f} to {:.0f} {}", low, high, unit));
   };
   Places out;
   const auto label = [&](auto value) {
     std::map<std::string, double> weight;
-    for (Eigen::Index i = 0; i < pattern.size(); ++i) weight[value(scene(static_cast<int>(i)))] += pattern(i) * pattern(i);
+    for (Eigen::Index i = 0; i < pattern.size(); ++i)
+      weight[value(scene(static_cast<int>(i)))] += pattern(i) * pattern(i);
     std::map<std::string, double> count;
     for (Eigen::Index i = 0; i < pattern.size(); ++i) count[value(scene(static_cast<int>(i)))] += 1;
     std::string best;
@@ -100,11 +109,17 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     return best;
   };
   switch (factor) {
-    case Factor::time: add_range(out, "time_s", [](const TouchScene& s) { return s.time_s; }, "s"); break;
+    case Factor::time:
+      add_range(
+          out, "time_s", [](const TouchScene& s) { return s.time_s; }, "s");
+      break;
     case Factor::position:
-      add_range(out, "x", [](const TouchScene& s) { return s.point.x; }, "mm");
-      add_range(out, "y", [](const TouchScene& s) { return s.point.y; }, "mm");
-      add_range(out, "z", [](const TouchScene& s) { return s.point.z; }, "mm");
+      add_range(
+          out, "x", [](const TouchScene& s) { return s.point.x; }, "mm");
+      add_range(
+          out, "y", [](const TouchScene& s) { return s.point.y; }, "mm");
+      add_range(
+          out, "z", [](const TouchScene& s) { return s.point.z; }, "mm");
       break;
     case Factor::direction: {
       const Vec3 n = scene(order.front().second).normal;
@@ -112,24 +127,27 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     }
     case Factor::head:
       return {{"head", label([](const TouchScene& s) {
-                 return fmt::format("A {:.1f} B {:.1f}", s.stylus.head_a_rad * 180 / kPi, s.stylus.head_b_rad * 180 / kPi);
+                 return fmt::format("A {:.1f} B {:.1f}", s.stylus.head_a_rad * 180 / kPi,
+                                    s.stylus.head_b_rad * 180 / kPi);
                })}};
     case Factor::sensor: return {{"sensor", label([](const TouchScene& s) { return std::string(s.stylus.name); })}};
     case Factor::setup: return {{"setup", label([](const TouchScene& s) { return std::to_string(s.setup); })}};
     case Factor::run: return {{"run", label([](const TouchScene& s) { return std::to_string(s.run); })}};
-    case Factor::feature: return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
+    case Factor::feature:
+      return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
     case Factor::temperature:
       for (const Thermometer& t : kThermometers) add_range(out, t.name, t.of, "C");
       break;
-    case Factor::speed: return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
+    case Factor::speed:
+      return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
   }
   return out;
 }
 
 /// The explanations of one factor.
 struct Located {
-  int best = -1;                     ///< the likeliest
-  std::vector<double> log_belief;    ///< of each
+  int best = -1;                   ///< the likeliest
+  std::vector<double> log_belief;  ///< of each
 
   void add(int explanation, double belief, const Evidence& evidence) {
     if (best < 0 || evidence.log_bayes[explanation] > evidence.log_bayes[best]) best = explanation;
@@ -143,7 +161,8 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
     const bool changes = all.blocks[static_cast<std::size_t>(best_block(e, evidence))].change.run > 0;
-    out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k], evidence);
+    out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k],
+                                                    evidence);
   }
   return out;
 }
@@ -160,7 +179,8 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   if (result.findings.empty() && !result.other) return {};
   const Explanations& all = c.explanations;
   std::vector<double> simulated;
-  for (const Evidence& null : result.null) simulated.push_back(*std::max_element(null.log_bayes.begin(), null.log_bayes.end()));
+  for (const Evidence& null : result.null)
+    simulated.push_back(*std::max_element(null.log_bayes.begin(), null.log_bayes.end()));
   struct Entry {
     Location location;
     double belief, energy;
@@ -171,10 +191,13 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
     const Pattern pattern = pattern_of(search, all.blocks[block], block);
     entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
                         tail_probability(result.first.log_bayes[located.best], simulated)},
-                       log_sum_exp(located.log_belief), pattern.energy});
+                       log_sum_exp(located.log_belief),
+                       pattern.energy});
   }
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.belief > b.belief; });
-  const double most = std::max_element(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.energy < b.energy; })->energy;
+  const double most = std::max_element(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+                        return a.energy < b.energy;
+                      })->energy;
   std::vector<Location> out;
   for (Entry& e : entries) {
     e.location.share = most > 0 ? e.energy / most : 0;
@@ -197,9 +220,12 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
   u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
   u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
   u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
-  u.sentence = fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording that no effect of the catalogue makes.", u.factor, u.shape, u.amplitude_um);
+  u.sentence =
+      fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording that no effect of the catalogue makes.",
+                  u.factor, u.shape, u.amplitude_um);
   if (result.nearest) {
-    u.sentence += fmt::format(" {} comes nearest, but leaves more than chance does (p = {:.1f} %).", c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name,
+    u.sentence += fmt::format(" {} comes nearest, but leaves more than chance does (p = {:.1f} %).",
+                              c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name,
                               100 * result.adequacy);
   }
   return u;

@@ -1,5 +1,5 @@
-// Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a linear-Gaussian posterior with a prior so
-// wide that it does not pull.
+// Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a
+// linear-Gaussian posterior with a prior so wide that it does not pull.
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -25,18 +25,21 @@ double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 /// The quantile of a mixture of normals, by bisection.
 double quantile(const std::vector<MixtureTerm>& mixture, double p) {
   double low = 1e300, high = -1e300;
-  for (const MixtureTerm& c : mixture) low = std::min(low, c.value - 10 * c.u - 1e-12), high = std::max(high, c.value + 10 * c.u + 1e-12);
+  for (const MixtureTerm& c : mixture)
+    low = std::min(low, c.value - 10 * c.u - 1e-12), high = std::max(high, c.value + 10 * c.u + 1e-12);
   for (int step = 0; step < 80; ++step) {
     const double x = (low + high) / 2;
     double below = 0;
-    for (const MixtureTerm& c : mixture) below += c.weight * (c.u > 0 ? normal_below((x - c.value) / c.u) : (x >= c.value ? 1 : 0));
+    for (const MixtureTerm& c : mixture)
+      below += c.weight * (c.u > 0 ? normal_below((x - c.value) / c.u) : (x >= c.value ? 1 : 0));
     (below < p ? low : high) = x;
   }
   return (low + high) / 2;
 }
 
 /// `value`: the one that stands for the mixture; without, its mean.
-DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<MixtureTerm>& mixture, std::optional<double> value = {}) {
+DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<MixtureTerm>& mixture,
+                           std::optional<double> value = {}) {
   DiagnosedParameter out{.name = std::string(parameter.name), .unit = std::string(parameter.unit)};
   double square = 0;
   for (const MixtureTerm& c : mixture) out.value += c.weight * c.value;
@@ -50,7 +53,9 @@ DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<M
 }
 
 /// One variant's figure, which no other variant shares.
-DiagnosedParameter told(const EffectParameter& parameter, const Estimate& e) { return summary(parameter, {{1, e.value, e.u}}); }
+DiagnosedParameter told(const EffectParameter& parameter, const Estimate& e) {
+  return summary(parameter, {{1, e.value, e.u}});
+}
 
 /// The standard deviation of draws: what their likelihood says of it, beside what the machine file lets them do anyway.
 std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info, double unit) {
@@ -61,7 +66,7 @@ std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info
   std::vector<double> logs;
   for (double s = kLeast; s < kMost; s *= kStep) {
     const Vector v = 1 + s * s * d.array();
-    logs.push_back(0.5 * (s * s * (t.array() / v.array()).sum() - v.array().log().sum()) + std::log(s));   // evenly in s
+    logs.push_back(0.5 * (s * s * (t.array() / v.array()).sum() - v.array().log().sum()) + std::log(s));  // evenly in s
     terms.push_back({0, unit * s, unit * s * (kStep - 1) / std::sqrt(12.0)});
   }
   const double total = log_sum_exp(logs);
@@ -71,7 +76,8 @@ std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info
 
 class Estimator {
  public:
-  Estimator(const Case& c, const SearchResult& result, std::size_t which) : touches_(c.touches), explanation_(c.explanations.list[result.findings[which].explanation]) {
+  Estimator(const Case& c, const SearchResult& result, std::size_t which)
+      : touches_(c.touches), explanation_(c.explanations.list[result.findings[which].explanation]) {
     std::vector<const Matrix*> others;
     for (std::size_t k = 0; k < result.findings.size(); ++k)
       if (k != which) others.push_back(&c.explanations.blocks[result.findings[k].block].signature);
@@ -88,7 +94,8 @@ class Estimator {
       if (belief(b) > belief(likeliest)) likeliest = b;
     std::vector<double> logs;
     for (std::size_t b = 0; b < mine.blocks.size(); ++b)
-      logs.push_back(alike(mine.blocks[b], mine.blocks[likeliest]) ? belief(b) : -std::numeric_limits<double>::infinity());
+      logs.push_back(alike(mine.blocks[b], mine.blocks[likeliest]) ? belief(b)
+                                                                   : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
     for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
       const double weight = std::exp(logs[b] - total);
@@ -101,7 +108,8 @@ class Estimator {
     for (const EffectParameter& p : explanation_.effect->parameters) search_.push_back(search_of(p, c.touches));
   }
 
-  /// What the likeliest variant does at the touch where it does most. Draws have no parameters: they are taken at the spread that is told.
+  /// What the likeliest variant does at the touch where it does most. Draws have no parameters: they are
+  /// taken at the spread that is told.
   double largest_um() const {
     const Variant& likeliest = variants_[likeliest_];
     if (explanation_.effect->draws == 0) return largest(likeliest.estimate->shift_um());
@@ -128,12 +136,13 @@ class Estimator {
 
   static double largest(const Vector& shift_um) { return shift_um.cwiseAbs().maxCoeff(); }
 
-  /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli or two axes: told is that of the
-  /// likeliest variant, over the values of what has a value between any two.
+  /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli
+  /// or two axes: told is that of the likeliest variant, over the values of what has a value between any two.
   static bool alike(const Block& a, const Block& b) {
     if (a.change != b.change) return false;
     for (std::size_t p = 0; p < a.theta.size(); ++p)
-      if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high) return false;
+      if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
+        return false;
     return true;
   }
 
@@ -148,16 +157,22 @@ class Estimator {
     switch (search_[p].kind) {
       case Search::Kind::direction: return add_direction(p, out);
       case Search::Kind::phase:
-        if (const auto phase = likeliest.estimate->phase_deg(of_phase(parameter.name))) out.push_back(told(parameter, *phase));
+        if (const auto phase = likeliest.estimate->phase_deg(of_phase(parameter.name)))
+          out.push_back(told(parameter, *phase));
         return;
       case Search::Kind::fixed: return;
       case Search::Kind::tried: break;
     }
     const double value = likeliest.block.theta[p];
     const bool standard = value == parameter.standard;
-    if (search_[p].between && !(standard && search_[p].values.size() < 2)) out.push_back(summary(parameter, searched(p), value));
-    else if (!parameter.choices.empty()) out.push_back({.name = std::string(parameter.name), .unit = "", .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
-    else if (!standard || (search_[p].values.size() > 1 && value != 0)) {   // 0 names no stylus, no tip, no place in particular
+    if (search_[p].between && !(standard && search_[p].values.size() < 2))
+      out.push_back(summary(parameter, searched(p), value));
+    else if (!parameter.choices.empty())
+      out.push_back({.name = std::string(parameter.name),
+                     .unit = "",
+                     .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
+    else if (!standard ||
+             (search_[p].values.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
       out.push_back(told(parameter, {value, 0}));
       out.back().called = called(parameter, static_cast<int>(value));
     }
@@ -169,7 +184,8 @@ class Estimator {
     if (!tip && parameter.name != "sensor") return "";
     for (const RecordedTouch& touch : touches_.touches) {
       const StylusScene& s = touch.scene.stylus;
-      if (tip && s.tip_ordinal == number) return fmt::format("{} at A {:.1f} B {:.1f}", s.name, s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi);
+      if (tip && s.tip_ordinal == number)
+        return fmt::format("{} at A {:.1f} B {:.1f}", s.name, s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi);
       if (!tip && s.ordinal == number) return touches_.styli[static_cast<std::size_t>(number - 1)];
     }
     return "";
@@ -189,7 +205,7 @@ class Estimator {
     const auto d = variants_[likeliest_].estimate->direction();
     if (!d) return;
     const auto parameters = explanation_.effect->parameters;
-    constexpr double kClearly = 2;   // standard uncertainties
+    constexpr double kClearly = 2;  // standard uncertainties
     const double components[] = {d->x, d->y, d->z};
     std::size_t axis = 3;
     for (std::size_t k = 0; k < 3; ++k)
@@ -227,7 +243,8 @@ class Estimator {
 
   std::vector<MixtureTerm> searched(std::size_t p) const {
     std::vector<MixtureTerm> mixture;
-    for (const Variant& v : variants_) mixture.push_back({v.weight, v.block.theta[p], (v.block.cells[p].high - v.block.cells[p].low) / std::sqrt(12.0)});
+    for (const Variant& v : variants_)
+      mixture.push_back({v.weight, v.block.theta[p], (v.block.cells[p].high - v.block.cells[p].low) / std::sqrt(12.0)});
     return normalised(mixture);
   }
 
@@ -241,8 +258,8 @@ class Estimator {
   const RecordedTouches& touches_;
   const Explanation& explanation_;
   std::vector<Variant> variants_;
-  std::size_t likeliest_ = 0;        ///< of them
-  std::vector<Search> search_;       ///< by parameter
+  std::size_t likeliest_ = 0;   ///< of them
+  std::vector<Search> search_;  ///< by parameter
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Detect, name, remove, and look again: every round tests the whole catalogue and OTHER on what the findings before leave unexplained.
+// Detect, name, remove, and look again: every round tests the whole catalogue and OTHER on what the findings
+// before leave unexplained.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,13 +13,15 @@ namespace abbe::diagnose {
 namespace {
 
 constexpr int kRounds = 3;
-/// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second name needs more.
+/// What is left after a finding is never quite nothing: the catalogue is simpler than the world. A second
+/// name needs more.
 constexpr double kLaterAlarm = 1e-3;
 
 /// Probabilities of the explanations, given that one of them is there.
 std::vector<double> probabilities(const Explanations& explanations, const Evidence& evidence) {
   std::vector<double> log_p;
-  for (std::size_t k = 0; k < explanations.list.size(); ++k) log_p.push_back(std::log(explanations.list[k].prior) + evidence.log_bayes[k]);
+  for (std::size_t k = 0; k < explanations.list.size(); ++k)
+    log_p.push_back(std::log(explanations.list[k].prior) + evidence.log_bayes[k]);
   const double total = log_sum_exp(log_p);
   for (double& p : log_p) p = std::exp(p - total);
   return log_p;
@@ -28,15 +31,18 @@ struct Named {
   Finding name, pattern;
 };
 
-/// What a round has found, on a grid that is refined where the recording asks for it. The grid of the case stays as it is, for what is
-/// sought next; the variants of the name that count are appended to its blocks.
+/// What a round has found, on a grid that is refined where the recording asks for it. The grid of the case
+/// stays as it is, for what is sought next; the variants of the name that count are appended to its blocks.
 Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
-  constexpr double kOutOfQuestion = 12;   // nats
+  constexpr double kOutOfQuestion = 12;  // nats
   Explanations fine = c.explanations;
   refine(c, fine, search);
   const Evidence& evidence = search.evidence();
   Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
-  const auto belief = [&](int b) { return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(fine.blocks[static_cast<std::size_t>(b)].weight); };
+  const auto belief = [&](int b) {
+    return evidence.block_log_bayes[static_cast<std::size_t>(b)] +
+        std::log(fine.blocks[static_cast<std::size_t>(b)].weight);
+  };
   const std::vector<int>& variants = fine.list[static_cast<std::size_t>(out.name.explanation)].blocks;
   double best = -std::numeric_limits<double>::infinity();
   for (const int b : variants) best = std::max(best, belief(b));
@@ -68,28 +74,32 @@ struct Round {
 
 Round round(const Case& c, const EvidenceSearch& search, int number) {
   Round r{search.evidence(), {}, 1};
-  r.null = search.bootstrap(r.evidence.statistic, c.options.replicates, c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
+  r.null = search.bootstrap(r.evidence.statistic, c.options.replicates,
+                            c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
   std::vector<double> simulated;
   for (const Evidence& e : r.null) simulated.push_back(e.statistic);
   r.p = tail_probability(r.evidence.statistic, std::move(simulated));
   return r;
 }
 
-/// Whether an effect and another one beside it say more than a pattern alone, though the effect by itself does not. `before` ends with it.
+/// Whether an effect and another one beside it say more than a pattern alone, though the effect by itself
+/// does not. `before` ends with it.
 bool better_with_partner(const Case& c, const std::vector<Finding>& before, const Finding& pattern, int number) {
   const Round r = round(c, rest_of(c, signatures_of(c, before)), number);
   if (r.p > kLaterAlarm) return false;
   const Finding partner = finding_of(c.explanations, r.evidence, true);
-  return partner.probability >= finding_of(c.explanations, r.evidence, false).probability && log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
+  return partner.probability >= finding_of(c.explanations, r.evidence, false).probability &&
+      log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
 }
 
-/// Names a finding again, given what was found after it, which may have taken over part of it: the other names, and the pattern beside them.
-/// Where a pattern is likelier now than any name, it is that pattern.
+/// Names a finding again, given what was found after it, which may have taken over part of it: the other
+/// names, and the pattern beside them. Where a pattern is likelier now than any name, it is that pattern.
 struct Renamed {
   Finding finding;
   bool pattern = false;
 };
-Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which, const std::optional<Finding>& beside) {
+Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which,
+                const std::optional<Finding>& beside) {
   SearchResult others;
   others.findings = all;
   others.findings.erase(others.findings.begin() + static_cast<std::ptrdiff_t>(which));
@@ -103,7 +113,7 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
 /// Round after round, until nothing is left or what is left has no name.
 SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
   SearchResult result;
-  std::optional<Finding> instead;   // of the last name: the pattern without a name
+  std::optional<Finding> instead;  // of the last name: the pattern without a name
   for (int number = 0; number <= kRounds; ++number) {
     std::optional<EvidenceSearch> rest;
     if (number > 0) rest.emplace(rest_of(c, signatures_of(c, result.findings)));
@@ -119,7 +129,8 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     auto [named, other] = named_on_finer_grid(c, here);
     named.p = other.p = r.p;
     result.findings.push_back(named);
-    if (!likelier(c.explanations, named, other, kNamed) && (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
+    if (!likelier(c.explanations, named, other, kNamed) &&
+        (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
       result.findings.pop_back();
       result.other = std::move(other);
       return result;
@@ -156,18 +167,23 @@ void drop_names_beside_a_pattern(const Case& c, SearchResult& result) {
   result.other->p = result.p_value;
 }
 
-/// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is enough, but an effect and its
-/// change from one run to the next are two.
+/// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is
+/// enough, but an effect and its change from one run to the next are two.
 void name_again(const Case& c, SearchResult& result) {
   if (result.findings.size() < 2) return;
   const std::vector<Finding> before = std::exchange(result.findings, {});
   for (std::size_t k = 0; k < before.size(); ++k) {
     auto [f, pattern] = renamed(c, before, k, result.other);
-    const auto change = [&](const Finding& d) { return c.explanations.blocks[static_cast<std::size_t>(d.block)].change; };
-    const bool known = std::any_of(result.findings.begin(), result.findings.end(),
-                                   [&](const Finding& d) { return d.explanation == f.explanation && change(d) == change(f); });
-    if (!pattern && !known) result.findings.push_back(std::move(f));
-    else if (pattern && !result.other) result.other = std::move(f);
+    const auto change = [&](const Finding& d) {
+      return c.explanations.blocks[static_cast<std::size_t>(d.block)].change;
+    };
+    const bool known = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& d) {
+      return d.explanation == f.explanation && change(d) == change(f);
+    });
+    if (!pattern && !known)
+      result.findings.push_back(std::move(f));
+    else if (pattern && !result.other)
+      result.other = std::move(f);
   }
 }
 
@@ -181,7 +197,8 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   result.first = first.evidence();
   drop_names_beside_a_pattern(c, result);
   name_again(c, result);
-  result.hyper = result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
+  result.hyper =
+      result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
   return result;
 }
 
@@ -227,7 +244,8 @@ std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& resu
 }
 
 int best_block(const Explanation& e, const Evidence& evidence) {
-  return *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
+  return *std::max_element(e.blocks.begin(), e.blocks.end(),
+                           [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
 }
 
 LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {
@@ -239,7 +257,9 @@ LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& si
   return out;
 }
 
-LinearModel likelier_ensemble(const Case& c, const LinearModel& m) { return c.rough && m.rough.cols() > 0 ? rougher(m) : m; }
+LinearModel likelier_ensemble(const Case& c, const LinearModel& m) {
+  return c.rough && m.rough.cols() > 0 ? rougher(m) : m;
+}
 
 Explanations only(const Explanations& all, const std::vector<int>& kept) {
   Explanations out;

@@ -12,22 +12,25 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kWide = 30;         // prior standard deviations
+constexpr double kWide = 30;  // prior standard deviations
 
-/// The part of the information on some columns that others do not share, of the whole; none where there is no information.
+/// The part of the information on some columns that others do not share, of the whole; none where there is no
+/// information.
 double own_share(const Matrix& g, const std::vector<Eigen::Index>& columns, const std::vector<Eigen::Index>& others) {
   const Matrix all = g(columns, columns);
-  if (all.trace() * kWide * kWide < 1) return 0;   // nothing beside what it is believed to be before
+  if (all.trace() * kWide * kWide < 1) return 0;  // nothing beside what it is believed to be before
   if (others.empty()) return 1;
   const Matrix cross = g(others, columns), theirs = g(others, others);
   const Matrix wide = theirs + Matrix::Identity(theirs.rows(), theirs.cols()) / (kWide * kWide);
   return (all - cross.transpose() * Eigen::LLT<Matrix>(wide).solve(cross)).trace() / all.trace();
 }
 
-/// Columns that say something of their own: of parameters that do the same, those of the first. Draws are no parameters.
+/// Columns that say something of their own: of parameters that do the same, those of the first. Draws are no
+/// parameters.
 std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
   std::map<int, std::vector<Eigen::Index>> by_parameter;
-  for (std::size_t k = 0; k < block.columns.size() && !block.joined; ++k) by_parameter[block.columns[k].parameter].push_back(static_cast<Eigen::Index>(k));
+  for (std::size_t k = 0; k < block.columns.size() && !block.joined; ++k)
+    by_parameter[block.columns[k].parameter].push_back(static_cast<Eigen::Index>(k));
   std::vector<Eigen::Index> kept;
   for (const auto& [parameter, columns] : by_parameter)
     if (own_share(g, columns, kept) > kInseparable) kept.insert(kept.end(), columns.begin(), columns.end());
@@ -38,8 +41,12 @@ std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
 }  // namespace
 
 VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const EvidenceSearch::Information& info)
-    : effect_(effect), block_(block), mean_(Vector::Zero(info.u.size())), covariance_(Matrix::Zero(info.u.size(), info.u.size())) {
-  for (const Column& c : block.columns) directions_ = std::max(directions_, c.part % 3 > 0 ? 3 : 1), phases_ = std::max(phases_, c.part / 3 + 1);
+    : effect_(effect),
+      block_(block),
+      mean_(Vector::Zero(info.u.size())),
+      covariance_(Matrix::Zero(info.u.size(), info.u.size())) {
+  for (const Column& c : block.columns)
+    directions_ = std::max(directions_, c.part % 3 > 0 ? 3 : 1), phases_ = std::max(phases_, c.part / 3 + 1);
   const std::vector<Eigen::Index> kept = telling(block, info.g);
   const auto count = static_cast<Eigen::Index>(kept.size());
   const Eigen::LLT<Matrix> llt(info.g(kept, kept) + Matrix::Identity(count, count) / (kWide * kWide));
@@ -53,7 +60,8 @@ std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) co
   double unit = 0;
   for (std::size_t k = 0; k < block_.columns.size(); ++k) {
     const Column& c = block_.columns[k];
-    if (c.parameter != parameter || covariance_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) == 0) continue;
+    if (c.parameter != parameter || covariance_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) == 0)
+      continue;
     unit = c.unit;
     m(c.part % 3, c.part / 3) = unit * mean_(static_cast<Eigen::Index>(k));
     column[static_cast<std::size_t>(c.part % 3 + directions_ * (c.part / 3))] = static_cast<Eigen::Index>(k);
@@ -64,7 +72,8 @@ std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) co
   for (Eigen::Index i = 0; i < m.size(); ++i)
     for (Eigen::Index j = 0; j < m.size(); ++j)
       if (column[static_cast<std::size_t>(i)] >= 0 && column[static_cast<std::size_t>(j)] >= 0)
-        out.covariance(i, j) = unit * unit * covariance_(column[static_cast<std::size_t>(i)], column[static_cast<std::size_t>(j)]);
+        out.covariance(i, j) =
+            unit * unit * covariance_(column[static_cast<std::size_t>(i)], column[static_cast<std::size_t>(j)]);
   const Eigen::JacobiSVD<Matrix> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   out.size = svd.singularValues()(0);
   out.along = svd.matrixU().col(0);
@@ -105,7 +114,8 @@ std::optional<Estimate> VariantEstimate::size(int parameter) const {
   const double u = std::sqrt(variance(m->covariance, m->along, m->phase));
   if (directions_ * phases_ == 1) return Estimate{m->size * m->along(0), u};
   // The length of an uncertain vector is biased upwards by what scatters across it.
-  const double across = across_directions(m->covariance, m->along, m->phase) + across_phases(m->covariance, m->along, m->phase);
+  const double across =
+      across_directions(m->covariance, m->along, m->phase) + across_phases(m->covariance, m->along, m->phase);
   return Estimate{std::sqrt(std::max(0.0, m->size * m->size - across)), u};
 }
 
@@ -114,7 +124,8 @@ std::optional<SpannedDirection> VariantEstimate::direction() const {
   for (std::size_t p = 0; p < effect_.parameters.size(); ++p) {
     const std::optional<Motion> m = effect_.parameters[p].linear ? motion(static_cast<int>(p)) : std::nullopt;
     if (!m || m->size == 0) continue;
-    return SpannedDirection{m->along(0), m->along(1), m->along(2), std::sqrt(across_directions(m->covariance, m->along, m->phase) / 2) / m->size};
+    return SpannedDirection{m->along(0), m->along(1), m->along(2),
+                            std::sqrt(across_directions(m->covariance, m->along, m->phase) / 2) / m->size};
   }
   return std::nullopt;
 }
@@ -122,7 +133,8 @@ std::optional<SpannedDirection> VariantEstimate::direction() const {
 std::optional<Estimate> VariantEstimate::phase_deg(int parameter) const {
   const std::optional<Motion> m = phases_ > 1 ? motion(parameter) : std::nullopt;
   if (!m || m->size == 0) return std::nullopt;
-  return Estimate{std::atan2(m->phase(1), m->phase(0)) / kDegree, std::sqrt(across_phases(m->covariance, m->along, m->phase)) / m->size / kDegree};
+  return Estimate{std::atan2(m->phase(1), m->phase(0)) / kDegree,
+                  std::sqrt(across_phases(m->covariance, m->along, m->phase)) / m->size / kDegree};
 }
 
 }  // namespace abbe::diagnose

@@ -1,4 +1,5 @@
-// What a recording says of the parameters that make the columns of one variant: sizes, and the directions and phases that columns span.
+// What a recording says of the parameters that make the columns of one variant: sizes, and the directions and
+// phases that columns span.
 #pragma once
 
 #include <optional>
@@ -12,18 +13,21 @@ struct Estimate {
   double value = 0, u = 0;
 };
 
-/// A direction in the frame in which the effect names it, as a unit vector, and the standard uncertainty across it, rad.
+/// A direction in the frame in which the effect names it, as a unit vector, and the standard uncertainty
+/// across it, rad.
 struct SpannedDirection {
   double x = 0, y = 0, z = 0;
   double u = 0;
 };
 
-/// Linear-Gaussian posterior of the coefficients of a variant, with priors so wide that they do not pull. Where several parameters do the
-/// same to these touches the first tells it, and the others nothing: their sum is known, not their shares.
+/// Linear-Gaussian posterior of the coefficients of a variant, with priors so wide that they do not pull.
+/// Where several parameters do the same to these touches the first tells it, and the others nothing: their
+/// sum is known, not their shares.
 ///
-/// Columns along three directions and two phases span more than an effect does, which moves along one direction with one phase. Size,
-/// direction and phase are those of the nearest such motion: the leading term of the singular value decomposition of the coefficients
-/// (Eckart & Young 1936). The direction's largest component is positive where there is a phase to take its sign; the size is positive.
+/// Columns along three directions and two phases span more than an effect does, which moves along one
+/// direction with one phase. Size, direction and phase are those of the nearest such motion: the leading term
+/// of the singular value decomposition of the coefficients (Eckart & Young 1936). The direction's largest
+/// component is positive where there is a phase to take its sign; the size is positive.
 class VariantEstimate {
  public:
   VariantEstimate(const Effect&, const Block&, const EvidenceSearch::Information&);
@@ -41,16 +45,16 @@ class VariantEstimate {
   /// sigma u w' of the coefficients of one parameter, by direction and phase.
   struct Motion {
     double size = 0;
-    Vector along;                    ///< u, by direction
-    Vector phase;                    ///< w, by phase
-    Matrix covariance;               ///< of the coefficients, direction + directions * phase
+    Vector along;       ///< u, by direction
+    Vector phase;       ///< w, by phase
+    Matrix covariance;  ///< of the coefficients, direction + directions * phase
   };
   std::optional<Motion> motion(int parameter) const;
 
   const Effect& effect_;
   const Block& block_;
   int directions_ = 1, phases_ = 1;
-  Vector mean_;                      ///< by column; 0 for one that is told by others
+  Vector mean_;  ///< by column; 0 for one that is told by others
   Matrix covariance_;
 };
 

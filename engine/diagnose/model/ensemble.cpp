@@ -11,7 +11,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// Inverse gamma prior of the common factor on all variances: its inverse has mean 1, as spread as a factor of 1.5 either way on the noise.
+/// Inverse gamma prior of the common factor on all variances: its inverse has mean 1, as spread as a factor
+/// of 1.5 either way on the noise.
 constexpr double kPriorShape = 2, kPriorSquares = 2;
 /// Sizes above what is typical lose belief as a normal in the logarithm of this spread.
 constexpr double kLogImplausible = 1.6;
@@ -21,8 +22,9 @@ Hyperparameters at_scale_one(Hyperparameters h) {
   return h;
 }
 
-/// Evenly in their logarithm: from the stated to the estimated scale, and a little beyond both. No machine that passed its acceptance test has
-/// errors many times those of its specification: whatever asks for them is a mismatch.
+/// Evenly in their logarithm: from the stated to the estimated scale, and a little beyond both. No machine
+/// that passed its acceptance test has errors many times those of its specification: whatever asks for them
+/// is a mismatch.
 std::vector<double> scales_between(double estimated, double largest) {
   constexpr int kCount = 7;
   constexpr double kBeyond = 1.25;
@@ -41,7 +43,9 @@ std::vector<Size> sizes_of(double information) {
   std::vector<Size> out;
   for (const double ratio : kRatios) {
     const double factor = ratio / std::sqrt(std::max(information, 1e-12));
-    out.push_back({factor, -std::log(double(std::size(kRatios))) - 0.5 * std::pow(std::max(0.0, std::log(factor)) / kLogImplausible, 2)});
+    out.push_back(
+        {factor,
+         -std::log(double(std::size(kRatios))) - 0.5 * std::pow(std::max(0.0, std::log(factor)) / kLogImplausible, 2)});
   }
   return out;
 }
@@ -56,7 +60,8 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
   for (std::size_t j = 0; j < prior.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     precision_.col(column) = precision(scales_[j]);
-    log_scale_.push_back(log_prior + density + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum());
+    log_scale_.push_back(log_prior + density + prior[j] - log_sum_exp(prior) +
+                         0.5 * precision_.col(column).array().log().sum());
   }
 }
 
@@ -101,11 +106,17 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   b.count = count;
   const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
   const Matrix outside = rest.transpose() * rest;
-  b.sizes = block && !block->sizes.empty() ? block->sizes : sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
+  b.sizes = block && !block->sizes.empty()
+      ? block->sizes
+      : sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(a.transpose() * precision_.col(j).asDiagonal() * a + outside);
-    Axes axes{solver.eigenvectors(), solver.eigenvalues().cwiseMax(0), block ? b.sizes : larger(scales_[static_cast<std::size_t>(j)]), {}};
-    for (const Size& s : axes.sizes) axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
+    Axes axes{solver.eigenvectors(),
+              solver.eigenvalues().cwiseMax(0),
+              block ? b.sizes : larger(scales_[static_cast<std::size_t>(j)]),
+              {}};
+    for (const Size& s : axes.sizes)
+      axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
     b.axes.push_back(std::move(axes));
   }
   return b;
@@ -116,7 +127,8 @@ Ensemble::Verdicts Ensemble::judge(const Vector& recording) const {
   const Matrix weighted = z.asDiagonal() * precision_;
   Verdicts out;
   out.squares = (weighted.transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
-  for (std::size_t j = 0; j < scales_.size(); ++j) out.alone.push_back(log_scale_[j] - shape_ * std::log(out.squares(static_cast<Eigen::Index>(j))));
+  for (std::size_t j = 0; j < scales_.size(); ++j)
+    out.alone.push_back(log_scale_[j] - shape_ * std::log(out.squares(static_cast<Eigen::Index>(j))));
   const Matrix u = (coordinates_.transpose() * weighted).colwise() + Vector(remainder_.transpose() * rest);
   for (const Prepared& b : blocks_) {
     std::vector<double> with, squares_with;
@@ -131,7 +143,8 @@ Ensemble::Verdicts Ensemble::judge(const Vector& recording) const {
         sizes.push_back(axes.log_weight[s] - shape_ * std::log(left.back()));
       }
       with.push_back(log_scale_[j] + log_sum_exp(sizes));
-      squares_with.push_back(left[static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin())]);
+      squares_with.push_back(
+          left[static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin())]);
     }
     out.with.push_back(std::move(with));
     out.squares_with.push_back(std::move(squares_with));
@@ -157,7 +170,8 @@ Vector Ensemble::simulated(const Level& level, std::uint64_t seed, int replicate
   const auto normals = [&](Eigen::Index count, std::uint32_t site) {
     Vector v(count);
     for (Eigen::Index i = 0; i < v.size(); i += 2) {
-      const UniformPair p = uniform_pair({seed, static_cast<std::uint32_t>(replicate), stream, site + static_cast<std::uint32_t>(i), 0, 0});
+      const UniformPair p = uniform_pair(
+          {seed, static_cast<std::uint32_t>(replicate), stream, site + static_cast<std::uint32_t>(i), 0, 0});
       v(i) = normal_quantile(p.a);
       if (i + 1 < v.size()) v(i + 1) = normal_quantile(p.b);
     }
@@ -169,20 +183,22 @@ Vector Ensemble::simulated(const Level& level, std::uint64_t seed, int replicate
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
   const Prepared &i = of(a), &j = of(b);
-  return coordinates_.middleCols(i.first, i.count).transpose() * precision(level).asDiagonal() * coordinates_.middleCols(j.first, j.count) +
-         remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
+  return coordinates_.middleCols(i.first, i.count).transpose() * precision(level).asDiagonal() *
+      coordinates_.middleCols(j.first, j.count) +
+      remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
 }
 
 Vector Ensemble::with_data(const Level& level, int block, const Vector& recording) const {
   const Prepared& b = of(block);
   const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
-         remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;
+      remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;
 }
 
 Matrix Ensemble::against_all(const Level& level, const std::vector<Eigen::Index>& columns) const {
   const Matrix weighted = precision(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
-  return coordinates_.transpose() * weighted + remainder_.transpose() * Matrix(remainder_(Eigen::all, columns)) / level.s2;
+  return coordinates_.transpose() * weighted +
+      remainder_.transpose() * Matrix(remainder_(Eigen::all, columns)) / level.s2;
 }
 
 }  // namespace abbe::diagnose

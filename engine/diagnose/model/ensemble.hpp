@@ -1,14 +1,16 @@
-// One family of baselines: an ensemble of machines whose errors are scaled by g, and what every block of columns gains on it.
+// One family of baselines: an ensemble of machines whose errors are scaled by g, and what every block of
+// columns gains on it.
 //
-// With V_g the covariance of the recording and P_g its inverse with X projected out, a block with signature H whose coefficients are drawn at
-// size s has, with a common factor on all variances integrated out (inverse gamma prior), the marginal likelihood
+// With V_g the covariance of the recording and P_g its inverse with X projected out, a block with signature H
+// whose coefficients are drawn at size s has, with a common factor on all variances integrated out (inverse
+// gamma prior), the marginal likelihood
 //
 //     L(g, s) ~ |V_g|^-1/2 |1 + s^2 G|^-1/2 (b + (y' P_g y - s^2 u' (1 + s^2 G)^-1 u) / 2)^-(a + n/2),      G = H' P_g H,  u = H' P_g y,
 //
 // and the family alone has L(g, 0). [O'Hagan & Forster 2004, ch. 11]
-// Scales are averaged over, because the scale must be judged anew with every explanation: an ensemble of larger errors would swallow what the
-// explanation is about. Sizes are spread over the signal-to-noise ratios at which a recording can tell anything; one above what is
-// typical of the effect loses belief.
+// Scales are averaged over, because the scale must be judged anew with every explanation: an ensemble of
+// larger errors would swallow what the explanation is about. Sizes are spread over the signal-to-noise ratios
+// at which a recording can tell anything; one above what is typical of the effect loses belief.
 #pragma once
 
 #include <cstdint>
@@ -41,10 +43,10 @@ class Ensemble {
 
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {
-    std::vector<double> alone;                     ///< without any block
-    std::vector<std::vector<double>> with;         ///< by error function, then by block
-    Vector squares;                                ///< what is left of the sum of squares alone
-    std::vector<std::vector<double>> squares_with; ///< likewise, at its best size
+    std::vector<double> alone;                      ///< without any block
+    std::vector<std::vector<double>> with;          ///< by error function, then by block
+    Vector squares;                                 ///< what is left of the sum of squares alone
+    std::vector<std::vector<double>> squares_with;  ///< likewise, at its best size
   };
   /// `y`: of a recording, um.
   Verdicts judge(const Vector& y) const;
@@ -68,13 +70,13 @@ class Ensemble {
   struct Axes {
     Matrix e;
     Vector d;
-    std::vector<Size> sizes;             ///< of an explanation the same at every scale, of an error function in proportion to it
-    std::vector<double> log_weight;      ///< by size: its prior and the determinant
+    std::vector<Size> sizes;  ///< of an explanation the same at every scale, of an error function in proportion to it
+    std::vector<double> log_weight;  ///< by size: its prior and the determinant
   };
   struct Prepared {
-    Eigen::Index first = 0, count = 0;   ///< columns
+    Eigen::Index first = 0, count = 0;  ///< columns
     std::vector<Size> sizes;
-    std::vector<Axes> axes;              ///< by scale
+    std::vector<Axes> axes;  ///< by scale
   };
   /// `blocks`: whose signatures they are; none: error functions of the machine.
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Block>* blocks);
@@ -84,12 +86,12 @@ class Ensemble {
   Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
 
   Rotated rotated_;
-  double shape_ = 0;                     ///< a + n / 2
-  std::vector<double> scales_;           ///< g
-  Matrix precision_;                     ///< 1 / (g^2 lambda + 1), one column for each scale
-  std::vector<double> log_scale_;        ///< log prior of family and scale, and its determinant
-  Matrix coordinates_, remainder_;       ///< of all columns: U' h, h - U U' h
-  std::size_t functions_ = 0;            ///< of the machine; blocks follow them
+  double shape_ = 0;                ///< a + n / 2
+  std::vector<double> scales_;      ///< g
+  Matrix precision_;                ///< 1 / (g^2 lambda + 1), one column for each scale
+  std::vector<double> log_scale_;   ///< log prior of family and scale, and its determinant
+  Matrix coordinates_, remainder_;  ///< of all columns: U' h, h - U U' h
+  std::size_t functions_ = 0;       ///< of the machine; blocks follow them
   std::vector<Prepared> blocks_;
 };
 

@@ -14,7 +14,8 @@ namespace {
 constexpr double kPriorRough = 0.2;
 /// Belief before the data that one of the error functions is more uneven than the others.
 constexpr double kPriorUneven = 0.2;
-/// Belief before the data that neighbours scatter alike, where they do: what goes on slowly in the sequence looks the same.
+/// Belief before the data that neighbours scatter alike, where they do: what goes on slowly in the sequence
+/// looks the same.
 constexpr double kPriorCorrelated = 0.5;
 /// Nats below the better ensemble from which on the other makes no difference.
 constexpr double kOutOfQuestion = 8;
@@ -26,7 +27,8 @@ std::size_t index_of_largest(const std::vector<T>& v) {
 
 }  // namespace
 
-EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations) : explanations_(explanations.list) {
+EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
+    : explanations_(explanations.list) {
   const bool plan = model.y.squaredNorm() == 0;
   y_ = model.y;
   const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
@@ -49,7 +51,8 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
 }
 
 void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {
-  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(same), explanations.blocks.end());
+  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(same),
+                                explanations.blocks.end());
   for (Ensemble& e : ensembles_) e.keep(same), e.add(more);
   explanations_ = explanations.list;
   log_weight_.clear();
@@ -68,7 +71,8 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
     explained.push_back(log_sum_exp(logs));
   }
   std::vector<double> no_mismatch{log_sum_exp(nulls) + std::log(functions_ > 0 ? 1 - kPriorUneven : 1)};
-  for (std::size_t k = 0; k < functions_; ++k) no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions_)));
+  for (std::size_t k = 0; k < functions_; ++k)
+    no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions_)));
   const double null = log_sum_exp(no_mismatch);
   Evidence out;
   out.log_null = null;
@@ -76,12 +80,13 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
   std::vector<double> all;
   for (const Explanation& x : explanations_) {
     std::vector<double> variants;
-    for (const int k : x.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] + log_weight_[static_cast<std::size_t>(k)]);
+    for (const int k : x.blocks)
+      variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] + log_weight_[static_cast<std::size_t>(k)]);
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
   out.statistic = log_sum_exp(all);
-  ABBE_CHECK(std::isfinite(out.statistic));   // or a mistake would pass for a machine in order
+  ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
   if (!alone) return out;
   const std::size_t e = index_of_largest(nulls), block = index_of_largest(out.block_log_bayes);
   const Vector& squares = verdicts[e].squares;
@@ -94,7 +99,8 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
   return out;
 }
 
-std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const {
+std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates, std::uint64_t seed,
+                                                int threads) const {
   constexpr int kBatch = 20, kEnough = 10;
   std::vector<Evidence> out;
   int extreme = 0;
@@ -112,13 +118,15 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates,
 double tail_probability(double observed, std::vector<double> simulated) {
   const double n = static_cast<double>(simulated.size());
   std::sort(simulated.begin(), simulated.end());
-  const auto above = static_cast<double>(simulated.end() - std::lower_bound(simulated.begin(), simulated.end(), observed));
+  const auto above =
+      static_cast<double>(simulated.end() - std::lower_bound(simulated.begin(), simulated.end(), observed));
   const std::size_t tail = simulated.size() / 10;
   if (above >= 8 || tail < 10) return (above + 1) / (n + 1);
   const double from = simulated[simulated.size() - tail - 1];
   double mean = 0;
   for (std::size_t k = simulated.size() - tail; k < simulated.size(); ++k) mean += (simulated[k] - from) / double(tail);
-  // The mean of so few values is uncertain itself: averaged over that (flat in its logarithm), the exponential law becomes that of Lomax.
+  // The mean of so few values is uncertain itself: averaged over that (flat in its logarithm), the
+  // exponential law becomes that of Lomax.
   const auto values = double(tail);
   return std::max(1e-12, values / n * std::pow(1 + (observed - from) / (values * std::max(mean, 1e-9)), -values));
 }

@@ -1,10 +1,12 @@
 // The evidence of every explanation, and the p-value of the whole search.
 //
-// The baseline is the ensemble of the specification or, less probably, one of the same size and rougher functions; at any scale
-// (ensemble.hpp); and one of the error functions may be more uneven than the others, which is no physics left out either. The Bayes factor
-// of an explanation is its likelihood averaged over ensembles, scales, sizes and its blocks, over that of the baseline, averaged likewise. The statistic of the search is the logarithm of the average Bayes factor of all
-// explanations; its distribution without any mismatch is simulated at the fitted baseline and evaluated with the same averages (parametric
-// bootstrap), so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
+// The baseline is the ensemble of the specification or, less probably, one of the same size and rougher
+// functions; at any scale (ensemble.hpp); and one of the error functions may be more uneven than the others,
+// which is no physics left out either. The Bayes factor of an explanation is its likelihood averaged over
+// ensembles, scales, sizes and its blocks, over that of the baseline, averaged likewise. The statistic of the
+// search is the logarithm of the average Bayes factor of all explanations; its distribution without any
+// mismatch is simulated at the fitted baseline and evaluated with the same averages (parametric bootstrap),
+// so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
 #pragma once
 
 #include "engine/diagnose/model/ensemble.hpp"
@@ -15,7 +17,7 @@ struct Evidence {
   std::vector<double> log_bayes;        ///< by explanation
   std::vector<double> block_log_bayes;  ///< by block, sizes averaged
   double statistic = 0;                 ///< log of the average Bayes factor of all explanations
-  double log_null = 0;                  ///< log likelihood of the baseline, but for what recordings of as many rows share
+  double log_null = 0;  ///< log likelihood of the baseline, but for what recordings of as many rows share
 };
 
 class EvidenceSearch {
@@ -30,8 +32,9 @@ class EvidenceSearch {
   /// The belief that the machine's errors are rougher than the specification's ensemble, without any explanation.
   double rough() const { return rough_; }
 
-  /// Evidence of simulated recordings without mismatch, at most `replicates`: fewer once enough of them are as extreme as `observed` to
-  /// know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991). The same for any number of threads.
+  /// Evidence of simulated recordings without mismatch, at most `replicates`: fewer once enough of them are
+  /// as extreme as `observed` to know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991). The
+  /// same for any number of threads.
   std::vector<Evidence> bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const;
 
   /// G and u of a block at the level of the recording, which is that with the likeliest explanation.
@@ -39,17 +42,22 @@ class EvidenceSearch {
     Matrix g;
     Vector u;
   };
-  Information information(int block) const { return {between(block, block), likely().with_data(with_.level, block, y_)}; }
+  Information information(int block) const {
+    return {between(block, block), likely().with_data(with_.level, block, y_)};
+  }
   /// H_a' P H_b at the level of the recording.
   Matrix between(int a, int b) const { return likely().between(with_.level, a, b); }
   /// H' P h of the columns of all blocks, one after the other, with some of them.
-  Matrix against_all(const std::vector<Eigen::Index>& columns) const { return likely().against_all(with_.level, columns); }
+  Matrix against_all(const std::vector<Eigen::Index>& columns) const {
+    return likely().against_all(with_.level, columns);
+  }
   Eigen::Index first_column(int block) const { return likely().first_column(block); }
   /// The sizes at which a block was judged.
   const std::vector<Size>& sizes(int block) const { return likely().sizes(block); }
 
  private:
-  /// Ensembles of the specification and, if that is not out of the question, of rougher errors, with this noise; the belief in the latter.
+  /// Ensembles of the specification and, if that is not out of the question, of rougher errors, with this
+  /// noise; the belief in the latter.
   double add_machines(const LinearModel&, const Hyperparameters&, double log_prior);
   struct Baseline {
     std::size_t ensemble = 0;
@@ -60,20 +68,21 @@ class EvidenceSearch {
 
   std::vector<Explanation> explanations_;
   std::vector<Ensemble> ensembles_;
-  std::vector<double> log_weight_;   ///< by block
-  std::size_t functions_ = 0;        ///< uneven error functions, before the blocks
+  std::vector<double> log_weight_;  ///< by block
+  std::size_t functions_ = 0;       ///< uneven error functions, before the blocks
   Vector y_;
   Evidence evidence_;
   Baseline alone_, with_;
   double rough_ = 0;
 };
 
-/// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the next value would be of the
-/// exponential law that the upper tenth of the simulated values follows.
+/// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the
+/// next value would be of the exponential law that the upper tenth of the simulated values follows.
 double tail_probability(double observed, std::vector<double> simulated);
 
-/// Belief in what chance alone shows with probability p, believed with `prior` before: the most that a p-value can say for it, by the bound
-/// -e p ln p on the Bayes factor of chance. [Sellke, Bayarri & Berger, The American Statistician 55 (2001), eq. 2]
+/// Belief in what chance alone shows with probability p, believed with `prior` before: the most that a
+/// p-value can say for it, by the bound -e p ln p on the Bayes factor of chance. [Sellke, Bayarri & Berger,
+/// The American Statistician 55 (2001), eq. 2]
 double most_believed(double p, double prior);
 
 double log_sum_exp(const std::vector<double>&);

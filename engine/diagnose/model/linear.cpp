@@ -13,13 +13,13 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kNoisePrior = 0.5;   // of the logarithm
-constexpr double kDependent = 1e-6;   // of the length of a column, whatever its unit: less is the rounding of targets
-/// What X leaves of a pattern below which it is nothing: the last digits of targets and readings, which hold the touch's own error and, enlarged
-/// into a pattern, would explain it.
-constexpr double kNothingLeft = 1e-4;                    // of its length
+constexpr double kNoisePrior = 0.5;  // of the logarithm
+constexpr double kDependent = 1e-6;  // of the length of a column, whatever its unit: less is the rounding of targets
+/// What X leaves of a pattern below which it is nothing: the last digits of targets and readings, which hold
+/// the touch's own error and, enlarged into a pattern, would explain it.
+constexpr double kNothingLeft = 1e-4;  // of its length
 constexpr double kCorrelations[] = {0.15, 0.3, 0.45, 0.6, 0.75};
-constexpr double kCorrelationGain = 3;                   // nats that a correlation must gain to be believed
+constexpr double kCorrelationGain = 3;  // nats that a correlation must gain to be believed
 
 /// Rows divided by their standard deviation, then differenced so that neighbours are independent again.
 Matrix whitened(const Matrix& columns, const Vector& weight, double phi, const std::vector<char>& follows) {
@@ -37,7 +37,8 @@ Vector weights(const LinearModel& m, const Hyperparameters& h) {
   return w;
 }
 
-/// Moments of whitened rows by noise group, from which the likelihood at any noise and scale follows without a pass over the rows.
+/// Moments of whitened rows by noise group, from which the likelihood at any noise and scale follows without
+/// a pass over the rows.
 class Likelihood {
  public:
   Likelihood(const LinearModel& m, double phi) : model_(m), phi_(phi) {
@@ -54,7 +55,8 @@ class Likelihood {
         if (m.noise_group[i] == g) in.push_back(i);
       const Matrix part = rows(in, Eigen::all);
       const Vector part_y = y(in, 0);
-      moments_.push_back({Matrix(part.transpose() * part), part.transpose() * part_y, part_y.squaredNorm(), static_cast<double>(in.size())});
+      moments_.push_back({Matrix(part.transpose() * part), part.transpose() * part_y, part_y.squaredNorm(),
+                          static_cast<double>(in.size())});
     }
   }
 
@@ -154,7 +156,8 @@ Matrix scaled(const LinearModel& m, const Hyperparameters& h) {
 }  // namespace
 
 Matrix independent(const Matrix& columns) {
-  const Vector length = columns.colwise().norm().cwiseMax(1e-300);   // an unknown that these rows do not have is no column
+  // an unknown that these rows do not have is no column
+  const Vector length = columns.colwise().norm().cwiseMax(1e-300);
   Eigen::ColPivHouseholderQR<Matrix> qr(columns * length.cwiseInverse().asDiagonal());
   qr.setThreshold(kDependent);
   return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
@@ -172,7 +175,8 @@ double log_density(const LinearModel& m, const Hyperparameters& h) {
   const auto neighbours = static_cast<double>(std::count(m.follows.begin(), m.follows.end(), 1));
   const Matrix x = whitened(independent(m.free), weight, h.correlation, m.follows);
   const Eigen::LLT<Matrix> of_free(x.transpose() * x);
-  return weight.array().log().sum() - 0.5 * neighbours * std::log(1 - h.correlation * h.correlation) - of_free.matrixLLT().diagonal().array().log().sum();
+  return weight.array().log().sum() - 0.5 * neighbours * std::log(1 - h.correlation * h.correlation) -
+      of_free.matrixLLT().diagonal().array().log().sum();
 }
 
 Hyperparameters estimate(const LinearModel& m) {
@@ -197,7 +201,8 @@ Hyperparameters estimate(const LinearModel& m) {
 
 Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
   const Rotated rotated(m, h);
-  // With the inverse covariance K of the touches, X projected out, (K y)_i / K_ii is row i minus its prediction from all others, 1 / K_ii the variance.
+  // With the inverse covariance K of the touches, X projected out, (K y)_i / K_ii is row i minus its
+  // prediction from all others, 1 / K_ii the variance.
   const Vector ky = rotated.of_touches(rotated.noise_part()), diagonal = rotated.precision_diagonal();
   Vector out(m.y.size());
   for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = diagonal(i) > 1e-9 ? ky(i) / std::sqrt(diagonal(i)) : 0;
@@ -231,7 +236,7 @@ Matrix squared_correlation(const LinearModel& m, const Hyperparameters& h) {
 }
 
 LinearModel compact(const LinearModel& m) {
-  constexpr double kNegligible = 1e-3;   // of the variance of one row, over all rows together
+  constexpr double kNegligible = 1e-3;  // of the variance of one row, over all rows together
   const Vector weight = m.noise_um.cwiseInverse();
   const auto kept = [&](const Matrix& z) -> Matrix {
     if (z.cols() == 0) return z;
@@ -273,7 +278,10 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
 }
 
 Projection::Projection(const LinearModel& m, const Hyperparameters& h)
-    : follows_(m.follows), weight_(weights(m, h)), correlation_(h.correlation), q_(independent(whitened(m.free, weight_, correlation_, follows_))) {}
+    : follows_(m.follows),
+      weight_(weights(m, h)),
+      correlation_(h.correlation),
+      q_(independent(whitened(m.free, weight_, correlation_, follows_))) {}
 
 Matrix Projection::operator()(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);
@@ -341,7 +349,9 @@ Precision::Seen Precision::with_taken(Matrix rows) const {
   return out;
 }
 
-Matrix inner(const Precision::Seen& a, const Precision::Seen& b) { return a.rows.transpose() * b.rows - a.taken.transpose() * b.taken; }
+Matrix inner(const Precision::Seen& a, const Precision::Seen& b) {
+  return a.rows.transpose() * b.rows - a.taken.transpose() * b.taken;
+}
 
 Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(project(m.y)) {
   const Matrix z = project(scaled(m, h));
@@ -354,8 +364,10 @@ Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h
   while (first < values.size() && values(first) <= kNegligible) ++first;
   const Eigen::Index rank = values.size() - first;
   lambda_ = values.tail(rank);
-  if (wide) basis_ = solver.eigenvectors().rightCols(rank);
-  else basis_ = z * solver.eigenvectors().rightCols(rank) * lambda_.cwiseSqrt().cwiseInverse().asDiagonal();
+  if (wide)
+    basis_ = solver.eigenvectors().rightCols(rank);
+  else
+    basis_ = z * solver.eigenvectors().rightCols(rank) * lambda_.cwiseSqrt().cwiseInverse().asDiagonal();
   rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank);
 }
 
@@ -375,7 +387,9 @@ Matrix Rotated::taken_of_touches() const {
   return project_.of_touches(taken);
 }
 
-Vector Rotated::precision_diagonal() const { return project_.noise_precision().first - taken_of_touches().rowwise().squaredNorm(); }
+Vector Rotated::precision_diagonal() const {
+  return project_.noise_precision().first - taken_of_touches().rowwise().squaredNorm();
+}
 
 Matrix Rotated::precision() const {
   const Matrix taken = taken_of_touches();

@@ -2,16 +2,17 @@
 //
 //     y = X b + Z u + e,      u ~ N(0, scale_g^2 1) by group,      e ~ N(0, D) with a common correlation phi of neighbours
 //
-// y: residuals, um. X: what nothing is known of (placement of the part, unknown sizes). Z: what the simulated ensemble may do, scaled so
-// that one unit is one standard deviation of the ensemble. Hyperparameters (scale of a group of Z, factor on the noise of a group of
-// rows, phi) are estimated by restricted maximum likelihood with weak priors about 1, because a wrong prior of the baseline is the
-// greatest source of false alarms. All rows are whitened with them and X is projected out; then one eigen-decomposition of Z Z' makes
+// y: residuals, um. X: what nothing is known of (placement of the part, unknown sizes). Z: what the simulated
+// ensemble may do, scaled so that one unit is one standard deviation of the ensemble. Hyperparameters (scale
+// of a group of Z, factor on the noise of a group of rows, phi) are estimated by restricted maximum
+// likelihood with weak priors about 1, because a wrong prior of the baseline is the greatest source of false
+// alarms. All rows are whitened with them and X is projected out; then one eigen-decomposition of Z Z' makes
 // every later evaluation, for another scale and another noise, cost one pass over the rows:
 //
 //     z = U' y ~ N(0, g^2 lambda + s^2),       rest = y - U z ~ N(0, s^2 (1 - U U'))
 //
-// Sources: Patterson & Thompson, Biometrika 58 (1971), restricted likelihood; Rasmussen & Williams, Gaussian Processes for Machine
-// Learning, 2.7 and 5.4.1 (evidence with linear terms of infinite prior variance).
+// Sources: Patterson & Thompson, Biometrika 58 (1971), restricted likelihood; Rasmussen & Williams, Gaussian
+// Processes for Machine Learning, 2.7 and 5.4.1 (evidence with linear terms of infinite prior variance).
 #pragma once
 
 #include <Eigen/Core>
@@ -27,24 +28,28 @@ using Vector = Eigen::VectorXd;
 
 /// Of residuals in um.
 struct LinearModel {
-  Vector y;                         ///< um
-  Matrix free;                      ///< X, one column per unknown of which nothing is known
-  Matrix random;                    ///< Z, um per standard deviation
-  std::vector<int> random_group;    ///< by column of Z; 0 is the group whose scale is estimated, the others keep theirs
-  Matrix rough;                     ///< another ensemble in the place of group 0: no columns when there is none (rough_geometry.hpp)
-  std::vector<Matrix> uneven;       ///< one error function each that is more uneven than the others: no physics left out (rough_geometry.hpp)
-  Vector noise_um;                  ///< standard deviation of a row as the machine file states it
-  std::vector<int> noise_group;     ///< by row
+  Vector y;                       ///< um
+  Matrix free;                    ///< X, one column per unknown of which nothing is known
+  Matrix random;                  ///< Z, um per standard deviation
+  std::vector<int> random_group;  ///< by column of Z; 0 is the group whose scale is estimated, the others keep theirs
+  Matrix rough;  ///< another ensemble in the place of group 0: no columns when there is none (rough_geometry.hpp)
+  /// one error function each that is more uneven than the others: no physics left out (rough_geometry.hpp)
+  std::vector<Matrix> uneven;
+  Vector noise_um;               ///< standard deviation of a row as the machine file states it
+  std::vector<int> noise_group;  ///< by row
   int noise_groups = 1;
-  double largest_scale = 3;         ///< of group 0 that is believed: whatever asks for more is no machine of this specification, or not the known one
-  double scale_spread = 0.7;        ///< of the logarithm of the scale of group 0: how far a machine's errors may be from the specification's
-  std::vector<char> follows;        ///< by row: measured right after the row before, with the same stylus
+  /// of group 0 that is believed: whatever asks for more is no machine of this specification, or not the
+  /// known one
+  double largest_scale = 3;
+  /// of the logarithm of the scale of group 0: how far a machine's errors may be from the specification's
+  double scale_spread = 0.7;
+  std::vector<char> follows;  ///< by row: measured right after the row before, with the same stylus
 };
 
 struct Hyperparameters {
-  double scale = 1;                 ///< of group 0 of Z
-  Vector noise;                     ///< factor on noise_um, by noise group
-  double correlation = 0;           ///< phi of neighbouring rows
+  double scale = 1;        ///< of group 0 of Z
+  Vector noise;            ///< factor on noise_um, by noise group
+  double correlation = 0;  ///< phi of neighbouring rows
 };
 
 /// Restricted maximum likelihood with log-normal priors about 1 (sd scale_spread for the scale, 0.5 for the noise).
@@ -53,14 +58,16 @@ Hyperparameters estimate(const LinearModel&);
 /// The same without a correlation of neighbours.
 Hyperparameters estimate_uncorrelated(const LinearModel&);
 
-/// Logarithm of what whitening with this noise and taking out X do to the density of a recording: what sets models of other noise apart.
+/// Logarithm of what whitening with this noise and taking out X do to the density of a recording: what sets
+/// models of other noise apart.
 double log_density(const LinearModel&, const Hyperparameters&);
 
-/// Standardised residual of each row, predicted from all other rows: of the touch itself, where neighbours have noise in common too.
+/// Standardised residual of each row, predicted from all other rows: of the touch itself, where neighbours
+/// have noise in common too.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);
 
-/// The noise of each row as all rows tell it: its expectation given the recording, um. What is left of a row's noise beside it has nothing to do
-/// with the recording.
+/// The noise of each row as all rows tell it: its expectation given the recording, um. What is left of a
+/// row's noise beside it has nothing to do with the recording.
 Vector expected_noise(const LinearModel&, const Hyperparameters&);
 
 /// Squares of the correlations of these residuals, by pair of rows, when the model is right.
@@ -91,7 +98,8 @@ class Projection {
   Matrix of_patterns(const Matrix& columns) const;
   /// A row vector whose projection is this one.
   Vector unwhitened(const Vector& projected) const;
-  /// From whitened rows back to the touches, whose noise is 1 but may have something in common: the transpose of taking neighbours' differences.
+  /// From whitened rows back to the touches, whose noise is 1 but may have something in common: the transpose
+  /// of taking neighbours' differences.
   Matrix of_touches(const Matrix& whitened) const;
   /// The inverse covariance of that noise: its diagonal, and what is beside it.
   std::pair<Vector, Vector> noise_precision() const;
@@ -100,20 +108,21 @@ class Projection {
 
  private:
   std::vector<char> follows_;
-  Vector weight_;                                    ///< 1 / sd by row
+  Vector weight_;  ///< 1 / sd by row
   double correlation_ = 0;
   Matrix q_;
 };
 
-/// The precision of a recording, the inverse of its covariance with X projected out, as an inner product of columns. With the projected Z and
-/// L L' = 1 + Z'Z it is a'P b = a'b - (L^-1 Z'a)'(L^-1 Z'b): no eigen-decomposition, so the cheaper way when scale and noise stay as they are.
+/// The precision of a recording, the inverse of its covariance with X projected out, as an inner product of
+/// columns. With the projected Z and L L' = 1 + Z'Z it is a'P b = a'b - (L^-1 Z'a)'(L^-1 Z'b): no
+/// eigen-decomposition, so the cheaper way when scale and noise stay as they are.
 class Precision {
  public:
   Precision(const LinearModel&, const Hyperparameters&);
 
   /// Columns as it sees them.
   struct Seen {
-    Matrix rows, taken;                              ///< projected; and what of them the ensemble can do
+    Matrix rows, taken;  ///< projected; and what of them the ensemble can do
 
     Seen operator*(const Matrix& coefficients) const { return {rows * coefficients, taken * coefficients}; }
   };
@@ -124,7 +133,7 @@ class Precision {
   Seen with_taken(Matrix rows) const;
 
   Projection project_;
-  Matrix reach_;                                     ///< L^-1 Z'
+  Matrix reach_;  ///< L^-1 Z'
   Vector y_;
 };
 /// a'P b.
@@ -145,12 +154,16 @@ class Rotated {
   /// U' of projected columns.
   Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
   /// What of projected columns the ensemble cannot do.
-  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const { return projected - basis_ * coordinates; }
+  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const {
+    return projected - basis_ * coordinates;
+  }
   /// A recording, um, that has these coordinates, and this outside of them.
-  Vector recording(const Vector& coordinates, const Vector& rest) const { return project_.unwhitened(basis_ * coordinates + rest); }
+  Vector recording(const Vector& coordinates, const Vector& rest) const {
+    return project_.unwhitened(basis_ * coordinates + rest);
+  }
   /// What of a whitened row vector neither X nor the ensemble reaches.
   Vector off_model(const Vector& white) const;
-  const Vector& y() const { return y_; }             ///< projected
+  const Vector& y() const { return y_; }  ///< projected
   Vector z() const { return basis_.transpose() * y_; }
   /// What of the projected rows is noise, as far as they tell.
   Vector noise_part() const;
@@ -163,10 +176,10 @@ class Rotated {
   Matrix precision() const;
 
  private:
-  Matrix taken_of_touches() const;                   ///< T: that inverse covariance is the noise's minus T T'
+  Matrix taken_of_touches() const;  ///< T: that inverse covariance is the noise's minus T T'
 
   Projection project_;
-  Matrix basis_;                                     ///< U
+  Matrix basis_;  ///< U
   Vector lambda_, y_;
   int rest_dof_ = 0;
 };

@@ -42,7 +42,8 @@ class Aligner {
     some.label = features_.size() == 1 ? features_.begin()->second.label : "BALL";
     for (const std::size_t i : chosen) {
       some.k.push_back(everything_.k[i]);
-      some.touched.points.push_back(everything_.touched.points[i]), some.touched.normals.push_back(everything_.touched.normals[i]);
+      some.touched.points.push_back(everything_.touched.points[i]),
+          some.touched.normals.push_back(everything_.touched.normals[i]);
     }
     if (!ball_of(some.touched)) return std::nullopt;
     measure(some.label, dmis_feature(some.touched), some.k);
@@ -58,10 +59,12 @@ class Aligner {
       if (three.size() < 3) continue;
       for (const auto& [b, second] : features_)
         if (const auto line = line_on(second, first)) {
-          const Vec3 z = first.touched.normals[0], from = second.touched.points[line->first], to = second.touched.points[line->second];
+          const Vec3 z = first.touched.normals[0], from = second.touched.points[line->first],
+                     to = second.touched.points[line->second];
           const Vec3 x = unit(perpendicular_part(to - from, z)), y = cross(z, x);
           for (const auto& [c, third] : features_)
-            if (is_face(third.touched) && std::abs(dot(third.touched.normals[0], x)) > kAcross) return aligned(first, three, second, *line, third, {x, y, z});
+            if (is_face(third.touched) && std::abs(dot(third.touched.normals[0], x)) > kAcross)
+              return aligned(first, three, second, *line, third, {x, y, z});
         }
     }
     return std::nullopt;
@@ -86,18 +89,25 @@ class Aligner {
     return best.first == best.second ? std::nullopt : std::optional(best);
   }
 
-  Alignment aligned(const Face& a, const std::vector<std::size_t>& three, const Face& b, const Pair& line, const Face& c, const Mat3& R_RD) {
+  Alignment aligned(const Face& a, const std::vector<std::size_t>& three, const Face& b, const Pair& line,
+                    const Face& c, const Mat3& R_RD) {
     Touched plane;
     std::vector<std::size_t> k;
-    for (const std::size_t i : three) plane.points.push_back(a.touched.points[i]), plane.normals.push_back(a.touched.normals[i]), k.push_back(a.k[i]);
+    for (const std::size_t i : three)
+      plane.points.push_back(a.touched.points[i]), plane.normals.push_back(a.touched.normals[i]), k.push_back(a.k[i]);
     measure(a.label, dmis_feature(plane), k);
     out_.statements += fmt::format("DATDEF/FA({}),DAT(A)\n", a.label);
-    const Vec3 from = b.touched.points[line.first], to = b.touched.points[line.second], n = b.touched.normals[line.first];
-    measure(b.label, {"LINE", fmt::format("LINE,BND,CART,{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}", from.x, from.y, from.z, to.x, to.y, to.z, n.x, n.y, n.z)},
+    const Vec3 from = b.touched.points[line.first], to = b.touched.points[line.second],
+               n = b.touched.normals[line.first];
+    measure(b.label,
+            {"LINE",
+             fmt::format("LINE,BND,CART,{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}", from.x, from.y,
+                         from.z, to.x, to.y, to.z, n.x, n.y, n.z)},
             {b.k[line.first], b.k[line.second]});
     out_.statements += fmt::format("DATDEF/FA({}),DAT(B)\n", b.label);
     measure(c.label, dmis_feature({{c.touched.points[0]}, {c.touched.normals[0]}}), {c.k[0]});
-    out_.statements += fmt::format("DATDEF/FA({}),DAT(C)\nD(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG,DAT(C),XORIG\n", c.label);
+    out_.statements +=
+        fmt::format("DATDEF/FA({}),DAT(C)\nD(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG,DAT(C),XORIG\n", c.label);
     const Vec3 origin{dot(R_RD.cx, c.touched.points[0]), dot(R_RD.cy, from), dot(R_RD.cz, plane.points[0])};
     out_.X_DR = {transpose(R_RD), -origin};
     return out_;
@@ -124,12 +134,14 @@ class Aligner {
   }
 
   void measure(const std::string& label, const DmisFeature& feature, const std::vector<std::size_t>& k) {
-    std::string block = fmt::format("F({})=FEAT/{}\nMEAS/{},F({}),{}\n", label, feature.definition, feature.kind, label, k.size());
+    std::string block =
+        fmt::format("F({})=FEAT/{}\nMEAS/{},F({}),{}\n", label, feature.definition, feature.kind, label, k.size());
     std::string styli;
     for (const std::size_t i : k) {
       if (std::string(scene(i).stylus.name) != stylus_) {
         stylus_ = scene(i).stylus.name;
-        const std::string select = fmt::format("TEXT/OPER,'drive to a clear place: the stylus is changed or turned to {0}'\nSNSLCT/SA({0})\n", stylus_);
+        const std::string select = fmt::format(
+            "TEXT/OPER,'drive to a clear place: the stylus is changed or turned to {0}'\nSNSLCT/SA({0})\n", stylus_);
         (i == k.front() ? styli : block) += select;
       }
       const Vec3 p = surface_of(longer_, i), n = scene(i).normal;
@@ -155,12 +167,14 @@ std::optional<Alignment> alignment_of(const Longer& longer) {
 Vec3 surface_of(const Longer& longer, std::size_t touch) {
   const RecordedTouch& t = longer.touches.touches[touch];
   const RecordingRow& row = longer.recording.rows[static_cast<std::size_t>(t.row)];
-  return longer.recording.point == RecordedPoint::surface ? *row.target_mm : *row.target_mm - t.scene.stylus.radius_mm * *row.normal;
+  return longer.recording.point == RecordedPoint::surface ? *row.target_mm
+                                                          : *row.target_mm - t.scene.stylus.radius_mm * *row.normal;
 }
 
 std::string dmis_label(const std::string& feature) {
   std::string out;
-  for (const char c : feature) out += std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' ? c : '_';
+  for (const char c : feature)
+    out += std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' ? c : '_';
   return out;
 }
 

@@ -1,8 +1,10 @@
-// How a program finds a part that was moved: by a manual alignment on some of its own touches, which its targets then refer to.
+// How a program finds a part that was moved: by a manual alignment on some of its own touches, which its
+// targets then refer to.
 //
-// Three faces that lie across one another take three, two and one touches (ISO 5459, 3-2-1): the first gives Z, the line on the second X and
-// Y = 0, the point on the third X = 0. Where everything that is touched is one ball, its centre is enough: how a ball is turned no
-// touch can tell. Other parts need a jig or the operator's own alignment, and the program says where they must stand.
+// Three faces that lie across one another take three, two and one touches (ISO 5459, 3-2-1): the first gives
+// Z, the line on the second X and Y = 0, the point on the third X = 0. Where everything that is touched is
+// one ball, its centre is enough: how a ball is turned no touch can tell. Other parts need a jig or the
+// operator's own alignment, and the program says where they must stand.
 #pragma once
 
 #include <optional>
@@ -13,8 +15,8 @@
 namespace abbe::diagnose {
 
 struct Alignment {
-  std::string statements;   ///< DMIS: the touches and the coordinate system
-  Rigid X_DR;               ///< from the coordinates of the recording into that system
+  std::string statements;  ///< DMIS: the touches and the coordinate system
+  Rigid X_DR;              ///< from the coordinates of the recording into that system
 };
 
 /// For the new touches of a recording, of which all are in one placement.

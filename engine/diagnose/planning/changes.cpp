@@ -24,17 +24,23 @@ bool logged(const Case& c, Covariate what) { return (c.touches.known & static_ca
 /// Changes of the program alone.
 void add_motion(const Case& c, std::vector<Change>& list) {
   if (logged(c, Covariate::speed)) {
-    const double speed = median_of(c, [](const TouchScene& s) { return s.speed_mm_s; }), other = speed > 5 ? speed / 3 : 3 * speed;
-    list.push_back({.text = fmt::format("repeat with probing speed {:.3g} mm/s", other), .instruction = "",
+    const double speed = median_of(c, [](const TouchScene&s) { return s.speed_mm_s; }),
+                 other = speed > 5 ? speed / 3 : 3 * speed;
+    list.push_back({.text = fmt::format("repeat with probing speed {:.3g} mm/s", other),
+                    .instruction = "",
                     .apply = [=](RecordingRow& row, Machine&) { row.speed_mm_s = other; }});
   }
   if (logged(c, Covariate::acceleration)) {
     const double other = median_of(c, [](const TouchScene& s) { return s.acceleration_mm_s2; }) / 3;
-    list.push_back({.text = fmt::format("repeat with acceleration {:.3g} mm/s2", other), .instruction = "",
+    list.push_back({.text = fmt::format("repeat with acceleration {:.3g} mm/s2", other),
+                    .instruction = "",
                     .apply = [=](RecordingRow& row, Machine&) { row.accel_mm_s2 = other; }});
   }
   list.push_back({.text = "repeat the whole sequence once more", .instruction = "", .changes_touches = false});
-  list.push_back({.text = "repeat the whole sequence in reverse order", .instruction = "", .reversed = true, .changes_touches = false});
+  list.push_back({.text = "repeat the whole sequence in reverse order",
+                  .instruction = "",
+                  .reversed = true,
+                  .changes_touches = false});
 }
 
 /// A stylus system like that of the row but for `alter`, under a name of its own.
@@ -51,25 +57,42 @@ void mount(RecordingRow& row, Machine& machine, const std::string& suffix, Alter
 /// Other styli and orientations of the head; only of styli that the machine file describes.
 void add_styli(const Case& c, std::vector<Change>& list) {
   const std::vector<RecordingRow>& rows = c.recording->rows;
-  if (!std::all_of(rows.begin(), rows.end(), [&](const RecordingRow& r) { return r.sensor && c.machine->sensors.count(*r.sensor) > 0; })) return;
-  list.push_back({.text = "repeat with the stylus qualified anew", .instruction = "qualify the stylus anew, in all orientations", .minutes = 5,
+  if (!std::all_of(rows.begin(), rows.end(),
+                   [&](const RecordingRow& r) { return r.sensor && c.machine->sensors.count(*r.sensor) > 0; }))
+    return;
+  list.push_back({.text = "repeat with the stylus qualified anew",
+                  .instruction = "qualify the stylus anew, in all orientations",
+                  .minutes = 5,
                   .apply = [](RecordingRow& row, Machine&) { row.qualification = row.qualification.value_or(1) + 1; }});
-  const double length = median_of(c, [](const TouchScene& s) { return s.stylus.length_mm; }), other = length > 60 ? length / 3 : 2 * length;
-  list.push_back({.text = fmt::format("repeat with a stylus of {:.0f} mm", other), .instruction = fmt::format("mount a stylus of {:.0f} mm and qualify it", other),
-                  .minutes = 5, .apply = [=](RecordingRow& row, Machine& machine) {
-                    mount(row, machine, fmt::format("_L{:.0f}", other), [&](NamedSensor& s) { s.tip_in_r_mm = other / norm(s.tip_in_r_mm) * s.tip_in_r_mm; });
+  const double length = median_of(c, [](const TouchScene&s) { return s.stylus.length_mm; }),
+               other = length > 60 ? length / 3 : 2 * length;
+  list.push_back({.text = fmt::format("repeat with a stylus of {:.0f} mm", other),
+                  .instruction = fmt::format("mount a stylus of {:.0f} mm and qualify it", other),
+                  .minutes = 5,
+                  .apply = [=](RecordingRow& row, Machine& machine) {
+                    mount(row, machine, fmt::format("_L{:.0f}", other),
+                          [&](NamedSensor& s) { s.tip_in_r_mm = other / norm(s.tip_in_r_mm) * s.tip_in_r_mm; });
                   }});
-  const double ball = 2 * median_of(c, [](const TouchScene& s) { return s.stylus.radius_mm; }), other_ball = ball > 3 ? ball / 2 : 2 * ball;
-  list.push_back({.text = fmt::format("repeat with a stylus ball of {:.3g} mm", other_ball),
-                  .instruction = fmt::format("mount a stylus of the same length with a ball of {:.3g} mm and qualify it", other_ball),
-                  .minutes = 5, .apply = [=, centre = c.recording->point == RecordedPoint::tip_centre](RecordingRow& row, Machine& machine) {
-                    const double by = other_ball / 2 - machine.sensors.at(*row.sensor).radius_mm;
-                    mount(row, machine, fmt::format("_D{:.0f}", 1000 * other_ball), [&](NamedSensor& s) { s.radius_mm = other_ball / 2; });
-                    if (centre) *row.target_mm += by * *row.normal;   // the surface stays
-                  }});
-  if (!std::any_of(c.touches.touches.begin(), c.touches.touches.end(), [](const RecordedTouch& t) { return t.scene.stylus.indexed; })) return;
-  list.push_back({.text = "repeat with the head turned by B + 60 degrees", .instruction = "qualify the stylus in the new orientations",
-                  .minutes = 3, .apply = [](RecordingRow& row, Machine& machine) {
+  const double ball = 2 * median_of(c, [](const TouchScene&s) { return s.stylus.radius_mm; }),
+               other_ball = ball > 3 ? ball / 2 : 2 * ball;
+  list.push_back(
+      {.text = fmt::format("repeat with a stylus ball of {:.3g} mm", other_ball),
+       .instruction =
+           fmt::format("mount a stylus of the same length with a ball of {:.3g} mm and qualify it", other_ball),
+       .minutes = 5,
+       .apply = [=, centre = c.recording->point == RecordedPoint::tip_centre](RecordingRow& row, Machine& machine) {
+         const double by = other_ball / 2 - machine.sensors.at(*row.sensor).radius_mm;
+         mount(row, machine, fmt::format("_D{:.0f}", 1000 * other_ball),
+               [&](NamedSensor& s) { s.radius_mm = other_ball / 2; });
+         if (centre) *row.target_mm += by * *row.normal;  // the surface stays
+       }});
+  if (!std::any_of(c.touches.touches.begin(), c.touches.touches.end(),
+                   [](const RecordedTouch& t) { return t.scene.stylus.indexed; }))
+    return;
+  list.push_back({.text = "repeat with the head turned by B + 60 degrees",
+                  .instruction = "qualify the stylus in the new orientations",
+                  .minutes = 3,
+                  .apply = [](RecordingRow& row, Machine& machine) {
                     mount(row, machine, "_B60", [&](NamedSensor& s) {
                       if (row.head_b_deg) s.head_b_rad = *row.head_b_deg * kPi / 180;
                       s.head_b_rad = std::remainder(s.head_b_rad + kPi / 3, 2 * kPi);
@@ -89,7 +112,8 @@ Rigid moved(const Case& c, const Mat3& R, const Vec3& by) {
 /// How far the touches can be raised (positive) or lowered, mm: 200 at most, and whichever there is more room for.
 double room_above_or_below(const Case& c) {
   double low = 1e9, high = -1e9;
-  for (const RecordedTouch& t : c.touches.touches) low = std::min(low, t.scene.reading.z), high = std::max(high, t.scene.reading.z);
+  for (const RecordedTouch& t : c.touches.touches)
+    low = std::min(low, t.scene.reading.z), high = std::max(high, t.scene.reading.z);
   const MachineAxis& z = (*c.machine)[Axis::z];
   const double end = z.direction * z.travel_mm, above = std::max(0.0, end) - high, below = low - std::min(0.0, end);
   constexpr double kMargin_mm = 10, kFar_mm = 200;
@@ -98,11 +122,17 @@ double room_above_or_below(const Case& c) {
 }
 
 void add_placements(const Case& c, std::vector<Change>& list) {
-  list.push_back({.text = "repeat with the part clamped anew", .instruction = "release the part and clamp it again in the same place", .minutes = 5, .new_setup = true});
-  if (c.recording->in_part_frame) return;   // where the part stood was not recorded
+  list.push_back({.text = "repeat with the part clamped anew",
+                  .instruction = "release the part and clamp it again in the same place",
+                  .minutes = 5,
+                  .new_setup = true});
+  if (c.recording->in_part_frame) return;  // where the part stood was not recorded
   const auto turned = [&](const std::string& how, const Vec3& axis, double angle_rad) {
-    list.push_back({.text = "repeat with the part " + how, .instruction = "place the part " + how + " and align it again", .minutes = 10,
-                    .move = moved(c, rotation(axis, angle_rad), {}), .new_setup = true});
+    list.push_back({.text = "repeat with the part " + how,
+                    .instruction = "place the part " + how + " and align it again",
+                    .minutes = 10,
+                    .move = moved(c, rotation(axis, angle_rad), {}),
+                    .new_setup = true});
   };
   turned("turned by 90 degrees about the vertical", {0, 0, 1}, kPi / 2);
   turned("turned by 180 degrees about the vertical", {0, 0, 1}, kPi);
@@ -112,19 +142,29 @@ void add_placements(const Case& c, std::vector<Change>& list) {
   constexpr double kWorthIt_mm = 50;
   if (std::abs(height) < kWorthIt_mm) return;
   const std::string how = fmt::format("{} by {:.0f} mm", height > 0 ? "raised" : "lowered", std::abs(height));
-  list.push_back({.text = "repeat with the part " + how, .instruction = "place the part " + how + " and align it again", .minutes = 10,
-                  .move = moved(c, Mat3{}, {0, 0, height}), .new_setup = true});
+  list.push_back({.text = "repeat with the part " + how,
+                  .instruction = "place the part " + how + " and align it again",
+                  .minutes = 10,
+                  .move = moved(c, Mat3{}, {0, 0, height}),
+                  .new_setup = true});
 }
 
 void add_conditions(const Case& c, std::vector<Change>& list) {
   if (logged(c, Covariate::part_temperature) || logged(c, Covariate::scale_temperature))
-    list.push_back({.text = "repeat with part and scales at a temperature 2 K higher", .instruction = "let part, machine and room settle 2 K higher; log the temperatures",
-                    .minutes = 240, .apply = [](RecordingRow& row, Machine&) {
-                      for (std::optional<double>* t : {&row.temp_part_C, &row.temp_x_C, &row.temp_y_C, &row.temp_z_C, &row.temp_air_C})
-                        if (*t) **t += 2;
-                    }, .new_setup = true});   // in hours a part does not stay put to micrometres
+    list.push_back({.text = "repeat with part and scales at a temperature 2 K higher",
+                    .instruction = "let part, machine and room settle 2 K higher; log the temperatures",
+                    .minutes = 240,
+                    .apply =
+                        [](RecordingRow& row, Machine&) {
+                          for (std::optional<double>* t :
+                               {&row.temp_part_C, &row.temp_x_C, &row.temp_y_C, &row.temp_z_C, &row.temp_air_C})
+                            if (*t) **t += 2;
+                        },
+                    .new_setup = true});  // in hours a part does not stay put to micrometres
   if (logged(c, Covariate::load))
-    list.push_back({.text = "repeat with 200 kg more on the table", .instruction = "put 200 kg beside the part", .minutes = 15,
+    list.push_back({.text = "repeat with 200 kg more on the table",
+                    .instruction = "put 200 kg beside the part",
+                    .minutes = 15,
                     .apply = [](RecordingRow& row, Machine&) { *row.load_kg += 200; }});
 }
 

@@ -1,10 +1,12 @@
-// What a recording can tell, from its plan alone: the smallest size of each effect that would be detected, and the smallest that would be
-// named (minimal detectable and minimal identifiable bias: Baarda 1968; Zaminpardaz & Teunissen 2024).
+// What a recording can tell, from its plan alone: the smallest size of each effect that would be detected,
+// and the smallest that would be named (minimal detectable and minimal identifiable bias: Baarda 1968;
+// Zaminpardaz & Teunissen 2024).
 //
-// An effect has forms: its variants (which axis, which moment) and in each its columns. Each in turn counts as what is there, at a
-// signal-to-noise s, and goes through the evidence of all explanations as a recording does: with the complexity that a rival pays for, so
-// that a simple effect is named although a richer one could imitate it. What is told is the median form: half of them are seen, or named,
-// from that size on, with a power of 80 %; "never" where the median form is not named at any size.
+// An effect has forms: its variants (which axis, which moment) and in each its columns. Each in turn counts
+// as what is there, at a signal-to-noise s, and goes through the evidence of all explanations as a recording
+// does: with the complexity that a rival pays for, so that a simple effect is named although a richer one
+// could imitate it. What is told is the median form: half of them are seen, or named, from that size on, with
+// a power of 80 %; "never" where the median form is not named at any size.
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -34,10 +36,10 @@ struct Form {
 /// What a block makes of a shift: all that its evidence needs.
 struct Judged {
   Matrix axes;
-  Vector information;                  ///< along them
+  Vector information;  ///< along them
   std::vector<Size> sizes;
-  Eigen::Index first = 0;              ///< of its columns among those of all blocks
-  std::vector<double> log_belief;      ///< by size: before the shift, with the determinant
+  Eigen::Index first = 0;          ///< of its columns among those of all blocks
+  std::vector<double> log_belief;  ///< by size: before the shift, with the determinant
 };
 
 class Design {
@@ -46,10 +48,15 @@ class Design {
     for (int b = 0; b < static_cast<int>(all_.blocks.size()); ++b) {
       const Matrix g = search.between(b, b);
       const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
-      Judged judged{solver.eigenvectors(), solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)), search.sizes(b), search.first_column(b), {}};
+      Judged judged{solver.eigenvectors(),
+                    solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)),
+                    search.sizes(b),
+                    search.first_column(b),
+                    {}};
       const double log_weight = std::log(std::max(all_.blocks[static_cast<std::size_t>(b)].weight, 1e-300));
       for (const Size& size : judged.sizes)
-        judged.log_belief.push_back(log_weight + size.log_prior - 0.5 * (1 + size.factor * size.factor * judged.information.array()).log().sum());
+        judged.log_belief.push_back(log_weight + size.log_prior -
+                                    0.5 * (1 + size.factor * size.factor * judged.information.array()).log().sum());
       blocks_.push_back(std::move(judged));
       diagonal_.push_back(g.diagonal());
     }
@@ -66,13 +73,20 @@ class Design {
     const Matrix seen = search_.against_all(columns);
     for (std::size_t i = 0; i < forms.size(); ++i) {
       Form& f = forms[i];
-      const Shift shift = shift_of(seen.col(static_cast<Eigen::Index>(i)) / std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column)));
+      const Shift shift = shift_of(seen.col(static_cast<Eigen::Index>(i)) /
+                                   std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column)));
       f.named = named_from(k, shift);
       const std::vector<double> at = beliefs(k, shift, 2 * kDetects);
       for (std::size_t j = 0; j < at.size(); ++j) belief[j] += at[j] / double(forms.size());
     }
-    Detectable d{.effect = e.name, .parameter = std::string(parameter.name), .unit = std::string(parameter.unit), .name = {}, .name_um = {}, .confounded_with = {}};
-    const Form detected = median_form(forms, [](const Form& f) { return f.um_per_snr; }), named = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
+    Detectable d{.effect = e.name,
+                 .parameter = std::string(parameter.name),
+                 .unit = std::string(parameter.unit),
+                 .name = {},
+                 .name_um = {},
+                 .confounded_with = {}};
+    const Form detected = median_form(forms, [](const Form&f) { return f.um_per_snr; }),
+               named = median_form(forms, [](const Form&f) { return f.um_per_snr * f.named; });
     d.detect = kDetects * detected.per_snr, d.detect_um = kDetects * detected.um_per_snr;
     if (std::isfinite(named.named)) d.name = named.named * named.per_snr, d.name_um = named.named * named.um_per_snr;
     d.confounded_with = likeliest(belief, k);
@@ -83,7 +97,7 @@ class Design {
   /// What all blocks see of a form, at a signal-to-noise of 1.
   struct Shift {
     std::vector<std::vector<double>> gain;  ///< by block and size: nats
-    std::vector<double> left;          ///< by explanation: the share of the information that it cannot imitate
+    std::vector<double> left;               ///< by explanation: the share of the information that it cannot imitate
   };
 
   static bool counts(const Explanation& e) { return !e.blocks.empty(); }
@@ -91,7 +105,8 @@ class Design {
   /// The size that is told: of the column that shows most.
   int parameter_of(const Explanation& e) const {
     const auto most = [&](int b) { return diagonal_[static_cast<std::size_t>(b)].maxCoeff(); };
-    const int strongest = *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return most(a) < most(b); });
+    const int strongest =
+        *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return most(a) < most(b); });
     const Block& block = all_.blocks[static_cast<std::size_t>(strongest)];
     Eigen::Index column = 0;
     diagonal_[static_cast<std::size_t>(strongest)].maxCoeff(&column);
@@ -101,13 +116,16 @@ class Design {
     return linear == p.end() ? 0 : static_cast<int>(linear - p.begin());
   }
 
-  /// Some of its variants, from the one that shows most to the one that shows least, with the columns of the size that is told.
+  /// Some of its variants, from the one that shows most to the one that shows least, with the columns of the
+  /// size that is told.
   std::vector<Form> forms_of(const Explanation& e) const {
     constexpr std::size_t kVariants = 7;
     std::vector<int> blocks;
     for (const int b : e.blocks)
       if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12) blocks.push_back(b);
-    std::stable_sort(blocks.begin(), blocks.end(), [&](int a, int b) { return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff(); });
+    std::stable_sort(blocks.begin(), blocks.end(), [&](int a, int b) {
+      return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff();
+    });
     const std::size_t n = blocks.size(), m = std::min(n, kVariants);
     std::vector<Form> out;
     if (blocks.empty()) return out;
@@ -119,8 +137,10 @@ class Design {
         const double information = diagonal_[static_cast<std::size_t>(b)](j);
         const int p = block.joined ? told : block.columns[static_cast<std::size_t>(j)].parameter;
         if (information <= 1e-12 || (p >= 0 && p != told)) continue;
-        const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical : block.columns[static_cast<std::size_t>(j)].unit;
-        const Form f{b, j, unit / std::sqrt(information), block.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
+        const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical
+                                         : block.columns[static_cast<std::size_t>(j)].unit;
+        const Form f{b, j, unit / std::sqrt(information),
+                     block.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
         if (kDetects * f.um_per_snr <= kNothing_um) out.push_back(f);
       }
     }
@@ -153,12 +173,14 @@ class Design {
     std::vector<double> terms;
     for (const int index : all_.list[k].blocks) {
       const auto b = static_cast<std::size_t>(index);
-      for (std::size_t i = 0; i < blocks_[b].sizes.size(); ++i) terms.push_back(blocks_[b].log_belief[i] + snr * snr * shift.gain[b][i]);
+      for (std::size_t i = 0; i < blocks_[b].sizes.size(); ++i)
+        terms.push_back(blocks_[b].log_belief[i] + snr * snr * shift.gain[b][i]);
     }
     return std::log(all_.list[k].prior) + log_sum_exp(terms);
   }
 
-  /// Whether the set of names would be this one alone, and it be preferred to patterns without a name, with a power of 80 %.
+  /// Whether the set of names would be this one alone, and it be preferred to patterns without a name, with a
+  /// power of 80 %.
   bool named(std::size_t truth, const Shift& shift, double snr) const {
     constexpr double kPower = 0.84;
     const double own = log_belief(truth, shift, snr), over_patterns = std::log(3.0);
@@ -166,14 +188,16 @@ class Design {
     for (std::size_t j = 0; j < all_.list.size(); ++j) {
       if (j == truth || !counts(all_.list[j])) continue;
       const double odds = own - log_belief(j, shift, snr) - kPower * snr * std::sqrt(shift.left[j]);
-      if (all_.list[j].effect) against += std::exp(-odds);
-      else if (odds < over_patterns) return false;
+      if (all_.list[j].effect)
+        against += std::exp(-odds);
+      else if (odds < over_patterns)
+        return false;
     }
     return 1 / (1 + against) >= kCredible;
   }
 
   double named_from(std::size_t truth, const Shift& shift) const {
-    constexpr double kMost = 100;      // what is larger is not told by evidence but seen by eye
+    constexpr double kMost = 100;  // what is larger is not told by evidence but seen by eye
     constexpr int kHalvings = 7;
     if (!named(truth, shift, kMost)) return kNever;
     double low = kDetects, high = kMost;
@@ -191,7 +215,8 @@ class Design {
     std::vector<double> out(all_.list.size(), 0.0);
     double sum = 0;
     for (std::size_t j = 0; j < out.size(); ++j)
-      if (all_.list[j].effect && counts(all_.list[j])) sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr) - own));
+      if (all_.list[j].effect && counts(all_.list[j]))
+        sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr) - own));
     for (double& b : out) b /= sum;
     return out;
   }
@@ -218,7 +243,7 @@ class Design {
   const Explanations& all_;
   const EvidenceSearch& search_;
   std::vector<Judged> blocks_;
-  std::vector<Vector> diagonal_;       ///< by block: the information on each column
+  std::vector<Vector> diagonal_;  ///< by block: the information on each column
 };
 
 /// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).

@@ -1,8 +1,8 @@
 #include "engine/diagnose/planning/next_measurement.hpp"
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cctype>
@@ -24,9 +24,11 @@ constexpr std::size_t kShown = 3, kMostRivals = 8, kPaired = 6;
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
 constexpr double kDecides = 0.95;
-/// What it must be above guessing, or the measurement is no proposal; and what a pair of changes must add, or one of them is enough.
+/// What it must be above guessing, or the measurement is no proposal; and what a pair of changes must add, or
+/// one of them is enough.
 constexpr double kAboveChance = 0.05;
-/// The share of what can be gained over guessing below which the answer says beside it what would tell more: of two, a probability of 0.6.
+/// The share of what can be gained over guessing below which the answer says beside it what would tell more:
+/// of two, a probability of 0.6.
 constexpr double kWorthARound = 0.2;
 /// Expected probabilities are no more exact than this.
 constexpr double kAlike = 0.01;
@@ -35,12 +37,13 @@ constexpr double kPlanned = 6;
 
 /// What a measurement is to decide.
 struct Question {
-  std::vector<int> rivals;                 ///< explanations
-  std::vector<Finding> beside;             ///< effects that are there whichever of them it is
+  std::vector<int> rivals;      ///< explanations
+  std::vector<Finding> beside;  ///< effects that are there whichever of them it is
 };
 
-/// What a plan leaves open: effects that look alike, each with those that it looks like. First those of which most is to be expected, counted as the
-/// effects of typical size that would be seen; each effect is asked of once.
+/// What a plan leaves open: effects that look alike, each with those that it looks like. First those of which
+/// most is to be expected, counted as the effects of typical size that would be seen; each effect is asked of
+/// once.
 std::vector<Question> questions_of(const Case& c, const std::vector<Detectable>& detectable) {
   const auto index = [&](const std::string& name) {
     for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
@@ -48,10 +51,12 @@ std::vector<Question> questions_of(const Case& c, const std::vector<Detectable>&
     return -1;
   };
   const auto expected = [&](const std::string& name) {
-    const auto d = std::find_if(detectable.begin(), detectable.end(), [&](const Detectable& x) { return x.effect == name; });
+    const auto d =
+        std::find_if(detectable.begin(), detectable.end(), [&](const Detectable& x) { return x.effect == name; });
     if (d == detectable.end()) return 0.0;
     const auto& parameters = c.explanations.list[static_cast<std::size_t>(index(name))].effect->parameters;
-    const auto p = std::find_if(parameters.begin(), parameters.end(), [&](const EffectParameter& x) { return x.name == d->parameter; });
+    const auto p = std::find_if(parameters.begin(), parameters.end(),
+                                [&](const EffectParameter& x) { return x.name == d->parameter; });
     return std::min(1.0, p->typical / d->detect);
   };
   std::vector<std::pair<double, std::vector<std::string>>> open;
@@ -80,7 +85,8 @@ Question question_of(const SearchResult& result) {
   for (std::size_t i = 0; i < result.findings.size(); ++i) {
     const Finding& f = result.findings[i];
     if (f.set.size() < 2) continue;
-    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))}, result.findings};
+    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))},
+               result.findings};
     q.beside.erase(q.beside.begin() + static_cast<std::ptrdiff_t>(i));
     return q;
   }
@@ -91,11 +97,12 @@ using Seen = Precision::Seen;
 
 /// The variants of one rival, and what it would be as the truth.
 struct Contender {
-  std::vector<Seen> first, both;           ///< by variant: columns on the first recording, and on both
-  Seen shift_first, shift_both;            ///< as the truth
+  std::vector<Seen> first, both;  ///< by variant: columns on the first recording, and on both
+  Seen shift_first, shift_both;   ///< as the truth
 };
 
-/// As the truth: the variant that explains the first recording best, of the size that it takes there; of a plan, the one that shows best.
+/// As the truth: the variant that explains the first recording best, of the size that it takes there; of a
+/// plan, the one that shows best.
 void suppose(const Seen& y, Contender& c) {
   const bool planned = y.rows.squaredNorm() == 0;
   double most = -std::numeric_limits<double>::infinity();
@@ -117,7 +124,8 @@ void suppose(const Seen& y, Contender& c) {
       const Matrix posterior = g + Matrix::Identity(g.rows(), g.cols()) / s2;
       const Eigen::LLT<Matrix> llt(posterior);
       const Vector theta = llt.solve(u);
-      const double log_bayes = size.log_prior + 0.5 * u.dot(theta) - 0.5 * double(g.rows()) * std::log(s2) - Matrix(llt.matrixL()).diagonal().array().log().sum();
+      const double log_bayes = size.log_prior + 0.5 * u.dot(theta) - 0.5 * double(g.rows()) * std::log(s2) -
+          Matrix(llt.matrixL()).diagonal().array().log().sum();
       if (log_bayes <= most) continue;
       most = log_bayes;
       c.shift_first = w * theta, c.shift_both = c.both[k] * theta;
@@ -126,17 +134,20 @@ void suppose(const Seen& y, Contender& c) {
 }
 
 /// The effects beside a question, as both recordings see them.
-std::vector<Matrix> signatures_beside(const Case& c, const Question& question, const Longer& longer, const std::vector<int>& rows) {
+std::vector<Matrix> signatures_beside(const Case& c, const Question& question, const Longer& longer,
+                                      const std::vector<int>& rows) {
   std::vector<Matrix> out;
   for (const Finding& f : question.beside) {
     const Block& found = c.explanations.blocks[static_cast<std::size_t>(f.block)];
-    Block seen = variant_at(*c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, found.theta, found.change, longer.touches, rows);
+    Block seen = variant_at(*c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, found.theta,
+                            found.change, longer.touches, rows);
     if (seen.signature.cols() > 0) out.push_back(std::move(seen.signature));
   }
   return out;
 }
 
-std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const Question& question, const Longer& longer, const Precision& first) {
+std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitted, const Question& question,
+                                     const Longer& longer, const Precision& first) {
   std::vector<char> masked(longer.touches.touches.size(), 0);
   std::copy(c.masked.begin(), c.masked.end(), masked.begin());
   std::vector<int> rows;
@@ -151,7 +162,8 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
   const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), hyper);
   std::vector<Contender> out;
   for (const int rival : question.rivals) {
-    const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
+    const Explanations own =
+        named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
     Contender contender;
     for (const Block& b : own.blocks) {
       contender.first.push_back(first.seen(b.signature.topRows(static_cast<Eigen::Index>(c.rows.size()))));
@@ -170,7 +182,8 @@ Vector left_of(const Seen& truths, const std::vector<Seen>& variants) {
   Vector left = squares;
   for (const Seen& w : variants) {
     const Matrix g = inner(w, w), cross = inner(w, truths);
-    const Matrix fit = Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross);
+    const Matrix fit =
+        Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross);
     left = left.cwiseMin(squares - cross.cwiseProduct(fit).colwise().sum().transpose());
   }
   return left.cwiseMax(0);
@@ -190,12 +203,14 @@ Seen side_by_side(const std::vector<Contender>& list, Seen Contender::*column) {
 /// The probability that the truth would have, on average over the rivals as truth.
 double expected_probability(const std::vector<Contender>& list) {
   // Gauss-Hermite nodes and weights of a standard normal (Abramowitz & Stegun 25.10).
-  constexpr double kNodes[] = {-2.8569700, -1.3556262, 0, 1.3556262, 2.8569700}, kWeights[] = {0.0112574, 0.2220759, 0.5333333, 0.2220759, 0.0112574};
+  constexpr double kNodes[] = {-2.8569700, -1.3556262, 0, 1.3556262, 2.8569700},
+                   kWeights[] = {0.0112574, 0.2220759, 0.5333333, 0.2220759, 0.0112574};
   if (list.empty()) return 0;
   const Seen first = side_by_side(list, &Contender::shift_first), both = side_by_side(list, &Contender::shift_both);
-  Matrix gain(list.size(), list.size());   // by truth and rival: what the second recording adds
+  Matrix gain(list.size(), list.size());  // by truth and rival: what the second recording adds
   for (std::size_t rival = 0; rival < list.size(); ++rival)
-    gain.col(static_cast<Eigen::Index>(rival)) = (left_of(both, list[rival].both) - left_of(first, list[rival].first)).cwiseMax(0);
+    gain.col(static_cast<Eigen::Index>(rival)) =
+        (left_of(both, list[rival].both) - left_of(first, list[rival].first)).cwiseMax(0);
   double expected = 0;
   for (Eigen::Index truth = 0; truth < gain.rows(); ++truth) {
     for (int i = 0; i < 5; ++i) {
@@ -211,17 +226,24 @@ double expected_probability(const std::vector<Contender>& list) {
 /// Both changes at once.
 Change joined(const Change& a, const Change& b) {
   constexpr std::string_view kRepeat = "repeat ";
-  const auto both = [](const std::string& x, const std::string& y, std::string_view between) { return x.empty() || y.empty() ? x + y : x + std::string(between) + y; };
-  return {.text = a.text + " and " + b.text.substr(kRepeat.size()), .instruction = both(a.instruction, b.instruction, "; "),
+  const auto both = [](const std::string& x, const std::string& y, std::string_view between) {
+    return x.empty() || y.empty() ? x + y : x + std::string(between) + y;
+  };
+  return {.text = a.text + " and " + b.text.substr(kRepeat.size()),
+          .instruction = both(a.instruction, b.instruction, "; "),
           .minutes = a.minutes + b.minutes,
           .apply = [a, b](RecordingRow& row, Machine& machine) { a.apply(row, machine), b.apply(row, machine); },
-          .move = a.move && b.move ? *b.move * *a.move : a.move ? a.move : b.move, .new_setup = a.new_setup || b.new_setup, .reversed = a.reversed || b.reversed};
+          .move = a.move && b.move ? *b.move * *a.move
+              : a.move             ? a.move
+                                   : b.move,
+          .new_setup = a.new_setup || b.new_setup,
+          .reversed = a.reversed || b.reversed};
 }
 
 struct Scored {
   NextMeasurement measurement;
-  double gain = 0;                         ///< in probability
-  double worth = 0;                        ///< the same, per minute
+  double gain = 0;   ///< in probability
+  double worth = 0;  ///< the same, per minute
   Change change;
   Longer longer;
 };
@@ -230,7 +252,10 @@ struct Scored {
 class Judge {
  public:
   Judge(const Case& c, const Hyperparameters& hyper, const Question& question)
-      : case_(c), hyper_(hyper), question_(question), first_(with_free(likelier_ensemble(c, c.model), signatures_of(c, question.beside)), hyper) {}
+      : case_(c),
+        hyper_(hyper),
+        question_(question),
+        first_(with_free(likelier_ensemble(c, c.model), signatures_of(c, question.beside)), hyper) {}
 
   void add(const std::vector<Change>& changes) {
     list_ = scored(changes);
@@ -239,7 +264,8 @@ class Judge {
   }
   const std::vector<Scored>& list() const { return list_; }
 
-  /// Where one change does not decide: two of those that say most by themselves, if the two say more than the better one.
+  /// Where one change does not decide: two of those that say most by themselves, if the two say more than the
+  /// better one.
   void add_pairs() {
     std::vector<Scored> singles = list_;
     std::erase_if(singles, [&](const Scored& s) { return !s.change.changes_touches || s.gain < kAboveChance / 2; });
@@ -248,10 +274,13 @@ class Judge {
     std::vector<Change> pairs;
     std::vector<double> better;
     for (std::size_t b = 1; b < singles.size(); ++b)
-      for (std::size_t a = 0; a < b; ++a) pairs.push_back(joined(singles[a].change, singles[b].change)), better.push_back(singles[a].gain);
+      for (std::size_t a = 0; a < b; ++a)
+        pairs.push_back(joined(singles[a].change, singles[b].change)), better.push_back(singles[a].gain);
     std::vector<Scored> kept;
     for (Scored& s : scored(pairs)) {
-      const auto k = static_cast<std::size_t>(std::find_if(pairs.begin(), pairs.end(), [&](const Change& c) { return c.text == s.change.text; }) - pairs.begin());
+      const auto k = static_cast<std::size_t>(
+          std::find_if(pairs.begin(), pairs.end(), [&](const Change& c) { return c.text == s.change.text; }) -
+          pairs.begin());
       if (s.gain > better[k] + kAboveChance) kept.push_back(std::move(s));
     }
     std::move(kept.begin(), kept.end(), std::back_inserter(list_));
@@ -259,7 +288,8 @@ class Judge {
   }
 
  private:
-  /// A change that tells no more than the same touches once more has no part in it: what tells is that they are measured twice.
+  /// A change that tells no more than the same touches once more has no part in it: what tells is that they
+  /// are measured twice.
   void leave_out_no_better_than_a_repeat() {
     const auto plain = [](const Scored& s) { return !s.change.changes_touches && !s.change.reversed; };
     const auto repeat = std::find_if(list_.begin(), list_.end(), plain);
@@ -270,14 +300,16 @@ class Judge {
 
   std::vector<Scored> scored(const std::vector<Change>& changes) const {
     std::vector<std::optional<Scored>> each(changes.size());
-    on_threads(static_cast<int>(changes.size()), case_.options.threads, [&](int k) { each[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
+    on_threads(static_cast<int>(changes.size()), case_.options.threads,
+               [&](int k) { each[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
     std::vector<Scored> out;
     for (std::optional<Scored>& s : each)
       if (s) out.push_back(std::move(*s));
     return out;
   }
 
-  /// By gain per minute; first those that gain at least half of what can be gained: a cheap measurement that decides nothing is only a round more.
+  /// By gain per minute; first those that gain at least half of what can be gained: a cheap measurement that
+  /// decides nothing is only a round more.
   void rank() {
     double most = 0;
     for (const Scored& s : list_) most = std::max(most, s.gain);
@@ -292,12 +324,15 @@ class Judge {
     if (!whole || !some) return std::nullopt;
     NextMeasurement m;
     m.change = change.text;
-    m.instruction = change.instruction.empty() ? recording_sentence(*whole) : change.instruction + ". " + recording_sentence(*whole);
+    m.instruction = change.instruction.empty() ? recording_sentence(*whole)
+                                               : change.instruction + ". " + recording_sentence(*whole);
     m.instruction[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(m.instruction[0])));
-    for (const int k : question_.rivals) m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
+    for (const int k : question_.rivals)
+      m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
     m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *some, first_));
     m.minutes = change.minutes + minutes_of(*whole);
-    const double gain = m.expected_probability - 1 / double(question_.rivals.size()), worth = gain / (kRound_min + m.minutes);
+    const double gain = m.expected_probability - 1 / double(question_.rivals.size()),
+                 worth = gain / (kRound_min + m.minutes);
     return Scored{std::move(m), gain, worth, change, std::move(*whole)};
   }
 
@@ -305,29 +340,38 @@ class Judge {
   const Hyperparameters& hyper_;
   const Question& question_;
   Precision first_;
-  std::vector<Scored> list_;               ///< the best first
+  std::vector<Scored> list_;  ///< the best first
 };
 
 /// What makes a pattern without a name is narrowed down by changing what it may belong to.
 std::string to_follow_a_pattern(Factor factor) {
   switch (factor) {
-    case Factor::time: return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
-    case Factor::position: return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
-    case Factor::direction: return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
-    case Factor::head: return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
-    case Factor::sensor: return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
+    case Factor::time:
+      return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
+    case Factor::position:
+      return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
+    case Factor::direction:
+      return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
+    case Factor::head:
+      return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
+    case Factor::sensor:
+      return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
     case Factor::setup:
-    case Factor::feature: return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
-    case Factor::run: return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
-    case Factor::temperature: return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
-    case Factor::speed: return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
+    case Factor::feature:
+      return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
+    case Factor::run:
+      return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
+    case Factor::temperature:
+      return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
+    case Factor::speed:
+      return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
   }
   return "";
 }
 
 /// What must be logged, and vary, before the names that were found can be judged.
 std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
-  std::map<unsigned, std::vector<std::string>> names;   // by what they miss
+  std::map<unsigned, std::vector<std::string>> names;  // by what they miss
   for (const Finding& f : result.findings) {
     for (const int k : f.set) {
       const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
@@ -337,7 +381,9 @@ std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
   std::vector<std::string> out;
   for (const auto& [missing, list] : names) {
     const std::vector<std::string> columns = columns_of(missing);
-    if (!columns.empty()) out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "), fmt::join(list, " or ")));
+    if (!columns.empty())
+      out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "),
+                                fmt::join(list, " or ")));
   }
   return out;
 }
@@ -348,14 +394,17 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
   unsigned missing = 0;
   for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
   const std::vector<std::string> columns = columns_of(missing);
-  if (columns.empty()) return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
-  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.", fmt::join(columns, ", "));
+  if (columns.empty())
+    return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
+  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.",
+                     fmt::join(columns, ", "));
 }
 
 /// What would show whether a name that stands alone is right, where it is not told for certain.
 std::string to_check_a_name(const Case& c, const SearchResult& result) {
   for (const Finding& f : result.findings)
-    if (f.set.size() == 1 && f.probability < kTold) return to_follow_a_pattern(shown_in(c, c.explanations.list[static_cast<std::size_t>(f.explanation)]));
+    if (f.set.size() == 1 && f.probability < kTold)
+      return to_follow_a_pattern(shown_in(c, c.explanations.list[static_cast<std::size_t>(f.explanation)]));
   return "";
 }
 
@@ -370,12 +419,15 @@ bool worth_a_round(const std::vector<NextMeasurement>& next) {
 /// What to do beside a measurement of the menu, or where there is none that is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
   if (worth_a_round(next)) return to_follow_what_is_left(c, result);
-  if (result.other) return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
+  if (result.other)
+    return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
   if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
   const std::vector<int> rivals = question_of(result).rivals;
-  if (rivals.size() >= 2) sentences.emplace_back("No other run of these touches would tell them apart much better than guessing. What would:");
+  if (rivals.size() >= 2)
+    sentences.emplace_back(
+        "No other run of these touches would tell them apart much better than guessing. What would:");
   for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
     const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
     sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
@@ -391,7 +443,8 @@ std::string to_know_sizes(const Case& c, const SearchResult& result) {
 }
 
 /// The best changes for a question, the first as a program.
-std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& hyper, const Question& question, std::size_t most) {
+std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& hyper, const Question& question,
+                                          std::size_t most) {
   if (question.rivals.size() < 2) return {};
   Judge judge(c, hyper, question);
   judge.add(changes_for(c));
@@ -408,12 +461,13 @@ std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& 
 
 }  // namespace
 
-std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result, const std::vector<Detectable>& detectable) {
+std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result,
+                                               const std::vector<Detectable>& detectable) {
   if (result) return best_changes(c, result->hyper, question_of(*result), kShown);
   std::vector<NextMeasurement> out;
   for (const Question& question : questions_of(c, detectable))
     for (NextMeasurement& best : best_changes(c, c.hyper, question, 1)) {
-      if (!out.empty()) best.program.clear();   // one program at a time: the first
+      if (!out.empty()) best.program.clear();  // one program at a time: the first
       out.push_back(std::move(best));
     }
   return out;

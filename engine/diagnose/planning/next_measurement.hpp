@@ -1,14 +1,17 @@
 // Which measurement would decide between explanations that a recording cannot tell apart.
 //
-// A change of the menu makes a second recording out of the first one: its rows, repeated another way (other speed, other stylus, part turned, ...). Both
-// together go through the same steps as any recording: scenes, baseline with the same unknowns, signatures. So what is proposed can be
-// recorded, and it is judged with what will be unknown then (sizes nobody calibrated, placements, qualifications of new styli).
+// A change of the menu makes a second recording out of the first one: its rows, repeated another way (other
+// speed, other stylus, part turned, ...). Both together go through the same steps as any recording: scenes,
+// baseline with the same unknowns, signatures. So what is proposed can be recorded, and it is judged with
+// what will be unknown then (sizes nobody calibrated, placements, qualifications of new styli).
 //
-// Each rival in turn counts as the truth, of the size that the first recording gives it. With W the columns of another rival, whitened by the
-// baseline, the truth's shift s leaves delta = min |s - W b|^2 that the other cannot imitate, over its variants. What the second recording adds,
-// D = delta(both) - delta(first), makes the log odds of the truth normal with mean D / 2 and variance D. The expected probability of the truth
-// follows, averaged over the rivals as truth: what a recording cannot tell apart counts as equally likely (Atkinson & Fedorov, Biometrika 62, 1975).
-// Where no single change decides, the best one is tried together with each of the others. Ranked by gain per minute, a round of an hour included.
+// Each rival in turn counts as the truth, of the size that the first recording gives it. With W the columns
+// of another rival, whitened by the baseline, the truth's shift s leaves delta = min |s - W b|^2 that the
+// other cannot imitate, over its variants. What the second recording adds, D = delta(both) - delta(first),
+// makes the log odds of the truth normal with mean D / 2 and variance D. The expected probability of the
+// truth follows, averaged over the rivals as truth: what a recording cannot tell apart counts as equally
+// likely (Atkinson & Fedorov, Biometrika 62, 1975). Where no single change decides, the best one is tried
+// together with each of the others. Ranked by gain per minute, a round of an hour included.
 #pragma once
 
 #include <functional>
@@ -20,15 +23,15 @@ namespace abbe::diagnose {
 
 /// One change to how touches are made.
 struct Change {
-  std::string text;                 ///< "repeat with probing speed 3 mm/s"
-  std::string instruction;          ///< for the operator, or empty when the program does it all
-  double minutes = 0;               ///< beyond the measuring itself
+  std::string text;         ///< "repeat with probing speed 3 mm/s"
+  std::string instruction;  ///< for the operator, or empty when the program does it all
+  double minutes = 0;       ///< beyond the measuring itself
   /// What becomes of a row; a stylus that is new joins the sensors of the machine.
   std::function<void(RecordingRow&, Machine&)> apply = [](RecordingRow&, Machine&) {};
-  std::optional<Rigid> move{};      ///< of the part, in the coordinates of the recording
-  bool new_setup = false;           ///< the part is placed anew, or does not stay put to micrometres
-  bool reversed = false;            ///< the sequence runs from its end to its beginning
-  bool changes_touches = true;      ///< not only their order and time
+  std::optional<Rigid> move{};  ///< of the part, in the coordinates of the recording
+  bool new_setup = false;       ///< the part is placed anew, or does not stay put to micrometres
+  bool reversed = false;        ///< the sequence runs from its end to its beginning
+  bool changes_touches = true;  ///< not only their order and time
 };
 
 /// The changes that a recording like this one can hold.
@@ -37,9 +40,9 @@ std::vector<Change> changes_for(const Case&);
 /// A recording and its repetition under a change, as a diagnosis of both would see them.
 struct Longer {
   Recording recording;
-  Machine machine;                  ///< with the styli that the change needs
-  RecordedTouches touches;          ///< those of the recording first
-  std::size_t first = 0;            ///< how many of them are of the recording
+  Machine machine;          ///< with the styli that the change needs
+  RecordedTouches touches;  ///< those of the recording first
+  std::size_t first = 0;    ///< how many of them are of the recording
 };
 
 /// What is judged of a long recording: an even selection of its touches.

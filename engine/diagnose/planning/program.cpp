@@ -1,6 +1,7 @@
-// The new touches of a proposed measurement as a DMIS program. Labels and touch numbers are those of the recording, so that what it
-// records can be matched with a workpiece file and with the recording; how touches were made (speeds, approach, compensation) is repeated
-// as far as the recording tells it, and what it does not tell is said in a comment.
+// The new touches of a proposed measurement as a DMIS program. Labels and touch numbers are those of the
+// recording, so that what it records can be matched with a workpiece file and with the recording; how touches
+// were made (speeds, approach, compensation) is repeated as far as the recording tells it, and what it does
+// not tell is said in a comment.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -57,14 +58,16 @@ class Writer {
 
  private:
   const TouchScene& scene(std::size_t k) const { return touches_[k].scene; }
-  const RecordingRow& row(std::size_t k) const { return longer_.recording.rows[static_cast<std::size_t>(touches_[k].row)]; }
+  const RecordingRow& row(std::size_t k) const {
+    return longer_.recording.rows[static_cast<std::size_t>(touches_[k].row)];
+  }
 
   /// Touches that one MEAS holds: of one feature, stylus and placement, and numbered on.
   void find_blocks() {
     for (std::size_t k = longer_.first; k < touches_.size(); ++k) {
-      const bool begins = k == longer_.first || row(k).feature != row(k - 1).feature || row(k).setup != row(k - 1).setup ||
-                          scene(k).stylus.tip_ordinal != scene(k - 1).stylus.tip_ordinal ||
-                          (change_.reversed ? row(k).touch >= row(k - 1).touch : row(k).touch <= row(k - 1).touch);
+      const bool begins = k == longer_.first || row(k).feature != row(k - 1).feature ||
+          row(k).setup != row(k - 1).setup || scene(k).stylus.tip_ordinal != scene(k - 1).stylus.tip_ordinal ||
+          (change_.reversed ? row(k).touch >= row(k - 1).touch : row(k).touch <= row(k - 1).touch);
       if (begins) blocks_[k] = k;
       std::prev(blocks_.end())->second = k;
     }
@@ -79,9 +82,12 @@ class Writer {
     say("Between features the tip goes out along the stylus, then up, across, down and in again; only up there styli change and the head turns.");
     constexpr double kLittle_mm = 0.1;
     if (path_.missing_mm > kLittle_mm)
-      say(fmt::format("ATTENTION: the travel of the machine ends {:.0f} mm too early for that. Where the head turns, and how a stylus comes out, must be looked at.", path_.missing_mm));
+      say(fmt::format(
+          "ATTENTION: the travel of the machine ends {:.0f} mm too early for that. Where the head turns, and how a stylus comes out, must be looked at.",
+          path_.missing_mm));
     say(recording_sentence(longer_));
-    if (const auto part = said(longer_.recording, "workpiece")) say(fmt::format("Its points are those of the true part '{}', not those of the drawing.", *part));
+    if (const auto part = said(longer_.recording, "workpiece"))
+      say(fmt::format("Its points are those of the true part '{}', not those of the drawing.", *part));
     if (change_.instruction.empty()) return;
     say("Before it: " + change_.instruction);
     tell_operator(change_.instruction);
@@ -95,30 +101,39 @@ class Writer {
       const auto named = longer_.machine.sensors.find(std::string(s.name));
       if (named == longer_.machine.sensors.end() || !defined.insert(s.name).second) continue;
       const Vec3 tip = named->second.tip_in_r_mm;
-      out_ += s.indexed ? fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f}\n", s.name, s.head_a_rad * 180 / kPi,
-                                      s.head_b_rad * 180 / kPi, tip.x / norm(tip), tip.y / norm(tip), tip.z / norm(tip), norm(tip), 2 * s.radius_mm)
-                        : fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},0,0,-1,{:.4f}\n", s.name, s.tip_from_mount_mm.x, s.tip_from_mount_mm.y,
-                                      s.tip_from_mount_mm.z, 2 * s.radius_mm);
+      out_ += s.indexed
+          ? fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f}\n", s.name,
+                        s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi, tip.x / norm(tip), tip.y / norm(tip),
+                        tip.z / norm(tip), norm(tip), 2 * s.radius_mm)
+          : fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},0,0,-1,{:.4f}\n", s.name,
+                        s.tip_from_mount_mm.x, s.tip_from_mount_mm.y, s.tip_from_mount_mm.z, 2 * s.radius_mm);
     }
   }
 
   void settings() {
     const Recording& r = longer_.recording;
     const MotionSettings usual = default_motion(longer_.machine);
-    approach_mm_ = distance_said(r, "approach_mm", usual.approach_mm), retract_mm_ = distance_said(r, "retract_mm", usual.retract_mm);
+    approach_mm_ = distance_said(r, "approach_mm", usual.approach_mm),
+    retract_mm_ = distance_said(r, "retract_mm", usual.retract_mm);
     out_ += "PRCOMP/ON\n";
     const std::optional<std::string> compensation = said(r, "temperature_compensation");
     const bool by_file = case_.options.workpiece && case_.options.workpiece->compensated;
-    if (compensation == "on" || by_file) out_ += "TECOMP/ON\n";
-    else if (compensation == "off") out_ += "TECOMP/OFF\n";
-    else say("The recording does not tell whether temperatures were compensated: set TECOMP as it was then.");
-    if (!said(r, "approach_mm")) say("The recording does not tell how far from the surface a touch begins: SNSET is a usual one.");
-    if (!row(longer_.first).speed_mm_s) say("The recording does not tell how fast it was touched: set FEDRAT/MESVEL as it was then.");
+    if (compensation == "on" || by_file)
+      out_ += "TECOMP/ON\n";
+    else if (compensation == "off")
+      out_ += "TECOMP/OFF\n";
+    else
+      say("The recording does not tell whether temperatures were compensated: set TECOMP as it was then.");
+    if (!said(r, "approach_mm"))
+      say("The recording does not tell how far from the surface a touch begins: SNSET is a usual one.");
+    if (!row(longer_.first).speed_mm_s)
+      say("The recording does not tell how fast it was touched: set FEDRAT/MESVEL as it was then.");
   }
 
   /// The coordinate system: that of the recording, or of the part where it now stands.
   void place_part() {
-    if (longer_.recording.in_part_frame) say("In part coordinates: align the part as for the first recording, and put its coordinate system in the place of the next line.");
+    if (longer_.recording.in_part_frame)
+      say("In part coordinates: align the part as for the first recording, and put its coordinate system in the place of the next line.");
     out_ += "D(0)=DATSET/MCS\n";
     if (!change_.move) return;
     const std::set<int> placements = [&] {
@@ -137,8 +152,9 @@ class Writer {
     const Rigid& X = *change_.move;
     say("Its touches do not make an alignment. The part must stand as this matrix says, to within the approach distance; or put your own");
     say("alignment here. The coordinates below are those that its points have in the first recording.");
-    out_ += fmt::format("D(PART)=DATSET/TRMATX,{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f}\n", X.R.cx.x, X.R.cx.y, X.R.cx.z, X.R.cy.x,
-                        X.R.cy.y, X.R.cy.z, X.R.cz.x, X.R.cz.y, X.R.cz.z, X.p.x, X.p.y, X.p.z);
+    out_ += fmt::format(
+        "D(PART)=DATSET/TRMATX,{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.6f},{:.6f},{:.6f}\n",
+        X.R.cx.x, X.R.cx.y, X.R.cx.z, X.R.cy.x, X.R.cy.y, X.R.cy.z, X.R.cz.x, X.R.cz.y, X.R.cz.z, X.p.x, X.p.y, X.p.z);
     X_DW_ = inverse(X) * X_DW_;
   }
 
@@ -172,7 +188,8 @@ class Writer {
     if (block != blocks_.end()) begin(k, block->second);
     const Vec3 p = on_part(k), n = X_DW_.R * scene(k).normal;
     out_ += fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
-    if (std::prev(blocks_.upper_bound(k))->second == k) out_ += fmt::format("ENDMES\nOUTPUT/FA({})\n", dmis_label(row(k).feature));
+    if (std::prev(blocks_.upper_bound(k))->second == k)
+      out_ += fmt::format("ENDMES\nOUTPUT/FA({})\n", dmis_label(row(k).feature));
   }
   Vec3 on_part(std::size_t k) const { return X_DW_ * scene(k).point; }
 
@@ -192,7 +209,8 @@ class Writer {
     if (label != row(first).feature) say(fmt::format("'{}' of the first recording", row(first).feature));
     if (!as_recorded) say(fmt::format("its touches are numbers {} of the first recording", fmt::join(numbers, " ")));
     const DmisFeature feature = dmis_feature(touched);
-    out_ += fmt::format("F({0})=FEAT/{1}\nMEAS/{2},F({0}),{3}\n", label, feature.definition, feature.kind, numbers.size());
+    out_ +=
+        fmt::format("F({0})=FEAT/{1}\nMEAS/{2},F({0}),{3}\n", label, feature.definition, feature.kind, numbers.size());
   }
 
   const Case& case_;
@@ -200,9 +218,9 @@ class Writer {
   const Longer& longer_;
   Path path_;
   const std::vector<RecordedTouch>& touches_;
-  std::map<std::size_t, std::size_t> blocks_;   ///< first and last touch of each
+  std::map<std::size_t, std::size_t> blocks_;  ///< first and last touch of each
   Rigid X_DW_;
-  double approach_mm_ = 0, retract_mm_ = 0;     ///< where there is room
+  double approach_mm_ = 0, retract_mm_ = 0;  ///< where there is room
   double speed_mm_s_ = -1, acceleration_mm_s2_ = -1, set_approach_mm_ = -1, set_retract_mm_ = -1;
   int setup_ = 0;
   std::string out_;
@@ -213,10 +231,13 @@ class Writer {
 std::string recording_sentence(const Longer& longer) {
   const RecordingRow &before = longer.recording.rows.front(), &after = longer.recording.rows.back();
   std::string out = fmt::format("Give its recording run {}", after.run);
-  if (after.setup != before.setup) out += fmt::format(" and setup {}: for the diagnosis the part stands elsewhere", after.setup);
+  if (after.setup != before.setup)
+    out += fmt::format(" and setup {}: for the diagnosis the part stands elsewhere", after.setup);
   return out + ".";
 }
 
-std::string dmis_program(const Case& c, const Longer& longer, const Change& change) { return Writer(c, change, longer).program(); }
+std::string dmis_program(const Case& c, const Longer& longer, const Change& change) {
+  return Writer(c, change, longer).program();
+}
 
 }  // namespace abbe::diagnose

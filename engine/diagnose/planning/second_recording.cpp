@@ -14,13 +14,14 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kPause_s = 600;          // until the second recording begins
+constexpr double kPause_s = 600;  // until the second recording begins
 
 /// The run that is repeated: the longest, of equal ones the first.
 int repeated_run(const Recording& r) {
   std::map<int, int> rows;
   for (const RecordingRow& row : r.rows) ++rows[row.run];
-  return std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  return std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 /// The rows that are repeated: indices in the order of measuring.
@@ -87,7 +88,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
     if (change.move) move_by(*change.move, row);
     change.apply(row, out.machine);
     row.position_mm = *row.target_mm + residual_mm * *row.normal;
-    row.reading_mm.reset();                // of the first recording; where the axes will stand follows from the target
+    row.reading_mm.reset();  // of the first recording; where the axes will stand follows from the target
     out.recording.rows.push_back(std::move(row));
   }
   out.touches = recorded_touches(out.recording, out.machine, "");
@@ -105,17 +106,23 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
   const KnownGeometry geometry{c.baseline.mean, c.baseline.factor};
   const bool known = !c.machine->known_state.empty();
   Baseline out = baseline_of(longer.touches, longer.machine,
-                             {.surfaces = c.baseline.surfaces, .known = known ? &geometry : nullptr, .seed = c.options.seed, .threads = c.options.threads, .sampled = &geometry});
+                             {.surfaces = c.baseline.surfaces,
+                              .known = known ? &geometry : nullptr,
+                              .seed = c.options.seed,
+                              .threads = c.options.threads,
+                              .sampled = &geometry});
   if (c.baseline.beyond) hold_to_specification(out.model);
   add_doubts(EffectSet(longer.machine.effects, EffectUse::left_in, longer.machine.name), longer.touches, out);
-  if (c.options.workpiece) calibrate(recorded_part(*c.options.workpiece, longer.recording, longer.touches, ""), longer.touches, out);
+  if (c.options.workpiece)
+    calibrate(recorded_part(*c.options.workpiece, longer.recording, longer.touches, ""), longer.touches, out);
   return out;
 }
 
 double minutes_of(const Longer& longer) {
   const std::vector<RecordedTouch>& all = longer.touches.touches;
   const Path path = path_of(longer);
-  Motion motion(path.steps.front().kind == Step::Kind::go ? path.steps.front().to : all[longer.first].scene.point, default_motion(longer.machine));
+  Motion motion(path.steps.front().kind == Step::Kind::go ? path.steps.front().to : all[longer.first].scene.point,
+                default_motion(longer.machine));
   for (const Step& step : path.steps) {
     const TouchScene& s = all[step.touch].scene;
     if (step.kind == Step::Kind::go) motion.move_to(step.to);

@@ -10,7 +10,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kRound_mm = 0.1;     // what may be left of a round feature
+constexpr double kRound_mm = 0.1;  // what may be left of a round feature
 
 Vec3 mean_of(const std::vector<Vec3>& list) {
   Vec3 sum;
@@ -50,21 +50,25 @@ std::optional<DmisFeature> turned(const Touched& s) {
   double low = 1e9, high = -1e9;
   for (std::size_t i = 0; i < s.points.size(); ++i) {
     const Vec3 left = s.points[i] - round.radius_mm * s.normals[i] - round.centre;
-    if (norm(perpendicular_part(left, axis)) > kRound_mm || std::abs(dot(s.normals[i], axis)) > kThin_mm) return std::nullopt;
+    if (norm(perpendicular_part(left, axis)) > kRound_mm || std::abs(dot(s.normals[i], axis)) > kThin_mm)
+      return std::nullopt;
     low = std::min(low, dot(left, axis)), high = std::max(high, dot(left, axis));
   }
   constexpr std::size_t kOfCircle = 3, kOfCylinder = 5;
-  const bool circle = high - low < kThin_mm && s.points.size() >= kOfCircle, cylinder = high - low > kLong_mm && s.points.size() >= kOfCylinder;
+  const bool circle = high - low < kThin_mm && s.points.size() >= kOfCircle,
+             cylinder = high - low > kLong_mm && s.points.size() >= kOfCylinder;
   if (!circle && !cylinder) return std::nullopt;
   const std::string kind = circle ? "CIRCLE" : "CYLNDR";
-  return DmisFeature{kind, fmt::format("{},{},CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.7f}", kind, round.radius_mm < 0 ? "INNER" : "OUTER", round.centre.x,
-                                       round.centre.y, round.centre.z, axis.x, axis.y, axis.z, 2 * std::abs(round.radius_mm))};
+  return DmisFeature{kind,
+                     fmt::format("{},{},CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.7f}", kind,
+                                 round.radius_mm < 0 ? "INNER" : "OUTER", round.centre.x, round.centre.y,
+                                 round.centre.z, axis.x, axis.y, axis.z, 2 * std::abs(round.radius_mm))};
 }
 
 }  // namespace
 
 std::optional<Ball> ball_of(const Touched& s) {
-  constexpr double kSides = 0.02;   // mean square of the normals across the direction in which they spread least
+  constexpr double kSides = 0.02;  // mean square of the normals across the direction in which they spread least
   constexpr std::size_t kTouches = 4;
   if (s.points.size() < kTouches || moments(s.normals).eigenvalues()(0) < kSides) return std::nullopt;
   const Ball ball = behind(s);
@@ -103,7 +107,9 @@ DmisFeature dmis_feature(const Touched& s) {
   if (s.points.size() == 1) return {"POINT", "POINT," + at};
   if (is_face(s) && widest_triangle(s.points).size() == 3) return {"PLANE", "PLANE," + at};
   if (const std::optional<Ball> b = ball_of(s))
-    return {"SPHERE", fmt::format("SPHERE,{},CART,{:.6f},{:.6f},{:.6f},{:.7f}", b->radius_mm < 0 ? "INNER" : "OUTER", b->centre.x, b->centre.y, b->centre.z, 2 * std::abs(b->radius_mm))};
+    return {"SPHERE",
+            fmt::format("SPHERE,{},CART,{:.6f},{:.6f},{:.6f},{:.7f}", b->radius_mm < 0 ? "INNER" : "OUTER", b->centre.x,
+                        b->centre.y, b->centre.z, 2 * std::abs(b->radius_mm))};
   return turned(s).value_or(DmisFeature{"GSURF", "GSURF"});
 }
 

@@ -1,7 +1,8 @@
-// What a feature is, from where it was touched: a recording has labels and touches, and a program needs a kind and a nominal.
+// What a feature is, from where it was touched: a recording has labels and touches, and a program needs a
+// kind and a nominal.
 //
-// On every round surface p = c + R n + t a, with n perpendicular to the axis a (a ball has no axis), so R = sum (p - p')(n - n') / sum
-// |n - n'|^2, primed: means; R is negative where it is touched from inside.
+// On every round surface p = c + R n + t a, with n perpendicular to the axis a (a ball has no axis), so R =
+// sum (p - p')(n - n') / sum |n - n'|^2, primed: means; R is negative where it is touched from inside.
 #pragma once
 
 #include <optional>
@@ -29,7 +30,8 @@ bool is_face(const Touched&);
 /// Three points that span the largest triangle that is easily found; fewer where the points lie on a line.
 std::vector<std::size_t> widest_triangle(const std::vector<Vec3>& points);
 
-/// The feature in DMIS: kind ("SPHERE"), and what FEAT says of it ("SPHERE,OUTER,CART,..."). A surface of no other kind is a GSURF.
+/// The feature in DMIS: kind ("SPHERE"), and what FEAT says of it ("SPHERE,OUTER,CART,..."). A surface of no
+/// other kind is a GSURF.
 struct DmisFeature {
   std::string kind, definition;
 };

@@ -22,7 +22,7 @@ using namespace diagnose;
 namespace {
 
 constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
-constexpr double kLeast_um = 1e-3;   // what rounding leaves of a value that no error reaches
+constexpr double kLeast_um = 1e-3;  // what rounding leaves of a value that no error reaches
 
 /// The values on the bench.
 struct ValueCase {
@@ -30,9 +30,9 @@ struct ValueCase {
   const std::vector<ValueProgram>* programs = nullptr;
   ValueEnsemble ensemble;
   Vector deviation;
-  Matrix calibration;                ///< one column for each artefact: a standard deviation of its calibration
-  Matrix judges;                     ///< machines of the first half: mean and covariance
-  Matrix judged;                     ///< of the second half, with errors of calibration: what the recording is compared with
+  Matrix calibration;  ///< one column for each artefact: a standard deviation of its calibration
+  Matrix judges;       ///< machines of the first half: mean and covariance
+  Matrix judged;       ///< of the second half, with errors of calibration: what the recording is compared with
   Vector mean;
   Matrix covariance;
   std::optional<ValueSearch> search;
@@ -43,15 +43,23 @@ Matrix with_calibration(Matrix m, const Matrix& calibration, std::uint64_t seed)
   constexpr std::uint32_t stream = stream_of("diagnose.values.calibration");
   for (Eigen::Index i = 0; i < m.rows(); ++i)
     for (Eigen::Index k = 0; k < calibration.cols(); ++k)
-      m.row(i) += calibration.col(k).transpose() * normal_quantile(uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
+      m.row(i) +=
+          calibration.col(k).transpose() *
+          normal_quantile(
+              uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
   return m;
 }
 
-ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
+ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                       const Machine& machine, const DiagnoseOptions& options) {
   const int n = static_cast<int>(recording.rows.size());
   if (n > kMostValues)
-    throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n), fmt::format("at most {} are judged together; split the file", kMostValues)));
-  ValueCase c{&recording, &programs, value_ensemble(recording, programs, machine, options, 2 * (kHalf + kPerValue * n)), {}, {}, {}, {}, {}, {}, {}};
+    throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n),
+                               fmt::format("at most {} are judged together; split the file", kMostValues)));
+  ValueCase c{&recording, &programs, value_ensemble(recording, programs, machine, options, 2 * (kHalf + kPerValue * n)),
+              {},         {},        {},
+              {},         {},        {},
+              {}};
   c.deviation.resize(n), c.calibration.setZero(n, n);
   for (int k = 0; k < n; ++k) {
     const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(k)];
@@ -59,9 +67,12 @@ ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueP
   }
   const Eigen::Index half = c.ensemble.simulated.rows() / 2;
   if (half < n + 2)
-    throw UserError(diagnostic(Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()), "`abbe run` says where they stop"));
+    throw UserError(diagnostic(
+        Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
+        "`abbe run` says where they stop"));
   c.judges = c.ensemble.simulated.topRows(half);
-  c.judged = with_calibration(c.ensemble.simulated.bottomRows(c.ensemble.simulated.rows() - half), c.calibration, options.seed);
+  c.judged = with_calibration(c.ensemble.simulated.bottomRows(c.ensemble.simulated.rows() - half), c.calibration,
+                              options.seed);
   c.mean = c.judges.colwise().mean();
   const Matrix centred = c.judges.rowwise() - c.mean.transpose();
   c.covariance = centred.transpose() * centred / double(half - 1) + c.calibration * c.calibration.transpose();
@@ -81,11 +92,13 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
     std::vector<double> simulated(c.judged.col(at).begin(), c.judged.col(at).end());
     std::sort(simulated.begin(), simulated.end());
     const double n = double(simulated.size()), distance = std::abs(v.deviation - c.mean(at));
-    const auto beyond = std::count_if(simulated.begin(), simulated.end(), [&](double s) { return std::abs(s - c.mean(at)) >= distance; });
+    const auto beyond = std::count_if(simulated.begin(), simulated.end(),
+                                      [&](double s) { return std::abs(s - c.mean(at)) >= distance; });
     const double u = std::sqrt(c.covariance(at, at)), unit = v.reported();
     const auto point = [&](double p) { return simulated[static_cast<std::size_t>(p * (n - 1) + 0.5)] * unit; };
-    out.push_back({row.characteristic, row.program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference, v.deviation * unit, u * unit,
-                   (v.deviation - c.mean(at)) / u, (double(beyond) + 1) / (n + 1), point(0.025), point(0.975)});
+    out.push_back({row.characteristic, row.program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value,
+                   v.reference, v.deviation * unit, u * unit, (v.deviation - c.mean(at)) / u,
+                   (double(beyond) + 1) / (n + 1), point(0.025), point(0.975)});
   }
   return out;
 }
@@ -97,7 +110,7 @@ struct Sizes {
 };
 Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
   const auto info = search.information(block, deviation);
-  constexpr double kWide = 30;   // typical sizes
+  constexpr double kWide = 30;  // typical sizes
   const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide));
   return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
 }
@@ -111,7 +124,14 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Finding&
     const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];
     const auto at = static_cast<Eigen::Index>(k);
     const double value = s.mean(at) * b.columns[k].unit, u = std::sqrt(s.covariance(at, at)) * b.columns[k].unit;
-    out.push_back({std::string(p.name), std::string(p.unit), value, u, value - 1.96 * u, value + 1.96 * u, {}, value >= p.low && value <= p.high});
+    out.push_back({std::string(p.name),
+                   std::string(p.unit),
+                   value,
+                   u,
+                   value - 1.96 * u,
+                   value + 1.96 * u,
+                   {},
+                   value >= p.low && value <= p.high});
   }
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const EffectParameter& parameter = effect.parameters[p];
@@ -128,10 +148,18 @@ void tell_pattern(const ValueCase& c, const Finding& f, Diagnosis& out) {
   const Explanation& e = all.list[static_cast<std::size_t>(f.explanation)];
   const Sizes s = sizes_of(*c.search, f.block, c.deviation);
   const Vector pattern = all.blocks[static_cast<std::size_t>(f.block)].signature * s.mean;
-  const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())), u = rms / std::sqrt(2.0 * double(pattern.size()));
-  out.unexplained = Unexplained{std::string(name(e.factor)), e.shape, rms, u, rms - 1.96 * u, rms + 1.96 * u,
-                                e.shape == "single values" ? "No effect of the catalogue explains it: single values stray (the table says which)."
-                                                           : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
+  const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())),
+               u = rms / std::sqrt(2.0 * double(pattern.size()));
+  out.unexplained = Unexplained{
+      std::string(name(e.factor)),
+      e.shape,
+      rms,
+      u,
+      rms - 1.96 * u,
+      rms + 1.96 * u,
+      e.shape == "single values"
+          ? "No effect of the catalogue explains it: single values stray (the table says which)."
+          : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
   out.verdict = Verdict::unexplained;
 }
 
@@ -147,8 +175,10 @@ void tell_name(const ValueCase& c, const Finding& f, double adequacy, Diagnosis&
   const bool size = plausible(e.parameters);
   e.probability = believed(f.probability, adequacy < kInadequate || !size);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
-  if (!size) e.sentence += kNoSuchSize;
-  else out.model_effects.push_back(setting_of(e.members.front(), e.parameters));
+  if (!size)
+    e.sentence += kNoSuchSize;
+  else
+    out.model_effects.push_back(setting_of(e.members.front(), e.parameters));
   out.adequacy_p = adequacy;
   out.verdict = f.set.size() > 1 ? Verdict::one_of : Verdict::named;
   out.effects.push_back(std::move(e));
@@ -182,7 +212,9 @@ void show_improvement(const ValueCase& c, const Finding& f, Diagnosis& out) {
     const Vector rest = c.deviation(kept);
     const Evidence evidence = search.evidence(rest);
     gain.push_back(complete - evidence.log_bayes[0]);
-    const auto best = static_cast<int>(std::max_element(evidence.block_log_bayes.begin(), evidence.block_log_bayes.end()) - evidence.block_log_bayes.begin());
+    const auto best =
+        static_cast<int>(std::max_element(evidence.block_log_bayes.begin(), evidence.block_log_bayes.end()) -
+                         evidence.block_log_bayes.begin());
     const Vector all = one.blocks[static_cast<std::size_t>(best)].signature * sizes_of(search, best, rest).mean;
     for (std::size_t k = 0; k < group.size(); ++k)
       if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
@@ -206,7 +238,8 @@ double left(const ValueSearch& s, int block, Eigen::Index column, int rival) {
   const Vector cross = s.between(rival, block).col(column);
   const Matrix g = s.between(rival, rival);
   const double own = s.between(block, block)(column, column);
-  return 1 - cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
+  return 1 -
+      cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
 }
 
 std::vector<Detectable> smallest_detectable(const ValueCase& c) {
@@ -228,7 +261,12 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
     const Column& of = block.columns[static_cast<std::size_t>(column)];
     const EffectParameter& p = all.list[k].effect->parameters[static_cast<std::size_t>(of.parameter)];
     const double largest = block.signature.col(column).cwiseAbs().maxCoeff(), size = kDetects / std::sqrt(most);
-    Detectable d{.effect = all.list[k].name, .parameter = std::string(p.name), .unit = std::string(p.unit), .name = {}, .name_um = {}, .confounded_with = {}};
+    Detectable d{.effect = all.list[k].name,
+                 .parameter = std::string(p.name),
+                 .unit = std::string(p.unit),
+                 .name = {},
+                 .name_um = {},
+                 .confounded_with = {}};
     d.detect = of.unit * size, d.detect_um = largest * size;
     double least = 1;
     for (std::size_t j = 0; j < all.list.size(); ++j) {
@@ -236,7 +274,8 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
       double share = 1;
       for (const int b : all.list[j].blocks) share = std::min(share, left(s, best, column, b));
       least = std::min(least, share);
-      if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4) d.confounded_with.push_back(all.list[j].name);
+      if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4)
+        d.confounded_with.push_back(all.list[j].name);
     }
     if (least > kInseparable) {
       const double named = kNames / std::sqrt(most * least);
@@ -250,14 +289,18 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
 /// How often virtual machines look as unusual to a search as the recording does.
 double chance_of(const ValueCase& c, const ValueSearch& search) {
   std::vector<double> simulated;
-  for (Eigen::Index i = 0; i < c.judged.rows(); ++i) simulated.push_back(search.evidence(c.judged.row(i).transpose()).statistic);
+  for (Eigen::Index i = 0; i < c.judged.rows(); ++i)
+    simulated.push_back(search.evidence(c.judged.row(i).transpose()).statistic);
   return tail_probability(search.evidence(c.deviation).statistic, std::move(simulated));
 }
 
 /// How often chance leaves as much as a name does.
 double adequacy_of(const ValueCase& c, const Finding& name) {
   const Explanations& all = c.search->explanations();
-  return name.explanation < 0 ? 1 : chance_of(c, ValueSearch(c.mean, c.covariance, all, all.blocks[static_cast<std::size_t>(name.block)].signature));
+  return name.explanation < 0
+      ? 1
+      : chance_of(c,
+                  ValueSearch(c.mean, c.covariance, all, all.blocks[static_cast<std::size_t>(name.block)].signature));
 }
 
 /// A name, or what stands for none; what is told is returned.
@@ -267,14 +310,17 @@ Finding tell(const ValueCase& c, Diagnosis& out) {
   const Finding name = finding_of(all, evidence, true), pattern = finding_of(all, evidence, false);
   const double adequacy = adequacy_of(c, name);
   const bool named = likelier(all, name, pattern, adequacy < kInadequate ? kNamedInDoubt : kNamed);
-  if (named) tell_name(c, name, adequacy, out);
-  else tell_pattern(c, pattern, out);
+  if (named)
+    tell_name(c, name, adequacy, out);
+  else
+    tell_pattern(c, pattern, out);
   return named ? name : pattern;
 }
 
 }  // namespace
 
-Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options) {
+Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                          const Machine& machine, const DiagnoseOptions& options) {
   const ValueCase c = on_the_bench(recording, programs, machine, options);
   Diagnosis out;
   out.judged = !options.design_only;
@@ -285,11 +331,16 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   out.p_value = chance_of(c, *c.search);
   if (out.p_value > kAlarm) return out;
   show_improvement(c, tell(c, out), out);
-  const auto worst = std::max_element(out.values.begin(), out.values.end(), [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
+  const auto worst =
+      std::max_element(out.values.begin(), out.values.end(),
+                       [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });
   double squares = 0;
   for (const JudgedValue& v : out.values) squares += v.z * v.z;
-  out.location.push_back({"feature", {{"characteristic", worst->characteristic}, {"program", worst->program}, {"run", std::to_string(worst->run)}},
-                          worst->z * worst->z / squares, std::min(1.0, worst->p * double(out.values.size()))});
+  out.location.push_back(
+      {"feature",
+       {{"characteristic", worst->characteristic}, {"program", worst->program}, {"run", std::to_string(worst->run)}},
+       worst->z * worst->z / squares,
+       std::min(1.0, worst->p * double(out.values.size()))});
   return out;
 }
 

@@ -32,7 +32,8 @@ bool means(const std::vector<std::string>& row, const std::vector<std::string>& 
 }
 
 /// The row's value among those that the error-free machine evaluated.
-const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, const plan::Plan& plan, const RunResult& result) {
+const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, const plan::Plan& plan,
+                         const RunResult& result) {
   const std::vector<std::string> labels = abbe::labels_of(row.characteristic);
   std::vector<const Samples*> found;
   std::set<std::string> names;
@@ -41,18 +42,24 @@ const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, c
     if (!s.reference) continue;
     const std::vector<std::string> of = labels_of(plan, s.characteristic);
     names.insert(fmt::format("{}", fmt::join(of, " ")));
-    if (row.ordinal > 0 ? labels.back() == of.back() && ++met == row.ordinal : !labels.empty() && means(labels, of) && s.occurrence == row.occurrence)
+    if (row.ordinal > 0 ? labels.back() == of.back() && ++met == row.ordinal
+                        : !labels.empty() && means(labels, of) && s.occurrence == row.occurrence)
       found.push_back(&s);
   }
   if (found.size() == 1) return *found.front();
   const std::vector<std::string_view> known(names.begin(), names.end());
   if (!found.empty())
-    throw UserError(diagnostic_at(recording.source, row.span, Code::E0550, fmt::format("the program evaluates '{}' of several features", row.characteristic),
+    throw UserError(diagnostic_at(recording.source, row.span, Code::E0550,
+                                  fmt::format("the program evaluates '{}' of several features", row.characteristic),
                                   fmt::format("name the features too: {}", fmt::join(known, ", "))));
   const std::string near = nearest_word(fmt::format("{}", fmt::join(labels, " ")), known);
   throw UserError(diagnostic_at(recording.source, row.span, Code::E0556,
-                                fmt::format("the program does not evaluate '{}'{}", row.characteristic, std::max(row.occurrence, row.ordinal) > 1 ? fmt::format(" {} times", std::max(row.occurrence, row.ordinal)) : ""),
-                                near.empty() ? fmt::format("it evaluates: {}", fmt::join(known, ", ")) : fmt::format("did you mean '{}'?", near)));
+                                fmt::format("the program does not evaluate '{}'{}", row.characteristic,
+                                            std::max(row.occurrence, row.ordinal) > 1
+                                                ? fmt::format(" {} times", std::max(row.occurrence, row.ordinal))
+                                                : ""),
+                                near.empty() ? fmt::format("it evaluates: {}", fmt::join(known, ", "))
+                                             : fmt::format("did you mean '{}'?", near)));
 }
 
 double engine_scale(bool angle) { return angle ? kUradPerRad : kUmPerMm; }
@@ -70,7 +77,8 @@ std::vector<OneRun> runs_of(const ValueRecording& recording, const std::vector<V
   std::map<std::pair<int, int>, OneRun> runs;
   for (std::size_t r = 0; r < recording.rows.size(); ++r) {
     const ValueRow& row = recording.rows[r];
-    const auto program = std::find_if(programs.begin(), programs.end(), [&](const ValueProgram& p) { return p.name == row.program; });
+    const auto program =
+        std::find_if(programs.begin(), programs.end(), [&](const ValueProgram& p) { return p.name == row.program; });
     ABBE_CHECK(program != programs.end());
     const int p = static_cast<int>(program - programs.begin());
     const int number = static_cast<int>(std::lower_bound(order.begin(), order.end(), row.run) - order.begin());
@@ -86,7 +94,8 @@ std::vector<OneRun> runs_of(const ValueRecording& recording, const std::vector<V
 
 class EnsembleRuns {
  public:
-  EnsembleRuns(const ValueRecording& recording, const Machine& machine, const DiagnoseOptions& options, const VirtualMachines& machines, ValueEnsemble& out)
+  EnsembleRuns(const ValueRecording& recording, const Machine& machine, const DiagnoseOptions& options,
+               const VirtualMachines& machines, ValueEnsemble& out)
       : recording_(recording), machine_(machine), options_(options), machines_(machines), out_(out) {
     out.values.resize(recording.rows.size());
     out.simulated = Matrix::Constant(machines.size(), static_cast<Eigen::Index>(recording.rows.size()), std::nan(""));
@@ -108,17 +117,21 @@ class EnsembleRuns {
   void refuse_unit(const ValueRow& row, double measured_mm) const {
     for (const std::optional<double>& written : {std::optional(row.value), row.reference})
       if (const auto unit = written ? foreign_unit(*written, measured_mm) : std::nullopt)
-        throw UserError(diagnostic_at(recording_.source, row.span, Code::E0701,
-                                      fmt::format("'{}' is {:.6g} mm on an error-free machine, {:.6g} here: it is in {}", row.characteristic, measured_mm, *written, unit->name),
-                                      "value, reference and U are in millimetres or degrees"));
+        throw UserError(
+            diagnostic_at(recording_.source, row.span, Code::E0701,
+                          fmt::format("'{}' is {:.6g} mm on an error-free machine, {:.6g} here: it is in {}",
+                                      row.characteristic, measured_mm, *written, unit->name),
+                          "value, reference and U are in millimetres or degrees"));
   }
 
   void add_row(int r, const OneRun& run, const ValueProgram& program, const RunResult& result) {
     const ValueRow& row = recording_.rows[static_cast<std::size_t>(r)];
     const Samples& s = sample_of(recording_, row, *program.plan, result);
     if (!met_.insert({run.repeat, s.characteristic.value, s.occurrence}).second)
-      throw UserError(diagnostic_at(recording_.source, row.span, Code::E0551, fmt::format("'{}' stands here for the second time in run {}", row.characteristic, row.run),
-                                    "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
+      throw UserError(diagnostic_at(
+          recording_.source, row.span, Code::E0551,
+          fmt::format("'{}' stands here for the second time in run {}", row.characteristic, row.run),
+          "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
     if (!angle) refuse_unit(row, *s.reference);
@@ -126,7 +139,9 @@ class EnsembleRuns {
     v.reference = row.reference.value_or(*s.reference * engine_scale(angle) * v.reported());
     v.deviation = (row.value - v.reference) / v.reported();
     v.calibration = row.expanded_uncertainty / 2 / v.reported();
-    const std::string artefact = !row.artefact.empty() ? row.artefact : fmt::format("{}\n{}\n{}", run.program, s.characteristic.value, s.occurrence);
+    const std::string artefact = !row.artefact.empty()
+        ? row.artefact
+        : fmt::format("{}\n{}\n{}", run.program, s.characteristic.value, s.occurrence);
     v.artefact = artefact_.emplace(artefact, static_cast<int>(artefact_.size())).first->second;
     out_.values[static_cast<std::size_t>(r)] = v;
     for (std::size_t i = 0; i < s.value.size(); ++i)
@@ -139,7 +154,7 @@ class EnsembleRuns {
   const VirtualMachines& machines_;
   ValueEnsemble& out_;
   std::map<std::string, int> artefact_;
-  std::set<std::tuple<int, int, int>> met_;   ///< repeat, characteristic, occurrence
+  std::set<std::tuple<int, int, int>> met_;  ///< repeat, characteristic, occurrence
 };
 
 Matrix complete_rows(const Matrix& m) {
@@ -153,8 +168,8 @@ Matrix complete_rows(const Matrix& m) {
 
 double RecordedValue::reported() const { return angle ? 180 / std::numbers::pi / kUradPerRad : 1 / kUmPerMm; }
 
-ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs, const Machine& machine, const DiagnoseOptions& options,
-                             int machines) {
+ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                             const Machine& machine, const DiagnoseOptions& options, int machines) {
   ValueEnsemble out;
   const VirtualMachines sample = screened_machines(machine, options.seed, machines, options.threads);
   EnsembleRuns runs(recording, machine, options, sample, out);

@@ -1,5 +1,5 @@
-// The programs of a recording of values on virtual machines: the joint distribution of all recorded values, and what each effect does to
-// them. Deviations from the reference, um (lengths) and urad (angles).
+// The programs of a recording of values on virtual machines: the joint distribution of all recorded values,
+// and what each effect does to them. Deviations from the reference, um (lengths) and urad (angles).
 #pragma once
 
 #include "engine/diagnose/explanations/explanation.hpp"
@@ -9,25 +9,26 @@ namespace abbe::diagnose {
 
 /// One row of the recording, found in its program.
 struct RecordedValue {
-  int row = 0;                      ///< of the recording
-  int program = 0, repeat = 0;      ///< index into the programs; which repeat of all (RunOptions::repeat)
+  int row = 0;                  ///< of the recording
+  int program = 0, repeat = 0;  ///< index into the programs; which repeat of all (RunOptions::repeat)
   plan::CharacteristicId characteristic;
   int occurrence = 1;
   bool angle = false;
-  double reference = 0;             ///< mm or degrees
-  double deviation = 0;             ///< value minus reference
-  double calibration = 0;           ///< standard uncertainty of the reference
-  int artefact = 0;                 ///< values of one artefact share the error of its calibration
-  double reported() const;          ///< mm or degrees per um or urad
+  double reference = 0;     ///< mm or degrees
+  double deviation = 0;     ///< value minus reference
+  double calibration = 0;   ///< standard uncertainty of the reference
+  int artefact = 0;         ///< values of one artefact share the error of its calibration
+  double reported() const;  ///< mm or degrees per um or urad
 };
 
 struct ValueEnsemble {
   std::vector<RecordedValue> values;
-  Matrix simulated;                 ///< machines x values: deviations
-  Explanations explanations;        ///< of the catalogue: signatures of the values
+  Matrix simulated;           ///< machines x values: deviations
+  Explanations explanations;  ///< of the catalogue: signatures of the values
 };
 
 /// `machines` accepted machines; those that do not reach every value are left out.
-ValueEnsemble value_ensemble(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&, const DiagnoseOptions&, int machines);
+ValueEnsemble value_ensemble(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
+                             const DiagnoseOptions&, int machines);
 
 }  // namespace abbe::diagnose

@@ -42,14 +42,17 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
     for (const double s : kSizes) {
       const Eigen::LLT<Matrix> llt(Matrix::Identity(g.rows(), g.cols()) + s * s * g);
       const Vector v = llt.matrixL().solve(u);
-      sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() - std::log(double(std::size(kSizes))));
+      sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() -
+                      std::log(double(std::size(kSizes))));
     }
     out.block_log_bayes.push_back(log_sum_exp(sizes));
   }
   std::vector<double> all;
   for (const Explanation& e : explanations_.list) {
     std::vector<double> variants;
-    for (const int b : e.blocks) variants.push_back(out.block_log_bayes[static_cast<std::size_t>(b)] + std::log(explanations_.blocks[static_cast<std::size_t>(b)].weight));
+    for (const int b : e.blocks)
+      variants.push_back(out.block_log_bayes[static_cast<std::size_t>(b)] +
+                         std::log(explanations_.blocks[static_cast<std::size_t>(b)].weight));
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(e.prior) + out.log_bayes.back());
   }
@@ -57,7 +60,8 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
   return out;
 }
 
-ValueSearch search_without(const Vector& mean, const Matrix& covariance, const Explanations& all, const std::vector<char>& dropped, std::vector<Eigen::Index>& kept) {
+ValueSearch search_without(const Vector& mean, const Matrix& covariance, const Explanations& all,
+                           const std::vector<char>& dropped, std::vector<Eigen::Index>& kept) {
   kept.clear();
   for (std::size_t k = 0; k < dropped.size(); ++k)
     if (!dropped[k]) kept.push_back(static_cast<Eigen::Index>(k));

@@ -14,12 +14,14 @@ namespace {
 constexpr double kSame_um = 1e-6;
 
 /// What a file of values does not tell: when, at which readings and loads, and what is drawn anew each time.
-constexpr unsigned kNotInValues = Covariate::time | Covariate::raw_reading | Covariate::acceleration | Covariate::visit | Covariate::qualification;
+constexpr unsigned kNotInValues =
+    Covariate::time | Covariate::raw_reading | Covariate::acceleration | Covariate::visit | Covariate::qualification;
 /// What a workpiece file may tell.
 unsigned unknown_of_part(const Workpiece* w) {
   unsigned unknown = 0;
   if (!w || !w->knows.part) unknown = unknown | Covariate::part_temperature;
-  if (!w || !w->knows.scale[0] || !w->knows.scale[1] || !w->knows.scale[2]) unknown = unknown | Covariate::scale_temperature;
+  if (!w || !w->knows.scale[0] || !w->knows.scale[1] || !w->knows.scale[2])
+    unknown = unknown | Covariate::scale_temperature;
   if (!w || !w->knows.air) unknown = unknown | Covariate::air_temperature;
   if (!w || !w->knows.load) unknown = unknown | Covariate::load;
   return unknown;
@@ -33,8 +35,8 @@ struct Planting {
 
 class Plantation {
  public:
-  Plantation(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs, const Machine& machine, const VirtualMachines& machines,
-             const DiagnoseOptions& options)
+  Plantation(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
+             const Machine& machine, const VirtualMachines& machines, const DiagnoseOptions& options)
       : values_(values), programs_(programs), machine_(machine), options_(options) {
     one_.index = {machines.index.front()};
     one_.geometry = {machines.geometry.front()};
@@ -48,7 +50,13 @@ class Plantation {
     Vector out = Vector::Constant(static_cast<Eigen::Index>(values_.size()), std::nan(""));
     for (std::size_t p = 0; p < programs_.size(); ++p) {
       RunOptions run;
-      run.contributors = {.geometry = false, .head = false, .probe = false, .only_component = {}, .part = false, .effects = true, .only_effect = {}};
+      run.contributors = {.geometry = false,
+                          .head = false,
+                          .probe = false,
+                          .only_component = {},
+                          .part = false,
+                          .effects = true,
+                          .only_effect = {}};
       run.placement_mm = programs_[p].placement_mm;
       run.workpiece = options_.workpiece;
       const RunResult result = run_plan(*programs_[p].plan, planted, one_, run, *programs_[p].source);
@@ -70,7 +78,8 @@ class Plantation {
       const EffectParameter& parameter = planting.effect->parameters[p];
       EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
       value.value = planting.theta[p];
-      if (!parameter.choices.empty()) value.word = parameter.choices[static_cast<std::size_t>(std::lround(planting.theta[p] - parameter.low))];
+      if (!parameter.choices.empty())
+        value.word = parameter.choices[static_cast<std::size_t>(std::lround(planting.theta[p] - parameter.low))];
     }
     return s;
   }
@@ -90,7 +99,7 @@ std::vector<std::vector<double>> settings_of(const Effect& effect) {
     if (!p.choices.empty() && p.name != "sensor") {
       values.clear();
       for (std::size_t k = 0; k < p.choices.size(); ++k)
-        if (p.choices[k] != "oblique") values.push_back(p.low + double(k));   // a direction is spanned by the axes
+        if (p.choices[k] != "oblique") values.push_back(p.low + double(k));  // a direction is spanned by the axes
     }
     if (p.name == "sensor") values = {0};
     std::vector<std::vector<double>> longer;
@@ -142,7 +151,8 @@ bool repeats_values(const Block& block, const Explanation& of, const std::vector
   return false;
 }
 
-void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vector>& grown, std::size_t& at, unsigned unknown, Explanations& out) {
+void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vector>& grown, std::size_t& at,
+         unsigned unknown, Explanations& out) {
   Explanation e;
   e.name = std::string(effect.name);
   e.effect = &effect;
@@ -160,8 +170,10 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
     out.blocks.push_back(std::move(d.block));
   }
   share_belief(e, out.blocks);
-  if (e.blocks.empty()) out.unjudged.push_back({&effect, effect.needs & unknown});
-  else out.list.push_back(std::move(e));
+  if (e.blocks.empty())
+    out.unjudged.push_back({&effect, effect.needs & unknown});
+  else
+    out.list.push_back(std::move(e));
 }
 
 void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix signature) {
@@ -181,8 +193,9 @@ void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix sig
 
 }  // namespace
 
-Explanations value_explanations(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs, const Machine& machine,
-                                const VirtualMachines& machines, const DiagnoseOptions& options) {
+Explanations value_explanations(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
+                                const Machine& machine, const VirtualMachines& machines,
+                                const DiagnoseOptions& options) {
   const unsigned unknown = unknown_of_part(options.workpiece);
   Explanations out;
   std::vector<const Effect*> judged;
@@ -191,14 +204,16 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
   for (const Effect* effect : effects()) {
     const unsigned missing = effect->needs & (kNotInValues | unknown);
     if (missing != 0 || effect->draws > 0) {
-      out.unjudged.push_back({effect, missing});   // what is drawn by chance has no signature in values, whatever is told with them
+      // what is drawn by chance has no signature in values, whatever is told with them
+      out.unjudged.push_back({effect, missing});
       continue;
     }
     judged.push_back(effect);
     drafts.push_back(drafts_of(*effect));
     for (const Draft& d : drafts.back()) plantings.insert(plantings.end(), d.plantings.begin(), d.plantings.end());
   }
-  const std::vector<Vector> grown = grow(Plantation(values, programs, machine, machines, options), plantings, options.threads);
+  const std::vector<Vector> grown =
+      grow(Plantation(values, programs, machine, machines, options), plantings, options.threads);
   std::size_t at = 0;
   for (std::size_t k = 0; k < judged.size(); ++k) add(*judged[k], drafts[k], grown, at, unknown, out);
   return out;
@@ -209,7 +224,8 @@ void add_value_patterns(const Matrix& covariance, Explanations& out) {
   add_pattern(out, Factor::feature, "single values", Matrix(covariance.diagonal().cwiseSqrt().asDiagonal()));
   add_pattern(out, Factor::position, "larger errors", Matrix(Eigen::LLT<Matrix>(covariance).matrixL()));
   for (std::size_t k = 0; k < out.list.size(); ++k)
-    out.list[k].prior = k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(out.list.size() - catalogue);
+    out.list[k].prior =
+        k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(out.list.size() - catalogue);
 }
 
 }  // namespace abbe::diagnose

@@ -1,5 +1,6 @@
-// What the effects of the registry do to recorded values: each is planted at its typical size on an error-free machine, and the programs
-// run. Two patterns stand for what the catalogue does not have: single values that stray, and a machine with larger errors than specified.
+// What the effects of the registry do to recorded values: each is planted at its typical size on an
+// error-free machine, and the programs run. Two patterns stand for what the catalogue does not have: single
+// values that stray, and a machine with larger errors than specified.
 #pragma once
 
 #include "engine/diagnose/values/value_ensemble.hpp"
@@ -7,10 +8,11 @@
 
 namespace abbe::diagnose {
 
-/// The catalogue: one explanation for each effect that can be judged, a block for each combination of its choices, a column for each
-/// linear parameter. `machines`: where the error-free machine takes its numbering from. OTHER is added by add_value_patterns.
-Explanations value_explanations(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&, const VirtualMachines& machines,
-                                const DiagnoseOptions&);
+/// The catalogue: one explanation for each effect that can be judged, a block for each combination of its
+/// choices, a column for each linear parameter. `machines`: where the error-free machine takes its numbering
+/// from. OTHER is added by add_value_patterns.
+Explanations value_explanations(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
+                                const VirtualMachines& machines, const DiagnoseOptions&);
 
 /// OTHER: `covariance` of the values as the machines of the specification have it. Sets the priors of all explanations.
 void add_value_patterns(const Matrix& covariance, Explanations&);

@@ -1,9 +1,10 @@
-// A displacement that follows one coordinate of the touch: time, place along an axis of the machine, temperature of the part, speed.
+// A displacement that follows one coordinate of the touch: time, place along an axis of the machine,
+// temperature of the part, speed.
 //
 //   d = sum over the knots k of w_k(s) (x_k, y_k, z_k),     s = (coordinate - from) / (to - from)
 //
-// w_k: linear interpolation between kCurveKnots evenly spaced knots, constant beyond the ends. Linear in all knots. A step, a trend or a
-// slow cycle of up to seven periods is drawn well enough by it.
+// w_k: linear interpolation between kCurveKnots evenly spaced knots, constant beyond the ends. Linear in all
+// knots. A step, a trend or a slow cycle of up to seven periods is drawn well enough by it.
 #include <algorithm>
 
 #include "engine/effects/empirical/empirical.hpp"
@@ -28,19 +29,35 @@ namespace {
 constexpr std::string_view kAlong[] = {"time", "x", "y", "z", "part_temperature", "speed"};
 constexpr int kFirstKnot = 3;
 constexpr std::string_view kKnotNames[] = {
-    "x0_um",  "y0_um",  "z0_um",  "x1_um",  "y1_um",  "z1_um",  "x2_um",  "y2_um",  "z2_um",  "x3_um",  "y3_um",  "z3_um",
-    "x4_um",  "y4_um",  "z4_um",  "x5_um",  "y5_um",  "z5_um",  "x6_um",  "y6_um",  "z6_um",  "x7_um",  "y7_um",  "z7_um",
-    "x8_um",  "y8_um",  "z8_um",  "x9_um",  "y9_um",  "z9_um",  "x10_um", "y10_um", "z10_um", "x11_um", "y11_um", "z11_um",
-    "x12_um", "y12_um", "z12_um", "x13_um", "y13_um", "z13_um", "x14_um", "y14_um", "z14_um", "x15_um", "y15_um", "z15_um"};
+    "x0_um",  "y0_um",  "z0_um",  "x1_um",  "y1_um",  "z1_um",  "x2_um",  "y2_um",  "z2_um",  "x3_um",
+    "y3_um",  "z3_um",  "x4_um",  "y4_um",  "z4_um",  "x5_um",  "y5_um",  "z5_um",  "x6_um",  "y6_um",
+    "z6_um",  "x7_um",  "y7_um",  "z7_um",  "x8_um",  "y8_um",  "z8_um",  "x9_um",  "y9_um",  "z9_um",
+    "x10_um", "y10_um", "z10_um", "x11_um", "y11_um", "z11_um", "x12_um", "y12_um", "z12_um", "x13_um",
+    "y13_um", "z13_um", "x14_um", "y14_um", "z14_um", "x15_um", "y15_um", "z15_um"};
 static_assert(std::size(kKnotNames) == 3 * kCurveKnots);
 
 constexpr auto kEmpiricalCurveParameters = [] {
   std::array<EffectParameter, kFirstKnot + 3 * kCurveKnots> list{};
   list[0] = {.name = "along", .unit = "code", .help = "the coordinate that it follows", .high = 5, .choices = kAlong};
-  list[1] = {.name = "from", .unit = "s, mm, degrees C or mm/s", .help = "the coordinate of the first knot", .low = -1e9, .high = 1e9};
-  list[2] = {.name = "to", .unit = "s, mm, degrees C or mm/s", .help = "the coordinate of the last knot", .low = -1e9, .high = 1e9, .standard = 1};
+  list[1] = {.name = "from",
+             .unit = "s, mm, degrees C or mm/s",
+             .help = "the coordinate of the first knot",
+             .low = -1e9,
+             .high = 1e9};
+  list[2] = {.name = "to",
+             .unit = "s, mm, degrees C or mm/s",
+             .help = "the coordinate of the last knot",
+             .low = -1e9,
+             .high = 1e9,
+             .standard = 1};
   for (int k = 0; k < 3 * kCurveKnots; ++k)
-    list[static_cast<std::size_t>(kFirstKnot + k)] = {.name = kKnotNames[k], .unit = "um", .help = "displacement in W at this knot", .typical = 1, .low = -1e4, .high = 1e4, .linear = true};
+    list[static_cast<std::size_t>(kFirstKnot + k)] = {.name = kKnotNames[k],
+                                                      .unit = "um",
+                                                      .help = "displacement in W at this knot",
+                                                      .typical = 1,
+                                                      .low = -1e4,
+                                                      .high = 1e4,
+                                                      .linear = true};
   return list;
 }();
 
@@ -61,8 +78,9 @@ Vec3 empirical_curve(const TouchScene& scene, const double* theta, const double*
 constinit const Effect kEmpiricalCurve{
     .name = "empirical.curve",
     .title = "empirical: a displacement along one coordinate",
-    .help = "A curve that a diagnosis has fitted to a mismatch which no effect of the catalogue explains: piecewise linear in time, along one axis "
-            "of the machine, in the temperature of the part or in the speed. It is constant beyond the range of the recording that it was fitted to.",
+    .help =
+        "A curve that a diagnosis has fitted to a mismatch which no effect of the catalogue explains: piecewise linear in time, along one axis "
+        "of the machine, in the temperature of the part or in the speed. It is constant beyond the range of the recording that it was fitted to.",
     .source = "none: a fit to a recording",
     .separate = "find the physics: what `abbe diagnose` proposes to measure next",
     .stage = Stage::structure,

@@ -1,6 +1,7 @@
-// What a diagnosis saves for a mismatch that no effect of the catalogue explains: the pattern itself, fitted to the recording. These
-// are not physics; outside the range of the recording they are constant or zero, and they say so in their titles. They let `abbe run` reckon with
-// what was seen until somebody finds out what it is.
+// What a diagnosis saves for a mismatch that no effect of the catalogue explains: the pattern itself, fitted
+// to the recording. These are not physics; outside the range of the recording they are constant or zero, and
+// they say so in their titles. They let `abbe run` reckon with what was seen until somebody finds out what it
+// is.
 #pragma once
 
 #include <array>
@@ -9,8 +10,8 @@
 
 namespace abbe {
 
-inline constexpr int kCurveKnots = 16;       ///< of empirical.curve
-inline constexpr int kDirectionTerms = 25;   ///< of empirical.direction: all harmonics up to degree 4
+inline constexpr int kCurveKnots = 16;      ///< of empirical.curve
+inline constexpr int kDirectionTerms = 25;  ///< of empirical.direction: all harmonics up to degree 4
 
 extern const Effect kEmpiricalCurve, kEmpiricalDirection, kEmpiricalOffset;
 

@@ -29,7 +29,8 @@ constexpr EffectParameter kEmpiricalOffsetParameters[] = {
 Vec3 empirical_offset(const TouchScene& scene, const double* theta, const double*) {
   constexpr double kSame = 1e-6;
   const StylusScene& s = scene.stylus;
-  const bool turned = std::abs(s.head_a_rad - theta[2] * kDegree) < kSame && std::abs(s.head_b_rad - theta[3] * kDegree) < kSame;
+  const bool turned =
+      std::abs(s.head_a_rad - theta[2] * kDegree) < kSame && std::abs(s.head_b_rad - theta[3] * kDegree) < kSame;
   if (code(theta[0]) == 0 ? !concerns(s, theta[1]) : !turned) return {};
   return kUm * Vec3{theta[4], theta[5], theta[6]} + along_normal(scene, kUm * theta[7]);
 }
@@ -39,8 +40,9 @@ Vec3 empirical_offset(const TouchScene& scene, const double* theta, const double
 constinit const Effect kEmpiricalOffset{
     .name = "empirical.offset",
     .title = "empirical: an offset of one stylus or orientation",
-    .help = "A constant displacement of every touch with one stylus system or in one orientation of the head, which a diagnosis has fitted to a "
-            "mismatch that no effect of the catalogue explains.",
+    .help =
+        "A constant displacement of every touch with one stylus system or in one orientation of the head, which a diagnosis has fitted to a "
+        "mismatch that no effect of the catalogue explains.",
     .source = "none: a fit to a recording",
     .separate = "find the physics: what `abbe diagnose` proposes to measure next",
     .stage = Stage::head,

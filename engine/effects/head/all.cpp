@@ -5,8 +5,7 @@
 namespace abbe {
 
 std::span<const Effect* const> head_effects() {
-  static constexpr const Effect* list[] = {&kHeadAxisErrors, &kHeadReindexing, &kHeadSag,
-                                           &kHeadQualification};
+  static constexpr const Effect* list[] = {&kHeadAxisErrors, &kHeadReindexing, &kHeadSag, &kHeadQualification};
   return list;
 }
 

@@ -45,8 +45,7 @@ struct Motion {
 /// coefficients each.
 Motion motion(double angle_rad, const double* z) {
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  const double basis[kBasis] = {c - 1, s, -s * s,
-                                s * c};  // the last two: (cos 2q - 1) / 2, sin 2q / 2
+  const double basis[kBasis] = {c - 1, s, -s * s, s * c};  // the last two: (cos 2q - 1) / 2, sin 2q / 2
   double f[6];
   for (int i = 0; i < 6; ++i) {
     f[i] = 0;
@@ -59,8 +58,7 @@ Vec3 head_axis_errors(const TouchScene& scene, const double* theta, const double
   const StylusScene& stylus = scene.stylus;
   const Motion a = motion(stylus.head_a_rad, z), b = motion(stylus.head_b_rad, z + kDrawsPerAxis);
   const Mat3 R_B = frame_after_b(stylus);
-  const Vec3 translation = b.translation + R_B * a.translation,
-             rotation = b.rotation + R_B * a.rotation;
+  const Vec3 translation = b.translation + R_B * a.translation, rotation = b.rotation + R_B * a.rotation;
   return theta[0] * kUm * translation + theta[1] * kUrad * cross(rotation, head_arm(stylus));
 }
 

@@ -48,8 +48,7 @@ constexpr EffectParameter kHeadQualificationParameters[] = {
 Vec3 head_qualification(const TouchScene& scene, const double* theta, const double*) {
   const Mat3 R_B = frame_after_b(scene.stylus);
   const Vec3 rotation = -theta[1] * R_B.cy + theta[2] * R_B.cz;
-  const Vec3 per_kelvin =
-      theta[0] * kUm * scene.stylus.to_head + kUrad * cross(rotation, head_arm(scene.stylus));
+  const Vec3 per_kelvin = theta[0] * kUm * scene.stylus.to_head + kUrad * cross(rotation, head_arm(scene.stylus));
   return (scene.temperature.air - theta[3]) * per_kelvin;
 }
 
@@ -63,8 +62,7 @@ constinit const Effect kHeadQualification{
         "changed temperature, and every orientation drifts along its own vector. A new "
         "qualification removes it.",
     .source = "thermal expansion of head and stylus; ISO 10360-5 location test",
-    .separate =
-        "qualify again and compare; the fixed sphere in all orientations at two temperatures",
+    .separate = "qualify again and compare; the fixed sphere in all orientations at two temperatures",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::air_temperature | Covariate::qualification,
     .parameters = kHeadQualificationParameters,

@@ -34,8 +34,7 @@ constexpr EffectParameter kBacklashParameters[] = {
 
 Vec3 backlash(const TouchScene& scene, const double* theta, const double*) {
   const int axis = code(theta[1]);
-  const double forgotten =
-      theta[2] > 0 ? 1 - 2 * std::exp(-scene.since_reversal_mm[axis] / theta[2]) : 1;
+  const double forgotten = theta[2] > 0 ? 1 - 2 * std::exp(-scene.since_reversal_mm[axis] / theta[2]) : 1;
   return 0.5 * theta[0] * kUm * scene.sense[axis] * forgotten * axis_vector(axis);
 }
 

@@ -50,16 +50,14 @@ constexpr EffectParameter kDynamicsParameters[] = {
 /// What is left of an initial deflection of 1 after `time_s`.
 double free_response(double time_s, double frequency_Hz, double zeta) {
   if (time_s <= 0) return 1;
-  const double w = 2 * kPi * frequency_Hz, root = std::sqrt(1 - zeta * zeta),
-               angle = w * root * time_s;
+  const double w = 2 * kPi * frequency_Hz, root = std::sqrt(1 - zeta * zeta), angle = w * root * time_s;
   return std::exp(-zeta * w * time_s) * (std::cos(angle) + zeta / root * std::sin(angle));
 }
 
 Vec3 dynamics(const TouchScene& scene, const double* theta, const double*) {
   const int axis = code(theta[1]);
   const double along_m_s2 = 1e-3 * scene.acceleration_mm_s2 * approach(scene)[axis];
-  const double angle =
-      theta[0] * kUrad * along_m_s2 * free_response(scene.settled_s, theta[3], theta[4]);
+  const double angle = theta[0] * kUrad * along_m_s2 * free_response(scene.settled_s, theta[3], theta[4]);
   return angle * cross(axis_vector(code(theta[2])), scene.lever_mm[axis]);
 }
 

@@ -29,12 +29,7 @@ constexpr EffectParameter kMapScallopsParameters[] = {
      .low = 1,
      .high = 1000,
      .standard = 50},
-    {.name = "node_mm",
-     .unit = "mm",
-     .help = "reading at one of the nodes",
-     .typical = 0,
-     .low = -5000,
-     .high = 5000},
+    {.name = "node_mm", .unit = "mm", .help = "reading at one of the nodes", .typical = 0, .low = -5000, .high = 5000},
     axis_parameter("the axis along which the map is interpolated: 0 x, 1 y, 2 z"),
     {.name = "direction",
      .unit = "code",
@@ -59,8 +54,7 @@ constinit const Effect kMapScallops{
         "between them; a curved error leaves a parabola in every gap, zero with a cusp at each "
         "node. It repeats with the spacing of the nodes.",
     .source = "error of linear interpolation, e'' h^2/8",
-    .separate =
-        "positions at the nodes against positions half-way; a grid shifted by half the spacing",
+    .separate = "positions at the nodes against positions half-way; a grid shifted by half the spacing",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kMapScallopsParameters,

@@ -55,8 +55,8 @@ Vec3 scale_interpolation(const TouchScene& scene, const double* theta, const dou
   const int axis = code(theta[3]);
   const double periods = scene.reading[axis] / (theta[2] * kUm);
   const double angle = 2 * kPi * (periods - std::floor(periods));
-  const double error_um = theta[0] * std::sin(angle + theta[4] * kDegree) +
-                          theta[1] * std::sin(2 * angle + theta[5] * kDegree);
+  const double error_um =
+      theta[0] * std::sin(angle + theta[4] * kDegree) + theta[1] * std::sin(2 * angle + theta[5] * kDegree);
   return error_um * kUm * axis_vector(axis);
 }
 

@@ -33,12 +33,9 @@ constexpr EffectParameter kMachineSquarenessParameters[] = {
 Vec3 machine_squareness(const TouchScene& scene, const double* theta, const double*) {
   const double angle = theta[0] * kUrad;
   switch (code(theta[1])) {
-    case 0:
-      return {angle * scene.reading.y, 0, 0};
-    case 1:
-      return {angle * scene.reading.z, 0, 0};
-    default:
-      return {0, angle * scene.reading.z, 0};
+    case 0: return {angle * scene.reading.y, 0, 0};
+    case 1: return {angle * scene.reading.z, 0, 0};
+    default: return {0, angle * scene.reading.z, 0};
   }
 }
 

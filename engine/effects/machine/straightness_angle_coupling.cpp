@@ -47,8 +47,7 @@ struct Carriage {
 /// cosine.
 Carriage carriage(double k, double x, double half_base, const double* z) {
   constexpr double kRmsOfOneOverN = 1.2296269;  // sqrt(1 + 1/4 + ... + 1/49)
-  const double c1 = std::cos(k * x), s1 = std::sin(k * x), cb1 = std::cos(k * half_base),
-               sb1 = std::sin(k * half_base);
+  const double c1 = std::cos(k * x), s1 = std::sin(k * x), cb1 = std::cos(k * half_base), sb1 = std::sin(k * half_base);
   double c = 1, s = 0, cb = 1, sb = 0;
   Carriage sum;
   for (int n = 1; n <= kHarmonics; ++n) {
@@ -88,8 +87,7 @@ constinit const Effect kStraightnessAngleCoupling{
     .source =
         "Bryan, Precision Engineering 1 (1979), the Abbe principle revisited; Hu et al., Machines "
         "9, 33 (2021)",
-    .separate =
-        "the same line measured with two Abbe offsets (stylus lengths or heights) on one axis",
+    .separate = "the same line measured with two Abbe offsets (stylus lengths or heights) on one axis",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kStraightnessAngleCouplingParameters,

@@ -58,12 +58,9 @@ constexpr EffectParameter kUnequalNoiseParameters[] = {
 
 bool in_group(const TouchScene& scene, const double* theta) {
   switch (code(theta[2])) {
-    case long_styli:
-      return scene.stylus.length_mm > theta[3];
-    case tilted_head:
-      return std::fabs(scene.stylus.head_a_rad) > kUpright_rad;
-    default:
-      return scene.speed_mm_s > theta[4];
+    case long_styli: return scene.stylus.length_mm > theta[3];
+    case tilted_head: return std::fabs(scene.stylus.head_a_rad) > kUpright_rad;
+    default: return scene.speed_mm_s > theta[4];
   }
 }
 

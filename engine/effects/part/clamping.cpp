@@ -56,11 +56,10 @@ constexpr EffectParameter kClampingParameters[] = {
 };
 
 Vec3 clamping(const TouchScene& scene, const double* theta, const double*) {
-  const double bow = theta[0] * kUm, cross_bow = theta[1] * kUm, twist = theta[2] * kUm,
-               lobes = theta[3] * kUm, h = theta[4];
+  const double bow = theta[0] * kUm, cross_bow = theta[1] * kUm, twist = theta[2] * kUm, lobes = theta[3] * kUm,
+               h = theta[4];
   const double u = scene.on_part.x / h, v = scene.on_part.y / h;
-  const double w =
-      bow * u * u + cross_bow * v * v + twist * u * v + lobes * u * (u * u - 3 * v * v);
+  const double w = bow * u * u + cross_bow * v * v + twist * u * v + lobes * u * (u * u - 3 * v * v);
   const double slope_x = (2 * bow * u + twist * v + 3 * lobes * (u * u - v * v)) / h;
   const double slope_y = (2 * cross_bow * v + twist * u - 6 * lobes * u * v) / h;
   const Vec3 moved{-scene.on_part.z * slope_x, -scene.on_part.z * slope_y, w};

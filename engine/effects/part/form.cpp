@@ -35,11 +35,9 @@ constexpr EffectParameter kPartFormParameters[] = {
     lobe("oval_yz_um", "two lobes about the part's x: proud at 45 degrees between y and z"),
     lobe("egg_um", "proud by this at both poles of the part's z, low by half of it at the equator"),
     lobe("three_lobe_um", "three lobes about the part's z: one of them proud along x"),
-    lobe("three_lobe_30_um",
-         "three lobes about the part's z: one of them proud at 30 degrees from x"),
+    lobe("three_lobe_30_um", "three lobes about the part's z: one of them proud at 30 degrees from x"),
     lobe("wave_um", "faces: wave over the position on the part, sine, zero at the part's origin"),
-    lobe("wave_cosine_um",
-         "faces: wave over the position on the part, cosine, proud at the part's origin"),
+    lobe("wave_cosine_um", "faces: wave over the position on the part, cosine, proud at the part's origin"),
     {.name = "wavelength_mm",
      .unit = "mm",
      .help = "length of the wave",
@@ -54,9 +52,8 @@ Vec3 part_form(const TouchScene& scene, const double* theta, const double*) {
   double r_um;
   if (scene.curved) {
     const auto [x, y, z] = scene.normal_on_part;
-    r_um = theta[0] * (x * x - y * y) + theta[1] * 2 * x * y + theta[2] * 2 * x * z +
-           theta[3] * 2 * y * z + theta[4] * (3 * z * z - 1) / 2 +
-           theta[5] * x * (x * x - 3 * y * y) + theta[6] * y * (3 * x * x - y * y);
+    r_um = theta[0] * (x * x - y * y) + theta[1] * 2 * x * y + theta[2] * 2 * x * z + theta[3] * 2 * y * z +
+        theta[4] * (3 * z * z - 1) / 2 + theta[5] * x * (x * x - 3 * y * y) + theta[6] * y * (3 * x * x - y * y);
   } else {
     const double phase = 2 * kPi * scene.on_part[code(theta[10])] / theta[9];
     r_um = theta[7] * std::sin(phase) + theta[8] * std::cos(phase);
@@ -75,8 +72,7 @@ constinit const Effect kPartForm{
         "part whose form is the thing to measure this is no error; on an artefact that counts as "
         "perfect it is.",
     .source = "real harmonics of degree 2 and 3; ISO 12181 roundness, ISO 12780 straightness",
-    .separate =
-        "turn the part against the probe (multi-step reversal); measure it with another probe",
+    .separate = "turn the part against the probe (multi-step reversal); measure it with another probe",
     .stage = Stage::part,
     .needs = Covariate::normal | Covariate::part_frame,
     .parameters = kPartFormParameters,

@@ -49,8 +49,7 @@ constexpr EffectParameter kLoadBendingParameters[] = {
 Vec3 load_bending(const TouchScene& scene, const double* theta, const double*) {
   const double load = (scene.load_kg + theta[1]) / kRatedLoad_kg, travel = scene.travel_length_mm[scene.on_table];
   const double curvature = 8 * theta[0] * kUm * load / (travel * travel);
-  return bent_guide(scene, scene.on_table, -curvature) +
-         bent_guide(scene, 1 - scene.on_table, -theta[2] * curvature);
+  return bent_guide(scene, scene.on_table, -curvature) + bent_guide(scene, 1 - scene.on_table, -theta[2] * curvature);
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ constexpr double kRubyGPa = 400, kRubyPoisson = 0.29;
 
 /// Approach of two bodies under a force, mm; `curvature_per_mm` = 1/Rr.
 double approach_mm(double force_N, double curvature_per_mm, double young_GPa, double poisson) {
-  const double softness = 1e-3 * ((1 - poisson * poisson) / young_GPa +
-                                  (1 - kRubyPoisson * kRubyPoisson) / kRubyGPa);  // mm^2/N
+  const double softness =
+      1e-3 * ((1 - poisson * poisson) / young_GPa + (1 - kRubyPoisson * kRubyPoisson) / kRubyGPa);  // mm^2/N
   const double f = force_N * softness;
   return std::cbrt(9.0 / 16 * f * f * curvature_per_mm);
 }

@@ -42,8 +42,7 @@ constinit const Effect kCosineError{
         "A point is probed askew, and the tip radius is compensated along the approach or the "
         "nominal normal. The surface then seems too far out by R (1 - cos angle): never too far "
         "in, four times larger at twice the angle, proportional to the tip radius.",
-    .source =
-        "geometry of the contact; ISO 10360-5 and probing guides ask for approach along the normal",
+    .source = "geometry of the contact; ISO 10360-5 and probing guides ask for approach along the normal",
     .separate = "probe the same point under several angles; several tip radii",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::direction | Covariate::sensor,

@@ -37,9 +37,8 @@ constexpr EffectParameter kPretravelLobingParameters[] = {
      .linear = true},
     {.name = "phase_deg",
      .unit = "deg",
-     .help =
-         "azimuth of one of the three soft directions, towards which the surface pushes the tip, about "
-         "the body's axis from x of the head's last link; repeats after 120 degrees",
+     .help = "azimuth of one of the three soft directions, towards which the surface pushes the tip, about "
+             "the body's axis from x of the head's last link; repeats after 120 degrees",
      .typical = 0,
      .low = -180,
      .high = 180},
@@ -79,8 +78,7 @@ double Tripod::relative_pretravel(const TouchScene& scene) const {
   const Mat3& R = stylus.R_WR;
   const Vec3& n = scene.normal;
   const Vec3 lever = cross(R.cz, cross(-1.0 * stylus.to_head, n));  // per length of the stylus
-  const double lx = dot(lever, R.cx), ly = dot(lever, R.cy),
-               axial = half_radius_mm / stylus.length_mm * dot(n, R.cz);
+  const double lx = dot(lever, R.cx), ly = dot(lever, R.cy), axial = half_radius_mm / stylus.length_mm * dot(n, R.cz);
   const double along = dot(n, stylus.to_head), across2 = 1 - along * along;
   // The floor bounds the directions in which such a probe hardly triggers: pulls along its body and
   // twists about it.
@@ -89,8 +87,7 @@ double Tripod::relative_pretravel(const TouchScene& scene) const {
   constexpr double kC[3] = {1, -0.5, -0.5}, kS[3] = {0, 0.86602540378443865, -0.86602540378443865};
   double force = 1e300;
   for (int k = 0; k < 3; ++k) {
-    const double c = cos_phase * kC[k] - sin_phase * kS[k],
-                 s = sin_phase * kC[k] + cos_phase * kS[k];
+    const double c = cos_phase * kC[k] - sin_phase * kS[k], s = sin_phase * kC[k] + cos_phase * kS[k];
     const double restoring = 1 + gravity * (c * R.cx.z + s * R.cy.z);
     force = std::min(force, restoring / std::max(c * lx + s * ly + axial, floor));
   }
@@ -104,12 +101,9 @@ struct Direction {
 };
 
 std::array<Direction, 12> hemisphere() {
-  constexpr double kNode3[] = {-0.7745966692414834, 0, 0.7745966692414834},
-                   kWeight3[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
-  constexpr double kNode4[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
-                               0.8611363115940526};
-  constexpr double kWeight4[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
-                                 0.3478548451374538};
+  constexpr double kNode3[] = {-0.7745966692414834, 0, 0.7745966692414834}, kWeight3[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  constexpr double kNode4[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
+  constexpr double kWeight4[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
   std::array<Direction, 12> points{};
   for (int i = 0; i < 12; ++i) {
     const double elevation = kPi / 4 * (1 + kNode4[i / 3]);
@@ -134,8 +128,7 @@ Vec3 pretravel_lobing(const TouchScene& scene, const double* theta, const double
   if (length <= 0) return {};  // a touch without a stylus: the recording does not tell which
   const double phase = theta[1] * kDegree, growth = length / theta[2];
   const Tripod tripod{0.5 * theta[3], theta[4], std::cos(phase), std::sin(phase)};
-  const double p =
-      tripod.relative_pretravel(scene) - mean_over_qualification(tripod.half_radius_mm / length);
+  const double p = tripod.relative_pretravel(scene) - mean_over_qualification(tripod.half_radius_mm / length);
   return along_normal(scene, -2 * theta[0] * kUm * growth * growth * p);
 }
 

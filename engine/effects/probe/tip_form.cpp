@@ -89,8 +89,7 @@ constinit const Effect kTipForm{
         "The ball is not round: where it is proud the surface seems too far out. The deviation "
         "depends on the place of the ball that touches, so it turns with the stylus and repeats "
         "exactly. Degrees 2 to 6 of a random form are drawn for each machine.",
-    .source =
-        "ball grades after ISO 3290 (grade 5: 0.13 um, grade 3: 0.08 um); real spherical harmonics",
+    .source = "ball grades after ISO 3290 (grade 5: 0.13 um, grade 3: 0.08 um); real spherical harmonics",
     .separate =
         "unscrew the stylus a little in the probe: the ball's form moves with the stylus, the "
         "lobing stays with the probe; two stylus lengths",

@@ -75,8 +75,8 @@ constexpr EffectParameter kBridgeBendingParameters[] = {
      .standard = 1200},
 };
 
-/// A bridge along y that is turned about +X by `roll_rad` (along x: about -Y), on a foot `leg_length_mm` below the saddle's
-/// frame at home.
+/// A bridge along y that is turned about +X by `roll_rad` (along x: about -Y), on a foot `leg_length_mm`
+/// below the saddle's frame at home.
 Vec3 rolled(const TouchScene& scene, double roll_rad, double leg_length_mm) {
   const int along = scene.on_bridge;
   const Vec3& from_saddle = scene.lever_mm[along];
@@ -91,7 +91,7 @@ Vec3 bridge_bending(const TouchScene& scene, const double* theta, const double*)
   const double legs_K = theta[1] + theta[2] * scene.temperature.legs_difference_K;
   const double roll_rad = theta[3] * kPpm * theta[5] * legs_K / theta[6];
   return bent_guide(scene, scene.on_bridge, thermal_curvature(theta[3], beam_K, theta[4])) +
-         rolled(scene, roll_rad, theta[5]);
+      rolled(scene, roll_rad, theta[5]);
 }
 
 }  // namespace

@@ -61,8 +61,7 @@ constinit const Effect kRamGrowth{
         "of the ram below the reading head grows, the tip is lower than the machine believes, "
         "and all surfaces read too high; the more, the further the ram is out.",
     .source = "linear expansion of the free length of the ram; aluminium 23.1 ppm/K",
-    .separate =
-        "the same artefact at several heights; a second head orientation; a sensor on the ram",
+    .separate = "the same artefact at several heights; a second head orientation; a sensor on the ram",
     .stage = Stage::thermal,
     .needs = Covariate::position | Covariate::time,
     .parameters = kRamGrowthParameters,

@@ -34,8 +34,7 @@ constexpr EffectParameter kStylusGrowthParameters[] = {
 
 Vec3 stylus_growth(const TouchScene& scene, const double* theta, const double*) {
   const StylusScene& stylus = scene.stylus;
-  const double growth_mm =
-      stylus.cte_per_K * stylus.length_mm * theta[0] * settled_share(scene.time_s, theta[1]);
+  const double growth_mm = stylus.cte_per_K * stylus.length_mm * theta[0] * settled_share(scene.time_s, theta[1]);
   return growth_mm * stylus.to_head;
 }
 

@@ -39,9 +39,7 @@ inline constexpr double kGraniteTable_s = time_constant_s(2700, 800, 0.100, kSti
 
 /// Share of its final value that a first-order lag has reached after `time_s`. tau = 0: all of it,
 /// at once.
-inline double settled_share(double time_s, double tau_s) {
-  return tau_s > 0 ? -std::expm1(-time_s / tau_s) : 1;
-}
+inline double settled_share(double time_s, double tau_s) { return tau_s > 0 ? -std::expm1(-time_s / tau_s) : 1; }
 
 /// d of a part that is longer by `strain` in every direction, as seen from its own origin. Only its
 /// component along the normal reaches a reading; that is a scalar of the part's frame, so the pose

@@ -54,7 +54,8 @@ Outcome<Element> construct_best_fit(Shape result, Shapes, Elements from, const E
 extern const Construction best_fit_method{
     .word = "BF",
     .signature = "from:feature,{ from:feature }",
-    .help = "least-squares fit through the points and centres of features; a line or axis gives its point nearest to the nominal one",
+    .help =
+        "least-squares fit through the points and centres of features; a line or axis gives its point nearest to the nominal one",
     .example = "CONST/PLANE,F(P1),BF,FA(A),FA(B),FA(C)",
     .source = "ISO 22093:2011, CONST BF; orthogonal least squares as for measured features",
     .applies = best_fit_applies,

@@ -34,7 +34,8 @@ Vec3 farthest(Shape shape, const Element& f, const Vec3& e) {
 
 const char* extreme_applies(Shape result, Shapes shapes) {
   if (result != Shape::point) return "EXTREM makes a point";
-  if (shapes[0] == Shape::cone || is_outline(shapes[0])) return "EXTREM takes points, lines, planes, circles, cylinders, spheres and tori";
+  if (shapes[0] == Shape::cone || is_outline(shapes[0]))
+    return "EXTREM takes points, lines, planes, circles, cylinders, spheres and tori";
   return nullptr;
 }
 

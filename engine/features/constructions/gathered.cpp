@@ -5,9 +5,7 @@
 namespace abbe {
 namespace {
 
-const char* centre_applies(Shape result, Shapes) {
-  return result == Shape::point ? nullptr : "COG makes a point";
-}
+const char* centre_applies(Shape result, Shapes) { return result == Shape::point ? nullptr : "COG makes a point"; }
 
 Outcome<Element> centre(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   Vec3 sum;
@@ -19,9 +17,7 @@ const char* transfer_applies(Shape result, Shapes shapes) {
   return result == shapes[0] ? nullptr : "TR takes over a feature of the same kind";
 }
 
-Outcome<Element> transfer(Shape, Shapes, Elements from, const Element&, const Arguments&) {
-  return {from[0]};
-}
+Outcome<Element> transfer(Shape, Shapes, Elements from, const Element&, const Arguments&) { return {from[0]}; }
 
 }  // namespace
 

@@ -28,10 +28,8 @@ Outcome<Element> line_of_planes(const Element& a, const Element& b, const Elemen
 }
 
 Outcome<Element> point_on_plane(const Element& axis, const Element& plane) {
-  if (std::fabs(dot(axis.direction, plane.direction)) < kParallel)
-    return cannot("the line is parallel to the plane");
-  return {
-      {.point = line_meets_plane(axis.point, axis.direction, plane), .direction = plane.direction}};
+  if (std::fabs(dot(axis.direction, plane.direction)) < kParallel) return cannot("the line is parallel to the plane");
+  return {{.point = line_meets_plane(axis.point, axis.direction, plane), .direction = plane.direction}};
 }
 
 Outcome<Element> point_of_axes(const Element& a, const Element& b, const Element& nominal) {
@@ -50,12 +48,10 @@ Outcome<Element> point_of_planes(Elements p, const Element& nominal) {
   if (std::fabs(volume) < kParallel)
     return cannot("two of the planes are parallel, or all three run along one direction");
   auto height = [&](int i) { return dot(p[i].direction, p[i].point - p[0].point); };
-  return {{.point = p[0].point + (height(1) * zx + height(2) * xy) / volume,
-           .direction = nominal.direction}};
+  return {{.point = p[0].point + (height(1) * zx + height(2) * xy) / volume, .direction = nominal.direction}};
 }
 
-Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
-                         const Element& nominal) {
+Outcome<Element> section(const Element& plane, Shape shape, const Element& body, const Element& nominal) {
   constexpr double kSquare = 0.0175;  // sine of 1 degree
   Element circle;
   circle.direction = plane.direction;
@@ -69,8 +65,7 @@ Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
       return cannot("the section is not a circle: the plane is not square to the axis");
     circle.point = line_meets_plane(body.point, body.direction, plane);
     circle.size = body.size;
-    if (shape == Shape::cone)
-      circle.size += dot(circle.point - body.point, body.direction) * std::tan(body.angle);
+    if (shape == Shape::cone) circle.size += dot(circle.point - body.point, body.direction) * std::tan(body.angle);
     if (!(circle.size > 0)) return cannot("the plane lies beyond the apex of the cone");
   }
   return {in_sense_of(nominal, circle)};
@@ -81,8 +76,11 @@ Outcome<Element> oblique_section(const Element& plane, const Element& body) {
   if (cosine < kParallel) return cannot("the plane runs along the axis of the cylinder");
   const Vec3 along = perpendicular_part(body.direction, plane.direction);
   const Vec3 major = norm(along) > 1e-9 ? unit(along) : any_perpendicular(plane.direction);
-  return {{.point = line_meets_plane(body.point, body.direction, plane), .direction = plane.direction,
-           .size = body.size / cosine, .minor_size = body.size, .second = major}};
+  return {{.point = line_meets_plane(body.point, body.direction, plane),
+           .direction = plane.direction,
+           .size = body.size / cosine,
+           .minor_size = body.size,
+           .second = major}};
 }
 
 /// What two features have in common.
@@ -105,16 +103,15 @@ Common common(Shape result, Shapes shapes) {
 const char* intersect_applies(Shape result, Shapes shapes) {
   if (shapes.size() == 2)
     return common(result, shapes) != Common::nothing
-               ? nullptr
-               : "INTOF makes a line of two planes, a point of lines, planes and round features, or a "
-                 "circle or ellipse of a plane and a cylinder, cone or sphere";
+        ? nullptr
+        : "INTOF makes a line of two planes, a point of lines, planes and round features, or a "
+          "circle or ellipse of a plane and a cylinder, cone or sphere";
   for (const Shape shape : shapes)
     if (shape != Shape::plane) return "INTOF of three features takes three planes";
   return result == Shape::point ? nullptr : "three planes meet in a point";
 }
 
-Outcome<Element> intersect(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                           const Arguments&) {
+Outcome<Element> intersect(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   if (from.size() == 3) return point_of_planes(from, nominal);
   const int first = shapes[0] == Shape::plane ? 0 : 1, second = 1 - first;
   switch (common(result, shapes)) {

@@ -49,8 +49,7 @@ const char* middle_plane_applies(Shape result, Shapes shapes) {
 Outcome<Element> middle_plane(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   const Vec3 n = bisector(from[0].direction, from[1].direction, nominal.direction);
   const Vec3 middle = 0.5 * (from[0].point + from[1].point);
-  const Vec3 point =
-      0.5 * (line_meets_plane(middle, n, from[0]) + line_meets_plane(middle, n, from[1]));
+  const Vec3 point = 0.5 * (line_meets_plane(middle, n, from[0]) + line_meets_plane(middle, n, from[1]));
   return {in_sense_of(nominal, {.point = point, .direction = n})};
 }
 

@@ -13,10 +13,8 @@ const char* project_point_applies(Shape result, Shapes shapes) {
 Outcome<Element> project_point(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   const Element& onto = from[1];
   if (shapes[1] == Shape::plane)
-    return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point),
-             .direction = onto.direction}};
-  return {{.point = foot_on_line(onto.point, onto.direction, from[0].point),
-           .direction = nominal.direction}};
+    return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point), .direction = onto.direction}};
+  return {{.point = foot_on_line(onto.point, onto.direction, from[0].point), .direction = nominal.direction}};
 }
 
 const char* project_line_applies(Shape result, Shapes shapes) {
@@ -29,10 +27,11 @@ Outcome<Element> project_line(Shape, Shapes, Elements from, const Element& nomin
   const Vec3 shadow = perpendicular_part(line.direction, plane.direction);
   const double cosine = norm(shadow);
   if (cosine < kParallel) return cannot("the line is perpendicular to the plane");
-  return {in_sense_of(nominal, {.point = foot_on_plane(plane.point, plane.direction, line.point),
-                                .direction = shadow / cosine,
-                                .begin = line.begin * cosine,
-                                .end = line.end * cosine})};
+  return {in_sense_of(nominal,
+                      {.point = foot_on_plane(plane.point, plane.direction, line.point),
+                       .direction = shadow / cosine,
+                       .begin = line.begin * cosine,
+                       .end = line.end * cosine})};
 }
 
 }  // namespace
@@ -40,8 +39,7 @@ Outcome<Element> project_line(Shape, Shapes, Elements from, const Element& nomin
 extern const Construction projected_point_method{
     .word = "PROJPT",
     .signature = "from:feature,from:feature",
-    .help =
-        "the point or centre of the first feature, projected onto the plane or axis of the second",
+    .help = "the point or centre of the first feature, projected onto the plane or axis of the second",
     .example = "CONST/POINT,F(P),PROJPT,FA(A),FA(PL)",
     .source = "ISO 22093:2011, CONST PROJPT",
     .applies = project_point_applies,

@@ -23,7 +23,8 @@ Outcome<Element> line_and_ball(const Vec3& p, const Vec3& d, const Vec3& c, doub
 Outcome<Element> line_and_circle(const Element& line, const Element& circle, const Element& nominal) {
   const Vec3 d = perpendicular_part(line.direction, circle.direction);
   if (norm(d) < kParallel) return cannot("the line stands on the plane of the circle");
-  return line_and_ball(foot_on_plane(circle.point, circle.direction, line.point), unit(d), circle.point, circle.size, nominal);
+  return line_and_ball(foot_on_plane(circle.point, circle.direction, line.point), unit(d), circle.point, circle.size,
+                       nominal);
 }
 
 Outcome<Element> plane_and_circle(const Element& plane, const Element& circle, const Element& nominal) {
@@ -31,8 +32,8 @@ Outcome<Element> plane_and_circle(const Element& plane, const Element& circle, c
   const double sine = norm(across);
   if (sine < kParallel) return cannot("the plane is parallel to that of the circle");
   const double offset = dot(plane.point - circle.point, plane.direction) / sine;
-  return line_and_ball(circle.point + offset * (across / sine), cross(circle.direction, across / sine), circle.point, circle.size,
-                       nominal);
+  return line_and_ball(circle.point + offset * (across / sine), cross(circle.direction, across / sine), circle.point,
+                       circle.size, nominal);
 }
 
 /// In the plane of the first; their common chord lies x along the line of the centres.

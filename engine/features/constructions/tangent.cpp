@@ -34,7 +34,8 @@ class Nearest {
 
 /// The line has the unit normal m in the plane; m . (c2 - c1) = r1 -+ r2 for tangents that leave the
 /// circles on one side, or on two. A point is a circle of radius 0.
-Outcome<Element> common_tangent(const Element& circle, const Element& other, double other_radius, const Element& nominal) {
+Outcome<Element> common_tangent(const Element& circle, const Element& other, double other_radius,
+                                const Element& nominal) {
   const Vec3 n = circle.direction, between = perpendicular_part(other.point - circle.point, n);
   const double d = norm(between);
   if (!(d > 0)) return cannot("a tangent needs two different places");
@@ -62,7 +63,8 @@ Outcome<Element> fillet(const Element& a, const Element& b, const Element& nomin
   const Vec3 corner = a.point + dot(cross(gap, b.direction), n) / (sine * sine) * a.direction;
   Nearest nearest(nominal);
   for (const double s : {1.0, -1.0})
-    for (const double t : {1.0, -1.0}) nearest.circle(corner + nominal.size / sine * (s * a.direction + t * b.direction), n / sine);
+    for (const double t : {1.0, -1.0})
+      nearest.circle(corner + nominal.size / sine * (s * a.direction + t * b.direction), n / sine);
   return nearest.made();
 }
 
@@ -70,8 +72,9 @@ const char* tangent_applies(Shape result, Shapes shapes) {
   const auto all = [&](auto fits) { return fits(shapes[0]) && fits(shapes[1]); };
   const bool circle = result == Shape::circle && all([](Shape s) { return s == Shape::line; });
   const bool line = result == Shape::line && all([](Shape s) { return s == Shape::circle || s == Shape::point; }) &&
-                    (shapes[0] == Shape::circle || shapes[1] == Shape::circle);
-  return circle || line ? nullptr : "TANTO makes a line of a circle and a point or of two circles, or a circle of two lines";
+      (shapes[0] == Shape::circle || shapes[1] == Shape::circle);
+  return circle || line ? nullptr
+                        : "TANTO makes a line of a circle and a point or of two circles, or a circle of two lines";
 }
 
 Outcome<Element> tangent(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
@@ -85,7 +88,8 @@ Outcome<Element> tangent(Shape result, Shapes shapes, Elements from, const Eleme
 extern const Construction tangent_method{
     .word = "TANTO",
     .signature = "from:feature,[THRU],from:feature",
-    .help = "a line tangent to a circle through a point, or to two circles; a circle of the nominal size tangent to two lines",
+    .help =
+        "a line tangent to a circle through a point, or to two circles; a circle of the nominal size tangent to two lines",
     .example = "CONST/LINE,F(L),TANTO,FA(C),THRU,FA(P)",
     .source = "ISO 22093:2011, CONST TANTO",
     .applies = tangent_applies,

@@ -25,8 +25,7 @@ const char* perpendicular_applies(Shape result, Shapes shapes) {
                          "to a line, or to a plane through a line";
 }
 
-Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const Element& nominal,
-                               const Arguments&) {
+Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   const Element &to = from[0], &through = from[1];
   const bool to_plane = shapes[0] == Shape::plane, to_axis = has_axis(shapes[0]);
   if ((result == Shape::line && to_plane) || (result == Shape::plane && to_axis))
@@ -38,8 +37,7 @@ Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const
     return made(nominal, through.point, unit(across));
   }
   const Vec3 n = cross(to.direction, through.direction);
-  if (norm(n) < kParallel)
-    return cannot("the line is perpendicular to the plane, so that no single plane contains it");
+  if (norm(n) < kParallel) return cannot("the line is perpendicular to the plane, so that no single plane contains it");
   return made(nominal, through.point, unit(n));
 }
 

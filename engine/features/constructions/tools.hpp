@@ -12,8 +12,7 @@ namespace abbe {
 using Shapes = std::span<const Shape>;
 using Elements = std::span<const Element>;
 
-inline constexpr double kParallel =
-    1e-3;  ///< sine below which an intersection would be noise: 0.06 degrees
+inline constexpr double kParallel = 1e-3;  ///< sine below which an intersection would be noise: 0.06 degrees
 
 inline Outcome<Element> cannot(const char* reason) { return Outcome<Element>::failed(reason); }
 
@@ -30,13 +29,9 @@ inline Element in_sense_of(const Element& nominal, Element e) {
 }
 
 /// The point of the line through p along the unit vector d that is nearest to q.
-constexpr Vec3 foot_on_line(const Vec3& p, const Vec3& d, const Vec3& q) {
-  return p + dot(q - p, d) * d;
-}
+constexpr Vec3 foot_on_line(const Vec3& p, const Vec3& d, const Vec3& q) { return p + dot(q - p, d) * d; }
 /// The point of the plane through p across the unit vector n that is nearest to q.
-constexpr Vec3 foot_on_plane(const Vec3& p, const Vec3& n, const Vec3& q) {
-  return q - dot(q - p, n) * n;
-}
+constexpr Vec3 foot_on_plane(const Vec3& p, const Vec3& n, const Vec3& q) { return q - dot(q - p, n) * n; }
 /// Where the line through p along d meets the plane; d must not lie in the plane.
 constexpr Vec3 line_meets_plane(const Vec3& p, const Vec3& d, const Element& plane) {
   return p + dot(plane.point - p, plane.direction) / dot(d, plane.direction) * d;

@@ -6,9 +6,7 @@
 namespace abbe {
 namespace {
 
-const char* vector_applies(Shape result, Shapes) {
-  return result == Shape::point ? nullptr : "VECBLD makes a point";
-}
+const char* vector_applies(Shape result, Shapes) { return result == Shape::point ? nullptr : "VECBLD makes a point"; }
 
 Outcome<Element> build_vector(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
   FitProblem problem{.shape = Shape::plane, .points = {}, .normal = {}};

@@ -71,8 +71,8 @@ inline constexpr Vec3 kTestTip{0, 0, -300};
 /// `runs`: how it runs through each travel, away from home (1), towards home (-1) or not at all
 /// (0). The five lengths start at the same end and are evenly spaced from 25 mm (a fifth of the
 /// longest on lines under 125 mm).
-TestLine central_line(const Machine&, std::string_view test, std::string_view name,
-                      const Vec3& runs, const Vec3& tip_mm, const LengthMpe&);
+TestLine central_line(const Machine&, std::string_view test, std::string_view name, const Vec3& runs,
+                      const Vec3& tip_mm, const LengthMpe&);
 
 /// P(range of three independent standard normal values <= r). Harter 1960; here by quadrature, to
 /// 1e-12.

@@ -42,22 +42,21 @@ std::vector<Diagnostic> probe_warnings(const Machine& machine, std::span<const P
   std::vector<Diagnostic> warnings;
   for (const ProbeCheck& check : checks)
     if (check.share_passed < 0.5)
-      warnings.push_back(
-          diagnostic(Code::W0418,
-                     fmt::format("the probe of \"{}\" would pass only {:.3g} % of the tests of {}: "
-                                 "the median is {:.3g} um, the limit "
-                                 "{:.3g} um",
-                                 machine.name, 100 * check.share_passed, check.name,
-                                 1e3 * check.median_mm, 1e3 * check.limit_mm),
-                     fmt::format("check \"probe.sd_um\" and the limit against the data sheet: with "
-                                 "the standard deviations multiplied "
-                                 "by {:.2f}, half of the tests would pass",
-                                 check.limit_mm / check.median_mm)));
+      warnings.push_back(diagnostic(
+          Code::W0418,
+          fmt::format("the probe of \"{}\" would pass only {:.3g} % of the tests of {}: "
+                      "the median is {:.3g} um, the limit "
+                      "{:.3g} um",
+                      machine.name, 100 * check.share_passed, check.name, 1e3 * check.median_mm, 1e3 * check.limit_mm),
+          fmt::format("check \"probe.sd_um\" and the limit against the data sheet: with "
+                      "the standard deviations multiplied "
+                      "by {:.2f}, half of the tests would pass",
+                      check.limit_mm / check.median_mm)));
   return warnings;
 }
 
-TestLine central_line(const Machine& machine, std::string_view test, std::string_view name,
-                      const Vec3& runs, const Vec3& tip_mm, const LengthMpe& mpe) {
+TestLine central_line(const Machine& machine, std::string_view test, std::string_view name, const Vec3& runs,
+                      const Vec3& tip_mm, const LengthMpe& mpe) {
   constexpr double kShortest_mm = 25;  // below 30 mm, as the standard asks
   constexpr int n = kLengthsPerLine;
   Vec3 whole, middle;

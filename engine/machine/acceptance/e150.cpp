@@ -22,8 +22,7 @@ std::vector<TestLine> e150_lines(const Machine& machine) {
   std::vector<TestLine> out;
   if (const auto& mpe = machine.specification.e150_mpe)
     for (const auto& [name, runs, across] : all)
-      out.push_back(
-          central_line(machine, "E150", name, runs, kTestTip + kOffset_mm * across, *mpe));
+      out.push_back(central_line(machine, "E150", name, runs, kTestTip + kOffset_mm * across, *mpe));
   return out;
 }
 

@@ -19,8 +19,7 @@ namespace abbe {
 namespace {
 
 constexpr int kTouches = 25, kUnknowns = 4;
-constexpr int kTests =
-    10'000;  ///< the share passed is known to 0.5 % (one standard deviation) or better
+constexpr int kTests = 10'000;  ///< the share passed is known to 0.5 % (one standard deviation) or better
 
 /// The pattern that the standard proposes: the pole, then 4, 8, 4 and 8 touches on circles 22.5
 /// degrees apart down to the equator, each circle turned by 22.5 degrees against the one above.
@@ -32,8 +31,7 @@ std::array<Vec3, kTouches> pattern() {
     for (int k = 0; k < counts[circle]; ++k) {
       const double polar = circle * kPi / 8;
       const double azimuth = 2 * kPi * k / counts[circle] + std::max(0, circle - 1) * kPi / 8;
-      normal[i++] = {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
-                     std::cos(polar)};
+      normal[i++] = {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
     }
   return normal;
 }
@@ -41,8 +39,7 @@ std::array<Vec3, kTouches> pattern() {
 double unknown_of(const Vec3& n, int j) { return j < 3 ? n[j] : 1; }
 
 /// gain[i]: what a unit error of touch i does to the centre (x, y, z) and the radius.
-std::array<std::array<double, kUnknowns>, kTouches> fit_gain(
-    const std::array<Vec3, kTouches>& normal) {
+std::array<std::array<double, kUnknowns>, kTouches> fit_gain(const std::array<Vec3, kTouches>& normal) {
   SymmetricSystem<double, kUnknowns> system;
   for (const Vec3& n : normal)
     for (int j = 0; j < kUnknowns; ++j)
@@ -58,8 +55,7 @@ std::array<std::array<double, kUnknowns>, kTouches> fit_gain(
 }
 
 /// Radial errors of kTests tests, [touch][test].
-std::vector<std::vector<double>> radial_errors(const Machine& machine,
-                                               const std::array<Vec3, kTouches>& normal,
+std::vector<std::vector<double>> radial_errors(const Machine& machine, const std::array<Vec3, kTouches>& normal,
                                                std::uint64_t seed) {
   const Mat3 R_RW = transpose(head_rotation(0, machine.head.mounting_rad));
   const Vec3 sd = machine.probe.sd_mm;
@@ -71,19 +67,16 @@ std::vector<std::vector<double>> radial_errors(const Machine& machine,
     constexpr std::uint32_t kStream = stream_of("acceptance.form_and_size");
     const auto site = static_cast<std::uint32_t>(i);
     normal_pairs(kTests, seed, test.data(), kStream, site, visit.data(), 0, x.data(), y.data());
-    normal_pairs(kTests, seed, test.data(), kStream, site, visit.data(), 1, z.data(),
-                 unused.data());
+    normal_pairs(kTests, seed, test.data(), kStream, site, visit.data(), 1, z.data(), unused.data());
     const Vec3 n_R = R_RW * normal[i];
-    for (int t = 0; t < kTests; ++t)
-      error[i][t] = n_R.x * sd.x * x[t] + n_R.y * sd.y * y[t] + n_R.z * sd.z * z[t];
+    for (int t = 0; t < kTests; ++t) error[i][t] = n_R.x * sd.x * x[t] + n_R.y * sd.y * y[t] + n_R.z * sd.z * z[t];
   }
   return error;
 }
 
 ProbeCheck judge(std::string_view name, double limit_mm, std::vector<double> values_mm) {
   std::sort(values_mm.begin(), values_mm.end());
-  const auto passed =
-      std::upper_bound(values_mm.begin(), values_mm.end(), limit_mm) - values_mm.begin();
+  const auto passed = std::upper_bound(values_mm.begin(), values_mm.end(), limit_mm) - values_mm.begin();
   return {name, limit_mm, values_mm[kTests / 2], double(passed) / kTests};
 }
 
@@ -107,10 +100,8 @@ std::vector<ProbeCheck> check_form_and_size(const Machine& machine, std::uint64_
     size[t] = std::fabs(2 * x[3]);
   }
   std::vector<ProbeCheck> checks;
-  if (spec.form_mpe_mm)
-    checks.push_back(judge("P_Form.Sph.1x25", *spec.form_mpe_mm, std::move(form)));
-  if (spec.size_mpe_mm)
-    checks.push_back(judge("P_Size.Sph.1x25", *spec.size_mpe_mm, std::move(size)));
+  if (spec.form_mpe_mm) checks.push_back(judge("P_Form.Sph.1x25", *spec.form_mpe_mm, std::move(form)));
+  if (spec.size_mpe_mm) checks.push_back(judge("P_Size.Sph.1x25", *spec.size_mpe_mm, std::move(size)));
   return checks;
 }
 

@@ -1,4 +1,5 @@
-// A diagnosis in words, as JSON (schema "abbe.diagnosis/1", docs/formats.md) and as a page: one HTML file with its figures in it.
+// A diagnosis in words, as JSON (schema "abbe.diagnosis/1", docs/formats.md) and as a page: one HTML file
+// with its figures in it.
 #pragma once
 
 #include <string>
@@ -15,8 +16,8 @@ std::string diagnosis_text(const Diagnosis&);
 std::vector<std::string> diagnosis_sentences(const Diagnosis&);
 /// `recording` and `machine`: what was compared, for the heading.
 std::string diagnosis_html(const Diagnosis&, const std::string& recording, const std::string& machine);
-/// The text of the machine file with what the diagnosis found in it: `effects` appended, or in the place of those they stand for, and `known_state`
-/// replaced.
+/// The text of the machine file with what the diagnosis found in it: `effects` appended, or in the place of
+/// those they stand for, and `known_state` replaced.
 std::string improved_machine(const std::string& machine_json, const Diagnosis&);
 
 }  // namespace abbe

@@ -17,7 +17,10 @@ std::string_view title(const Diagnosis& d) {
   if (!d.judged) return "What such a recording can tell";
   if (!d.judgeable) return "Nothing can be judged";
   switch (d.verdict) {
-    case Verdict::no_mismatch: return d.beyond ? "Beyond the specification of the machine" : d.beyond_known ? "Not the machine that its file knows" : "No mismatch found";
+    case Verdict::no_mismatch:
+      return d.beyond      ? "Beyond the specification of the machine"
+          : d.beyond_known ? "Not the machine that its file knows"
+                           : "No mismatch found";
     case Verdict::named: return "A mismatch, and what makes it";
     case Verdict::one_of: return "A mismatch, and what may make it";
     case Verdict::unexplained: return "A mismatch that no effect of the catalogue explains";
@@ -30,10 +33,12 @@ std::string explanations(const Diagnosis& d) {
   if (d.effects.empty() && !d.unexplained) return "";
   std::string rows = html_row({"effect", "probability", "size (95 % interval)"}, "th");
   for (const DiagnosedEffect& e : d.effects)
-    rows += html_row({fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), sizes_in_words(e)});
+    rows += html_row(
+        {fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), sizes_in_words(e)});
   if (d.unexplained)
     rows += html_row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
-                fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um)});
+                      fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um,
+                                  d.unexplained->low_um, d.unexplained->high_um)});
   std::string out = "<h2>Explanation</h2>\n" + html_table(rows);
   if (!d.location.empty()) out += "<p>" + escaped(capitalised(in_words(d.location.front()))) + ".</p>\n";
   return out;
@@ -42,13 +47,21 @@ std::string explanations(const Diagnosis& d) {
 std::string improvement(const Diagnosis& d) {
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
-  const auto line = [](const char* what, double before, double after) { return html_row({what, fmt::format("{:.3g}", before), fmt::format("{:.3g}", after)}); };
-  std::string out = fmt::format("<h2>What the explanation improves</h2>\n<p>On touches that the model had not seen ({}), the log score gains {:.1f} ± {:.1f} nats", escaped(i.scheme),
-                                i.log_score_gain, i.se);
-  if (d.runner_up) out += fmt::format("; with the runner-up, {}, {:.1f}", escaped(fmt::format("{}", fmt::join(d.runner_up->members, " or "))), d.runner_up->log_score_gain);
-  return out + ".</p>\n" + html_table(html_row({"there", "before", "after"}, "th") + line("rms of what is left, um", i.rms_before_um, i.rms_after_um) +
-                                  line("bias where it acts, um", i.bias_before_um, i.bias_after_um) +
-                                  line("chi-squared per degree of freedom", i.chi2_per_dof_before, i.chi2_per_dof_after));
+  const auto line = [](const char* what, double before, double after) {
+    return html_row({what, fmt::format("{:.3g}", before), fmt::format("{:.3g}", after)});
+  };
+  std::string out = fmt::format(
+      "<h2>What the explanation improves</h2>\n<p>On touches that the model had not seen ({}), the log score gains {:.1f} ± {:.1f} nats",
+      escaped(i.scheme), i.log_score_gain, i.se);
+  if (d.runner_up)
+    out +=
+        fmt::format("; with the runner-up, {}, {:.1f}",
+                    escaped(fmt::format("{}", fmt::join(d.runner_up->members, " or "))), d.runner_up->log_score_gain);
+  return out + ".</p>\n" +
+      html_table(html_row({"there", "before", "after"}, "th") +
+                 line("rms of what is left, um", i.rms_before_um, i.rms_after_um) +
+                 line("bias where it acts, um", i.bias_before_um, i.bias_after_um) +
+                 line("chi-squared per degree of freedom", i.chi2_per_dof_before, i.chi2_per_dof_after));
 }
 
 /// What a residual is drawn over.
@@ -65,8 +78,9 @@ std::string residual_plots(const Diagnosis& d) {
   if (d.residuals.empty()) return "";
   double largest = 0;
   for (const ResidualRow& r : d.residuals) largest = std::max({largest, std::abs(r.before_um), std::abs(r.after_um)});
-  std::string out = "<h2>Residuals</h2>\n<p class=\"note\">How far each surface point seems too far out, free of the placement of the part. After: the model "
-                    "with the explanation in it predicts touches that it has not seen.</p>\n";
+  std::string out =
+      "<h2>Residuals</h2>\n<p class=\"note\">How far each surface point seems too far out, free of the placement of the part. After: the model "
+      "with the explanation in it predicts touches that it has not seen.</p>\n";
   for (const Factor& f : kFactors) {
     Scatter before{"before", f.title, "residual, um", {}, {}, {-largest, largest}}, after = before;
     after.title = "after, held out", after.second_colour = true;
@@ -83,30 +97,39 @@ std::string residual_plots(const Diagnosis& d) {
 
 std::string values(const Diagnosis& d) {
   if (d.values.empty()) return "";
-  std::string out = "<h2>Values</h2>\n<p class=\"note\">Dot: deviation from the reference. Bar: where 95 % of machines of this specification lie.</p>\n";
+  std::string out =
+      "<h2>Values</h2>\n<p class=\"note\">Dot: deviation from the reference. Bar: where 95 % of machines of this specification lie.</p>\n";
   for (const char* unit : {"mm", "deg"}) {
     const double factor = std::string_view(unit) == "mm" ? 1e3 : 3600;
     Intervals plot{factor == 1e3 ? "deviation, um" : "deviation, arcsec", {}};
     for (const JudgedValue& v : d.values)
-      if (v.unit == unit) plot.lines.push_back({fmt::format("{} {}{}", v.characteristic, v.program, v.run > 1 ? fmt::format(" run {}", v.run) : ""), factor * v.low, factor * v.high, factor * v.deviation});
+      if (v.unit == unit)
+        plot.lines.push_back(
+            {fmt::format("{} {}{}", v.characteristic, v.program, v.run > 1 ? fmt::format(" run {}", v.run) : ""),
+             factor * v.low, factor * v.high, factor * v.deviation});
     if (!plot.lines.empty()) out += svg(plot) + "\n";
   }
   std::string rows = html_row({"characteristic", "program", "run", "value", "deviation", "u", "z", "p"}, "th");
   for (const JudgedValue& v : d.values)
-    rows += html_row({v.characteristic, v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit), fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u),
-                fmt::format("{:.2f}", v.z), fmt::format("{:.3f}", v.p)});
+    rows += html_row({v.characteristic, v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit),
+                      fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u), fmt::format("{:.2f}", v.z),
+                      fmt::format("{:.3f}", v.p)});
   return out + html_table(rows);
 }
 
 std::string next_measurements(const Diagnosis& d) {
-  if (d.next_measurement.empty()) return d.otherwise.empty() ? "" : "<h2>What to do next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
-  std::string rows = html_row({"change", "what to do", "tells apart", "probability of the truth after it", "minutes"}, "th");
+  if (d.next_measurement.empty())
+    return d.otherwise.empty() ? "" : "<h2>What to do next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
+  std::string rows =
+      html_row({"change", "what to do", "tells apart", "probability of the truth after it", "minutes"}, "th");
   for (const NextMeasurement& n : d.next_measurement)
-    rows += html_row({n.change, n.instruction, fmt::format("{}", fmt::join(n.separates, ", ")), fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
+    rows += html_row({n.change, n.instruction, fmt::format("{}", fmt::join(n.separates, ", ")),
+                      fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
   std::string out = "<h2>What to measure next</h2>\n" + html_table(rows);
   if (!d.otherwise.empty()) out += "<p>" + escaped(d.otherwise) + "</p>\n";
   if (!d.next_measurement.front().program.empty())
-    out += "<details><summary>DMIS program of the first</summary><pre>" + escaped(d.next_measurement.front().program) + "</pre></details>\n";
+    out += "<details><summary>DMIS program of the first</summary><pre>" + escaped(d.next_measurement.front().program) +
+        "</pre></details>\n";
   return out;
 }
 
@@ -114,32 +137,40 @@ std::string detectable_effects(const Diagnosis& d) {
   if (d.smallest_detectable.empty()) return "";
   std::string rows = html_row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
-    rows += html_row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::format("{}", fmt::join(s.confounded_with, ", "))});
-  return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" + html_table(rows);
+    rows +=
+        html_row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never",
+                  fmt::format("{}", fmt::join(s.confounded_with, ", "))});
+  return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" +
+      html_table(rows);
 }
 
 std::string open_questions(const Diagnosis& d) {
   if (d.cannot_judge.empty()) return "";
   std::string rows = html_row({"effect", "missing or constant"}, "th");
-  for (const CannotJudge& c : d.cannot_judge) rows += html_row({c.effect, c.missing.empty() ? "nothing of it shows here" : fmt::format("{}", fmt::join(c.missing, ", "))});
+  for (const CannotJudge& c : d.cannot_judge)
+    rows += html_row(
+        {c.effect, c.missing.empty() ? "nothing of it shows here" : fmt::format("{}", fmt::join(c.missing, ", "))});
   return "<h2>What cannot be judged</h2>\n" + html_table(rows);
 }
 
 std::string messages(const Diagnosis& d) {
   if (d.messages.empty()) return "";
   std::string out = "<h2>Messages</h2>\n<ul>";
-  for (const Diagnostic& m : d.messages) out += fmt::format("<li>{}: {}. {}</li>\n", info(m.code).name, escaped(m.message), escaped(m.help));
+  for (const Diagnostic& m : d.messages)
+    out += fmt::format("<li>{}: {}. {}</li>\n", info(m.code).name, escaped(m.message), escaped(m.help));
   return out + "</ul>\n";
 }
 
 }  // namespace
 
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
-  std::string body = fmt::format("<h1>{}</h1>\n<p class=\"note\">Recording {}; machine {}{}</p>\n", title(d), escaped(recording), escaped(machine),
-                                 d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
+  std::string body =
+      fmt::format("<h1>{}</h1>\n<p class=\"note\">Recording {}; machine {}{}</p>\n", title(d), escaped(recording),
+                  escaped(machine), d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
-  return html_page("Diagnosis of " + recording, body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) + detectable_effects(d) +
-                                               open_questions(d) + messages(d));
+  return html_page("Diagnosis of " + recording,
+                   body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) +
+                       detectable_effects(d) + open_questions(d) + messages(d));
 }
 
 }  // namespace abbe

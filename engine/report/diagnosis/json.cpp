@@ -18,8 +18,13 @@ Json array(const List& list, F item) {
 Json parameters(const std::vector<DiagnosedParameter>& list) {
   Json out = Json::object();
   for (const DiagnosedParameter& p : list) {
-    if (!p.word.empty()) out[p.name] = {{"value", p.word}};
-    else out[p.name] = {{"value", number(p.value)}, {"u", number(p.u)}, {"interval95", {number(p.low), number(p.high)}}, {"plausible", p.plausible}};
+    if (!p.word.empty())
+      out[p.name] = {{"value", p.word}};
+    else
+      out[p.name] = {{"value", number(p.value)},
+                     {"u", number(p.u)},
+                     {"interval95", {number(p.low), number(p.high)}},
+                     {"plausible", p.plausible}};
   }
   return out;
 }
@@ -28,11 +33,17 @@ Json effect(const DiagnosedEffect& e) {
   const auto in_run = [&](bool gone) {
     Json list = Json::array();
     for (std::size_t m = 0; m < e.members.size(); ++m)
-      list.push_back(m < e.change.size() && e.change[m].run > 0 && e.change[m].gone == gone ? Json(e.change[m].run) : Json());
+      list.push_back(m < e.change.size() && e.change[m].run > 0 && e.change[m].gone == gone ? Json(e.change[m].run)
+                                                                                            : Json());
     return list;
   };
-  return {{"members", e.members}, {"probability", number(e.probability)}, {"parameters", parameters(e.parameters)}, {"sentence", e.sentence},
-          {"new_in_run", in_run(false)}, {"gone_in_run", in_run(true)}, {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
+  return {{"members", e.members},
+          {"probability", number(e.probability)},
+          {"parameters", parameters(e.parameters)},
+          {"sentence", e.sentence},
+          {"new_in_run", in_run(false)},
+          {"gone_in_run", in_run(true)},
+          {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
 }
 
 Json location(const Location& l) {
@@ -45,14 +56,19 @@ Json unexplained(const std::optional<Unexplained>& u) {
   if (!u) return {};
   return {{"factor", u->factor},
           {"shape", u->shape},
-          {"amplitude_um", {{"value", number(u->amplitude_um)}, {"u", number(u->amplitude_u_um)}, {"interval95", {number(u->low_um), number(u->high_um)}}}},
+          {"amplitude_um",
+           {{"value", number(u->amplitude_um)},
+            {"u", number(u->amplitude_u_um)},
+            {"interval95", {number(u->low_um), number(u->high_um)}}}},
           {"sentence", u->sentence},
           {"model", u->model.empty() ? Json() : Json(u->model)}};
 }
 
 Json improvement(const std::optional<Improvement>& i) {
   if (!i) return {};
-  const auto change = [](double before, double after) { return Json{{"before", number(before)}, {"after", number(after)}}; };
+  const auto change = [](double before, double after) {
+    return Json{{"before", number(before)}, {"after", number(after)}};
+  };
   return {{"scheme", i->scheme},
           {"log_score_gain", number(i->log_score_gain)},
           {"se", number(i->se)},
@@ -62,30 +78,35 @@ Json improvement(const std::optional<Improvement>& i) {
 }
 
 Json detectable(const Detectable& d) {
-  return {{"effect", d.effect},       {"parameter", d.parameter},   {"unit", d.unit},
-          {"detect", number(d.detect)}, {"name", number(d.name)},   {"detect_um", number(d.detect_um)},
-          {"name_um", number(d.name_um)}, {"confounded_with", d.confounded_with}};
+  return {{"effect", d.effect},
+          {"parameter", d.parameter},
+          {"unit", d.unit},
+          {"detect", number(d.detect)},
+          {"name", number(d.name)},
+          {"detect_um", number(d.detect_um)},
+          {"name_um", number(d.name_um)},
+          {"confounded_with", d.confounded_with}};
 }
 
 Json next(const NextMeasurement& n) {
-  return {{"change", n.change}, {"instruction", n.instruction}, {"separates", n.separates}, {"expected_probability", number(n.expected_probability)}, {"minutes", number(n.minutes)}, {"program", n.program}};
+  return {{"change", n.change},           {"instruction", n.instruction},
+          {"separates", n.separates},     {"expected_probability", number(n.expected_probability)},
+          {"minutes", number(n.minutes)}, {"program", n.program}};
 }
 
 Json baseline(const BaselineSummary& b) {
   Json sensors = Json::object();
   for (const auto& [name, noise] : b.noise_by_sensor) sensors[name] = number(noise);
-  return {{"mode", b.known ? "known" : "fresh"},
-          {"geometry_scale", number(b.geometry_scale)},
-          {"noise_um", number(b.noise_um)},
-          {"noise_by_sensor_um", sensors},
-          {"correlation", number(b.correlation)},
-          {"outliers", b.outliers}};
+  return {{"mode", b.known ? "known" : "fresh"},  {"geometry_scale", number(b.geometry_scale)},
+          {"noise_um", number(b.noise_um)},       {"noise_by_sensor_um", sensors},
+          {"correlation", number(b.correlation)}, {"outliers", b.outliers}};
 }
 
 Json rivals(const Rivals& r) {
   return {{"chi2", {{"p", number(r.chi2_p)}}},
           {"stepwise_bic", {{"members", r.stepwise_bic}}},
-          {"best_bayes_factor", {{"members", Json::array({r.best_bayes_factor})}, {"probability", number(r.best_bayes_probability)}}}};
+          {"best_bayes_factor",
+           {{"members", Json::array({r.best_bayes_factor})}, {"probability", number(r.best_bayes_probability)}}}};
 }
 
 /// One list per column: a recording has a thousand touches.
@@ -105,9 +126,19 @@ Json residuals(const std::vector<ResidualRow>& rows) {
 }
 
 Json value(const JudgedValue& v) {
-  return {{"characteristic", v.characteristic}, {"program", v.program}, {"run", v.run}, {"occurrence", v.occurrence}, {"unit", v.unit},
-          {"value", number(v.value)}, {"reference", number(v.reference)}, {"deviation", number(v.deviation)}, {"u", number(v.u)},
-          {"z", number(v.z)}, {"p", number(v.p)}, {"lcl", number(v.low)}, {"ucl", number(v.high)}};
+  return {{"characteristic", v.characteristic},
+          {"program", v.program},
+          {"run", v.run},
+          {"occurrence", v.occurrence},
+          {"unit", v.unit},
+          {"value", number(v.value)},
+          {"reference", number(v.reference)},
+          {"deviation", number(v.deviation)},
+          {"u", number(v.u)},
+          {"z", number(v.z)},
+          {"p", number(v.p)},
+          {"lcl", number(v.low)},
+          {"ucl", number(v.high)}};
 }
 
 }  // namespace
@@ -125,17 +156,29 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"unexplained", unexplained(d.unexplained)},
       {"improvement", improvement(d.improvement)},
       {"residuals", d.improvement ? residuals(d.residuals) : Json()},
-      {"runner_up", d.runner_up ? Json{{"members", d.runner_up->members}, {"log_score_gain", number(d.runner_up->log_score_gain)}} : Json()},
-      {"cannot_judge", array(d.cannot_judge, [](const CannotJudge& c) { return Json{{"effect", c.effect}, {"missing", c.missing}}; })},
+      {"runner_up",
+       d.runner_up ? Json{{"members", d.runner_up->members}, {"log_score_gain", number(d.runner_up->log_score_gain)}}
+                   : Json()},
+      {"cannot_judge",
+       array(d.cannot_judge,
+             [](const CannotJudge& c) {
+               return Json{{"effect", c.effect}, {"missing", c.missing}};
+             })},
       {"smallest_detectable", array(d.smallest_detectable, detectable)},
       {"next_measurement", array(d.next_measurement, next)},
       {"otherwise", d.otherwise.empty() ? Json() : Json(d.otherwise)},
       {"baseline", d.touches > 0 ? baseline(d.baseline) : Json()},
       {"times_known_uncertainty", d.beyond_known ? Json(number(*d.beyond_known)) : Json()},
-      {"length_beyond_mpe", d.beyond ? Json{{"length_mm", number(d.beyond->length_mm)}, {"error_um", number(1e3 * d.beyond->error_mm)}, {"mpe_um", number(1e3 * d.beyond->mpe_mm)}} : Json()},
+      {"length_beyond_mpe",
+       d.beyond ? Json{{"length_mm", number(d.beyond->length_mm)},
+                       {"error_um", number(1e3 * d.beyond->error_mm)},
+                       {"mpe_um", number(1e3 * d.beyond->mpe_mm)}}
+                : Json()},
       {"rivals", d.judged && d.touches > 0 ? rivals(d.rivals) : Json()},
-      {"messages", array(d.messages, [](const Diagnostic& m) { return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}}; })}};
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";   // file names need not be UTF-8
+      {"messages", array(d.messages, [](const Diagnostic& m) {
+         return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}};
+       })}};
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names need not be UTF-8
 }
 
 std::string improved_machine(const std::string& machine_json, const Diagnosis& d) {
@@ -144,7 +187,8 @@ std::string improved_machine(const std::string& machine_json, const Diagnosis& d
   for (const std::size_t k : last_first) machine["effects"].erase(k);
   for (const EffectSetting& e : d.model_effects) {
     Json values = Json::object();
-    for (const auto& [key, v] : e.parameters) values[key] = v.word.empty() ? Json{{"value", number(v.value)}, {"u", number(v.u)}} : Json(v.word);
+    for (const auto& [key, v] : e.parameters)
+      values[key] = v.word.empty() ? Json{{"value", number(v.value)}, {"u", number(v.u)}} : Json(v.word);
     machine["effects"].push_back({{"name", e.name}, {"parameters", values}});
   }
   if (!d.known_state.empty()) machine["known_state"] = Json::parse(d.known_state);

@@ -11,7 +11,11 @@ namespace abbe {
 
 namespace {
 
-std::string chance(double p) { return p < 1e-4 ? "less than 1 in 10 000" : p < 0.01 ? fmt::format("1 in {:.0f}", 1 / p) : fmt::format("{:.0f} %", 100 * p); }
+std::string chance(double p) {
+  return p < 1e-4 ? "less than 1 in 10 000"
+      : p < 0.01  ? fmt::format("1 in {:.0f}", 1 / p)
+                  : fmt::format("{:.0f} %", 100 * p);
+}
 
 std::string what(const Diagnosis& d) {
   if (d.values.empty()) return fmt::format("{} touches are", d.touches);
@@ -21,16 +25,26 @@ std::string what(const Diagnosis& d) {
 /// Do they agree?
 std::string first_sentence(const Diagnosis& d) {
   const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
-  if (!d.judged) return fmt::format("No value was looked at: this is what a recording of {} could tell.", d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
-  if (!d.judgeable) return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.", d.touches);
+  if (!d.judged)
+    return fmt::format("No value was looked at: this is what a recording of {} could tell.",
+                       d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
+  if (!d.judgeable)
+    return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.",
+                       d.touches);
   if (d.verdict == Verdict::no_mismatch && d.beyond)
-    return fmt::format("Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
-                       1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
+    return fmt::format(
+        "Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
+        1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
   if (d.verdict == Verdict::no_mismatch && d.beyond_known)
-    return fmt::format("This is not the machine that its file knows, or it has changed as a whole: it differs by {:.1f} times what was uncertain of it.", *d.beyond_known);
+    return fmt::format(
+        "This is not the machine that its file knows, or it has changed as a whole: it differs by {:.1f} times what was uncertain of it.",
+        *d.beyond_known);
   if (d.verdict == Verdict::no_mismatch)
-    return fmt::format("The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d), machine, chance(d.p_value));
-  return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d), machine, chance(d.p_value));
+    return fmt::format(
+        "The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d),
+        machine, chance(d.p_value));
+  return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d),
+                     machine, chance(d.p_value));
 }
 
 /// What is it?
@@ -40,14 +54,21 @@ std::string second_sentence(const Diagnosis& d) {
   if (d.unexplained) parts.push_back(d.unexplained->sentence);
   if (parts.empty()) {
     if (d.smallest_detectable.empty()) return "";
-    const auto best = std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
-                                       [](const Detectable& a, const Detectable& b) { return a.detect_um < b.detect_um; });
-    const char* const but = !d.judged ? "The table says" : d.beyond || d.beyond_known ? "No effect of the catalogue was found that makes it: the table says"
-                                                                                     : "That does not mean that nothing is there: the table says";
-    return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but, best->detect_um, best->effect);
+    const auto best =
+        std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
+                         [](const Detectable& a, const Detectable& b) { return a.detect_um < b.detect_um; });
+    const char* const but = !d.judged ? "The table says"
+        : d.beyond || d.beyond_known  ? "No effect of the catalogue was found that makes it: the table says"
+                                      : "That does not mean that nothing is there: the table says";
+    return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but,
+                       best->detect_um, best->effect);
   }
-  if (doubtful(d)) parts.push_back(fmt::format("But what it leaves would come by chance in {} of recordings: something else is at work, beside it or instead.", chance(*d.adequacy_p)));
-  if (d.verdict == Verdict::cannot_judge) parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
+  if (doubtful(d))
+    parts.push_back(fmt::format(
+        "But what it leaves would come by chance in {} of recordings: something else is at work, beside it or instead.",
+        chance(*d.adequacy_p)));
+  if (d.verdict == Verdict::cannot_judge)
+    parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
@@ -55,16 +76,22 @@ std::string second_sentence(const Diagnosis& d) {
 std::string third_sentence(const Diagnosis& d) {
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
-  constexpr double kClear = 3;   // nats
+  constexpr double kClear = 3;  // nats
   const bool clear = std::abs(i.log_score_gain) > std::max(kClear, 2 * i.se), better = clear && i.log_score_gain > 0;
-  const std::string says = better && i.rms_after_um > i.rms_before_um ? "it is right that something is there, but its size does not carry over from the others"
-                           : better                                   ? "it predicts better"
-                           : clear                                    ? "it predicts worse"
-                           : i.rms_after_um < i.rms_before_um         ? "it predicts better, though not beyond doubt"
-                                                                      : "it does not predict better";
-  const std::string beside = d.runner_up ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "), d.runner_up->log_score_gain) : "";
-  return fmt::format("On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} ± {:.1f} nats{}.",
-                     d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um, i.bias_after_um, i.log_score_gain, i.se, beside);
+  const std::string says = better && i.rms_after_um > i.rms_before_um
+      ? "it is right that something is there, but its size does not carry over from the others"
+      : better                           ? "it predicts better"
+      : clear                            ? "it predicts worse"
+      : i.rms_after_um < i.rms_before_um ? "it predicts better, though not beyond doubt"
+                                         : "it does not predict better";
+  const std::string beside = d.runner_up
+      ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "),
+                    d.runner_up->log_score_gain)
+      : "";
+  return fmt::format(
+      "On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} ± {:.1f} nats{}.",
+      d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um,
+      i.bias_after_um, i.log_score_gain, i.se, beside);
 }
 
 std::string mismatch_table(const Diagnosis& d) {
@@ -76,53 +103,71 @@ std::string mismatch_table(const Diagnosis& d) {
       out += m ? "\n" : fmt::format("  {}\n", sizes_in_words(e));
     }
   }
-  if (d.unexplained) out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n", "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "", d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
+  if (d.unexplained)
+    out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n",
+                       "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "",
+                       d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
   if (!d.location.empty()) out += "  " + in_words(d.location.front()) + "\n";
   return out;
 }
 
 std::string design_table(const Diagnosis& d) {
-  std::string out = fmt::format("{:<38} {:>11} {:>11}  {}\n", "largest displacement, um, that would be", "detected", "named", "looks like");
+  std::string out = fmt::format("{:<38} {:>11} {:>11}  {}\n", "largest displacement, um, that would be", "detected",
+                                "named", "looks like");
   for (const Detectable& s : d.smallest_detectable)
-    out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", s.effect, s.detect_um, s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::join(s.confounded_with, ", "));
+    out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", s.effect, s.detect_um,
+                       s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::join(s.confounded_with, ", "));
   return out;
 }
 
 std::string cannot_judge(const Diagnosis& d) {
   std::string out;
   for (const CannotJudge& c : d.cannot_judge)
-    out += fmt::format("  {:<36} {}\n", c.effect, c.missing.empty() ? d.touches > 0 ? "does nothing to these touches" : "nothing of it shows in values" : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
+    out += fmt::format("  {:<36} {}\n", c.effect,
+                       c.missing.empty()
+                           ? d.touches > 0 ? "does nothing to these touches" : "nothing of it shows in values"
+                           : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
 
 std::string next_steps(const Diagnosis& d) {
   std::string out;
   for (const NextMeasurement& n : d.next_measurement)
-    out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n    {}\n", n.change, std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability, n.instruction);
-  if (!d.next_measurement.empty()) out += "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json. Its paths are not checked for collision.\n";
+    out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n    {}\n", n.change,
+                       std::ceil(n.minutes), fmt::join(n.separates, " / "), n.expected_probability, n.instruction);
+  if (!d.next_measurement.empty())
+    out +=
+        "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json. Its paths are not checked for collision.\n";
   if (!d.otherwise.empty()) out += "  " + d.otherwise + "\n";
   if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
-    out += "  No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.\n";
+    out +=
+        "  No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.\n";
   if (!d.model_effects.empty())
-    out += "  To reckon with it until it is mended: --model-out writes the machine file with it, and 'abbe run' on that machine gives uncertainties with it.\n";
+    out +=
+        "  To reckon with it until it is mended: --model-out writes the machine file with it, and 'abbe run' on that machine gives uncertainties with it.\n";
   return out.empty() ? "" : "what to do next:\n" + out;
 }
 
 std::string value_table(const Diagnosis& d) {
   if (d.values.empty()) return "";
-  std::string out = fmt::format("{:<28} {:<22} {:>3} {:>13} {:>12} {:>24} {:>6} {:>6}\n", "characteristic", "program", "run", "value", "deviation", "95 % of such machines", "z", "p");
+  std::string out = fmt::format("{:<28} {:<22} {:>3} {:>13} {:>12} {:>24} {:>6} {:>6}\n", "characteristic", "program",
+                                "run", "value", "deviation", "95 % of such machines", "z", "p");
   for (const JudgedValue& v : d.values)
-    out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6.3f}  {}\n", v.characteristic, v.program, v.run, v.value, v.deviation, v.low, v.high,
-                       v.z, v.p, v.unit);
+    out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6.3f}  {}\n",
+                       v.characteristic, v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, v.p, v.unit);
   return out + "\n";
 }
 
 std::string baseline_line(const Diagnosis& d) {
   if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
-  std::string out = fmt::format("baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale, b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification", b.noise_um);
+  std::string out = fmt::format(
+      "baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale,
+      b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification", b.noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
-  if (!b.outliers.empty()) out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches", fmt::join(b.outliers, ", "));
+  if (!b.outliers.empty())
+    out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",
+                       fmt::join(b.outliers, ", "));
   return out + "\n";
 }
 
@@ -138,7 +183,9 @@ std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out;
   for (const std::string& sentence : diagnosis_sentences(d)) out += sentence + "\n";
-  if (d.judgeable) out += "\n" + value_table(d) + (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
+  if (d.judgeable)
+    out += "\n" + value_table(d) +
+        (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
   out += next_steps(d);
   out += cannot_judge(d);
   return out + baseline_line(d);

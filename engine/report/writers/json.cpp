@@ -7,14 +7,11 @@ namespace abbe {
 
 namespace {
 
-Json pair(std::optional<double> low, std::optional<double> high) {
-  return Json::array({number(low), number(high)});
-}
+Json pair(std::optional<double> low, std::optional<double> high) { return Json::array({number(low), number(high)}); }
 
 Json contributions(const CharacteristicReport& c) {
   Json out = Json::object();
-  for (const auto& contribution : c.contributions)
-    out[contribution.name] = number(contribution.share);
+  for (const auto& contribution : c.contributions) out[contribution.name] = number(contribution.share);
   return out;
 }
 
@@ -36,32 +33,32 @@ Json decision(const CharacteristicReport::Decision& d) {
 
 Json characteristic(const CharacteristicReport& c) {
   const Summary& s = c.summary;
-  Json out = {{"feature", c.features},
-              {"tolerance", c.tolerance},
-              {"kind", c.kind},
-              {"unit", c.unit},
-              {"line", c.line},
-              {"occurrence", c.occurrence},
-              {"nominal", number(c.nominal)},
-              {"reference", number(c.reference)},
-              {"mean", number(s.mean)},
-              {"u", number(s.u)},
-              {"lcl", number(c.lcl)},
-              {"ucl", number(c.ucl)},
-              {"interval95",
-               {{"symmetric", pair(s.symmetric.low, s.symmetric.high)},
-                {"shortest", pair(s.shortest.low, s.shortest.high)}}},
-              {"monte_carlo_error",
-               {{"mean", number(s.mean_error)},
-                {"u", number(s.u_error)},
-                {"lcl", number(s.low_error)},
-                {"ucl", number(s.high_error)}}},
-              {"tolerance_limits", pair(c.lower, c.upper)},
-              {"conformance_probability", number(c.conformance_probability)},
-              {"decision", c.decision ? decision(*c.decision) : Json()},
-              {"contributions", contributions(c)},
-              {"trapped", c.trapped},
-              {"evaluated", c.evaluated}};
+  Json out = {
+      {"feature", c.features},
+      {"tolerance", c.tolerance},
+      {"kind", c.kind},
+      {"unit", c.unit},
+      {"line", c.line},
+      {"occurrence", c.occurrence},
+      {"nominal", number(c.nominal)},
+      {"reference", number(c.reference)},
+      {"mean", number(s.mean)},
+      {"u", number(s.u)},
+      {"lcl", number(c.lcl)},
+      {"ucl", number(c.ucl)},
+      {"interval95",
+       {{"symmetric", pair(s.symmetric.low, s.symmetric.high)}, {"shortest", pair(s.shortest.low, s.shortest.high)}}},
+      {"monte_carlo_error",
+       {{"mean", number(s.mean_error)},
+        {"u", number(s.u_error)},
+        {"lcl", number(s.low_error)},
+        {"ucl", number(s.high_error)}}},
+      {"tolerance_limits", pair(c.lower, c.upper)},
+      {"conformance_probability", number(c.conformance_probability)},
+      {"decision", c.decision ? decision(*c.decision) : Json()},
+      {"contributions", contributions(c)},
+      {"trapped", c.trapped},
+      {"evaluated", c.evaluated}};
   if (c.interval)
     out["interval"] = {{"coverage", c.interval->coverage},
                        {"symmetric", pair(c.interval->symmetric.low, c.interval->symmetric.high)},
@@ -83,8 +80,7 @@ Json message(const Diagnostic& d) {
 
 Json influence(const Influence& i) {
   Json out = {{"name", i.name}, {"status", i.status}};
-  if (i.status == "bounded")
-    out.update({{"at_most_um", number(i.at_most_um)}, {"source", i.source}});
+  if (i.status == "bounded") out.update({{"at_most_um", number(i.at_most_um)}, {"source", i.source}});
   return out;
 }
 
@@ -97,33 +93,34 @@ Json list(const std::vector<T>& items, F convert) {
 
 std::string write_json(const RunReport& r) {
   const ScreeningCounts& m = r.machines;
-  const Json report = {
-      {"schema", "abbe.run/1"},
-      {"program", r.program},
-      {"machine", r.machine},
-      {"workpiece", r.workpiece ? Json(*r.workpiece) : Json()},
-      {"errors_added_to", r.recorded_points ? "recorded points" : "nominal points"},
-      {"effects_use", r.effect_use ? Json(name(*r.effect_use)) : Json()},
-      {"seed", r.seed},
-      {"version", r.version},
-      {"cycle_time_s", number(r.cycle_time_s)},
-      {"machines",
-       {{"used", m.used},
-        {"generated", m.generated},
-        {"failed_mpe", m.failed_mpe},
-        {"too_small", m.too_small},
-        {"share_accepted", number(m.share_accepted())}}},
-      {"characteristics", list(r.characteristics, characteristic)},
-      {"lost", list(r.lost,
-                    [](const auto& l) {
-                      return Json{{"line", l.line}, {"feature", l.feature}, {"reason", l.reason}};
-                    })},
-      {"traps", list(r.traps,
-                     [](const Trap& t) {
-                       return Json{{"machine", t.machine}, {"line", t.line}, {"reason", t.reason}};
-                     })},
-      {"influences", list(r.influences, influence)},
-      {"messages", list(r.messages, message)}};
+  const Json report = {{"schema", "abbe.run/1"},
+                       {"program", r.program},
+                       {"machine", r.machine},
+                       {"workpiece", r.workpiece ? Json(*r.workpiece) : Json()},
+                       {"errors_added_to", r.recorded_points ? "recorded points" : "nominal points"},
+                       {"effects_use", r.effect_use ? Json(name(*r.effect_use)) : Json()},
+                       {"seed", r.seed},
+                       {"version", r.version},
+                       {"cycle_time_s", number(r.cycle_time_s)},
+                       {"machines",
+                        {{"used", m.used},
+                         {"generated", m.generated},
+                         {"failed_mpe", m.failed_mpe},
+                         {"too_small", m.too_small},
+                         {"share_accepted", number(m.share_accepted())}}},
+                       {"characteristics", list(r.characteristics, characteristic)},
+                       {"lost",
+                        list(r.lost,
+                             [](const auto& l) {
+                               return Json{{"line", l.line}, {"feature", l.feature}, {"reason", l.reason}};
+                             })},
+                       {"traps",
+                        list(r.traps,
+                             [](const Trap& t) {
+                               return Json{{"machine", t.machine}, {"line", t.line}, {"reason", t.reason}};
+                             })},
+                       {"influences", list(r.influences, influence)},
+                       {"messages", list(r.messages, message)}};
   // Labels keep the bytes of the program, which may be Latin-1: what is not UTF-8 is replaced.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

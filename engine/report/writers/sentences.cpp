@@ -16,15 +16,13 @@ std::string trapped_machines(const RunReport& r) {
   for (const Trap& trap : r.traps) ++stopped[{trap.line, trap.reason}];
   std::string out;
   for (const auto& [where, count] : stopped)
-    out += fmt::format("{} of {} machines stopped at line {}: {}\n", count, r.machines.used,
-                       where.first, where.second);
+    out += fmt::format("{} of {} machines stopped at line {}: {}\n", count, r.machines.used, where.first, where.second);
   return out;
 }
 
 std::string lost_characteristics(const RunReport& r) {
   std::string out;
-  for (const LostCharacteristic& l : r.lost)
-    out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
+  for (const LostCharacteristic& l : r.lost) out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
   return out;
 }
 
@@ -48,16 +46,14 @@ std::string bounded(const RunReport& r) {
   std::string out;
   for (const Influence& i : r.influences)
     if (i.status == "bounded")
-      out += fmt::format("Bounded, not in u: {}, at most {:g} um at a touch ({}).\n", i.name,
-                         i.at_most_um, i.source);
+      out += fmt::format("Bounded, not in u: {}, at most {:g} um at a touch ({}).\n", i.name, i.at_most_um, i.source);
   return out;
 }
 
 /// "3 min 12 s", "12 s".
 std::string duration(double seconds) {
   const long whole = std::lround(seconds);
-  return whole < 60 ? fmt::format("{} s", whole)
-                    : fmt::format("{} min {} s", whole / 60, whole % 60);
+  return whole < 60 ? fmt::format("{} s", whole) : fmt::format("{} min {} s", whole / 60, whole % 60);
 }
 
 }  // namespace
@@ -79,7 +75,8 @@ int decimals_for(double u) {
 int decimals_of(std::optional<double> limit) {
   constexpr double kRounding = 1e-9;
   int decimals = kFewestDecimals;
-  while (limit && decimals < kMostDecimals && std::fabs(std::stod(decimal(limit, decimals)) - *limit) > kRounding) ++decimals;
+  while (limit && decimals < kMostDecimals && std::fabs(std::stod(decimal(limit, decimals)) - *limit) > kRounding)
+    ++decimals;
   return decimals;
 }
 
@@ -128,9 +125,9 @@ std::vector<std::string> contributor_names(const RunReport& r) {
 
 std::string report_header(const RunReport& r) {
   const ScreeningCounts& m = r.machines;
-  std::string out = fmt::format(
-      "{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n",
-      r.program, r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
+  std::string out =
+      fmt::format("{}\nmachine {}: {} virtual machines used of {} generated ({:.1f} % accepted), seed {}\n", r.program,
+                  r.machine, m.used, m.generated, 100 * m.share_accepted(), r.seed);
   if (r.workpiece) out += fmt::format("workpiece {}\n", *r.workpiece);
   if (r.recorded_points) out += "errors added to recorded points\n";
   if (r.effect_use) out += fmt::format("effects {}\n", name(*r.effect_use));
@@ -161,9 +158,10 @@ std::string tolerance_to_uncertainty(const CharacteristicReport::Decision& d) {
 }
 
 std::string decision_legend() {
-  return fmt::format("accepted: the values that prove conformity by {} ({:g} %), the tolerance limits less a guard band from the simulated\n"
-                     "errors; verdict: on the value; T/U: tolerance over expanded uncertainty (half of the 95 % interval).",
-                     kDecisionRule, 100 * kProvenProbability);
+  return fmt::format(
+      "accepted: the values that prove conformity by {} ({:g} %), the tolerance limits less a guard band from the simulated\n"
+      "errors; verdict: on the value; T/U: tolerance over expanded uncertainty (half of the 95 % interval).",
+      kDecisionRule, 100 * kProvenProbability);
 }
 
 std::string budget_legend() {

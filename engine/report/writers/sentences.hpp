@@ -30,7 +30,8 @@ std::string from_reference(const CharacteristicReport&, const Interval&);
 /// The share of the k-th contributor: "62 %"; "-" where it is not known.
 std::string share_of(const CharacteristicReport&, std::size_t k);
 
-/// What a budget shows: the sources, the largest first, without those below a thousandth of the variance; then alignment and feature.
+/// What a budget shows: the sources, the largest first, without those below a thousandth of the variance;
+/// then alignment and feature.
 std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicReport&);
 
 /// Share of conforming machines: "99.8 %"; and of how many, where a condition sent some past it.
@@ -58,8 +59,8 @@ std::string report_legend(const RunReport&);
 std::string decision_legend();
 /// What the lines of a budget are; no newline at the end.
 std::string budget_legend();
-/// Machines that stopped, characteristics that were lost, messages without a place in a file; those with one are shown when the program is
-/// read.
+/// Machines that stopped, characteristics that were lost, messages without a place in a file; those with one
+/// are shown when the program is read.
 std::string report_remarks(const RunReport&);
 /// What is in no figure of the report.
 std::string report_bounds(const RunReport&);

@@ -7,8 +7,7 @@
 namespace abbe {
 
 int display_width(const std::string& text) {
-  return static_cast<int>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 void Table::add(std::vector<std::string> cells) {
@@ -29,8 +28,7 @@ std::string Table::to_text() const {
       int width = 0;
       for (const auto& other : lines) width = std::max(width, display_width(other[c]));
       const std::string padding(width - display_width(cells[c]), ' ');
-      line += (c ? "  " : "") +
-              (columns_[c].align == Align::left ? cells[c] + padding : padding + cells[c]);
+      line += (c ? "  " : "") + (columns_[c].align == Align::left ? cells[c] + padding : padding + cells[c]);
     }
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }

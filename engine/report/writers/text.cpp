@@ -29,9 +29,8 @@ int most_decimals(const RunReport& r) {
 
 std::vector<Table::Column> columns(const std::vector<std::string>& contributors) {
   using enum Table::Align;
-  std::vector<Table::Column> list{
-      {"line"}, {"feature", left}, {"tolerance", left}, {"unit", left}, {"value"},   {"u"},
-      {"LCL"},  {"UCL"},           {"lower"},           {"upper"},      {"conforms"}};
+  std::vector<Table::Column> list{{"line"}, {"feature", left}, {"tolerance", left}, {"unit", left}, {"value"},   {"u"},
+                                  {"LCL"},  {"UCL"},           {"lower"},           {"upper"},      {"conforms"}};
   for (const std::string& name : contributors) list.push_back({name});
   return list;
 }
@@ -66,8 +65,14 @@ std::string characteristics_table(const RunReport& r) {
 /// What is proven of the characteristics that have limits; nothing when none has.
 std::string decision_table(const RunReport& r) {
   using enum Table::Align;
-  Table table({{"line"}, {"feature", left}, {"tolerance", left}, {"unit", left}, {"value"},
-               {"accepted", left}, {"verdict", left}, {"T/U"}});
+  Table table({{"line"},
+               {"feature", left},
+               {"tolerance", left},
+               {"unit", left},
+               {"value"},
+               {"accepted", left},
+               {"verdict", left},
+               {"T/U"}});
   const int most = most_decimals(r);
   bool any = false;
   for (const auto& c : r.characteristics) {
@@ -84,15 +89,13 @@ std::string decision_table(const RunReport& r) {
 /// The budgets, one source a line, the largest first; nothing when none was asked for.
 std::string budget_table(const RunReport& r) {
   using enum Table::Align;
-  Table table(
-      {{"line"}, {"feature", left}, {"tolerance", left}, {"source", left}, {"u"}, {"share"}});
+  Table table({{"line"}, {"feature", left}, {"tolerance", left}, {"source", left}, {"u"}, {"share"}});
   bool any = false;
   for (const auto& c : r.characteristics)
     for (const auto& line : budget_lines(c)) {
       any = true;
       table.add({std::to_string(c.line), joined(c.features), c.tolerance, line.name,
-                 decimal(line.u, decimals_for(line.u)) + " " + c.unit,
-                 fmt::format("{:.1f} %", 100 * line.share)});
+                 decimal(line.u, decimals_for(line.u)) + " " + c.unit, fmt::format("{:.1f} %", 100 * line.share)});
     }
   if (!any) return "";
   return "\n" + table.to_text() + "\n" + budget_legend() + "\n";
@@ -102,8 +105,7 @@ std::string budget_table(const RunReport& r) {
 std::string interval_table(const RunReport& r) {
   using enum Table::Align;
   if (r.characteristics.empty() || !r.characteristics.front().interval) return "";
-  const std::string percent =
-      fmt::format("{:g} %", 100 * r.characteristics.front().interval->coverage);
+  const std::string percent = fmt::format("{:g} %", 100 * r.characteristics.front().interval->coverage);
   Table table({{"line"},
                {"feature", left},
                {"tolerance", left},

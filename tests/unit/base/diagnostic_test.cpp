@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-
 namespace abbe {
 
 TEST_CASE("places count lines and columns from 1, whatever ends a line") {
@@ -26,7 +25,8 @@ TEST_CASE("a message shows its line, with the caret under the word") {
 
 TEST_CASE("the caret stands under the characters, not under their bytes") {
   const SourceFile source("p", "F(äö)=FÄAT");
-  CHECK(render(diagnostic_at(source, {8, 13}, Code::E0110, "x")) == "p:1:9: error E0110: x\n  F(äö)=FÄAT\n        ^^^^\n");
+  CHECK(render(diagnostic_at(source, {8, 13}, Code::E0110, "x")) ==
+        "p:1:9: error E0110: x\n  F(äö)=FÄAT\n        ^^^^\n");
 }
 
 TEST_CASE("a caret stays on its line") {
@@ -36,7 +36,7 @@ TEST_CASE("a caret stays on its line") {
 }
 
 TEST_CASE("a word of a megabyte is near to nothing") {
-  const std::string word(1'000'000, 'A'), other(1'000'000, 'B');   // compared letter by letter, this would not end
+  const std::string word(1'000'000, 'A'), other(1'000'000, 'B');  // compared letter by letter, this would not end
   for (int k = 0; k < 200; ++k) CHECK(nearest_word(word, {"GOTO", "MEAS", other}).empty());
   CHECK(nearest_word("GOTTO", {"GOTO", "MEAS"}) == "GOTO");
 }
@@ -66,7 +66,10 @@ TEST_CASE("every code is listed once, with its letter and a title") {
   for (const CodeInfo& code : all_codes()) {
     CAPTURE(code.name);
     CHECK(info(code.code).name == code.name);
-    CHECK(code.name.front() == (code.severity == Severity::error ? 'E' : code.severity == Severity::warning ? 'W' : 'N'));
+    CHECK(code.name.front() ==
+          (code.severity == Severity::error         ? 'E'
+               : code.severity == Severity::warning ? 'W'
+                                                    : 'N'));
     CHECK(!code.title.empty());
   }
 }

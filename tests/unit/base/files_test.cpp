@@ -144,9 +144,16 @@ TEST_CASE("text that is not UTF-8 is read as Windows-1252, aloud") {
     return std::string(read_text("files_test_text", sink).text());
   };
   Sink good, other;
-  for (const char* text : {"plain", "Gr\xC3\xB6\xC3\x9F" "e \xE2\x82\xAC \xF0\x9F\x98\x80"}) CHECK(read(text, good) == text);
+  for (const char* text : {"plain",
+                           "Gr\xC3\xB6\xC3\x9F"
+                           "e \xE2\x82\xAC \xF0\x9F\x98\x80"})
+    CHECK(read(text, good) == text);
   CHECK(good.list().empty());
-  CHECK(read("one\nGr\xF6\xDF" "e \x80 \x96", other) == "one\nGr\xC3\xB6\xC3\x9F" "e \xE2\x82\xAC \xE2\x80\x93");
+  CHECK(read("one\nGr\xF6\xDF"
+             "e \x80 \x96",
+             other) ==
+        "one\nGr\xC3\xB6\xC3\x9F"
+        "e \xE2\x82\xAC \xE2\x80\x93");
   REQUIRE(other.list().size() == 1);
   CHECK(other.list()[0].code == Code::N0617);
   CHECK(other.list()[0].message.find("files_test_text:2") != std::string::npos);
@@ -155,7 +162,11 @@ TEST_CASE("text that is not UTF-8 is read as Windows-1252, aloud") {
     read(no_utf8, sink);
     CHECK(sink.list().size() == 1);
   }
-  CHECK_THROWS_AS(read(std::string_view("\xFF\xFE" "a\0", 4), other), UserError);   // E0618
+  CHECK_THROWS_AS(read(std::string_view("\xFF\xFE"
+                                        "a\0",
+                                        4),
+                       other),
+                  UserError);  // E0618
   std::remove("files_test_text");
 }
 

@@ -71,11 +71,10 @@ TEST_CASE("an unknown key is named, with its place and the nearest key") {
 }
 
 TEST_CASE("unknown keys are found at any depth, and beside other faults") {
-  const auto found =
-      reading(R"({"a": {"b": {"zzz": 1}}, "l": [{"c": 1}, {"d": "x"}], "e": 1})", [](JsonObject o) {
-        o.object("a").object("b").number_or("k", 0);
-        for (JsonObject item : o.object_list("l")) item.number_or("d", 0);
-      });
+  const auto found = reading(R"({"a": {"b": {"zzz": 1}}, "l": [{"c": 1}, {"d": "x"}], "e": 1})", [](JsonObject o) {
+    o.object("a").object("b").number_or("k", 0);
+    for (JsonObject item : o.object_list("l")) item.number_or("d", 0);
+  });
   REQUIRE(found.size() == 4);
   CHECK(found[0].code == Code::E0402);  // zzz
   CHECK(found[1].code == Code::E0402);  // c
@@ -85,23 +84,15 @@ TEST_CASE("unknown keys are found at any depth, and beside other faults") {
 
 TEST_CASE("what is wrong with a value is said at the value") {
   check_one(reading("{\"a\": \"5\"}", [](JsonObject o) { o.number("a"); }), Code::E0405, {1, 7});
-  check_one(reading("{\"a\": -5}", [](JsonObject o) { o.number("a", kPositive); }), Code::E0406,
-            {1, 7});
-  check_one(reading("{\"a\": 0}", [](JsonObject o) { o.number_or("a", 1, kPositive); }),
-            Code::E0406, {1, 7});
-  check_one(reading("{\"a\": 1.5}", [](JsonObject o) { o.integer_or("a", 1, 0, 9); }), Code::E0406,
-            {1, 7});
-  check_one(reading("{\"a\": 10}", [](JsonObject o) { o.integer_or("a", 1, 0, 9); }), Code::E0406,
-            {1, 7});
-  check_one(reading("{\"a\": [1, 2]}", [](JsonObject o) { o.numbers_or("a", {}, 3); }), Code::E0406,
-            {1, 7});
-  check_one(reading("{\"a\": [1, \"x\", 2]}", [](JsonObject o) { o.numbers_or("a", {}, 3); }),
-            Code::E0405, {1, 11});
-  check_one(reading("{\"a\": [1, -1]}", [](JsonObject o) { o.number_list("a", kNotNegative); }),
-            Code::E0406, {1, 11});
+  check_one(reading("{\"a\": -5}", [](JsonObject o) { o.number("a", kPositive); }), Code::E0406, {1, 7});
+  check_one(reading("{\"a\": 0}", [](JsonObject o) { o.number_or("a", 1, kPositive); }), Code::E0406, {1, 7});
+  check_one(reading("{\"a\": 1.5}", [](JsonObject o) { o.integer_or("a", 1, 0, 9); }), Code::E0406, {1, 7});
+  check_one(reading("{\"a\": 10}", [](JsonObject o) { o.integer_or("a", 1, 0, 9); }), Code::E0406, {1, 7});
+  check_one(reading("{\"a\": [1, 2]}", [](JsonObject o) { o.numbers_or("a", {}, 3); }), Code::E0406, {1, 7});
+  check_one(reading("{\"a\": [1, \"x\", 2]}", [](JsonObject o) { o.numbers_or("a", {}, 3); }), Code::E0405, {1, 11});
+  check_one(reading("{\"a\": [1, -1]}", [](JsonObject o) { o.number_list("a", kNotNegative); }), Code::E0406, {1, 11});
   check_one(reading("{\"a\": [1]}", [](JsonObject o) { o.object("a"); }), Code::E0405, {1, 7});
-  check_one(reading("{\"o\": {}}", [](JsonObject o) { o.object("o").text("k"); }), Code::E0404,
-            {1, 7});
+  check_one(reading("{\"o\": {}}", [](JsonObject o) { o.object("o").text("k"); }), Code::E0404, {1, 7});
   const auto word = reading("{\"m\": \"steal\"}", [](JsonObject o) {
     o.one_of("m", o.text("m"), {"steel", "ceramic"});
   });
@@ -119,8 +110,7 @@ TEST_CASE("the range of a number includes what its words say") {
 }
 
 TEST_CASE("a missing object is one error, not one for each of its keys") {
-  check_one(reading("{}", [](JsonObject o) { o.object("axes").object("x").number("travel_mm"); }),
-            Code::E0404, {1, 1});
+  check_one(reading("{}", [](JsonObject o) { o.object("axes").object("x").number("travel_mm"); }), Code::E0404, {1, 1});
 }
 
 TEST_CASE("a NUL character is refused: what follows it would not be read") {

@@ -8,6 +8,7 @@ TEST_CASE("numbers are finite, with a decimal point and nothing beside them") {
   CHECK(finite_number("12.5") == 12.5);
   CHECK(finite_number("+3") == 3);
   CHECK(finite_number("-2e-4") == -2e-4);
-  for (const char* text : {"", "+", "+-3", "++3", " 3", "3 ", "3,5", "3mm", "1e999", "nan", "NaN", "inf", "-inf", "infinity", "nan(1)", "0x1p3"})
+  for (const char* text : {"", "+", "+-3", "++3", " 3", "3 ", "3,5", "3mm", "1e999", "nan", "NaN", "inf", "-inf",
+                           "infinity", "nan(1)", "0x1p3"})
     CHECK_MESSAGE(!finite_number(text), text);
 }

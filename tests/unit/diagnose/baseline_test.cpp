@@ -1,8 +1,8 @@
 #include "engine/diagnose/baseline/baseline.hpp"
 
+#include <doctest/doctest.h>
 #include <Eigen/Dense>
 #include <cmath>
-#include <doctest/doctest.h>
 
 using namespace abbe;
 using namespace abbe::diagnose;
@@ -36,9 +36,10 @@ TEST_CASE("what is left of the geometry is that of touches whose neighbours have
   prior.topLeftCorner(kCoefficients, kCoefficients) *= 1.4 * 1.4;
   const Matrix v = m.random * prior * m.random.transpose() + noise, inverse = v.inverse(), x = m.free;
   const Matrix p = inverse - inverse * x * (x.transpose() * inverse * x).inverse() * x.transpose() * inverse;
-  const Matrix gain = prior * m.random.transpose() * p;   // the law of what is known given the recording, X of no prior
+  const Matrix gain = prior * m.random.transpose() * p;  // the law of what is known given the recording, X of no prior
   const Vector mean = b.mean + b.factor * (gain * m.y).head(kCoefficients);
-  const Matrix covariance = b.factor * (prior - gain * m.random * prior).topLeftCorner(kCoefficients, kCoefficients) * b.factor.transpose();
+  const Matrix covariance =
+      b.factor * (prior - gain * m.random * prior).topLeftCorner(kCoefficients, kCoefficients) * b.factor.transpose();
 
   const KnownGeometry known = posterior(b, h, std::vector<char>(kTouches, 0));
   CHECK((known.mean - mean).cwiseAbs().maxCoeff() < 1e-9);

@@ -9,12 +9,14 @@ using namespace abbe::diagnose;
 
 TEST_CASE("a size beside the range is possible where its uncertainty reaches the range, and is then the end of it") {
   const Effect& bending = *find_effect("probe.stylus_bending");
-  const auto force = [&](double value, double u) { return nearest_possible(bending, EffectSetting{"probe.stylus_bending", {{"force_N", {value, u, ""}}}}); };
+  const auto force = [&](double value, double u) {
+    return nearest_possible(bending, EffectSetting{"probe.stylus_bending", {{"force_N", {value, u, ""}}}});
+  };
   const auto value = [](const EffectSetting& setting) { return setting.parameters.at("force_N").value; };
   CHECK(value(force(0.08, 0.02)) == 0.08);
   CHECK(value(force(-0.01, 0.02)) == 0);
   CHECK(plausible(bending, force(-0.01, 0.02)));
-  CHECK(value(force(-0.0002, 0.00001)) == -0.0002);   // no force pulls, however small it is
+  CHECK(value(force(-0.0002, 0.00001)) == -0.0002);  // no force pulls, however small it is
   CHECK_FALSE(plausible(bending, force(-0.0002, 0.00001)));
   CHECK(value(force(2.5, 0.1)) == 2.5);
   CHECK_FALSE(plausible(bending, force(2.5, 0.1)));

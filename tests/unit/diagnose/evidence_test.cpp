@@ -1,9 +1,9 @@
 #include "engine/diagnose/model/evidence.hpp"
 
+#include <doctest/doctest.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <doctest/doctest.h>
 
 #include "engine/lanes/random.hpp"
 
@@ -12,7 +12,9 @@ using namespace abbe::diagnose;
 
 namespace {
 
-double standard_normal(std::uint32_t address) { return normal_quantile(uniform_pair({11, address, stream_of("evidence_test"), 0, 0, 0}).a); }
+double standard_normal(std::uint32_t address) {
+  return normal_quantile(uniform_pair({11, address, stream_of("evidence_test"), 0, 0, 0}).a);
+}
 
 LinearModel noise_only(int rows, std::uint32_t stream) {
   LinearModel m;
@@ -50,7 +52,8 @@ Explanations two(int rows) {
 }  // namespace
 
 TEST_CASE("the Bayes factor is that of the definition") {
-  // L(g, s) = integral over the common factor v of N(y; 0, v V) times its inverse gamma prior (shape 2, scale 2), done numerically here.
+  // L(g, s) = integral over the common factor v of N(y; 0, v V) times its inverse gamma prior (shape 2, scale
+  // 2), done numerically here.
   const int n = 60;
   LinearModel m = noise_only(n, 1);
   const Explanations all = two(n);
@@ -67,7 +70,8 @@ TEST_CASE("the Bayes factor is that of the definition") {
     std::vector<double> logs;
     for (double log_v = -4; log_v < 4; log_v += 0.01) {
       const double f = std::exp(log_v);
-      logs.push_back(-half_log_determinant - 0.5 * (n - 1) * log_v - 0.5 * squares / f - 2 * log_v - 2 / f);   // dv = v d(log v)
+      // dv = v d(log v)
+      logs.push_back(-half_log_determinant - 0.5 * (n - 1) * log_v - 0.5 * squares / f - 2 * log_v - 2 / f);
     }
     return log_sum_exp(logs);
   };
@@ -82,7 +86,8 @@ TEST_CASE("the Bayes factor is that of the definition") {
 }
 
 TEST_CASE("an ensemble of larger errors does not swallow an effect") {
-  // The parabola is nearly within the span of the ensemble. Estimated alone, the ensemble would have to be twenty times as large.
+  // The parabola is nearly within the span of the ensemble. Estimated alone, the ensemble would have to be
+  // twenty times as large.
   const int n = 80;
   LinearModel m = noise_only(n, 7);
   for (int i = 0; i < n; ++i) m.random(i, 1) = std::pow(2.0 * i / n - 1, 2) - 0.4;
@@ -155,7 +160,8 @@ TEST_CASE("what goes on in the sequence is not taken for noise that neighbours s
 }
 
 TEST_CASE("p-values without a mismatch are uniform") {
-  // 60 recordings: the smallest p-values follow a binomial law; P(4 or more of 60 below 0.01) = 0.3 %, P(10 or more below 0.05) = 0.1 %.
+  // 60 recordings: the smallest p-values follow a binomial law; P(4 or more of 60 below 0.01) = 0.3 %, P(10
+  // or more below 0.05) = 0.1 %.
   const int n = 50;
   const Explanations all = two(n);
   int below1 = 0, below5 = 0, above50 = 0;
@@ -168,7 +174,7 @@ TEST_CASE("p-values without a mismatch are uniform") {
     std::vector<double> simulated;
     for (const Evidence& e : search.bootstrap(observed, 300, 5, 2)) simulated.push_back(e.statistic);
     const double p = tail_probability(observed, simulated);
-    below1 += p < 0.01, below5 += p < 0.05, above50 += p > 0.5;
+    below1 += p < 0.01, below5 += p<0.05, above50 += p> 0.5;
   }
   CHECK(below1 <= 3);
   CHECK(below5 <= 9);
@@ -188,7 +194,7 @@ TEST_CASE("simulated recordings do not depend on threads") {
 
 TEST_CASE("far tails are extrapolated, near ones counted") {
   std::vector<double> simulated;
-  for (int k = 1; k <= 1000; ++k) simulated.push_back(-std::log((k - 0.5) / 1000));   // exponential
+  for (int k = 1; k <= 1000; ++k) simulated.push_back(-std::log((k - 0.5) / 1000));  // exponential
   CHECK(tail_probability(std::log(10.0), simulated) == doctest::Approx(0.1).epsilon(0.02));
   CHECK(std::log(tail_probability(std::log(1e5), simulated)) == doctest::Approx(std::log(1e-5)).epsilon(0.1));
 }

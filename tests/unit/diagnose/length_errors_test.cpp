@@ -11,7 +11,7 @@ namespace {
 
 Machine machine() {
   Machine m;
-  m.specification.mpe = {0.002, 0.004e-3};   // 2 um + 4 um/m
+  m.specification.mpe = {0.002, 0.004e-3};  // 2 um + 4 um/m
   m.probe.sd_mm = {0.0005, 0.0005, 0.0005};
   return m;
 }
@@ -52,7 +52,8 @@ TEST_CASE("a length is wrong by what its ends are too far out along it") {
   CHECK(outside.length_mm == doctest::Approx(500));
   CHECK(outside.error_mm == doctest::Approx(0.010));
   CHECK(outside.mpe_mm == doctest::Approx(0.004));
-  RecordedTouches steps = bars(0.010);   // faces that look the same way: what both have in common is no error of the length
+  // faces that look the same way: what both have in common is no error of the length
+  RecordedTouches steps = bars(0.010);
   for (RecordedTouch& t : steps.touches) t.scene.normal = {1, 0, 0};
   CHECK(worst(steps).error_mm == doctest::Approx(0));
 }
@@ -62,7 +63,7 @@ TEST_CASE("lengths of two runs, two setups or across the normals are none") {
   for (std::size_t i = 0; i < t.touches.size(); ++i) t.touches[i].scene.setup = static_cast<int>(i);
   CHECK(worst(t).mpe_mm == 0);
   t = bars(0.010);
-  for (RecordedTouch& touch : t.touches) touch.scene.normal = {std::cos(0.02), std::sin(0.02), 0};   // 1.1 degrees
+  for (RecordedTouch& touch : t.touches) touch.scene.normal = {std::cos(0.02), std::sin(0.02), 0};  // 1.1 degrees
   CHECK(worst(t).mpe_mm == 0);
 }
 
@@ -72,9 +73,9 @@ TEST_CASE("where the part stood is no error of a length") {
   m.y.resize(6), m.free.resize(6, 2);
   for (Eigen::Index i = 0; i < 6; ++i) {
     Vec3& normal = t.touches[static_cast<std::size_t>(i)].scene.normal;
-    normal = {normal.x * std::cos(0.01), std::sin(0.01), 0};   // 0.6 degrees
+    normal = {normal.x * std::cos(0.01), std::sin(0.01), 0};  // 0.6 degrees
     m.free.row(i) << normal.x, normal.y;
-    m.y(i) = 2000 * normal.y;                                  // the part stood 2 mm beside its targets
+    m.y(i) = 2000 * normal.y;  // the part stood 2 mm beside its targets
   }
   CHECK(worst_length(t, m.y, machine().specification).error_mm == doctest::Approx(0.04).epsilon(0.001));
   CHECK(worst_length(t, without_placement(m), machine().specification).error_mm == doctest::Approx(0));
@@ -85,7 +86,7 @@ TEST_CASE("one and a half MPE and four deviations of two touches are within the 
   CHECK(!beyond(bars(0.99 * limit_mm)));
   CHECK(beyond(bars(1.01 * limit_mm)));
   CHECK(beyond(bars(-1.01 * limit_mm)));
-  RecordedTouches dirty = bars(0);       // one bad touch spoils one length
+  RecordedTouches dirty = bars(0);  // one bad touch spoils one length
   dirty.touches[0].residual_mm = 1;
   CHECK(!beyond(dirty));
 }

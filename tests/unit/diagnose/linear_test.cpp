@@ -1,8 +1,8 @@
 #include "engine/diagnose/model/linear.hpp"
 
+#include <doctest/doctest.h>
 #include <Eigen/Dense>
 #include <cmath>
-#include <doctest/doctest.h>
 
 #include "engine/lanes/random.hpp"
 
@@ -49,7 +49,8 @@ Matrix dense_precision(const LinearModel& m, const Hyperparameters& h, const Mat
 
 Matrix dense_precision(const LinearModel& m, const Hyperparameters& h) {
   Vector variance(m.y.size());
-  for (Eigen::Index i = 0; i < variance.size(); ++i) variance(i) = std::pow(m.noise_um(i) * h.noise(m.noise_group[static_cast<std::size_t>(i)]), 2);
+  for (Eigen::Index i = 0; i < variance.size(); ++i)
+    variance(i) = std::pow(m.noise_um(i) * h.noise(m.noise_group[static_cast<std::size_t>(i)]), 2);
   return dense_precision(m, h, Matrix(variance.asDiagonal()));
 }
 
@@ -62,11 +63,13 @@ TEST_CASE("residuals predicted from all other rows are those of the dense formul
   h.noise = Vector::Constant(1, 0.8);
   const Matrix p = dense_precision(m, h);
   const Vector py = p * m.y, loo = leave_one_out(m, h);
-  for (Eigen::Index i = 0; i < loo.size(); ++i) CHECK(loo(i) == doctest::Approx(py(i) / std::sqrt(p(i, i))).epsilon(1e-6));
+  for (Eigen::Index i = 0; i < loo.size(); ++i)
+    CHECK(loo(i) == doctest::Approx(py(i) / std::sqrt(p(i, i))).epsilon(1e-6));
   // cov(P y) = P, so the correlations of the residuals are those of P.
   const Matrix squared = squared_correlation(m, h);
   for (Eigen::Index i = 0; i < 60; ++i)
-    for (Eigen::Index j = 0; j < 60; ++j) CHECK(squared(i, j) == doctest::Approx(p(i, j) * p(i, j) / (p(i, i) * p(j, j))).epsilon(1e-6));
+    for (Eigen::Index j = 0; j < 60; ++j)
+      CHECK(squared(i, j) == doctest::Approx(p(i, j) * p(i, j) / (p(i, i) * p(j, j))).epsilon(1e-6));
 }
 
 TEST_CASE("a touch is left out itself, not its difference from the touch before") {
@@ -83,8 +86,10 @@ TEST_CASE("a touch is left out itself, not its difference from the touch before"
   const Matrix squared = squared_correlation(m, h);
   for (Eigen::Index i = 0; i < 60; ++i) {
     CHECK(loo(i) == doctest::Approx(py(i) / std::sqrt(p(i, i))).epsilon(1e-6));
-    CHECK(own(i) == doctest::Approx(expected(i)).epsilon(1e-6));   // E(e | y) = cov(e, y) P y
-    for (Eigen::Index j = 0; j < 60; ++j) CHECK(std::sqrt(squared(i, j)) == doctest::Approx(std::abs(p(i, j)) / std::sqrt(p(i, i) * p(j, j))).epsilon(1e-6));
+    CHECK(own(i) == doctest::Approx(expected(i)).epsilon(1e-6));  // E(e | y) = cov(e, y) P y
+    for (Eigen::Index j = 0; j < 60; ++j)
+      CHECK(std::sqrt(squared(i, j)) ==
+            doctest::Approx(std::abs(p(i, j)) / std::sqrt(p(i, i) * p(j, j))).epsilon(1e-6));
   }
 }
 
@@ -118,8 +123,10 @@ TEST_CASE("the precision as an inner product is that of the dense formula") {
   h.noise = Vector::Constant(1, 0.8);
   const Precision precision(m, h);
   const Matrix a = random_matrix(50, 4, 900), dense = dense_precision(m, h), expected = a.transpose() * dense * a;
-  CHECK((inner(precision.seen(a), precision.seen(a)) - expected).cwiseAbs().maxCoeff() < 1e-8 * expected.cwiseAbs().maxCoeff());
-  CHECK((inner(precision.seen(a), precision.y()) - a.transpose() * dense * m.y).cwiseAbs().maxCoeff() < 1e-8 * (a.transpose() * dense * m.y).cwiseAbs().maxCoeff());
+  CHECK((inner(precision.seen(a), precision.seen(a)) - expected).cwiseAbs().maxCoeff() <
+        1e-8 * expected.cwiseAbs().maxCoeff());
+  CHECK((inner(precision.seen(a), precision.y()) - a.transpose() * dense * m.y).cwiseAbs().maxCoeff() <
+        1e-8 * (a.transpose() * dense * m.y).cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("the rotated basis keeps inner products") {
@@ -127,7 +134,8 @@ TEST_CASE("the rotated basis keeps inner products") {
   Hyperparameters h;
   h.noise = Vector::Ones(1);
   const Rotated r(m, h);
-  const Matrix a = random_matrix(50, 4, 900), projected = r.project(a), z = r.coordinates(projected), rest = r.remainder(projected, z);
+  const Matrix a = random_matrix(50, 4, 900), projected = r.project(a), z = r.coordinates(projected),
+               rest = r.remainder(projected, z);
   const Vector weight = (1 + r.lambda().array()).inverse();
   const Matrix got = z.transpose() * weight.asDiagonal() * z + rest.transpose() * rest;
   const Matrix expected = a.transpose() * dense_precision(m, h) * a;
@@ -142,16 +150,23 @@ TEST_CASE("densities under two noises compare as by the dense formula") {
     Matrix v = Matrix::Zero(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
-        if ((i < 30) == (j < 30)) v(i, j) = std::pow(0.5 * h.noise(0), 2) * std::pow(h.correlation, std::abs(double(i - j)));
+        if ((i < 30) == (j < 30))
+          v(i, j) = std::pow(0.5 * h.noise(0), 2) * std::pow(h.correlation, std::abs(double(i - j)));
     v += h.scale * h.scale * m.random * m.random.transpose();
     const Matrix inverse = v.inverse(), x = m.free, of_free = x.transpose() * inverse * x;
-    const double squares = m.y.dot(inverse * m.y) - (x.transpose() * inverse * m.y).dot(of_free.inverse() * (x.transpose() * inverse * m.y));
-    return -0.5 * (Eigen::FullPivLU<Matrix>(v).matrixLU().diagonal().array().abs().log().sum() + std::log(of_free.determinant()) + squares);
+    const double squares = m.y.dot(inverse * m.y) -
+        (x.transpose() * inverse * m.y).dot(of_free.inverse() * (x.transpose() * inverse * m.y));
+    return -0.5 *
+        (Eigen::FullPivLU<Matrix>(v).matrixLU().diagonal().array().abs().log().sum() + std::log(of_free.determinant()) +
+         squares);
   };
   const auto rotated = [&](const Hyperparameters& h) {
     const Rotated r(m, h);
     const Vector z = r.z(), variance = 1 + r.lambda().array();
-    return log_density(m, h) - 0.5 * (variance.array().log().sum() + (z.array().square() / variance.array()).sum() + r.remainder(r.y(), z).squaredNorm());
+    return log_density(m, h) -
+        0.5 *
+        (variance.array().log().sum() + (z.array().square() / variance.array()).sum() +
+         r.remainder(r.y(), z).squaredNorm());
   };
   Hyperparameters correlated, white;
   correlated.noise = Vector::Constant(1, 0.8), correlated.correlation = 0.45, correlated.scale = 1.2;
@@ -196,7 +211,8 @@ TEST_CASE("what an unknown does whatever its unit is nothing") {
   m.free.col(2) *= 1e-9;
   Hyperparameters h;
   h.noise = Vector::Ones(1);
-  const Matrix a = random_matrix(80, 1, 901), column = 3e-9 * m.free.col(0) + m.free.col(1) - 1e9 * m.free.col(2) + 1e-5 * a;
+  const Matrix a = random_matrix(80, 1, 901),
+               column = 3e-9 * m.free.col(0) + m.free.col(1) - 1e9 * m.free.col(2) + 1e-5 * a;
   const Rotated r(m, h);
   CHECK(r.project_patterns(column).isZero(0));
   CHECK(r.project_patterns(m.free).isZero(0));

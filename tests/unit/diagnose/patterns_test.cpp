@@ -1,8 +1,8 @@
 // Patterns that no effect of the catalogue makes are found in their factor.
+#include <doctest/doctest.h>
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <doctest/doctest.h>
 #include <functional>
 #include <numeric>
 #include <set>
@@ -15,11 +15,14 @@ using namespace abbe::diagnose;
 
 namespace {
 
-/// Touches scattered over a volume, their normals in all directions; after each `visit` of them the head is indexed to another of three orientations.
+/// Touches scattered over a volume, their normals in all directions; after each `visit` of them the head is
+/// indexed to another of three orientations.
 RecordedTouches scattered(int count, int visit = 15) {
   RecordedTouches t;
   for (int i = 0; i < count; ++i) {
-    const auto u = [&](std::uint32_t which) { return uniform_pair({3, static_cast<std::uint32_t>(i), stream_of("patterns_test"), which, 0, 0}).a; };
+    const auto u = [&](std::uint32_t which) {
+      return uniform_pair({3, static_cast<std::uint32_t>(i), stream_of("patterns_test"), which, 0, 0}).a;
+    };
     RecordedTouch touch;
     touch.row = i;
     TouchScene& s = touch.scene;
@@ -53,7 +56,8 @@ std::string likeliest(const RecordedTouches& t, const std::function<Vec3(const T
   for (Eigen::Index i = 0; i < n; ++i) {
     const TouchScene& s = t.touches[static_cast<std::size_t>(i)].scene;
     for (int k = 0; k < 3; ++k) m.free(i, k) = s.normal[k], m.random(i, k) = s.normal[k] * s.point.x / 500;
-    m.y(i) = dot(s.normal, displacement_um(s)) + normal_quantile(uniform_pair({4, static_cast<std::uint32_t>(i), stream_of("patterns_test"), 9, 0, 0}).a);
+    m.y(i) = dot(s.normal, displacement_um(s)) +
+        normal_quantile(uniform_pair({4, static_cast<std::uint32_t>(i), stream_of("patterns_test"), 9, 0, 0}).a);
   }
   m.random_group.assign(3, 0);
   m.noise_um = Vector::Ones(n);
@@ -77,75 +81,111 @@ std::string likeliest(const RecordedTouches& t, const std::function<Vec3(const T
 TEST_CASE("a pattern is found in its factor, smooth or not") {
   const RecordedTouches t = scattered(300);
   const Vec3 oblique = Vec3{1, 1, -1} / std::sqrt(3.0);
-  CHECK(likeliest(t, [](const TouchScene& s) { return 3.0 * Vec3{std::sin(s.time_s / 700), std::cos(s.time_s / 900), std::sin(s.time_s / 800)}; }) == "OTHER time, slow");
-  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.visit / 2 % 2 ? 1.5 : -1.5) * oblique; }) == "OTHER time, rugged");
-  CHECK(likeliest(t, [&](const TouchScene& s) { return 5 * (std::fmod(s.reading.y / 130, 1) - 0.5) * oblique; }) == "OTHER position, along a guide");
-  CHECK(likeliest(t, [](const TouchScene& s) { return 4 * std::exp(-std::pow(norm(s.point - Vec3{250, 200, 150}) / 120, 2)) * s.normal; }) ==
-        "OTHER position, height");
-  CHECK(likeliest(t, [](const TouchScene& s) { return std::pow(double(s.feature) - 2, 2) * (s.time_s - 2000) / 2000 * s.normal; }) == "OTHER feature, size in time");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return 3.0 * Vec3{std::sin(s.time_s / 700), std::cos(s.time_s / 900), std::sin(s.time_s / 800)};
+        }) == "OTHER time, slow");
+  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.visit / 2 % 2 ? 1.5 : -1.5) * oblique; }) ==
+        "OTHER time, rugged");
+  CHECK(likeliest(t, [&](const TouchScene& s) { return 5 * (std::fmod(s.reading.y / 130, 1) - 0.5) * oblique; }) ==
+        "OTHER position, along a guide");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return 4 * std::exp(-std::pow(norm(s.point - Vec3{250, 200, 150}) / 120, 2)) * s.normal;
+        }) == "OTHER position, height");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return std::pow(double(s.feature) - 2, 2) * (s.time_s - 2000) / 2000 * s.normal;
+        }) == "OTHER feature, size in time");
 }
 
 TEST_CASE("a joint that settles after each indexing is seen over the time since") {
   const RecordedTouches t = scattered(300);
-  const auto since = [&](const TouchScene& s) { return (s.time_s - t.touches[static_cast<std::size_t>(15 * s.visit)].scene.time_s) / 140; };
-  CHECK(likeliest(t, [&](const TouchScene& s) { return 3 * std::log1p(9 * since(s)) / 2.3 * Vec3{s.stylus.head_b_rad - 1, 0.5, 0}; }) == "OTHER head, settling");
+  const auto since = [&](const TouchScene& s) {
+    return (s.time_s - t.touches[static_cast<std::size_t>(15 * s.visit)].scene.time_s) / 140;
+  };
+  CHECK(likeliest(t, [&](const TouchScene& s) {
+          return 3 * std::log1p(9 * since(s)) / 2.3 * Vec3{s.stylus.head_b_rad - 1, 0.5, 0};
+        }) == "OTHER head, settling");
 }
 
 TEST_CASE("patterns over two factors are seen where they lie") {
   const RecordedTouches t = scattered(300);
   const Vec3 middle{250, 200, 150};
-  CHECK(likeliest(t, [](const TouchScene& s) { return (s.speed_mm_s - 5.5) * (std::abs(s.travel.x) + std::abs(s.travel.y) + std::abs(s.travel.z) - 1.4) * 3 * s.normal; }) ==
-        "OTHER speed, over direction");
-  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.stylus.head_b_rad - 1) * Vec3{0.02 * (s.point.y - middle.y), 0, 0}; }) == "OTHER head, over position");
-  CHECK(likeliest(t, [](const TouchScene& s) { return (std::fmod(double(s.time_s), 700) / 350 - 1) * 2 * s.normal; }) == "OTHER time, size along the sequence");
-  CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{3.0 * (s.feature == 1), -3.0 * (s.feature == 3), 3.0 * (s.feature == 4)}; }) == "OTHER feature, offset on the part");
-  const auto clamped = [&](const TouchScene& s) { return (s.time_s - t.touches[static_cast<std::size_t>(100 * s.setup)].scene.time_s) / 1400; };
-  CHECK(likeliest(t, [&](const TouchScene& s) { return (s.setup == 1 ? -1 : 1) * std::sqrt(clamped(s)) * cross(Vec3{0.04, 0, 0}, s.point - middle); }) == "OTHER setup, settling");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return (s.speed_mm_s - 5.5) * (std::abs(s.travel.x) + std::abs(s.travel.y) + std::abs(s.travel.z) - 1.4) * 3 *
+              s.normal;
+        }) == "OTHER speed, over direction");
+  CHECK(likeliest(t, [&](const TouchScene& s) {
+          return (s.stylus.head_b_rad - 1) * Vec3{0.02 * (s.point.y - middle.y), 0, 0};
+        }) == "OTHER head, over position");
+  CHECK(likeliest(t, [](const TouchScene& s) { return (std::fmod(double(s.time_s), 700) / 350 - 1) * 2 * s.normal; }) ==
+        "OTHER time, size along the sequence");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return Vec3{3.0 * (s.feature == 1), -3.0 * (s.feature == 3), 3.0 * (s.feature == 4)};
+        }) == "OTHER feature, offset on the part");
+  const auto clamped = [&](const TouchScene& s) {
+    return (s.time_s - t.touches[static_cast<std::size_t>(100 * s.setup)].scene.time_s) / 1400;
+  };
+  CHECK(likeliest(t, [&](const TouchScene& s) {
+          return (s.setup == 1 ? -1 : 1) * std::sqrt(clamped(s)) * cross(Vec3{0.04, 0, 0}, s.point - middle);
+        }) == "OTHER setup, settling");
 }
 
 TEST_CASE("what is wrong at one place or on one spot is found there") {
   const RecordedTouches t = scattered(300);
-  CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{0, 8 * std::exp(-(std::pow(s.reading.x - 350, 2) + std::pow(s.reading.y - 100, 2)) / 3000), 0}; }) ==
-        "OTHER position, one place");
-  CHECK(likeliest(t, [](const TouchScene& s) { return (s.feature == 2 ? 6.0 : 0.0) * std::exp(-std::pow(norm(s.normal_on_part - Vec3{0, 0.6, 0.8}) / 0.5, 2) / 2) * s.normal; }) ==
-        "OTHER feature, one spot");
-  CHECK(likeliest(t, [](const TouchScene& s) { return s.feature == 2 && s.time_s > 1500 ? Vec3{2, -2, 2} : Vec3{}; }) == "OTHER feature, one of them in time");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return Vec3{0, 8 * std::exp(-(std::pow(s.reading.x - 350, 2) + std::pow(s.reading.y - 100, 2)) / 3000), 0};
+        }) == "OTHER position, one place");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return (s.feature == 2 ? 6.0 : 0.0) *
+              std::exp(-std::pow(norm(s.normal_on_part - Vec3{0, 0.6, 0.8}) / 0.5, 2) / 2) * s.normal;
+        }) == "OTHER feature, one spot");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return s.feature == 2 && s.time_s > 1500 ? Vec3{2, -2, 2} : Vec3{};
+        }) == "OTHER feature, one of them in time");
 }
 
 TEST_CASE("what leans, turns or yields is found as such") {
   const RecordedTouches t = scattered(300);
-  CHECK(likeliest(t, [](const TouchScene& s) { return Vec3{(s.visit / 5 % 2 ? 0.012 : -0.012) * (s.reading.z - 150), 0, 0}; }) == "OTHER time, leaning");
-  CHECK(likeliest(scattered(300, 4), [](const TouchScene& s) { return (s.visit / 18 % 2 ? 0.04 : -0.04) * cross(Vec3{0, 1, 1}, -s.stylus.length_mm * s.stylus.to_head); }) ==
-        "OTHER head, turning in time");
-  CHECK(likeliest(t, [](const TouchScene& s) { return 4 * std::exp(-std::pow((s.reading.x - 250) / 60, 2)) * s.normal.y * s.normal.y * s.normal; }) ==
-        "OTHER position, along a guide");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return Vec3{(s.visit / 5 % 2 ? 0.012 : -0.012) * (s.reading.z - 150), 0, 0};
+        }) == "OTHER time, leaning");
+  CHECK(likeliest(scattered(300, 4), [](const TouchScene& s) {
+          return (s.visit / 18 % 2 ? 0.04 : -0.04) * cross(Vec3{0, 1, 1}, -s.stylus.length_mm * s.stylus.to_head);
+        }) == "OTHER head, turning in time");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return 4 * std::exp(-std::pow((s.reading.x - 250) / 60, 2)) * s.normal.y * s.normal.y * s.normal;
+        }) == "OTHER position, along a guide");
 }
 
 TEST_CASE("what dynamics, skidding and warmth do to some touches is found there") {
   const RecordedTouches t = scattered(300);
   CHECK(likeliest(t, [](const TouchScene& s) {
           const Vec3 travel = transpose(s.stylus.R_WR) * s.travel;
-          return (s.stylus.ordinal == 2 ? 2.0 : 0.5) * (s.acceleration_mm_s2 - 300) / 25 * (1 - travel.z * travel.z - 0.6) * s.normal;
+          return (s.stylus.ordinal == 2 ? 2.0 : 0.5) * (s.acceleration_mm_s2 - 300) / 25 *
+              (1 - travel.z * travel.z - 0.6) * s.normal;
         }) == "OTHER speed, of each sensor");
   CHECK(likeliest(t, [](const TouchScene& s) {
           const Vec3 skid = transpose(s.stylus.R_WR) * (s.travel - dot(s.travel, s.normal) * s.normal);
           return (s.stylus.ordinal == 2 ? 2.5 : -1.5) * skid.z / norm(skid) * s.normal;
         }) == "OTHER direction, of oblique approaches");
-  CHECK(likeliest(t, [](const TouchScene& s) { return (s.temperature.part - 20.5) * 3 * (s.feature == 1 ? 1 : s.feature == 4 ? -1 : 0) * s.normal; }) ==
-        "OTHER temperature, of each feature");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return (s.temperature.part - 20.5) * 3 * (s.feature == 1 ? 1 : s.feature == 4 ? -1 : 0) * s.normal;
+        }) == "OTHER temperature, of each feature");
 }
 
 TEST_CASE("a probe that does not come home from the touch before is seen by its direction") {
   const RecordedTouches t = scattered(300);
   CHECK(likeliest(t, [&](const TouchScene& s) {
           const auto here = static_cast<std::size_t>((s.time_s - 60 * s.visit) / 10);
-          return here % 15 == 0 ? Vec3{} : 1.5 * (t.touches[here - 1].scene.normal - Vec3{0, 0, 1} * t.touches[here - 1].scene.normal.z);
+          return here % 15 == 0
+              ? Vec3{}
+              : 1.5 * (t.touches[here - 1].scene.normal - Vec3{0, 0, 1} * t.touches[here - 1].scene.normal.z);
         }) == "OTHER direction, of the touch before");
 }
 
 TEST_CASE("many runs make no more variants than few") {
   RecordedTouches t = scattered(400);
-  for (std::size_t i = 0; i < t.touches.size(); ++i) t.touches[i].scene.run = 1 + static_cast<int>(i) / 10, t.touches[i].scene.feature = static_cast<int>(i) / 2;
+  for (std::size_t i = 0; i < t.touches.size(); ++i)
+    t.touches[i].scene.run = 1 + static_cast<int>(i) / 10, t.touches[i].scene.feature = static_cast<int>(i) / 2;
   std::vector<int> rows(t.touches.size());
   std::iota(rows.begin(), rows.end(), 0);
   const Explanations all = explanations_without_readings(t, rows);
@@ -173,5 +213,6 @@ TEST_CASE("stretches of runs hold every run once, and few runs stand for themsel
   }
   const std::vector<LaterRun> few = in_stretches({single.begin(), single.begin() + 3}, 8);
   REQUIRE(few.size() == 3);
-  for (std::size_t k = 0; k < 3; ++k) CHECK((few[k].from_run == single[k].from_run && few[k].runs.high == few[k].runs.low + 1));
+  for (std::size_t k = 0; k < 3; ++k)
+    CHECK((few[k].from_run == single[k].from_run && few[k].runs.high == few[k].runs.low + 1));
 }

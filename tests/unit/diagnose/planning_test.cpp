@@ -1,4 +1,5 @@
-// What is proposed as the next measurement: where the tip goes, what a change leaves as it was, and how a part is found that was moved.
+// What is proposed as the next measurement: where the tip goes, what a change leaves as it was, and how a
+// part is found that was moved.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ struct TouchedBlock {
   Case c;
 
   explicit TouchedBlock(RecordedPoint point = RecordedPoint::tip_centre) {
-    machine.sensors["P"] = {.tip_in_r_mm = {0, 0, -100}, .radius_mm = kTip_mm, .material = "", .young_GPa = 600, .cte_ppm_per_K = 5};
+    machine.sensors["P"] = {
+        .tip_in_r_mm = {0, 0, -100}, .radius_mm = kTip_mm, .material = "", .young_GPa = 600, .cte_ppm_per_K = 5};
     recording.point = point;
     for (const double x : {500.0, 800.0})
       for (const double y : {400.0, 600.0}) touch("TOP", {x, y, -600}, {0, 0, 1});
@@ -47,7 +49,9 @@ struct TouchedBlock {
   void touch(const std::string& feature, const Vec3& surface, const Vec3& normal) {
     RecordingRow row;
     row.feature = feature;
-    row.touch = 1 + static_cast<int>(std::count_if(recording.rows.begin(), recording.rows.end(), [&](const RecordingRow& r) { return r.feature == feature; }));
+    row.touch = 1 +
+        static_cast<int>(std::count_if(recording.rows.begin(), recording.rows.end(),
+                                       [&](const RecordingRow& r) { return r.feature == feature; }));
     row.normal = normal;
     row.target_mm = row.position_mm = recording.point == RecordedPoint::surface ? surface : surface + kTip_mm * normal;
     row.sensor = "P", row.head_a_deg = 0, row.head_b_deg = 0, row.visit = 1;
@@ -63,7 +67,9 @@ struct TouchedBlock {
   }
 };
 
-std::string feature_of(const Longer& l, std::size_t k) { return l.touches.features[static_cast<std::size_t>(l.touches.touches[k].scene.feature)]; }
+std::string feature_of(const Longer& l, std::size_t k) {
+  return l.touches.features[static_cast<std::size_t>(l.touches.touches[k].scene.feature)];
+}
 
 }  // namespace
 
@@ -73,7 +79,8 @@ TEST_CASE("another ball touches the same surface, whatever the recording holds")
     const auto longer = repeated(block.c, block.change("stylus ball"));
     REQUIRE(longer);
     for (std::size_t k = 0; k < longer->first; ++k) {
-      const TouchScene &before = longer->touches.touches[k].scene, &after = longer->touches.touches[longer->first + k].scene;
+      const TouchScene &before = longer->touches.touches[k].scene,
+                       &after = longer->touches.touches[longer->first + k].scene;
       CHECK(after.stylus.radius_mm == doctest::Approx(kTip_mm / 2));
       CHECK(norm(after.point - before.point) < 1e-9);
     }
@@ -88,10 +95,12 @@ TEST_CASE("a part that is moved, or that was left for hours, is in another setup
     const auto longer = repeated(block.c, change);
     if (!longer) continue;
     INFO(change.text);
-    const bool placed = change.text.find("the part ") != std::string::npos || change.text.find("K higher") != std::string::npos;
+    const bool placed =
+        change.text.find("the part ") != std::string::npos || change.text.find("K higher") != std::string::npos;
     CHECK(longer->recording.rows.back().setup == (placed ? 2 : 1));
     CHECK(longer->recording.rows.back().run == 2);
-    const bool qualified = change.text.find("stylus") != std::string::npos || change.text.find("head") != std::string::npos;
+    const bool qualified =
+        change.text.find("stylus") != std::string::npos || change.text.find("head") != std::string::npos;
     CHECK(longer->recording.rows.back().qualification.value_or(1) == (qualified ? 2 : 1));
     CHECK((recording_sentence(*longer).find("setup 2") != std::string::npos) == placed);
   }
@@ -111,15 +120,17 @@ TEST_CASE("the tip stays before the surfaces and changes features above them") {
       const Vec3 p = at + i / 20.0 * (step.to - at);
       const double from_bore = std::hypot(p.x - kBore.x, p.y - kBore.y), from_pin = std::hypot(p.x - 700, p.y - 500);
       const bool in_block = p.x > 490 - kTip_mm && p.y > 390 - kTip_mm && p.z < -600 + kTip_mm;
-      CHECK((!in_block || from_bore <= 10 - kTip_mm + 1e-6));       // below the top only beside the block and inside the bore
-      CHECK((p.z > -580 + kTip_mm || from_pin >= 20 + kTip_mm));    // and not through the pin
+      // below the top only beside the block and inside the bore
+      CHECK((!in_block || from_bore <= 10 - kTip_mm + 1e-6));
+      CHECK((p.z > -580 + kTip_mm || from_pin >= 20 + kTip_mm));  // and not through the pin
     }
     if (step.to.z > -580 + 25) ++above;
     at = step.to;
   }
-  CHECK(above >= 2 * 5);   // each of five features is entered from above and left upwards
+  CHECK(above >= 2 * 5);  // each of five features is entered from above and left upwards
   for (std::size_t k = longer->first; k < touches.size(); ++k)
-    if (feature_of(*longer, k) == "BORE") CHECK(path.free_mm[k - longer->first] == doctest::Approx(10 - kTip_mm));   // to its middle
+    // to its middle
+    if (feature_of(*longer, k) == "BORE") CHECK(path.free_mm[k - longer->first] == doctest::Approx(10 - kTip_mm));
 }
 
 TEST_CASE("a moved part is found by its own touches") {
@@ -145,17 +156,20 @@ TEST_CASE("what was touched becomes a feature of its kind") {
     Touched t;
     for (const double z : heights)
       for (int k = 0; k < 6; ++k) {
-        const Vec3 out{0, std::cos(k * kPi / 3), std::sin(k * kPi / 3)};   // about X
+        const Vec3 out{0, std::cos(k * kPi / 3), std::sin(k * kPi / 3)};  // about X
         t.points.push_back(std::abs(radius_mm) * out + Vec3{z, 7, 9}), t.normals.push_back(radius_mm < 0 ? -out : out);
       }
     return t;
   };
-  CHECK(dmis_feature(round(-10, {5})).definition == "CIRCLE,INNER,CART,5.000000,7.000000,9.000000,1.000000000,0.000000000,0.000000000,20.0000000");
-  CHECK(dmis_feature(round(10, {0, 10})).definition == "CYLNDR,OUTER,CART,5.000000,7.000000,9.000000,1.000000000,0.000000000,0.000000000,20.0000000");
+  CHECK(dmis_feature(round(-10, {5})).definition ==
+        "CIRCLE,INNER,CART,5.000000,7.000000,9.000000,1.000000000,0.000000000,0.000000000,20.0000000");
+  CHECK(dmis_feature(round(10, {0, 10})).definition ==
+        "CYLNDR,OUTER,CART,5.000000,7.000000,9.000000,1.000000000,0.000000000,0.000000000,20.0000000");
   CHECK(dmis_feature({{{1, 2, 3}}, {{0, 0, 1}}}).kind == "POINT");
   CHECK(dmis_feature({{{0, 0, 0}, {9, 0, 0}, {0, 9, 0}}, {3, {0, 0, 1}}}).kind == "PLANE");
-  CHECK(dmis_feature({{{0, 0, 0}, {9, 0, 0}, {5, 0, 0}}, {3, {0, 0, 1}}}).kind == "GSURF");   // on one line: no plane
+  CHECK(dmis_feature({{{0, 0, 0}, {9, 0, 0}, {5, 0, 0}}, {3, {0, 0, 1}}}).kind == "GSURF");  // on one line: no plane
   Touched ball;
-  for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}}) ball.points.push_back(Vec3{1, 2, 3} + 15 * n), ball.normals.push_back(n);
+  for (const Vec3& n : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}})
+    ball.points.push_back(Vec3{1, 2, 3} + 15 * n), ball.normals.push_back(n);
   CHECK(dmis_feature(ball).definition == "SPHERE,OUTER,CART,1.000000,2.000000,3.000000,30.0000000");
 }

@@ -11,9 +11,9 @@ using namespace abbe::diagnose;
 
 namespace {
 
-constexpr double kPlaced_mm = 2e-4;   // what is left of a placement is taken up by the linear model
-constexpr double kNoTip = 1e9;        // mm: the tip is not asked about
-constexpr double kError_mm = 0.004;   // of the sixth touch on each side of the box
+constexpr double kPlaced_mm = 2e-4;  // what is left of a placement is taken up by the linear model
+constexpr double kNoTip = 1e9;       // mm: the tip is not asked about
+constexpr double kError_mm = 0.004;  // of the sixth touch on each side of the box
 
 /// Nine touches on each of the six sides of a box, each with a small error, seen where the part stands with X.
 Recording box(const Rigid& X, int setup = 1) {
@@ -39,10 +39,12 @@ double off_mm(const RecordingRow& row) { return dot(*row.normal, row.position_mm
 }  // namespace
 
 TEST_CASE("a part that stood off its targets is carried back, and its errors stay") {
-  const Rigid placements[] = {{Mat3{}, {0.3, 0, 0}}, {rotation(unit({1, 2, 2}), 0.02), {1, -2, 0.5}}, {rotation({0, 0, 1}, 0.5), {120, 30, -80}}};
+  const Rigid placements[] = {{Mat3{}, {0.3, 0, 0}},
+                              {rotation(unit({1, 2, 2}), 0.02), {1, -2, 0.5}},
+                              {rotation({0, 0, 1}, 0.5), {120, 30, -80}}};
   for (const Rigid& X : placements) {
     Recording recorded = box(X);
-    recorded.rows[3].position_mm += 5.0 * (X.R * *recorded.rows[3].normal);   // a gross error turns nothing
+    recorded.rows[3].position_mm += 5.0 * (X.R * *recorded.rows[3].normal);  // a gross error turns nothing
     std::vector<Diagnostic> messages;
     const Recording back = put_on_targets(recorded, kNoTip, "box", messages);
     REQUIRE(messages.size() == 1);
@@ -58,16 +60,18 @@ TEST_CASE("a part on its targets is left as it is, and so is a turn that nothing
   std::vector<Diagnostic> messages;
   const Recording recorded = box({Mat3{}, {0.02, 0, 0}}), same = put_on_targets(recorded, kNoTip, "box", messages);
   CHECK(messages.empty());
-  for (std::size_t i = 0; i < recorded.rows.size(); ++i) CHECK(same.rows[i].position_mm == recorded.rows[i].position_mm);
+  for (std::size_t i = 0; i < recorded.rows.size(); ++i)
+    CHECK(same.rows[i].position_mm == recorded.rows[i].position_mm);
 
-  Recording face;   // one plane: shifts in it and the turn about its normal are free
+  Recording face;  // one plane: shifts in it and the turn about its normal are free
   for (const RecordingRow& row : box({Mat3{}, {0, 0, 2}}).rows)
     if (row.normal->z > 0.5) face.rows.push_back(row);
   const Recording back = put_on_targets(face, kNoTip, "face", messages);
   REQUIRE(messages.size() == 1);
   for (std::size_t i = 0; i < face.rows.size(); ++i) {
     CHECK(std::abs(off_mm(back.rows[i])) < 0.01);
-    CHECK(std::hypot(back.rows[i].position_mm.x - face.rows[i].position_mm.x, back.rows[i].position_mm.y - face.rows[i].position_mm.y) < 0.01);
+    CHECK(std::hypot(back.rows[i].position_mm.x - face.rows[i].position_mm.x,
+                     back.rows[i].position_mm.y - face.rows[i].position_mm.y) < 0.01);
   }
 }
 
@@ -76,7 +80,8 @@ TEST_CASE("each setup has its own placement") {
   const Recording second = box({Mat3{}, {0, -3, 0}}, 2);
   both.rows.insert(both.rows.end(), second.rows.begin(), second.rows.end());
   std::vector<Diagnostic> messages;
-  for (const RecordingRow& row : put_on_targets(both, kNoTip, "both", messages).rows) CHECK(std::abs(off_mm(row)) < 1.1 * kError_mm);
+  for (const RecordingRow& row : put_on_targets(both, kNoTip, "both", messages).rows)
+    CHECK(std::abs(off_mm(row)) < 1.1 * kError_mm);
   CHECK(messages.size() == 2);
 }
 

@@ -32,15 +32,20 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
 
 TEST_CASE("one explanation, or several that cannot be told apart") {
   const std::vector<DiagnosedParameter> sizes{size("delay_ms", "ms", 1.2, 0.05)};
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording") == "It is explained by trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording") ==
+        "It is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"outliers"}, {}, "this recording") == "It is explained by outliers.");
-  CHECK(explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
-        "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {}, true) == "It looks like trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(
+      explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
+      "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {}, true) ==
+        "It looks like trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {}, true) ==
         "One of these may explain it, and this recording cannot tell which: trigger delay; tip radius.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, false}) == "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, true}) == "What is gone in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, false}) ==
+        "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, true}) ==
+        "What is gone in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {3, false}) ==
         "One of these explains what is new in run 3, and this recording cannot tell which: trigger delay; tip radius.");
 }
@@ -61,7 +66,8 @@ TEST_CASE("the sizes of an effect say what they come to at a touch") {
   e.parameters = {size("amplitude_um", "um", 0.04, 0.004), size("phase_deg", "deg", -40, 1.8)};
   CHECK(sizes_in_words(e) == "amplitude 0.0400 um (0.0322 to 0.0478); phase -40.0 deg (-43.5 to -36.5)");
   e.largest_um = 1.38;
-  CHECK(sizes_in_words(e) == "amplitude 0.0400 um (0.0322 to 0.0478); phase -40.0 deg (-43.5 to -36.5); at most 1.4 um at a touch");
+  CHECK(sizes_in_words(e) ==
+        "amplitude 0.0400 um (0.0322 to 0.0478); phase -40.0 deg (-43.5 to -36.5); at most 1.4 um at a touch");
 }
 
 TEST_CASE("names are doubted that leave more than chance does") {

@@ -44,13 +44,10 @@ inline double reading_um(const Effect& effect, const TouchScene& scene, Paramete
 }
 
 /// R_WR of head angles: Rz(B) Ry(-A).
-inline Mat3 head_pose(double a_rad, double b_rad) {
-  return rotation({0, 0, 1}, b_rad) * rotation({0, 1, 0}, -a_rad);
-}
+inline Mat3 head_pose(double a_rad, double b_rad) { return rotation({0, 0, 1}, b_rad) * rotation({0, 1, 0}, -a_rad); }
 
 /// A touch along the normal with a straight stylus.
-inline TouchScene touch(const Vec3& normal, double length_mm = 50, double a_rad = 0,
-                        double b_rad = 0) {
+inline TouchScene touch(const Vec3& normal, double length_mm = 50, double a_rad = 0, double b_rad = 0) {
   TouchScene scene;
   scene.normal = normal;
   scene.travel = -normal;

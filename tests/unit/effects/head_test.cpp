@@ -29,25 +29,21 @@ TEST_CASE("re-indexing: derivatives of the tip by the two angles, for any mounti
       const Vec3 by_a = (tip(a + h, b, 100) - tip(a - h, b, 100)) / (2 * h),
                  by_b = (tip(a, b + h, 100) - tip(a, b - h, 100)) / (2 * h);
       const TouchScene scene = touch({1, 0, 0}, 100, a, b);
-      CHECK(norm(displacement_mm(kHeadReindexing, scene, {{"sd_urad", 1e6}}, {1, 0}) - by_a) <
-            1e-6);
-      CHECK(norm(displacement_mm(kHeadReindexing, scene, {{"sd_urad", 1e6}}, {0, 1}) - by_b) <
-            1e-6);
+      CHECK(norm(displacement_mm(kHeadReindexing, scene, {{"sd_urad", 1e6}}, {1, 0}) - by_a) < 1e-6);
+      CHECK(norm(displacement_mm(kHeadReindexing, scene, {{"sd_urad", 1e6}}, {0, 1}) - by_b) < 1e-6);
     }
   TouchScene mounted = touch({1, 0, 0}, 100, 0.5, 0.2);
   const Mat3 M = rotation({0, 0, 1}, 0.3);
   const Vec3 unmounted = displacement_mm(kHeadReindexing, mounted, {{"sd_urad", 1}}, {1, 2});
   mounted.stylus.R_WR = M * mounted.stylus.R_WR;
   mounted.stylus.to_head = M * mounted.stylus.to_head;
-  CHECK(norm(displacement_mm(kHeadReindexing, mounted, {{"sd_urad", 1}}, {1, 2}) - M * unmounted) <
-        1e-15);
+  CHECK(norm(displacement_mm(kHeadReindexing, mounted, {{"sd_urad", 1}}, {1, 2}) - M * unmounted) < 1e-15);
 }
 
 TEST_CASE("re-indexing: 0.5 um at 62 mm is two standard deviations; drawn per visit") {
   CHECK(2 * reading_um(kHeadReindexing, touch({1, 0, 0}, 62), {{"sd_urad", 4.03}}, {1, 0}) ==
         doctest::Approx(0.5).epsilon(0.001));
-  CHECK(reading_um(kHeadReindexing, touch({1, 0, 0}, 150), {{"sd_urad", 4}}, {1, 0}) ==
-        doctest::Approx(0.6));
+  CHECK(reading_um(kHeadReindexing, touch({1, 0, 0}, 150), {{"sd_urad", 4}}, {1, 0}) == doctest::Approx(0.6));
   CHECK(kHeadReindexing.draws_per == DrawsPer::visit);
 }
 
@@ -73,16 +69,16 @@ TEST_CASE("axis errors: translations are the same for all lengths, rotations gro
 
 TEST_CASE("axis errors: those of A turn with B, those of B do not") {
   // Draw 1 is the sine of A's translation along x; 24 later the same of B.
-  const Vec3 of_a = displacement_mm(kHeadAxisErrors, touch({1, 0, 0}, 50, kPi / 2, kPi / 2),
-                                    {{"translation_um", 1}}, one_of(kHeadAxisErrors, 1));
-  const Vec3 of_b = displacement_mm(kHeadAxisErrors, touch({1, 0, 0}, 50, kPi / 2, kPi / 2),
-                                    {{"translation_um", 1}}, one_of(kHeadAxisErrors, 25));
+  const Vec3 of_a = displacement_mm(kHeadAxisErrors, touch({1, 0, 0}, 50, kPi / 2, kPi / 2), {{"translation_um", 1}},
+                                    one_of(kHeadAxisErrors, 1));
+  const Vec3 of_b = displacement_mm(kHeadAxisErrors, touch({1, 0, 0}, 50, kPi / 2, kPi / 2), {{"translation_um", 1}},
+                                    one_of(kHeadAxisErrors, 25));
   CHECK(norm(of_a - Vec3{0, 1e-3, 0}) < 1e-15);
   CHECK(norm(of_b - Vec3{1e-3, 0, 0}) < 1e-15);
   // The sine of A's rotation about its own y: at A = 90 and B = 0 the tip, at +X 100 mm, moves by
   // -z.
-  const Vec3 turned = displacement_mm(kHeadAxisErrors, touch({0, 0, 1}, 100, kPi / 2, 0),
-                                      {{"rotation_urad", 10}}, one_of(kHeadAxisErrors, 4 * 4 + 1));
+  const Vec3 turned = displacement_mm(kHeadAxisErrors, touch({0, 0, 1}, 100, kPi / 2, 0), {{"rotation_urad", 10}},
+                                      one_of(kHeadAxisErrors, 4 * 4 + 1));
   CHECK(norm(turned - Vec3{0, 0, -1e-3}) < 1e-15);
 }
 
@@ -93,8 +89,7 @@ TEST_CASE(
   CHECK(reading_um(kHeadSag, touch({0, 0, 1}, 200), bar) == 0);
   CHECK(reading_um(kHeadSag, touch({0, 0, 1}, 200, kPi / 2), bar) == doctest::Approx(3));
   CHECK(reading_um(kHeadSag, touch({0, 0, 1}, 200, -kPi / 2, 1), bar) == doctest::Approx(3));
-  CHECK(reading_um(kHeadSag, touch({0, 0, 1}, 400, kPi / 2), bar) ==
-        doctest::Approx(8 * 2 + 4 * 1));
+  CHECK(reading_um(kHeadSag, touch({0, 0, 1}, 400, kPi / 2), bar) == doctest::Approx(8 * 2 + 4 * 1));
   // Across the stylus by sin A in size: no lengthening of the bar.
   const TouchScene half = touch({0, 0, 1}, 200, kPi / 6);
   const Vec3 d = displacement_mm(kHeadSag, half, bar);
@@ -106,19 +101,16 @@ TEST_CASE(
     "qualification: nothing at its temperature; then each orientation drifts along its own "
     "vector") {
   TouchScene scene = touch({0, 0, 1}, 100);
-  CHECK(reading_um(
-            kHeadQualification, scene,
-            {{"growth_um_per_K", 1.15}, {"tilt_a_urad_per_K", 5}, {"tilt_b_urad_per_K", 5}}) == 0);
+  CHECK(reading_um(kHeadQualification, scene,
+                   {{"growth_um_per_K", 1.15}, {"tilt_a_urad_per_K", 5}, {"tilt_b_urad_per_K", 5}}) == 0);
   scene.temperature.air = 22;
   CHECK(reading_um(kHeadQualification, scene, {{"growth_um_per_K", 1.15}}) == doctest::Approx(2.3));
-  CHECK(reading_um(kHeadQualification, scene,
-                   {{"growth_um_per_K", 1.15}, {"qualified_at_C", 22}}) == 0);
+  CHECK(reading_um(kHeadQualification, scene, {{"growth_um_per_K", 1.15}, {"qualified_at_C", 22}}) == 0);
   TouchScene lying = touch({0, 0, 1}, 100, kPi / 2);
   lying.temperature.air = 22;
   const Vec3 growth = displacement_mm(kHeadQualification, lying, {{"growth_um_per_K", 1.15}});
   CHECK(norm(growth - 2.3e-3 * lying.stylus.to_head) < 1e-15);
-  const Vec3 tilt = displacement_mm(kHeadQualification, lying,
-                                    {{"tilt_a_urad_per_K", 5}, {"tilt_b_urad_per_K", 3}});
+  const Vec3 tilt = displacement_mm(kHeadQualification, lying, {{"tilt_a_urad_per_K", 5}, {"tilt_b_urad_per_K", 3}});
   CHECK(norm(tilt - 1e-3 * Vec3{0, 2 * 0.3, 2 * 0.5}) < 1e-12);
 }
 

@@ -20,36 +20,29 @@ TouchScene at_reading(const Vec3& reading, const Vec3& normal = {1, 0, 0}) {
 
 TEST_CASE("scale: reads long when positive, on one axis or on all") {
   const TouchScene scene = at_reading({500, 300, -200});
-  CHECK(norm(displacement_mm(kMachineScale, scene, {{"scale_um_per_m", 10}}) - Vec3{5e-3, 0, 0}) <
+  CHECK(norm(displacement_mm(kMachineScale, scene, {{"scale_um_per_m", 10}}) - Vec3{5e-3, 0, 0}) < 1e-15);
+  CHECK(norm(displacement_mm(kMachineScale, scene, {{"scale_um_per_m", 10}, {"axis", 2}}) - Vec3{0, 0, -2e-3}) < 1e-15);
+  CHECK(norm(displacement_mm(kMachineScale, scene, {{"scale_um_per_m", 10}, {"axis", 3}}) - 1e-5 * scene.reading) <
         1e-15);
-  CHECK(norm(displacement_mm(kMachineScale, scene, {{"scale_um_per_m", 10}, {"axis", 2}}) -
-             Vec3{0, 0, -2e-3}) < 1e-15);
-  CHECK(norm(displacement_mm(kMachineScale, scene, {{"scale_um_per_m", 10}, {"axis", 3}}) -
-             1e-5 * scene.reading) < 1e-15);
 }
 
 TEST_CASE("squareness: an angle above 90 degrees lengthens the diagonal of equal signs") {
   // In a frame of axes that enclose 90 degrees + g a true point p has the readings p + d, to first
   // order.
   const double g = 5e-6, length = 1000 / std::sqrt(2.0);
-  const Vec3 d = displacement_mm(kMachineSquareness, at_reading({length, length, 0}),
-                                 {{"squareness_urad", 5}});
+  const Vec3 d = displacement_mm(kMachineSquareness, at_reading({length, length, 0}), {{"squareness_urad", 5}});
   CHECK(norm(d - Vec3{g * length, 0, 0}) < 1e-15);
   const Vec3 x_axis{1, 0, 0}, y_axis{-std::sin(g), std::cos(g), 0};
   const Vec3 truly = length * x_axis + length * y_axis;
   CHECK(norm(truly + d - Vec3{length, length, 0}) < 1e-7);
-  CHECK(dot(unit(truly), d) * 1e3 ==
-        doctest::Approx(2.5).epsilon(1e-3));  // 1 m diagonal: g/2 per unit length
-  CHECK(norm(displacement_mm(kMachineSquareness, at_reading({7, 8, 100}),
-                             {{"squareness_urad", 5}, {"which", 1}}) -
+  CHECK(dot(unit(truly), d) * 1e3 == doctest::Approx(2.5).epsilon(1e-3));  // 1 m diagonal: g/2 per unit length
+  CHECK(norm(displacement_mm(kMachineSquareness, at_reading({7, 8, 100}), {{"squareness_urad", 5}, {"which", 1}}) -
              Vec3{5e-4, 0, 0}) < 1e-15);
-  CHECK(norm(displacement_mm(kMachineSquareness, at_reading({7, 8, 100}),
-                             {{"squareness_urad", 5}, {"which", 2}}) -
+  CHECK(norm(displacement_mm(kMachineSquareness, at_reading({7, 8, 100}), {{"squareness_urad", 5}, {"which", 2}}) -
              Vec3{0, 5e-4, 0}) < 1e-15);
 }
 
-TEST_CASE(
-    "straightness and angle: the angle is the slope of the straightness over the bearing base") {
+TEST_CASE("straightness and angle: the angle is the slope of the straightness over the bearing base") {
   std::vector<double> z(static_cast<std::size_t>(kStraightnessAngleCoupling.draws));
   for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::cos(1.0 + 2.0 * static_cast<double>(i));
   for (const int axis : {0, 1, 2}) {
@@ -57,9 +50,8 @@ TEST_CASE(
       TouchScene scene = at_reading({});
       scene.reading[axis] = x;
       for (Vec3& l : scene.lever_mm) l = lever;
-      return displacement_mm(
-          kStraightnessAngleCoupling, scene,
-          {{"amplitude_um", 2}, {"axis", static_cast<double>(axis)}, {"bearing_base_mm", base}}, z);
+      return displacement_mm(kStraightnessAngleCoupling, scene,
+                             {{"amplitude_um", 2}, {"axis", static_cast<double>(axis)}, {"bearing_base_mm", base}}, z);
     };
     const double x = 321, h = 1e-3;
     const Vec3 slope = (at(x + h, {}, 1) - at(x - h, {}, 1)) / (2 * h);
@@ -69,16 +61,13 @@ TEST_CASE(
     // With a short base the carriage stays square to its rail: w = i x slope.
     rotation = cross(along, slope);
     const Vec3 lever{100, 200, 300};
-    CHECK(norm(at(x, lever, 1) - at(x, {}, 1) - cross(rotation, lever)) <
-          0.01 * norm(cross(rotation, lever)));
+    CHECK(norm(at(x, lever, 1) - at(x, {}, 1) - cross(rotation, lever)) < 0.01 * norm(cross(rotation, lever)));
     // Exactly, with a long base b: the slope is the difference of the rail at the bearings over b,
     // the offset their mean. Two carriages of base b side by side share a bearing: offset(x + b/2)
     // - offset(x - b/2) = [slope(x + b/2) + slope(x - b/2)] b/2.
     const double b = 300;
     const Vec3 arm = along * 1.0;  // (i x slope) x i = slope
-    const auto slope_at = [&](double position) {
-      return at(position, arm, b) - at(position, {}, b);
-    };
+    const auto slope_at = [&](double position) { return at(position, arm, b) - at(position, {}, b); };
     const Vec3 difference = at(x + b / 2, {}, b) - at(x - b / 2, {}, b),
                mean = 0.5 * (slope_at(x + b / 2) + slope_at(x - b / 2));
     CHECK(norm(difference - b * mean) < 1e-12);
@@ -123,10 +112,8 @@ TEST_CASE("scale interpolation: repeats with the signal period, two harmonics") 
   CHECK(at(-699.985, lida) == doctest::Approx(-0.2));
   CHECK(at(3.0023, lida) == doctest::Approx(at(3.0223, lida)));
   CHECK(at(0.0025, {{"second_um", 0.1}}) == doctest::Approx(0.1));
-  CHECK(at(0, {{"amplitude_um", 0.2},
-               {"phase_deg", 90},
-               {"second_um", 0.1},
-               {"second_phase_deg", -90}}) == doctest::Approx(0.1));
+  CHECK(at(0, {{"amplitude_um", 0.2}, {"phase_deg", 90}, {"second_um", 0.1}, {"second_phase_deg", -90}}) ==
+        doctest::Approx(0.1));
 }
 
 TEST_CASE("dynamics: yaw times arm while accelerating, then ringing that dies") {
@@ -156,13 +143,11 @@ TEST_CASE("ram droop: third power of the extension; compliance reads in across t
   CHECK(norm(droop(-800) - Vec3{0, 2e-3, 0}) < 1e-15);
   CHECK(droop(-400).y == doctest::Approx(2e-3 / 8));
   CHECK(norm(droop(0)) == 0);
-  CHECK(reading_um(kRamDroop, at_reading({0, 0, -800}, {0, -1, 0}), {{"compliance_um", 1}}) ==
-        doctest::Approx(-1));
+  CHECK(reading_um(kRamDroop, at_reading({0, 0, -800}, {0, -1, 0}), {{"compliance_um", 1}}) == doctest::Approx(-1));
   CHECK(reading_um(kRamDroop, at_reading({0, 0, -800}, {0, 0, 1}), {{"compliance_um", 1}}) == 0);
 }
 
-TEST_CASE(
-    "map scallops: e'' h^2/8 half-way, nothing at the nodes, as linear interpolation leaves it") {
+TEST_CASE("map scallops: e'' h^2/8 half-way, nothing at the nodes, as linear interpolation leaves it") {
   const double h = 50,
                curvature = 1e-6;  // of the true error function e = curvature x^2 / 2, in 1/mm
   const double amplitude_um = 1e3 * curvature * h * h / 8;
@@ -170,8 +155,7 @@ TEST_CASE(
     const double node = h * std::floor(x / h);
     const auto e = [&](double position) { return 0.5 * curvature * position * position; };
     const double interpolated = e(node) + (e(node + h) - e(node)) * (x - node) / h;
-    const Vec3 d =
-        displacement_mm(kMapScallops, at_reading({x, 0, 0}), {{"amplitude_um", -amplitude_um}});
+    const Vec3 d = displacement_mm(kMapScallops, at_reading({x, 0, 0}), {{"amplitude_um", -amplitude_um}});
     CHECK(d.x == doctest::Approx(e(x) - interpolated));
   }
   CHECK(displacement_mm(kMapScallops, at_reading({0, 30, 0}),
@@ -184,18 +168,14 @@ TEST_CASE("machine step: from a moment, or from a position on") {
   scene.time_s = 599;
   CHECK(norm(displacement_mm(kMachineStep, scene, {{"amplitude_um", 3}, {"t0_s", 600}})) == 0);
   scene.time_s = 600;
-  CHECK(norm(displacement_mm(kMachineStep, scene,
-                             {{"amplitude_um", 3}, {"t0_s", 600}, {"direction", 1}}) -
+  CHECK(norm(displacement_mm(kMachineStep, scene, {{"amplitude_um", 3}, {"t0_s", 600}, {"direction", 1}}) -
              Vec3{0, 3e-3, 0}) < 1e-15);
-  CHECK(norm(displacement_mm(
-            kMachineStep, scene,
-            {{"amplitude_um", 3}, {"direction", 2}, {"along", 1}, {"position_mm", 901}})) == 0);
-  CHECK(norm(displacement_mm(
-                 kMachineStep, scene,
-                 {{"amplitude_um", 3}, {"direction", 2}, {"along", 1}, {"position_mm", 900}}) -
-             Vec3{0, 0, 3e-3}) < 1e-15);
   CHECK(norm(displacement_mm(kMachineStep, scene,
-                             {{"amplitude_um", 3}, {"direction", 3}, {"azimuth_deg", 180}}) -
+                             {{"amplitude_um", 3}, {"direction", 2}, {"along", 1}, {"position_mm", 901}})) == 0);
+  CHECK(norm(displacement_mm(kMachineStep, scene,
+                             {{"amplitude_um", 3}, {"direction", 2}, {"along", 1}, {"position_mm", 900}}) -
+             Vec3{0, 0, 3e-3}) < 1e-15);
+  CHECK(norm(displacement_mm(kMachineStep, scene, {{"amplitude_um", 3}, {"direction", 3}, {"azimuth_deg", 180}}) -
              Vec3{-3e-3, 0, 0}) < 1e-15);
 }
 

@@ -24,8 +24,7 @@ TEST_CASE("load bending: the sag of the middle against the ends, in proportion t
   // Against the straight line through both ends of the travel, which an alignment takes out.
   const auto sag_um = [](double load_kg) {
     const auto z = [&](double x) {
-      return reading_um(kLoadBending, touch_under_load(load_kg, {x, 0, 0}, {}),
-                        {{"sag_um_per_500kg", 1.5}});
+      return reading_um(kLoadBending, touch_under_load(load_kg, {x, 0, 0}, {}), {{"sag_um_per_500kg", 1.5}});
     };
     return z(800) - (z(0) + z(1600)) / 2;
   };
@@ -35,15 +34,13 @@ TEST_CASE("load bending: the sag of the middle against the ends, in proportion t
   CHECK(sag_um(0) == 0);
 }
 
-TEST_CASE(
-    "load bending: opposite to an arch, with its Abbe part, and round unless told otherwise") {
+TEST_CASE("load bending: opposite to an arch, with its Abbe part, and round unless told otherwise") {
   const Parameters bowl = {{"sag_um_per_500kg", 1}};
   const Vec3 low = displacement_mm(kLoadBending, touch_under_load(500, {400, 0, 0}, {}), bowl);
   const Vec3 across = displacement_mm(kLoadBending, touch_under_load(500, {0, 400, 0}, {}), bowl);
   CHECK(low.z < 0);
   CHECK(across.z == doctest::Approx(low.z));
-  const Vec3 high =
-      displacement_mm(kLoadBending, touch_under_load(500, {400, 0, 0}, {0, 0, 500}), bowl);
+  const Vec3 high = displacement_mm(kLoadBending, touch_under_load(500, {400, 0, 0}, {0, 0, 500}), bowl);
   CHECK(high.x == doctest::Approx(8e-3 / (1600. * 1600.) * 400 * 500));
   const Parameters rails = {{"sag_um_per_500kg", 1}, {"cross_share", 0}};
   CHECK(displacement_mm(kLoadBending, touch_under_load(500, {0, 400, 0}, {}), rails) == Vec3{});
@@ -58,17 +55,13 @@ TEST_CASE("load bending: a mass given as a parameter counts like a logged one") 
 
 TEST_CASE("clamping: deflections at half the part's size") {
   const Vec3 up{0, 0, 1};
-  CHECK(reading_um(kClamping, touch_on_part({250, 0, 0}, up), {{"bow_um", 3}}) ==
-        doctest::Approx(3));
-  CHECK(reading_um(kClamping, touch_on_part({0, -250, 0}, up), {{"cross_bow_um", 3}}) ==
-        doctest::Approx(3));
-  CHECK(reading_um(kClamping, touch_on_part({250, -250, 0}, up), {{"twist_um", 3}}) ==
-        doctest::Approx(-3));
+  CHECK(reading_um(kClamping, touch_on_part({250, 0, 0}, up), {{"bow_um", 3}}) == doctest::Approx(3));
+  CHECK(reading_um(kClamping, touch_on_part({0, -250, 0}, up), {{"cross_bow_um", 3}}) == doctest::Approx(3));
+  CHECK(reading_um(kClamping, touch_on_part({250, -250, 0}, up), {{"twist_um", 3}}) == doctest::Approx(-3));
   // Three lobes: alike at 120 degrees, opposite in between.
   const auto lobe = [&](double degrees) {
     const double a = degrees * kDegree;
-    return reading_um(kClamping, touch_on_part({250 * std::cos(a), 250 * std::sin(a), 0}, up),
-                      {{"three_point_um", 2}});
+    return reading_um(kClamping, touch_on_part({250 * std::cos(a), 250 * std::sin(a), 0}, up), {{"three_point_um", 2}});
   };
   CHECK(lobe(0) == doctest::Approx(2));
   CHECK(lobe(120) == doctest::Approx(2));
@@ -77,11 +70,8 @@ TEST_CASE("clamping: deflections at half the part's size") {
 
 TEST_CASE("clamping: sections stay plane and normal to the bent middle plane") {
   // The side displacement at height z is -z times the slope, found here by differences of w.
-  const Parameters modes = {
-      {"bow_um", 3}, {"cross_bow_um", -2}, {"twist_um", 5}, {"three_point_um", 1.5}};
-  const auto w = [&](double x, double y) {
-    return reading_um(kClamping, touch_on_part({x, y, 0}, {0, 0, 1}), modes);
-  };
+  const Parameters modes = {{"bow_um", 3}, {"cross_bow_um", -2}, {"twist_um", 5}, {"three_point_um", 1.5}};
+  const auto w = [&](double x, double y) { return reading_um(kClamping, touch_on_part({x, y, 0}, {0, 0, 1}), modes); };
   const double x = 120, y = -70, z = 40, h = 1e-2;
   CHECK(reading_um(kClamping, touch_on_part({x, y, z}, {1, 0, 0}), modes) ==
         doctest::Approx(-z * (w(x + h, y) - w(x - h, y)) / (2 * h)).epsilon(1e-6));
@@ -101,13 +91,10 @@ TEST_CASE("form: lobes repeat at their angle and sit where the help says") {
   CHECK(at("three_lobe_um", 240) == doctest::Approx(1));
   CHECK(at("three_lobe_30_um", 30) == doctest::Approx(1));
   CHECK(at("egg_um", 77) == doctest::Approx(-0.5));
-  CHECK(reading_um(kPartForm, touch_on_part({}, {0, 0, -1}), {{"egg_um", 1}}) ==
-        doctest::Approx(1));
+  CHECK(reading_um(kPartForm, touch_on_part({}, {0, 0, -1}), {{"egg_um", 1}}) == doctest::Approx(1));
   const double s = std::sqrt(0.5);
-  CHECK(reading_um(kPartForm, touch_on_part({}, {s, 0, s}), {{"oval_xz_um", 1}}) ==
-        doctest::Approx(1));
-  CHECK(reading_um(kPartForm, touch_on_part({}, {0, s, s}), {{"oval_yz_um", 1}}) ==
-        doctest::Approx(1));
+  CHECK(reading_um(kPartForm, touch_on_part({}, {s, 0, s}), {{"oval_xz_um", 1}}) == doctest::Approx(1));
+  CHECK(reading_um(kPartForm, touch_on_part({}, {0, s, s}), {{"oval_yz_um", 1}}) == doctest::Approx(1));
 }
 
 TEST_CASE("form: the harmonics are orthogonal to radius and centre of a sphere") {

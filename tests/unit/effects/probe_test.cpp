@@ -17,8 +17,7 @@ double harmonic(int m, double length_mm, Parameters named) {
   double sum = 0;
   for (int i = 0; i < kPoints; ++i) {
     const double azimuth = 2 * kPi * i / kPoints;
-    sum += reading_um(kPretravelLobing, touch(horizontal(azimuth), length_mm), named) *
-           std::cos(m * azimuth);
+    sum += reading_um(kPretravelLobing, touch(horizontal(azimuth), length_mm), named) * std::cos(m * azimuth);
   }
   return (m == 0 ? 1 : 2) * sum / kPoints;
 }
@@ -48,8 +47,7 @@ TEST_CASE("pretravel: harmonics of the tripod's statics round the equator") {
   CHECK(-harmonic(3, 50, {{"amplitude_um", 1}}) / mean == doctest::Approx(-0.275).epsilon(0.002));
   CHECK(-harmonic(6, 50, {{"amplitude_um", 1}}) / mean == doctest::Approx(0.104).epsilon(0.005));
   CHECK(-harmonic(9, 50, {{"amplitude_um", 1}}) / mean == doctest::Approx(-0.054).epsilon(0.01));
-  for (const int m : {1, 2, 4, 5})
-    CHECK(harmonic(m, 50, {{"amplitude_um", 1}}) == doctest::Approx(0).epsilon(1e-9));
+  for (const int m : {1, 2, 4, 5}) CHECK(harmonic(m, 50, {{"amplitude_um", 1}}) == doctest::Approx(0).epsilon(1e-9));
 }
 
 TEST_CASE("pretravel: stiff directions need twice the force of soft ones; 16 um range with 50 mm") {
@@ -67,21 +65,17 @@ TEST_CASE("pretravel: stiff directions need twice the force of soft ones; 16 um 
 TEST_CASE("pretravel: the mean over the hemisphere is contained in the qualified radius") {
   for (const double length : {20.0, 50.0, 100.0}) {
     const auto reading = [&](const Vec3& n) {
-      return reading_um(kPretravelLobing, touch(n, length),
-                        {{"amplitude_um", 5}, {"phase_deg", 17}});
+      return reading_um(kPretravelLobing, touch(n, length), {{"amplitude_um", 5}, {"phase_deg", 17}});
     };
-    CHECK(std::fabs(mean_over_hemisphere(reading)) <
-          0.005 * harmonic(3, length, {{"amplitude_um", 5}}));
+    CHECK(std::fabs(mean_over_hemisphere(reading)) < 0.005 * harmonic(3, length, {{"amplitude_um", 5}}));
   }
 }
 
 TEST_CASE("pretravel: grows with the square of the length and turns with the probe body") {
-  CHECK(harmonic(3, 100, {{"amplitude_um", 1}}) ==
-        doctest::Approx(4 * harmonic(3, 50, {{"amplitude_um", 1}})));
+  CHECK(harmonic(3, 100, {{"amplitude_um", 1}}) == doctest::Approx(4 * harmonic(3, 50, {{"amplitude_um", 1}})));
   CHECK(harmonic(3, 100, {{"amplitude_um", 1}, {"at_length_mm", 100}}) ==
         doctest::Approx(harmonic(3, 50, {{"amplitude_um", 1}})));
-  const TouchScene here = touch(horizontal(0.4)),
-                   turned = touch(horizontal(0.4 + kPi / 3), 50, 0, kPi / 3);
+  const TouchScene here = touch(horizontal(0.4)), turned = touch(horizontal(0.4 + kPi / 3), 50, 0, kPi / 3);
   CHECK(reading_um(kPretravelLobing, here, {{"amplitude_um", 1}}) ==
         doctest::Approx(reading_um(kPretravelLobing, turned, {{"amplitude_um", 1}})));
   CHECK(reading_um(kPretravelLobing, here, {{"amplitude_um", 1}}) ==
@@ -91,18 +85,14 @@ TEST_CASE("pretravel: grows with the square of the length and turns with the pro
   // body.
   const double b = 0.7;
   const Mat3 R = head_pose(kPi / 2, b);
-  CHECK(reading_um(kPretravelLobing, touch(R * horizontal(0.4), 50, kPi / 2, b),
-                   {{"amplitude_um", 1}}) ==
+  CHECK(reading_um(kPretravelLobing, touch(R * horizontal(0.4), 50, kPi / 2, b), {{"amplitude_um", 1}}) ==
         doctest::Approx(reading_um(kPretravelLobing, here, {{"amplitude_um", 1}})));
 }
 
-TEST_CASE(
-    "pretravel: weight matters when the body lies, and vanishes to first order from the mean") {
-  const Parameters heavy = {{"amplitude_um", 1}, {"gravity_share", 0.1}},
-                   light = {{"amplitude_um", 1}};
+TEST_CASE("pretravel: weight matters when the body lies, and vanishes to first order from the mean") {
+  const Parameters heavy = {{"amplitude_um", 1}, {"gravity_share", 0.1}}, light = {{"amplitude_um", 1}};
   const TouchScene upright = touch(horizontal(0.4));
-  CHECK(reading_um(kPretravelLobing, upright, heavy) ==
-        doctest::Approx(reading_um(kPretravelLobing, upright, light)));
+  CHECK(reading_um(kPretravelLobing, upright, heavy) == doctest::Approx(reading_um(kPretravelLobing, upright, light)));
   // A = 90, B = 0: the body's x points up. The soft edge there restores 10 % more: 10 % of the
   // smallest pretravel, 2 um.
   const TouchScene lying = touch({0, 0, 1}, 50, kPi / 2);
@@ -131,16 +121,15 @@ TEST_CASE("stylus bending: published deflections at 0.1 N") {
   struct Case {
     double young_GPa, length_mm, diameter_mm, deflection_um;
   };
-  for (const Case& c : {Case{620, 30, 1.5, 5.8}, Case{200, 50, 2, 26.5}, Case{620, 50, 2, 8.6},
-                        Case{450, 100, 3, 18.6}}) {
+  for (const Case& c :
+       {Case{620, 30, 1.5, 5.8}, Case{200, 50, 2, 26.5}, Case{620, 50, 2, 8.6}, Case{450, 100, 3, 18.6}}) {
     const auto with = [&](const Vec3& normal, Parameters named) {
       TouchScene scene = touch(normal, c.length_mm);
       scene.stylus.young_MPa = 1e3 * c.young_GPa;
       scene.stylus.shaft_diameter_mm = c.diameter_mm;
       return reading_um(kStylusBending, scene, named);
     };
-    CHECK(with({1, 0, 0}, {{"force_change_N", 0.1}}) ==
-          doctest::Approx(-c.deflection_um).epsilon(0.01));
+    CHECK(with({1, 0, 0}, {{"force_change_N", 0.1}}) == doctest::Approx(-c.deflection_um).epsilon(0.01));
     CHECK(with({0, 0, 1}, {{"force_change_N", 0.1}}) == doctest::Approx(0));
     CHECK(with({0, 0, 1}, {{"force_N", 0.1}}) - with({1, 0, 0}, {{"force_N", 0.1}}) ==
           doctest::Approx(c.deflection_um).epsilon(0.01));
@@ -152,8 +141,7 @@ TEST_CASE("stylus bending: published deflections at 0.1 N") {
 
 TEST_CASE("stylus bending: follows the stylus, and a shaft of unknown size is rigid") {
   const TouchScene lying = touch({0, 0, 1}, 50, kPi / 2);
-  CHECK(reading_um(kStylusBending, lying, {{"force_change_N", 0.1}}) ==
-        doctest::Approx(-8.56).epsilon(1e-3));
+  CHECK(reading_um(kStylusBending, lying, {{"force_change_N", 0.1}}) == doctest::Approx(-8.56).epsilon(1e-3));
   TouchScene unknown = touch({1, 0, 0});
   unknown.stylus.shaft_diameter_mm = 0;
   CHECK(reading_um(kStylusBending, unknown, {{"force_N", 0.1}}) == 0);
@@ -168,8 +156,7 @@ TEST_CASE("tip radius: a larger tip reads out in every direction, for the stylus
   CHECK(reading_um(kTipRadius, second, {{"amplitude_um", 1}, {"sensor", 1}}) == 0);
 }
 
-TEST_CASE(
-    "tip form: each draw is an orthogonal form without radius and centre, of unit rms together") {
+TEST_CASE("tip form: each draw is an orthogonal form without radius and centre, of unit rms together") {
   const auto form = [](int k, const Vec3& n) {
     std::vector<double> z(static_cast<std::size_t>(kTipForm.draws));
     z[static_cast<std::size_t>(k)] = 1;
@@ -187,8 +174,7 @@ TEST_CASE(
     CHECK(std::fabs(mean([&](const Vec3& n) { return form(k, n); })) < 1e-3);
     CHECK(std::fabs(mean([&](const Vec3& n) { return form(k, n) * n.x; })) < 1e-3);
     CHECK(std::fabs(mean([&](const Vec3& n) { return form(k, n) * n.z; })) < 1e-3);
-    if (k > 0)
-      CHECK(std::fabs(mean([&](const Vec3& n) { return form(k, n) * form(k - 1, n); })) < 1e-3);
+    if (k > 0) CHECK(std::fabs(mean([&](const Vec3& n) { return form(k, n) * form(k - 1, n); })) < 1e-3);
   }
   CHECK(power == doctest::Approx(1).epsilon(1e-3));
 }
@@ -203,20 +189,17 @@ TEST_CASE("tip form: the place of the ball that touches turns with the stylus") 
   std::vector<double> oval(static_cast<std::size_t>(kTipForm.draws));
   oval[2] = 1;  // degree 2, order 0: proud at the poles
   CHECK(reading_um(kTipForm, touch({0, 0, 1}), {{"amplitude_um", 1}}, oval) > 0);
-  CHECK(
-      reading_um(kTipForm, touch({1, 0, 0}), {{"amplitude_um", 1}}, oval) ==
-      doctest::Approx(-0.5 * reading_um(kTipForm, touch({0, 0, -1}), {{"amplitude_um", 1}}, oval)));
+  CHECK(reading_um(kTipForm, touch({1, 0, 0}), {{"amplitude_um", 1}}, oval) ==
+        doctest::Approx(-0.5 * reading_um(kTipForm, touch({0, 0, -1}), {{"amplitude_um", 1}}, oval)));
 }
 
 TEST_CASE("contact flattening: Hertz for ruby on steel and aluminium") {
   const auto flattening = [](double radius_mm, double force_N, double young_GPa, double poisson) {
     TouchScene scene = touch({1, 0, 0});
     scene.stylus.radius_mm = radius_mm;
-    return -reading_um(kContactFlattening, scene,
-                       {{"force_N", force_N},
-                        {"part_young_GPa", young_GPa},
-                        {"part_poisson", poisson},
-                        {"sphere_radius_mm", 0}});
+    return -reading_um(
+        kContactFlattening, scene,
+        {{"force_N", force_N}, {"part_young_GPa", young_GPa}, {"part_poisson", poisson}, {"sphere_radius_mm", 0}});
   };
   CHECK(flattening(1, 0.1, 210, 0.3) == doctest::Approx(0.063).epsilon(0.01));
   CHECK(flattening(1, 0.1, 70, 0.33) == doctest::Approx(0.108).epsilon(0.01));
@@ -230,9 +213,8 @@ TEST_CASE("contact flattening: only the difference to the reference sphere remai
   const double soft = reading_um(kContactFlattening, touch({0, 0, 1}), {});
   CHECK(soft < 0);
   CHECK(soft > -0.1);
-  const double same =
-      reading_um(kContactFlattening, touch({0, 0, 1}),
-                 {{"part_young_GPa", 380}, {"part_poisson", 0.23}, {"sphere_radius_mm", 100}});
+  const double same = reading_um(kContactFlattening, touch({0, 0, 1}),
+                                 {{"part_young_GPa", 380}, {"part_poisson", 0.23}, {"sphere_radius_mm", 100}});
   CHECK(std::fabs(same) < 0.001);
 }
 
@@ -264,30 +246,25 @@ TEST_CASE("cosine error: 3.8 um at 5 degrees with R = 1 mm, never negative, quad
 }
 
 TEST_CASE("stylus length: a longer stylus reads out, along the stylus of each orientation") {
-  CHECK(reading_um(kStylusLength, touch({0, 0, 1}), {{"length_error_um", 3}}) ==
-        doctest::Approx(3));
+  CHECK(reading_um(kStylusLength, touch({0, 0, 1}), {{"length_error_um", 3}}) == doctest::Approx(3));
   CHECK(reading_um(kStylusLength, touch({1, 0, 0}), {{"length_error_um", 3}}) == 0);
   // Against the paper's tip vector t = (sinA cosB, sinA sinB, -cosA) l: reported minus true = -dL t
   // / l.
   const double a = 1.0, b = 0.4;
-  const Vec3 d =
-      displacement_mm(kStylusLength, touch({0, 0, 1}, 50, a, b), {{"length_error_um", 1000}});
+  const Vec3 d = displacement_mm(kStylusLength, touch({0, 0, 1}, 50, a, b), {{"length_error_um", 1000}});
   CHECK(norm(d + Vec3{std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), -std::cos(a)}) < 1e-12);
 }
 
 TEST_CASE("probe step: one stylus jumps at its time, by a vector of the probe body") {
-  TouchScene scene =
-      touch({0, 0, 1}, 50, kPi / 2);  // the body's axis lies along -X, its x points up
+  TouchScene scene = touch({0, 0, 1}, 50, kPi / 2);  // the body's axis lies along -X, its x points up
   scene.time_s = 99;
   CHECK(reading_um(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}}) == 0);
   scene.time_s = 100;
   CHECK(reading_um(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}}) == doctest::Approx(4));
-  const Vec3 axial = displacement_mm(
-      kProbeStep, scene,
-      {{"amplitude_um", 4}, {"t0_s", 100}, {"direction", 3}, {"elevation_deg", 90}});
+  const Vec3 axial =
+      displacement_mm(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"direction", 3}, {"elevation_deg", 90}});
   CHECK(norm(axial - 4e-3 * scene.stylus.to_head) < 1e-12);
-  CHECK(norm(axial - displacement_mm(kProbeStep, scene,
-                                     {{"amplitude_um", 4}, {"t0_s", 100}, {"direction", 2}})) <
+  CHECK(norm(axial - displacement_mm(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"direction", 2}})) <
         1e-12);
   scene.stylus.ordinal = 3;
   CHECK(reading_um(kProbeStep, scene, {{"amplitude_um", 4}, {"t0_s", 100}, {"sensor", 2}}) == 0);

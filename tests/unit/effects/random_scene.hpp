@@ -27,9 +27,7 @@ class Numbers {
     for (int i = 0; i < 12; ++i) sum += between(0, 1);
     return sum;
   }
-  Vec3 inside(double half) {
-    return {between(-half, half), between(-half, half), between(-half, half)};
-  }
+  Vec3 inside(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
   Vec3 unit_vector() { return unit(inside(1) + Vec3{1e-3, 0, 0}); }
   Mat3 turn() { return rotation(unit_vector(), between(-kPi, kPi)); }
 
@@ -74,8 +72,7 @@ inline TouchScene random_scene(Numbers& random) {
   s.reading = {random.between(0, 1600), random.between(0, 1000), random.between(-800, 0)};
   s.point = s.reading + s.stylus.tip_from_mount_mm;
   const Vec3 origins[] = {{0, 0, -950}, {0, 0, 135}, {95, -30, 400}};
-  for (int axis = 0; axis < 3; ++axis)
-    s.lever_mm[axis] = s.stylus.tip_from_mount_mm + origins[axis];
+  for (int axis = 0; axis < 3; ++axis) s.lever_mm[axis] = s.stylus.tip_from_mount_mm + origins[axis];
   s.normal = random.unit_vector();
   s.travel = unit(-s.normal + random.inside(0.1));
   const Mat3 R_WP = random.turn();

@@ -105,9 +105,8 @@ bool has_linear(const Effect& effect) {
 std::vector<double> random_values(const Effect& effect, Numbers& random) {
   std::vector<double> theta;
   for (const EffectParameter& p : effect.parameters)
-    theta.push_back(p.choices.empty()
-                        ? random.between(p.low, p.high)
-                        : random.choice(static_cast<int>(p.low), static_cast<int>(p.high)));
+    theta.push_back(p.choices.empty() ? random.between(p.low, p.high)
+                                      : random.choice(static_cast<int>(p.low), static_cast<int>(p.high)));
   return theta;
 }
 
@@ -225,15 +224,13 @@ TEST_CASE("registry: the displacement is linear in all linear parameters jointly
     }
     if (!has_linear(effect)) return;
     const Vec3 of_a = displace(effect, scene, a, z), of_b = displace(effect, scene, b, z);
-    CHECK(close(displace(effect, scene, mixed, z), s * of_a + t * of_b,
-                4 * (norm(of_a) + norm(of_b)) + 1e-9));
+    CHECK(close(displace(effect, scene, mixed, z), s * of_a + t * of_b, 4 * (norm(of_a) + norm(of_b)) + 1e-9));
   });
 }
 
 TEST_CASE("registry: the displacement is linear in the draws of every effect that says so") {
-  for_all_effects([](const Effect& effect, const TouchScene& scene,
-                     const std::vector<double>& theta, const std::vector<double>& a,
-                     Numbers& random) {
+  for_all_effects([](const Effect& effect, const TouchScene& scene, const std::vector<double>& theta,
+                     const std::vector<double>& a, Numbers& random) {
     CHECK(!(effect.linear_in_draws && effect.draws == 0));
     if (!effect.linear_in_draws) return;
     const double s = random.between(-2, 2), t = random.between(-2, 2);
@@ -241,15 +238,14 @@ TEST_CASE("registry: the displacement is linear in the draws of every effect tha
     std::vector<double> mixed = a;
     for (std::size_t j = 0; j < a.size(); ++j) mixed[j] = s * a[j] + t * b[j];
     const Vec3 of_a = displace(effect, scene, theta, a), of_b = displace(effect, scene, theta, b);
-    CHECK(close(displace(effect, scene, theta, mixed), s * of_a + t * of_b,
-                4 * (norm(of_a) + norm(of_b)) + 1e-9));
+    CHECK(close(displace(effect, scene, theta, mixed), s * of_a + t * of_b, 4 * (norm(of_a) + norm(of_b)) + 1e-9));
     CHECK(displace(effect, scene, theta, std::vector<double>(a.size())) == Vec3{});
   });
 }
 
 TEST_CASE("registry: finite on any plausible scene and values, and the same when asked again") {
-  for_all_effects([](const Effect& effect, const TouchScene& scene,
-                     const std::vector<double>& theta, const std::vector<double>& z, Numbers&) {
+  for_all_effects([](const Effect& effect, const TouchScene& scene, const std::vector<double>& theta,
+                     const std::vector<double>& z, Numbers&) {
     const Vec3 d = displace(effect, scene, theta, z);
     CHECK(std::isfinite(d.x + d.y + d.z));
     CHECK(displace(effect, scene, theta, z) == d);
@@ -274,8 +270,7 @@ TEST_CASE("registry: typical sizes act, and stay below a millimetre") {
     double largest = 0;
     for (int i = 0; i < 2000; ++i) {
       const TouchScene scene = random_scene(random);
-      const Vec3 d =
-          displace(*effect, scene, typical_values(*effect), random_draws(*effect, random));
+      const Vec3 d = displace(*effect, scene, typical_values(*effect), random_draws(*effect, random));
       largest = std::max(largest, std::fabs(dot(scene.normal, d)));
     }
     CHECK(largest > 1e-5);

@@ -100,10 +100,9 @@ TEST_CASE("table bending: another origin of x is a rigid turn") {
   const Parameters bent = {{"gradient_K", 1}};
   const auto difference = [&](double s, double l_x, double l_z) {
     return displacement_mm(kTableBending, touch_at({s, 0, 0}, {l_x, 0, l_z}), bent) -
-           displacement_mm(kTableBending, touch_at({s - s0, 0, 0}, {l_x, 0, l_z}), bent);
+        displacement_mm(kTableBending, touch_at({s - s0, 0, 0}, {l_x, 0, l_z}), bent);
   };
-  const Vec3 origin = difference(0, 0, 0), along = difference(900, 50, 0) - origin,
-             up = difference(0, 0, 300) - origin;
+  const Vec3 origin = difference(0, 0, 0), along = difference(900, 50, 0) - origin, up = difference(0, 0, 300) - origin;
   const double w = up.x / 300;
   CHECK(w != 0);
   CHECK(along.z == doctest::Approx(-w * (900 + 50)));
@@ -112,8 +111,8 @@ TEST_CASE("table bending: another origin of x is a rigid turn") {
 }
 
 TEST_CASE("table bending: a table that moves along y carries the surface along the arch of its guide") {
-  // The table stands at -s and the point of the part at c from its frame: an arch of curvature k lifts it by k s^2/2 + k s c, the
-  // parabola that the guide itself has.
+  // The table stands at -s and the point of the part at c from its frame: an arch of curvature k lifts it by
+  // k s^2/2 + k s c, the parabola that the guide itself has.
   const double k = 6.5e-6 * 0.5 / 200, c = -300, height = 250;
   for (const double s : {-600.0, 0.0, 200.0, 700.0}) {
     TouchScene scene = touch_at({50, s, 0}, {40, c + s, height});
@@ -163,30 +162,25 @@ TEST_CASE("time constants: aluminium wall 1.4 h, granite table 12 h") {
 TEST_CASE("drift: starts at zero, reaches 63 % after one time constant, settles at its amplitude") {
   const Parameters up = {{"amplitude_um", 3}, {"direction", 2}, {"tau_s", 1000}};
   CHECK(reading_um(kThermalDrift, touch_after(0), up) == 0);
-  CHECK(reading_um(kThermalDrift, touch_after(1000), up) ==
-        doctest::Approx(3 * (1 - std::exp(-1))));
+  CHECK(reading_um(kThermalDrift, touch_after(1000), up) == doctest::Approx(3 * (1 - std::exp(-1))));
   CHECK(reading_um(kThermalDrift, touch_after(1e5), up) == doctest::Approx(3));
 }
 
 TEST_CASE("drift: with two exponentials the slow one carries its share") {
-  const Parameters two = {{"amplitude_um", 4},
-                          {"direction", 2},
-                          {"tau_s", 100},
-                          {"second_share", 0.25},
-                          {"second_tau_s", 1e5}};
+  const Parameters two = {
+      {"amplitude_um", 4}, {"direction", 2}, {"tau_s", 100}, {"second_share", 0.25}, {"second_tau_s", 1e5}};
   const double fast_only = reading_um(kThermalDrift, touch_after(2000), two);
   CHECK(fast_only == doctest::Approx(3 + 1 - std::exp(-0.02)));
   CHECK(reading_um(kThermalDrift, touch_after(2e6), two) == doctest::Approx(4));
 }
 
 TEST_CASE("drift: along an axis, or oblique with the same length") {
-  const Vec3 y =
-      displacement_mm(kThermalDrift, touch_after(1e6), {{"amplitude_um", 2}, {"direction", 1}});
+  const Vec3 y = displacement_mm(kThermalDrift, touch_after(1e6), {{"amplitude_um", 2}, {"direction", 1}});
   CHECK(y.y == doctest::Approx(2e-3));
   CHECK(y.x == 0);
-  const Vec3 oblique = displacement_mm(
-      kThermalDrift, touch_after(1e6),
-      {{"amplitude_um", 2}, {"direction", 3}, {"azimuth_deg", 90}, {"elevation_deg", 30}});
+  const Vec3 oblique =
+      displacement_mm(kThermalDrift, touch_after(1e6),
+                      {{"amplitude_um", 2}, {"direction", 3}, {"azimuth_deg", 90}, {"elevation_deg", 30}});
   CHECK(norm(oblique) == doctest::Approx(2e-3));
   CHECK(oblique.z == doctest::Approx(1e-3));
   CHECK(oblique.x == doctest::Approx(0));

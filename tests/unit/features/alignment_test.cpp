@@ -35,9 +35,7 @@ DatumUse locating(Shape shape, const Element& e, const char* origins) {
 }
 
 /// The plane through three points, normal toward +z.
-Element plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return at((a + b + c) / 3, cross(b - a, c - a));
-}
+Element plane_through(const Vec3& a, const Vec3& b, const Vec3& c) { return at((a + b + c) / 3, cross(b - a, c - a)); }
 
 }  // namespace
 
@@ -48,20 +46,18 @@ TEST_CASE("A 3-2-1 alignment recovers the pose of the part exactly") {
   check_near(datum_frame({}, datums).value, kPose);
 
   SUBCASE("with three planes whose normals point against the axes") {
-    const DatumUse planes[] = {
-        use(Shape::plane, kPose * at({40, 30, 0}, {0, 0, -1}), Axis::z, -1, "Z"),
-        use(Shape::plane, kPose * at({25, 0, -5}, {0, -1, 0}), Axis::y, -1, "Y"),
-        locating(Shape::plane, kPose * at({0, 10, -5}, {-1, 0, 0}), "X")};
+    const DatumUse planes[] = {use(Shape::plane, kPose * at({40, 30, 0}, {0, 0, -1}), Axis::z, -1, "Z"),
+                               use(Shape::plane, kPose * at({25, 0, -5}, {0, -1, 0}), Axis::y, -1, "Y"),
+                               locating(Shape::plane, kPose * at({0, 10, -5}, {-1, 0, 0}), "X")};
     check_near(datum_frame({}, planes).value, kPose);
   }
 }
 
 TEST_CASE("Errors of the primary touches tilt the frame as geometry says") {
   const double L = 200, e1 = 2e-3, e2 = -1e-3, e3 = 4e-3;
-  const DatumUse datums[] = {
-      use(Shape::plane, plane_through({0, 0, e1}, {L, 0, e2}, {0, L, e3}), Axis::z, 1, "Z"),
-      use(Shape::line, at({L / 2, 0, -10}, {1, 0, 0}), Axis::x, 1, "Y"),
-      locating(Shape::point, at({0, 20, -10}, {-1, 0, 0}), "X")};
+  const DatumUse datums[] = {use(Shape::plane, plane_through({0, 0, e1}, {L, 0, e2}, {0, L, e3}), Axis::z, 1, "Z"),
+                             use(Shape::line, at({L / 2, 0, -10}, {1, 0, 0}), Axis::x, 1, "Y"),
+                             locating(Shape::point, at({0, 20, -10}, {-1, 0, 0}), "X")};
   const Rigid X = datum_frame({}, datums).value;
   const double slope_x = (e2 - e1) / L, slope_y = (e3 - e1) / L;
   check_near(X.R.cz, {-slope_x, -slope_y, 1}, 1e-9);  // second order: slope^2 = 4e-10
@@ -73,10 +69,9 @@ TEST_CASE("Errors of the primary touches tilt the frame as geometry says") {
 }
 
 TEST_CASE("Bores locate, and the second one stops the rotation") {
-  const DatumUse datums[] = {
-      use(Shape::plane, kPose * at({40, 30, 0}, {0, 0, 1}), Axis::z, 1, "Z"),
-      locating(Shape::circle, kPose * at({0, 0, -3}, {0, 0, 1}), "XY"),
-      use(Shape::cylinder, kPose * at({0, -80, -9}, {1e-4, 0, 1}), Axis::y, -1, "")};
+  const DatumUse datums[] = {use(Shape::plane, kPose * at({40, 30, 0}, {0, 0, 1}), Axis::z, 1, "Z"),
+                             locating(Shape::circle, kPose * at({0, 0, -3}, {0, 0, 1}), "XY"),
+                             use(Shape::cylinder, kPose * at({0, -80, -9}, {1e-4, 0, 1}), Axis::y, -1, "")};
   check_near(datum_frame({}, datums).value, kPose);
 }
 
@@ -112,19 +107,15 @@ TEST_CASE("What no datum names stays as it was") {
 
 TEST_CASE("Datums that cannot make a frame are refused with a reason") {
   const Element up = at({0, 0, 0}, {0, 0, 1});
-  auto reason = [](std::vector<DatumUse> datums) {
-    return std::string(datum_frame({}, datums).failure);
-  };
+  auto reason = [](std::vector<DatumUse> datums) { return std::string(datum_frame({}, datums).failure); };
   CHECK(reason({use(Shape::plane, up, Axis::z, 1, ""), use(Shape::plane, up, Axis::x, 1, "")}) ==
         "the direction of the secondary datum is parallel to the primary");
-  CHECK(reason({use(Shape::plane, up, Axis::z, 1, ""),
-                use(Shape::line, at({}, {1, 0, 0}), Axis::z, 1, "")}) ==
+  CHECK(reason({use(Shape::plane, up, Axis::z, 1, ""), use(Shape::line, at({}, {1, 0, 0}), Axis::z, 1, "")}) ==
         "primary and secondary datum define the same axis");
-  CHECK(reason({use(Shape::sphere, up, Axis::z, 1, "")}) ==
-        "a point or a sphere gives no direction as primary datum");
-  CHECK(reason({use(Shape::cylinder, up, Axis::z, 1, ""),
-                use(Shape::point, at({0, 0, 9}, {1, 0, 0}), Axis::x, 1, "")}) ==
-        "the secondary datum lies on the primary axis and gives no direction");
+  CHECK(reason({use(Shape::sphere, up, Axis::z, 1, "")}) == "a point or a sphere gives no direction as primary datum");
+  CHECK(
+      reason({use(Shape::cylinder, up, Axis::z, 1, ""), use(Shape::point, at({0, 0, 9}, {1, 0, 0}), Axis::x, 1, "")}) ==
+      "the secondary datum lies on the primary axis and gives no direction");
 }
 
 TEST_CASE("ROTATE turns about the frame's own axis toward a feature") {
@@ -159,18 +150,15 @@ TEST_CASE("Datum reference frames of ISO 5459") {
                    {top, X * at({25, 0, -5}, {1, 0, 0}), X * at({0, 10, -5}, {1, 0, 0})}),
              X);
   check_near(frame({Shape::sphere, Shape::sphere, Shape::point},
-                   {X * at({0, 0, 0}, {0, 0, 1}), X * at({0, 0, 50}, {0, 0, 1}),
-                    X * at({30, 0, 8}, {0, 0, 1})}),
+                   {X * at({0, 0, 0}, {0, 0, 1}), X * at({0, 0, 50}, {0, 0, 1}), X * at({30, 0, 8}, {0, 0, 1})}),
              X);
   const double half = 0.3;
-  const Element cone{
-      .point = X * Vec3{0, 0, 20}, .direction = X.R.cz, .size = 20 * std::tan(half), .angle = half};
+  const Element cone{.point = X * Vec3{0, 0, 20}, .direction = X.R.cz, .size = 20 * std::tan(half), .angle = half};
   check_near(frame({Shape::cone, Shape::plane}, {cone, side}), X);
 
   SUBCASE("a later datum changes nothing that an earlier one fixed") {
     const Element tilted_side = X * at({0, 10, -5}, {1, 0, 1e-3});
-    const Rigid tilted =
-        frame({Shape::plane, Shape::plane, Shape::plane}, {top, tilted_side, front});
+    const Rigid tilted = frame({Shape::plane, Shape::plane, Shape::plane}, {top, tilted_side, front});
     check_near(tilted,
                X);  // the secondary passes through its centroid at a right angle to the primary
     check_near(frame({Shape::plane, Shape::plane, Shape::cylinder}, {top, side, bore}), X);
@@ -192,6 +180,5 @@ TEST_CASE("Datum reference frames of ISO 5459") {
   }
   const std::vector<Element> four(4);
   const Shape planes[] = {Shape::plane, Shape::plane, Shape::plane, Shape::plane};
-  CHECK(std::string(datum_reference_frame(planes, four).failure) ==
-        "a datum reference frame has at most three datums");
+  CHECK(std::string(datum_reference_frame(planes, four).failure) == "a datum reference frame has at most three datums");
 }

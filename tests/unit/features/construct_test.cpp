@@ -11,28 +11,25 @@ using namespace abbe;
 
 namespace {
 
-Operand plane(Vec3 point, Vec3 normal) {
-  return {Shape::plane, {.point = point, .direction = unit(normal)}};
-}
+Operand plane(Vec3 point, Vec3 normal) { return {Shape::plane, {.point = point, .direction = unit(normal)}}; }
 Operand cylinder(Vec3 at, Vec3 axis, double radius) {
   return {Shape::cylinder, {.point = at, .direction = unit(axis), .size = radius}};
 }
 Operand sphere(Vec3 at, double radius) { return {Shape::sphere, {.point = at, .size = radius}}; }
 
-Outcome<Element> build(const char* word, Shape result, const std::vector<Operand>& operands,
-                       Vec3 nominal = {0, 0, 1}, const Arguments& arguments = {}) {
+Outcome<Element> build(const char* word, Shape result, const std::vector<Operand>& operands, Vec3 nominal = {0, 0, 1},
+                       const Arguments& arguments = {}) {
   std::vector<Shape> shapes;
   std::vector<Element> elements;
   for (const Operand& o : operands) shapes.push_back(o.shape), elements.push_back(o.element);
   const Construction* method = find_construction(word);
   REQUIRE(method);
   if (const char* why_not = method->applies(result, shapes)) return Outcome<Element>::failed(why_not);
-  return method->construct(result, shapes, elements, {.point = {}, .direction = unit(nominal)},
-                           arguments);
+  return method->construct(result, shapes, elements, {.point = {}, .direction = unit(nominal)}, arguments);
 }
 
-Element made(const char* word, Shape result, const std::vector<Operand>& operands,
-             Vec3 nominal = {0, 0, 1}, const Arguments& arguments = {}) {
+Element made(const char* word, Shape result, const std::vector<Operand>& operands, Vec3 nominal = {0, 0, 1},
+             const Arguments& arguments = {}) {
   const Outcome<Element> outcome = build(word, result, operands, nominal, arguments);
   INFO(std::string(outcome.failure ? outcome.failure : ""));
   REQUIRE(outcome);
@@ -72,27 +69,20 @@ TEST_CASE("INTOF of planes") {
   check_near(made("INTOF", Shape::point, three).point, {2, 2, 1});
   CHECK(reason("INTOF", Shape::line, {plane({}, {0, 0, 1}), plane({0, 0, 1}, {0, 0, -1})}) ==
         "the planes are parallel");
-  CHECK(reason("INTOF", Shape::point,
-               {plane({}, {0, 0, 1}), plane({}, {1, 0, 0}), plane({}, {1, 0, 1})}) ==
+  CHECK(reason("INTOF", Shape::point, {plane({}, {0, 0, 1}), plane({}, {1, 0, 0}), plane({}, {1, 0, 1})}) ==
         "two of the planes are parallel, or all three run along one direction");
   CHECK(reason("INTOF", Shape::line, three) == "three planes meet in a point");
-  CHECK(reason("INTOF", Shape::point,
-               {plane({}, {0, 0, 1}), plane({}, {1, 0, 0}), line({}, {1, 0, 1})}) ==
+  CHECK(reason("INTOF", Shape::point, {plane({}, {0, 0, 1}), plane({}, {1, 0, 0}), line({}, {1, 0, 1})}) ==
         "INTOF of three features takes three planes");
 }
 
 TEST_CASE("INTOF of axes") {
-  const Element pierced =
-      made("INTOF", Shape::point, {line({0, 0, 0}, {1, 2, 3}), plane({7, 7, 6}, {0, 0, 1})});
+  const Element pierced = made("INTOF", Shape::point, {line({0, 0, 0}, {1, 2, 3}), plane({7, 7, 6}, {0, 0, 1})});
   check_near(pierced.point, {2, 4, 6});
-  check_near(
-      made("INTOF", Shape::point, {plane({7, 7, 6}, {0, 0, 1}), cylinder({1, 2, 3}, {0, 0, 1}, 5)})
-          .point,
-      {1, 2, 6});
+  check_near(made("INTOF", Shape::point, {plane({7, 7, 6}, {0, 0, 1}), cylinder({1, 2, 3}, {0, 0, 1}, 5)}).point,
+             {1, 2, 6});
   // Lines 2 mm apart in height cross at (3, 4), half way up.
-  check_near(
-      made("INTOF", Shape::point, {line({0, 4, 1}, {1, 0, 0}), line({5, 6, 3}, {1, 1, 0})}).point,
-      {3, 4, 2});
+  check_near(made("INTOF", Shape::point, {line({0, 4, 1}, {1, 0, 0}), line({5, 6, 3}, {1, 1, 0})}).point, {3, 4, 2});
   CHECK(reason("INTOF", Shape::point, {line({}, {1, 0, 0}), line({0, 1, 0}, {1, 1e-4, 0})}) ==
         "the lines are parallel");
   CHECK(reason("INTOF", Shape::point, {line({}, {1, 0, 0}), plane({}, {0, 0, 1})}) ==
@@ -101,19 +91,16 @@ TEST_CASE("INTOF of axes") {
 }
 
 TEST_CASE("INTOF sections") {
-  const Element of_sphere =
-      made("INTOF", Shape::circle, {sphere({1, 2, 3}, 5), plane({0, 0, 7}, {0, 0, -1})});
+  const Element of_sphere = made("INTOF", Shape::circle, {sphere({1, 2, 3}, 5), plane({0, 0, 7}, {0, 0, -1})});
   check_near(of_sphere.point, {1, 2, 7});
   CHECK(of_sphere.size == doctest::Approx(3));
   check_near(of_sphere.direction, {0, 0, 1});
-  const Element of_cylinder = made(
-      "INTOF", Shape::circle, {plane({0, 0, 7}, {0, 0, 1}), cylinder({1, 2, 0}, {0, 0, 1}, 4)});
+  const Element of_cylinder =
+      made("INTOF", Shape::circle, {plane({0, 0, 7}, {0, 0, 1}), cylinder({1, 2, 0}, {0, 0, 1}, 4)});
   check_near(of_cylinder.point, {1, 2, 7});
   CHECK(of_cylinder.size == 4);
-  const Operand cone{Shape::cone,
-                     {.point = {0, 0, 10}, .direction = {0, 0, 1}, .size = 10, .angle = kPi / 4}};
-  CHECK(made("INTOF", Shape::circle, {plane({0, 0, 7}, {0, 0, 1}), cone}).size ==
-        doctest::Approx(7));
+  const Operand cone{Shape::cone, {.point = {0, 0, 10}, .direction = {0, 0, 1}, .size = 10, .angle = kPi / 4}};
+  CHECK(made("INTOF", Shape::circle, {plane({0, 0, 7}, {0, 0, 1}), cone}).size == doctest::Approx(7));
   CHECK(reason("INTOF", Shape::circle, {plane({0, 0, -1}, {0, 0, 1}), cone}) ==
         "the plane lies beyond the apex of the cone");
   CHECK(reason("INTOF", Shape::circle, {plane({0, 0, 9}, {0, 0, 1}), sphere({}, 5)}) ==
@@ -123,55 +110,44 @@ TEST_CASE("INTOF sections") {
 }
 
 TEST_CASE("Halfway between features") {
-  check_near(made("MIDPT", Shape::point, {point({1, 2, 3}), sphere({3, 2, 7}, 1)}).point,
-             {2, 2, 5});
+  check_near(made("MIDPT", Shape::point, {point({1, 2, 3}), sphere({3, 2, 7}, 1)}).point, {2, 2, 5});
   CHECK(reason("MIDPT", Shape::line, {point({}), point({})}) == "MIDPT makes a point");
 
-  const Element parallel_lines = made(
-      "MIDLI", Shape::line, {line({0, 0, 0}, {1, 0, 0}), line({4, 6, 2}, {-1, 0, 0})}, {-1, 0, 0});
+  const Element parallel_lines =
+      made("MIDLI", Shape::line, {line({0, 0, 0}, {1, 0, 0}), line({4, 6, 2}, {-1, 0, 0})}, {-1, 0, 0});
   check_near(parallel_lines.point, {2, 3, 1});
   check_near(parallel_lines.direction, {-1, 0, 0});
   // The x axis and the line at 60 degrees through the origin: the bisector at 30 degrees passes
   // through the origin.
   const Vec3 at60{0.5, std::sqrt(0.75), 0}, at30{std::sqrt(0.75), 0.5, 0};
-  const Element bisecting =
-      made("MIDLI", Shape::line, {line({10, 0, 0}, {1, 0, 0}), line(4 * at60, at60)}, {1, 0, 0});
+  const Element bisecting = made("MIDLI", Shape::line, {line({10, 0, 0}, {1, 0, 0}), line(4 * at60, at60)}, {1, 0, 0});
   check_near(bisecting.direction, at30);
   check_near(cross(bisecting.point, at30), {});
   // Lines at a right angle have two bisectors: the nominal chooses.
-  check_near(
-      made("MIDLI", Shape::line, {line({}, {1, 0, 0}), line({}, {0, 1, 0})}, {1, -1, 0}).direction,
-      unit({1, -1, 0}));
-  check_near(
-      made("MIDLI", Shape::line, {line({}, {1, 0, 0}), line({}, {0, 1, 0})}, {1, 1, 0}).direction,
-      unit({1, 1, 0}));
+  check_near(made("MIDLI", Shape::line, {line({}, {1, 0, 0}), line({}, {0, 1, 0})}, {1, -1, 0}).direction,
+             unit({1, -1, 0}));
+  check_near(made("MIDLI", Shape::line, {line({}, {1, 0, 0}), line({}, {0, 1, 0})}, {1, 1, 0}).direction,
+             unit({1, 1, 0}));
 
   const Element slot =
-      made("MIDPL", Shape::plane, {plane({3, 1, 0}, {0, 1, 0}), plane({5, 9, 0}, {0, -1, 0})},
-           {0, -1, 0});
+      made("MIDPL", Shape::plane, {plane({3, 1, 0}, {0, 1, 0}), plane({5, 9, 0}, {0, -1, 0})}, {0, -1, 0});
   check_near(slot.point, {4, 5, 0});
   check_near(slot.direction, {0, -1, 0});
   // Planes y = x and y = 0 through the z axis, 45 degrees: the middle one contains the z axis.
   const Element wedge =
-      made("MIDPL", Shape::plane, {plane({8, 0, 3}, {0, 1, 0}), plane({5, 5, 0}, {-1, 1, 0})},
-           {0, 1, 0});
+      made("MIDPL", Shape::plane, {plane({8, 0, 3}, {0, 1, 0}), plane({5, 5, 0}, {-1, 1, 0})}, {0, 1, 0});
   check_near(wedge.direction, {-std::sin(kPi / 8), std::cos(kPi / 8), 0});
   CHECK(std::fabs(dot(wedge.point, wedge.direction)) < 1e-12);
-  CHECK(reason("MIDLI", Shape::line, {point({}), line({}, {1, 0, 0})}) ==
-        "MIDLI makes a line of two lines or axes");
-  CHECK(reason("MIDPL", Shape::plane, {point({}), plane({}, {1, 0, 0})}) ==
-        "MIDPL makes a plane of two planes");
+  CHECK(reason("MIDLI", Shape::line, {point({}), line({}, {1, 0, 0})}) == "MIDLI makes a line of two lines or axes");
+  CHECK(reason("MIDPL", Shape::plane, {point({}), plane({}, {1, 0, 0})}) == "MIDPL makes a plane of two planes");
 }
 
 TEST_CASE("Projections") {
-  check_near(made("PROJPT", Shape::point, {point({1, 2, 3}), plane({9, 9, 1}, {0, 0, -1})}).point,
-             {1, 2, 1});
-  check_near(made("PROJPT", Shape::point, {point({1, 2, 3}), line({0, 0, 0}, {1, 1, 0})}).point,
-             {1.5, 1.5, 0});
+  check_near(made("PROJPT", Shape::point, {point({1, 2, 3}), plane({9, 9, 1}, {0, 0, -1})}).point, {1, 2, 1});
+  check_near(made("PROJPT", Shape::point, {point({1, 2, 3}), line({0, 0, 0}, {1, 1, 0})}).point, {1.5, 1.5, 0});
   CHECK(reason("PROJPT", Shape::point, {point({}), sphere({}, 1)}) ==
         "PROJPT projects onto a plane, a line or an axis");
-  CHECK(reason("PROJPT", Shape::plane, {point({}), plane({}, {0, 0, 1})}) ==
-        "PROJPT makes a point");
+  CHECK(reason("PROJPT", Shape::plane, {point({}), plane({}, {0, 0, 1})}) == "PROJPT makes a point");
   Operand slanted = line({0, 0, 5}, {0, 3, 4});
   slanted.element.begin = -5, slanted.element.end = 10;
   const Element shadow = made("PROJLI", Shape::line, {slanted, plane({}, {0, 0, 1})}, {0, -1, 0});
@@ -186,31 +162,22 @@ TEST_CASE("Projections") {
 }
 
 TEST_CASE("Perpendicular and parallel through a feature") {
-  const Element dropped =
-      made("PERPTO", Shape::line, {plane({}, {0, 0, 1}), point({1, 2, 3})}, {0, 0, -1});
+  const Element dropped = made("PERPTO", Shape::line, {plane({}, {0, 0, 1}), point({1, 2, 3})}, {0, 0, -1});
   check_near(dropped.point, {1, 2, 3});
   check_near(dropped.direction, {0, 0, -1});
-  check_near(
-      made("PERPTO", Shape::line, {line({}, {1, 0, 0}), point({4, 3, 0})}, {0, 1, 0}).direction,
-      {0, 1, 0});
-  check_near(
-      made("PERPTO", Shape::plane, {line({}, {1, 0, 0}), point({4, 3, 0})}, {-1, 0, 0}).direction,
-      {-1, 0, 0});
-  check_near(
-      made("PERPTO", Shape::plane, {plane({}, {0, 0, 1}), line({4, 3, 0}, {1, 0, 0})}, {0, 1, 0})
-          .direction,
-      {0, 1, 0});
+  check_near(made("PERPTO", Shape::line, {line({}, {1, 0, 0}), point({4, 3, 0})}, {0, 1, 0}).direction, {0, 1, 0});
+  check_near(made("PERPTO", Shape::plane, {line({}, {1, 0, 0}), point({4, 3, 0})}, {-1, 0, 0}).direction, {-1, 0, 0});
+  check_near(made("PERPTO", Shape::plane, {plane({}, {0, 0, 1}), line({4, 3, 0}, {1, 0, 0})}, {0, 1, 0}).direction,
+             {0, 1, 0});
   CHECK(reason("PERPTO", Shape::line, {line({}, {1, 0, 0}), point({4, 0, 0})}) ==
         "the point lies on the line to which the new one should be perpendicular");
   CHECK(reason("PERPTO", Shape::plane, {plane({}, {0, 0, 1}), line({}, {0, 0, 1})}) ==
         "the line is perpendicular to the plane, so that no single plane contains it");
-  CHECK(reason("PERPTO", Shape::plane, {plane({}, {0, 0, 1}), point({})})
-            .starts_with("PERPTO makes"));
+  CHECK(reason("PERPTO", Shape::plane, {plane({}, {0, 0, 1}), point({})}).starts_with("PERPTO makes"));
   const Element shelf = made("PARTO", Shape::plane, {plane({}, {0, 0, 1}), point({4, 3, 2})});
   check_near(shelf.point, {4, 3, 2});
   check_near(shelf.direction, {0, 0, 1});
-  check_near(made("PARTO", Shape::line, {cylinder({}, {0, 0, 1}, 2), point({4, 3, 2})}, {0, 0, -1})
-                 .direction,
+  check_near(made("PARTO", Shape::line, {cylinder({}, {0, 0, 1}, 2), point({4, 3, 2})}, {0, 0, -1}).direction,
              {0, 0, -1});
   CHECK(reason("PARTO", Shape::line, {plane({}, {0, 0, 1}), point({})}).starts_with("PARTO makes"));
 }
@@ -221,51 +188,39 @@ TEST_CASE("Moved and gathered features") {
   check_near(made("MOVEPT", Shape::point, {point({10, 10, 10})}, {0, 0, 1}, by).point, {11, 8, 13});
   Arguments distance;
   distance.add_number("distance", -5);
-  check_near(
-      made("MOVEPT", Shape::point, {point({1, 1, 1}), line({}, {0, 3, 4})}, {0, 0, 1}, distance)
-          .point,
-      {1, -2, -3});
-  CHECK(reason("MOVEPT", Shape::point, {point({}), sphere({}, 1)}) ==
-        "a sphere has no direction along which to move");
+  check_near(made("MOVEPT", Shape::point, {point({1, 1, 1}), line({}, {0, 3, 4})}, {0, 0, 1}, distance).point,
+             {1, -2, -3});
+  CHECK(reason("MOVEPT", Shape::point, {point({}), sphere({}, 1)}) == "a sphere has no direction along which to move");
   CHECK(reason("MOVEPT", Shape::line, {point({})}) == "MOVEPT makes a point");
-  check_near(made("OFFSET", Shape::plane, {plane({1, 1, 1}, {0, 0, 1})}, {0, 0, 1}, distance).point,
-             {1, 1, -4});
+  check_near(made("OFFSET", Shape::plane, {plane({1, 1, 1}, {0, 0, 1})}, {0, 0, 1}, distance).point, {1, 1, -4});
   CHECK(reason("OFFSET", Shape::line, {line({}, {1, 0, 0})}) == "OFFSET makes a plane of a plane");
-  check_near(
-      made("COG", Shape::point, {point({0, 0, 0}), sphere({3, 0, 0}, 1), point({0, 3, 6})}).point,
-      {1, 1, 2});
+  check_near(made("COG", Shape::point, {point({0, 0, 0}), sphere({3, 0, 0}, 1), point({0, 3, 6})}).point, {1, 1, 2});
   CHECK(reason("COG", Shape::circle, {point({})}) == "COG makes a point");
   CHECK(made("TR", Shape::sphere, {sphere({1, 2, 3}, 4)}).size == 4);
   CHECK(reason("TR", Shape::sphere, {point({})}) == "TR takes over a feature of the same kind");
 }
 
 TEST_CASE("BF through features") {
-  const Element flat = made(
-      "BF", Shape::plane,
-      {point({0, 0, 0.1}), point({10, 0, -0.1}), sphere({10, 10, 0.1}, 2), point({0, 10, -0.1})},
-      {0, 0, -1});
+  const Element flat =
+      made("BF", Shape::plane,
+           {point({0, 0, 0.1}), point({10, 0, -0.1}), sphere({10, 10, 0.1}, 2), point({0, 10, -0.1})}, {0, 0, -1});
   check_near(flat.direction, {0, 0, -1}, 1e-9);
   CHECK(flat.point.z == doctest::Approx(0).scale(1));
   CHECK(flat.low == doctest::Approx(-0.1));
   CHECK(flat.high == doctest::Approx(0.1));
   const Element bolts = made(
-      "BF", Shape::circle,
-      {sphere({5, 0, 1}, 1), sphere({0, 5, 1}, 1), sphere({-5, 0, 1}, 1), sphere({0, -5, 1}, 1)});
+      "BF", Shape::circle, {sphere({5, 0, 1}, 1), sphere({0, 5, 1}, 1), sphere({-5, 0, 1}, 1), sphere({0, -5, 1}, 1)});
   check_near(bolts.point, {0, 0, 1}, 1e-9);
   CHECK(bolts.size == doctest::Approx(5));
-  const Element row =
-      made("BF", Shape::line, {point({0, 1, 0}), point({10, 1, 0}), point({20, 1, 0})}, {-1, 0, 0});
+  const Element row = made("BF", Shape::line, {point({0, 1, 0}), point({10, 1, 0}), point({20, 1, 0})}, {-1, 0, 0});
   check_near(row.direction, {-1, 0, 0}, 1e-9);
   CHECK(row.end - row.begin == doctest::Approx(20));
   CHECK(reason("BF", Shape::plane, {point({0, 0, 0}), point({1, 0, 0}), point({2, 0, 0})}) ==
         "the points of the features lie on one line");
   CHECK(reason("BF", Shape::plane, {point({0, 0, 0}), point({1, 0, 0})}) ==
         "too few features for a best fit of this kind");
-  CHECK(reason("BF", Shape::line, {point({1, 1, 1}), point({1, 1, 1})}) ==
-        "the points of the features are identical");
-  CHECK(reason("BF", Shape::sphere,
-               {point({0, 0, 0}), point({1, 0, 0}), point({0, 1, 0}), point({1, 1, 0})}) ==
+  CHECK(reason("BF", Shape::line, {point({1, 1, 1}), point({1, 1, 1})}) == "the points of the features are identical");
+  CHECK(reason("BF", Shape::sphere, {point({0, 0, 0}), point({1, 0, 0}), point({0, 1, 0}), point({1, 1, 0})}) ==
         "the points of the features lie in one plane");
-  CHECK(reason("BF", Shape::plane, {plane({}, {0, 0, 1})}) ==
-        "BF takes features with a point, a centre or an axis");
+  CHECK(reason("BF", Shape::plane, {plane({}, {0, 0, 1})}) == "BF takes features with a point, a centre or an axis");
 }

@@ -148,7 +148,8 @@ namespace {
 std::vector<Vec3> rough_cylinder(std::uint32_t seed) {
   std::vector<Vec3> points;
   for (int i = 0; i < 18; ++i) {
-    const double a = 2 * kPi * (i % 6) / 6 + 0.2 * (i / 6), r = 12 + 0.008 * uniform(9000 + 100 * seed + static_cast<std::uint32_t>(i));
+    const double a = 2 * kPi * (i % 6) / 6 + 0.2 * (i / 6),
+                 r = 12 + 0.008 * uniform(9000 + 100 * seed + static_cast<std::uint32_t>(i));
     points.push_back({r * std::cos(a) + 3, r * std::sin(a) - 4, 20.0 * (i / 6)});
   }
   return points;
@@ -168,8 +169,10 @@ Radii about_axis(const std::vector<Vec3>& points, const Vec3& p, const Vec3& d) 
 TEST_CASE("No neighbour of a cylinder is better") {
   for (std::uint32_t seed = 0; seed < 5; ++seed) {
     const std::vector<Vec3> points = rough_cylinder(seed);
-    const Element mz = fitted(Shape::cylinder, minimum_zone, points), mi = fitted(Shape::cylinder, maximum_inscribed, points),
-                  mc = fitted(Shape::cylinder, minimum_circumscribed, points), ls = least_squares_of(Shape::cylinder, points);
+    const Element mz = fitted(Shape::cylinder, minimum_zone, points),
+                  mi = fitted(Shape::cylinder, maximum_inscribed, points),
+                  mc = fitted(Shape::cylinder, minimum_circumscribed, points),
+                  ls = least_squares_of(Shape::cylinder, points);
     CHECK(mz.high - mz.low <= ls.high - ls.low);
     CHECK(mi.size < ls.size);
     CHECK(mc.size > ls.size);
@@ -179,7 +182,8 @@ TEST_CASE("No neighbour of a cylinder is better") {
     for (std::uint32_t trial = 0; trial < 300; ++trial) {
       const auto nudge = [&](std::uint32_t k) { return 2e-4 * uniform(50000 + 1000 * seed + 4 * trial + k); };
       const auto moved = [&](const Element& e) {
-        return about_axis(points, e.point + Vec3{nudge(0), nudge(1), 0}, unit(e.direction + 0.05 * Vec3{nudge(2), nudge(3), 0}));
+        return about_axis(points, e.point + Vec3{nudge(0), nudge(1), 0},
+                          unit(e.direction + 0.05 * Vec3{nudge(2), nudge(3), 0}));
       };
       const Radii z = moved(mz);
       CHECK(z.high - z.low >= mz.high - mz.low - 1e-11);
@@ -195,7 +199,8 @@ TEST_CASE("Spheres, cones and lines in space") {
   for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
   corners[0] = 1.01 * corners[0];
   const Element mc = fitted(Shape::sphere, minimum_circumscribed, corners);
-  // Through the far corner (1.01 of -1,-1,-1) and (1,1,1): the diameter, which holds all the others? Its radius is 1.005 sqrt 3.
+  // Through the far corner (1.01 of -1,-1,-1) and (1,1,1): the diameter, which holds all the others? Its
+  // radius is 1.005 sqrt 3.
   CHECK(mc.size == Approx(1.005 * std::sqrt(3.0)).epsilon(1e-9));
   // Three points 0, 1, 0 off a line at equal steps: half the sagitta to either side.
   const std::vector<Vec3> bowed = {{0, 0, 0}, {10, 0.1, 0}, {20, 0, 0}};
@@ -204,7 +209,8 @@ TEST_CASE("Spheres, cones and lines in space") {
   CHECK(line.end - line.begin == Approx(20).epsilon(1e-4));
   std::vector<Vec3> cone;
   for (int i = 0; i < 12; ++i) {
-    const double a = 2 * kPi * (i % 4) / 4 + 0.3 * (i / 4), h = 20 + 10 * (i / 4), r = 0.5 * h + 0.004 * uniform(777 + static_cast<std::uint32_t>(i));
+    const double a = 2 * kPi * (i % 4) / 4 + 0.3 * (i / 4), h = 20 + 10 * (i / 4),
+                 r = 0.5 * h + 0.004 * uniform(777 + static_cast<std::uint32_t>(i));
     cone.push_back({r * std::cos(a), r * std::sin(a), h});
   }
   const Element mz = fitted(Shape::cone, minimum_zone, cone), ls = least_squares_of(Shape::cone, cone);

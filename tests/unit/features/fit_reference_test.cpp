@@ -13,10 +13,9 @@ using nlohmann::json;
 namespace {
 
 Shape shape_named(const std::string& name) {
-  const std::pair<const char*, Shape> names[] = {{"line", Shape::line},         {"plane", Shape::plane},
-                                                 {"circle", Shape::circle},     {"sphere", Shape::sphere},
-                                                 {"cylinder", Shape::cylinder}, {"cone", Shape::cone},
-                                                 {"torus", Shape::torus}};
+  const std::pair<const char*, Shape> names[] = {
+      {"line", Shape::line},         {"plane", Shape::plane}, {"circle", Shape::circle}, {"sphere", Shape::sphere},
+      {"cylinder", Shape::cylinder}, {"cone", Shape::cone},   {"torus", Shape::torus}};
   for (const auto& [word, shape] : names)
     if (name == word) return shape;
   FAIL("unknown element " << name);

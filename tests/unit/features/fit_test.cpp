@@ -12,8 +12,8 @@ namespace {
 FitProblem problem_on(const Element& e, Shape shape, int points, double noise, const Part& part = {}) {
   FitProblem problem{shape, {}, {}};
   for (int i = 0; i < points; ++i)
-    problem.points.push_back(surface_point(e, shape, random_at("u", i), random_at("v", i),
-                                           noise * (2 * random_at("noise", i) - 1), part));
+    problem.points.push_back(
+        surface_point(e, shape, random_at("u", i), random_at("v", i), noise * (2 * random_at("noise", i) - 1), part));
   return problem;
 }
 
@@ -22,7 +22,9 @@ std::string code_of(const FitProblem& problem) {
   return solution.error ? solution.error->code : "";
 }
 
-double between(std::string_view stream, int n, double low, double high) { return low + (high - low) * random_at(stream, n); }
+double between(std::string_view stream, int n, double low, double high) {
+  return low + (high - low) * random_at(stream, n);
+}
 
 template <class Profile>
 void check_derivatives() {
@@ -157,7 +159,8 @@ TEST_CASE("an answer that is one of several is no answer") {
   for (const Shape shape : {Shape::line, Shape::plane, Shape::circle, Shape::cylinder})
     CHECK(code_of({shape, cube, {}}) == "not_unique");
   CHECK(code_of({Shape::sphere, cube, {}}) == "");
-  CHECK(code_of({Shape::cone, problem_on(some_element(Shape::cylinder), Shape::cylinder, 40, 0).points, {}}) == "no_apex");
+  CHECK(code_of({Shape::cone, problem_on(some_element(Shape::cylinder), Shape::cylinder, 40, 0).points, {}}) ==
+        "no_apex");
 }
 
 namespace {
@@ -173,7 +176,8 @@ FitProblem shallow(Shape shape, double radius, double width, int n, int points, 
   const Vec3 x = large(radius, n).direction, y = any_perpendicular(x), z = cross(x, y);
   FitProblem problem{shape, {}, {}};
   for (int i = 0; i < points; ++i) {
-    const double along = between("along", 1000 * n + i, -0.5, 0.5) * width, across = between("across", 1000 * n + i, -0.5, 0.5) * width;
+    const double along = between("along", 1000 * n + i, -0.5, 0.5) * width,
+                 across = between("across", 1000 * n + i, -0.5, 0.5) * width;
     const double angle = along / radius, tilt = shape == Shape::sphere ? across / radius : 0;
     const double height = shape == Shape::cylinder ? across : radius * std::sin(tilt);
     const double out = radius * std::cos(tilt) + noise * (2 * random_at("rough", 1000 * n + i) - 1);
@@ -186,7 +190,8 @@ FitProblem shallow(Shape shape, double radius, double width, int n, int points, 
 FitProblem wave(Shape shape) {
   FitProblem problem{shape, {}, {}};
   for (int i = -3; i <= 3; ++i)
-    for (int j = -3; j <= 3; ++j) problem.points.push_back({3.0 * i, 3.0 * j, 0.05 * std::sin(3.0 * i) + 0.03 * std::sin(2.0 * j)});
+    for (int j = -3; j <= 3; ++j)
+      problem.points.push_back({3.0 * i, 3.0 * j, 0.05 * std::sin(3.0 * i) + 0.03 * std::sin(2.0 * j)});
   return problem;
 }
 
@@ -200,7 +205,9 @@ Element random_start(const FitProblem& problem, int n) {
   const Vec3 axis = unit(Vec3{between("axis x", n, -1, 1), between("axis y", n, -1, 1), between("axis z", n, -1, 1)});
   const double size = extent * std::pow(10, between("size", n, -0.5, 1)), turn = between("turn", n, 0, 2 * kPi);
   const Vec3 x = any_perpendicular(axis), away = std::cos(turn) * x + std::sin(turn) * cross(axis, x);
-  return {.point = ball.element.point + size * away, .direction = axis, .size = size,
+  return {.point = ball.element.point + size * away,
+          .direction = axis,
+          .size = size,
           .minor_size = extent * std::pow(10, between("tube", n, -1, 0.3))};
 }
 
@@ -238,7 +245,8 @@ TEST_CASE("no start is better than the truth on shallow, rough patches") {
 }
 
 TEST_CASE("points whose best element is infinitely large are refused") {
-  for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::cone}) CHECK(code_of(wave(shape)) == "not_converged");
+  for (const Shape shape : {Shape::sphere, Shape::cylinder, Shape::cone})
+    CHECK(code_of(wave(shape)) == "not_converged");
   FitProblem line{Shape::circle, {}, {}};
   for (int i = -5; i <= 5; ++i) line.points.push_back({1.0 * i, 0.1 * std::sin(1.0 * i), 0});
   CHECK(code_of(line) == "not_converged");

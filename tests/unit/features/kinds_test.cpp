@@ -41,7 +41,8 @@ TEST_CASE("every shape has one kind, fully described") {
 }
 
 TEST_CASE("diameters become radii and vectors unit vectors") {
-  const auto e = nominal("CYLNDR", {{"x", 1}, {"y", 2}, {"z", 3}, {"i", 0}, {"j", 3}, {"k", 4}, {"diam", 10}, {"length", 7}});
+  const auto e =
+      nominal("CYLNDR", {{"x", 1}, {"y", 2}, {"z", 3}, {"i", 0}, {"j", 3}, {"k", 4}, {"diam", 10}, {"length", 7}});
   REQUIRE(e);
   check_vector(e.value.point, {1, 2, 3});
   check_vector(e.value.direction, {0, 0.6, 0.8});
@@ -83,8 +84,7 @@ TEST_CASE("the angle of a cone is the full one, the sizes of a torus are diamete
 TEST_CASE("impossible values fail with a reason") {
   for (const std::string_view word : {"POINT", "LINE", "PLANE", "CIRCLE", "CYLNDR", "CONE", "TORUS"})
     CHECK_FALSE(nominal(word, {{"diam", 10}, {"angle", 1}, {"majdia", 8}, {"mindia", 2}}));  // zero vector
-  for (const std::string_view word : {"PLANE", "CIRCLE"})
-    CHECK_FALSE(nominal(word, {{"diam", 10}, {"i", INFINITY}}));
+  for (const std::string_view word : {"PLANE", "CIRCLE"}) CHECK_FALSE(nominal(word, {{"diam", 10}, {"i", INFINITY}}));
   for (const std::string_view word : {"CIRCLE", "CYLNDR", "SPHERE"}) {
     CHECK_FALSE(nominal(word, {{"k", 1}, {"diam", 0}}));
     CHECK_FALSE(nominal(word, {{"k", 1}, {"diam", -4}}));
@@ -113,8 +113,10 @@ TEST_CASE("arcs start where they say") {
   CHECK(arc.value.size == 20);
   CHECK(arc.value.angle == doctest::Approx(kPi));
   check_vector(arc.value.second, {0, 1, 0});
-  check_vector(nominal("ARC", {{"i", 1}, {"radius", 20}, {"sweep", 1}}).value.second, {0, 1, 0});  // x runs along the normal
-  check_vector(nominal("ARC", {{"k", 1}, {"radius", 20}, {"sweep", 1}, {"is", 0}, {"js", -2}, {"ks", 0}}).value.second, {0, -1, 0});
+  // x runs along the normal
+  check_vector(nominal("ARC", {{"i", 1}, {"radius", 20}, {"sweep", 1}}).value.second, {0, 1, 0});
+  check_vector(nominal("ARC", {{"k", 1}, {"radius", 20}, {"sweep", 1}, {"is", 0}, {"js", -2}, {"ks", 0}}).value.second,
+               {0, -1, 0});
 }
 
 TEST_CASE("two-sided features keep halves") {
@@ -132,5 +134,7 @@ TEST_CASE("two-sided features keep halves") {
   REQUIRE(planes);
   check_vector(planes.value.point, {0, 8, 0});
   CHECK(planes.value.size == 5);
-  CHECK(nominal("RCTNGL", {{"i1", 1}, {"len1", 60}, {"j2", 1}, {"len2", 40}, {"k3", 1}, {"len3", 20}}).value.minor_size == 20);
+  CHECK(
+      nominal("RCTNGL", {{"i1", 1}, {"len1", 60}, {"j2", 1}, {"len2", 40}, {"k3", 1}, {"len3", 20}}).value.minor_size ==
+      20);
 }

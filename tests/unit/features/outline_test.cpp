@@ -17,7 +17,12 @@ using doctest::Approx;
 namespace {
 
 Element outline(double length, double width, double flat = 0) {
-  return {.point = {40, 30, -5}, .direction = {0, 0, 1}, .size = length, .minor_size = width, .second = {1, 0, 0}, .angle = flat};
+  return {.point = {40, 30, -5},
+          .direction = {0, 0, 1},
+          .size = length,
+          .minor_size = width,
+          .second = {1, 0, 0},
+          .angle = flat};
 }
 
 struct Fitted {
@@ -110,14 +115,17 @@ TEST_CASE("Outlines are found again from a start nearby") {
 TEST_CASE("Residuals of an outline have no slope at the least-squares fit") {
   const Element truth = outline(25, 12);
   std::vector<Vec3> points = touches(Shape::ellipse, truth, 9);
-  for (int k = 0; k < 9; ++k) points[static_cast<std::size_t>(k)] += Vec3{0.01 * std::cos(7.0 * k), 0.01 * std::sin(3.0 * k), 0};
+  for (int k = 0; k < 9; ++k)
+    points[static_cast<std::size_t>(k)] += Vec3{0.01 * std::cos(7.0 * k), 0.01 * std::sin(3.0 * k), 0};
   const Fitted f = fit(Shape::ellipse, points, truth);
   REQUIRE(f.failure == "");
   const auto cost = [&](Element e) {
     double sum = 0;
     for (const Vec3& p : points) {
       const Vec3 w = p - e.point;
-      const double d = outline_distance(Shape::ellipse, false, dot(w, e.second), dot(w, cross(e.direction, e.second)), e.size, e.minor_size).d;
+      const double d = outline_distance(Shape::ellipse, false, dot(w, e.second), dot(w, cross(e.direction, e.second)),
+                                        e.size, e.minor_size)
+                           .d;
       sum += d * d;
     }
     return sum;
@@ -153,7 +161,8 @@ TEST_CASE("Parallel planes have one normal, a width and a middle") {
   const Rigid lean{rotation({0, 0, 1}, 1e-3), {0, 0.03, 0}};
   std::vector<Vec3> points;
   for (const double side : {-5.01, 5.01})
-    for (const auto& [x, z] : {std::pair{-20.0, 0.0}, {20.0, 0.0}, {0.0, 9.0}}) points.push_back(lean * Vec3{x, side, z});
+    for (const auto& [x, z] : {std::pair{-20.0, 0.0}, {20.0, 0.0}, {0.0, 9.0}})
+      points.push_back(lean * Vec3{x, side, z});
   const Fitted f = fit(Shape::parallel_planes, points, start);
   REQUIRE(f.failure == "");
   CHECK(2 * f.element.size == Approx(10.02).epsilon(1e-12));
@@ -166,7 +175,8 @@ TEST_CASE("Parallel planes have one normal, a width and a middle") {
 }
 
 TEST_CASE("Patterns lie on the nominal surface and face away from the material") {
-  const Element round{.point = {1, 2, 3}, .direction = {0, 0, 1}, .size = 8, .second = {1, 0, 0}, .angle = kPi, .begin = 0, .end = 30};
+  const Element round{
+      .point = {1, 2, 3}, .direction = {0, 0, 1}, .size = 8, .second = {1, 0, 0}, .angle = kPi, .begin = 0, .end = 30};
   for (const FeatureKind* kind : feature_kinds()) {
     CAPTURE(std::string(kind->word));
     Element e = round;
@@ -180,7 +190,8 @@ TEST_CASE("Patterns lie on the nominal surface and face away from the material")
         const PatternTouch touch = pattern_touch(kind->shape, e, inner, k, 14).value;
         CHECK(norm(touch.normal) == Approx(1));
         const auto normal = nominal_normal(kind->shape, e, inner, touch.point);
-        if (kind->shape == Shape::symmetry_plane || kind->shape == Shape::parallel_planes || kind->minimum_points > 2 || kind->shape == Shape::line) {
+        if (kind->shape == Shape::symmetry_plane || kind->shape == Shape::parallel_planes || kind->minimum_points > 2 ||
+            kind->shape == Shape::line) {
           REQUIRE(normal);
           if (kind->shape != Shape::plane) CHECK(norm(normal.value - touch.normal) < 1e-9);
         }
@@ -196,7 +207,13 @@ TEST_CASE("A pattern determines its feature") {
     if (pattern_help(kind->shape).empty() || kind->shape == Shape::line) continue;
     const int fewest = pattern_minimum(kind->shape);
     for (const int count : {fewest, fewest + 1, 9, 16}) {
-      Element e{.point = {1, 2, 3}, .direction = {0, 0, 1}, .size = 8, .minor_size = 4, .second = {1, 0, 0}, .angle = kPi, .end = 30};
+      Element e{.point = {1, 2, 3},
+                .direction = {0, 0, 1},
+                .size = 8,
+                .minor_size = 4,
+                .second = {1, 0, 0},
+                .angle = kPi,
+                .end = 30};
       if (kind->shape == Shape::slot) e.angle = 0;
       CAPTURE(std::string(kind->word));
       CAPTURE(count);

@@ -18,7 +18,8 @@ std::string refusal(std::string text) {
   } catch (const UserError& e) {
     std::string all;
     for (const Diagnostic& d : e.diagnostics())
-      all += std::string(info(d.code).name) + " " + std::to_string(d.place.line) + ":" + std::to_string(d.place.column) + "\n";
+      all += std::string(info(d.code).name) + " " + std::to_string(d.place.line) + ":" +
+          std::to_string(d.place.column) + "\n";
     return all;
   }
   return "none";

@@ -1,4 +1,5 @@
-// Points on elements of every kind, with noise, for the tests of the fits. Random numbers from the engine's own generator.
+// Points on elements of every kind, with noise, for the tests of the fits. Random numbers from the engine's
+// own generator.
 #pragma once
 
 #include <cstring>

@@ -11,10 +11,12 @@ using namespace abbe;
 
 namespace {
 
-Operand circle(Vec3 at, double radius, Vec3 normal = {0, 0, 1}) { return {Shape::circle, {.point = at, .direction = normal, .size = radius}}; }
+Operand circle(Vec3 at, double radius, Vec3 normal = {0, 0, 1}) {
+  return {Shape::circle, {.point = at, .direction = normal, .size = radius}};
+}
 
-Outcome<Element> build_near(const char* word, Shape result, const std::vector<Operand>& operands, const Element& nominal = {},
-                       const Arguments& arguments = {}) {
+Outcome<Element> build_near(const char* word, Shape result, const std::vector<Operand>& operands,
+                            const Element& nominal = {}, const Arguments& arguments = {}) {
   std::vector<Shape> shapes;
   std::vector<Element> elements;
   for (const Operand& o : operands) shapes.push_back(o.shape), elements.push_back(o.element);
@@ -24,7 +26,7 @@ Outcome<Element> build_near(const char* word, Shape result, const std::vector<Op
 }
 
 Element made_near(const char* word, Shape result, const std::vector<Operand>& operands, const Element& nominal = {},
-             const Arguments& arguments = {}) {
+                  const Arguments& arguments = {}) {
   const Outcome<Element> outcome = build_near(word, result, operands, nominal, arguments);
   INFO(std::string(outcome.failure ? outcome.failure : ""));
   REQUIRE(outcome);
@@ -51,8 +53,10 @@ TEST_CASE("A tangent through a point touches at the right angle") {
   const Element upper = made_near("TANTO", Shape::line, both, {.point = {3, 5, 1}, .direction = {-1, 0, 0}});
   check_near(upper.point, {3.6, 4.8, 1});
   check_near(upper.direction, {-0.8, 0.6, 0});
-  check_near(made_near("TANTO", Shape::line, {both[1], both[0]}, {.point = {3, -5, 1}, .direction = {1, 0, 0}}).point, {3.6, -4.8, 1});
-  CHECK(reason_near("TANTO", Shape::line, {circle({}, 6), point({1, 0, 0})}) == "there is no tangent: one lies inside the other");
+  check_near(made_near("TANTO", Shape::line, {both[1], both[0]}, {.point = {3, -5, 1}, .direction = {1, 0, 0}}).point,
+             {3.6, -4.8, 1});
+  CHECK(reason_near("TANTO", Shape::line, {circle({}, 6), point({1, 0, 0})}) ==
+        "there is no tangent: one lies inside the other");
   CHECK(reason_near("TANTO", Shape::line, {circle({}, 6), point({0, 0, 9})}) == "a tangent needs two different places");
   CHECK(reason_near("TANTO", Shape::plane, both).starts_with("TANTO makes"));
 }
@@ -63,24 +67,33 @@ TEST_CASE("Tangents of two circles leave them on one side or on two") {
   check_near(open.direction, {1, 0, 0});
   check_near(open.point, {0, 3, 0});
   const Element crossed = made_near("TANTO", Shape::line, belt, {.point = {3, 2.4 - 0.9, 0}, .direction = {1, -1, 0}});
-  check_near(crossed.point, {1.8, 2.4, 0});      // h = 6 / 10
+  check_near(crossed.point, {1.8, 2.4, 0});  // h = 6 / 10
   check_near(crossed.direction, {0.8, -0.6, 0});
   CHECK(std::fabs(dot(cross(Vec3{10, 0, 0} - crossed.point, crossed.direction), {0, 0, 1})) == doctest::Approx(3));
 }
 
 TEST_CASE("A fillet has the nominal size and touches both lines") {
   const Element nominal{.point = {4, 6, 0}, .direction = {0, 0, 1}, .size = 5};
-  const Element e = made_near("TANTO", Shape::circle, {line({9, 0, 2}, {1, 0, 0}), line({0, 7, 2}, {0, 1, 0})}, nominal);
+  const Element e =
+      made_near("TANTO", Shape::circle, {line({9, 0, 2}, {1, 0, 0}), line({0, 7, 2}, {0, 1, 0})}, nominal);
   check_near(e.point, {5, 5, 2});
   CHECK(e.size == 5);
-  CHECK(reason_near("TANTO", Shape::circle, {line({}, {1, 0, 0}), line({0, 1, 0}, {1, 0, 0})}) == "the lines are parallel");
-  CHECK(reason_near("TANTO", Shape::circle, {line({}, {1, 0, 0}), line({}, {0, 1, 0})}).starts_with("the nominal circle says"));
+  CHECK(reason_near("TANTO", Shape::circle, {line({}, {1, 0, 0}), line({0, 1, 0}, {1, 0, 0})}) ==
+        "the lines are parallel");
+  CHECK(reason_near("TANTO", Shape::circle, {line({}, {1, 0, 0}), line({}, {0, 1, 0})})
+            .starts_with("the nominal circle says"));
 }
 
 TEST_CASE("Extreme points") {
-  check_near(made_near("EXTREM", Shape::point, {{Shape::sphere, {.point = {1, 2, 3}, .size = 5}}}, {}, extreme("MAX", {0, 3, 4})).point, {1, 5, 7});
-  check_near(made_near("EXTREM", Shape::point, {circle({1, 2, 3}, 5)}, {}, extreme("MIN", {1, 0, 1})).point, {-4, 2, 3});
-  check_near(made_near("EXTREM", Shape::point, {line({0, 0, 0}, {1, 0, 0}, -3, 8)}, {}, extreme("MAX", {1, 1, 0})).point, {8, 0, 0});
+  check_near(made_near("EXTREM", Shape::point, {{Shape::sphere, {.point = {1, 2, 3}, .size = 5}}}, {},
+                       extreme("MAX", {0, 3, 4}))
+                 .point,
+             {1, 5, 7});
+  check_near(made_near("EXTREM", Shape::point, {circle({1, 2, 3}, 5)}, {}, extreme("MIN", {1, 0, 1})).point,
+             {-4, 2, 3});
+  check_near(
+      made_near("EXTREM", Shape::point, {line({0, 0, 0}, {1, 0, 0}, -3, 8)}, {}, extreme("MAX", {1, 1, 0})).point,
+      {8, 0, 0});
   const Operand rod{Shape::cylinder, {.point = {0, 0, 0}, .direction = {0, 0, 1}, .size = 2, .begin = -3, .end = 8}};
   check_near(made_near("EXTREM", Shape::point, {rod}, {}, extreme("MIN", {-1, 0, 1})).point, {2, 0, -3});
   Arguments z;
@@ -97,7 +110,8 @@ TEST_CASE("A vector is built of its neighbours") {
   const Element e = made_near("VECBLD", Shape::point, three, {.point = {}, .direction = {0, 0, 1}});
   check_near(e.point, {0, 0, 1});
   check_near(e.direction, unit({0, -1, 1}));
-  CHECK(reason_near("VECBLD", Shape::point, {point({}), point({1, 0, 0}), point({2, 0, 0})}) == "the points of the features do not determine a plane");
+  CHECK(reason_near("VECBLD", Shape::point, {point({}), point({1, 0, 0}), point({2, 0, 0})}) ==
+        "the points of the features do not determine a plane");
   CHECK(reason_near("VECBLD", Shape::plane, three) == "VECBLD makes a point");
 }
 
@@ -108,15 +122,22 @@ TEST_CASE("INTOF with round features takes the point nearer to the nominal") {
   check_near(made_near("INTOF", Shape::point, {ring, line({0, 5, 9}, {1, 0, 0})}, left).point, {-3, 5, 3});
   const Operand wall{Shape::plane, {.point = {0, 6, 0}, .direction = {0, 1, 0}}};
   check_near(made_near("INTOF", Shape::point, {wall, ring}, right).point, {4, 6, 3});
-  check_near(made_near("INTOF", Shape::point, {circle({0, 0, 1}, 5), circle({6, 0, 1}, 5)}, {.point = {3, -9, 1}}).point, {3, -4, 1});
+  check_near(
+      made_near("INTOF", Shape::point, {circle({0, 0, 1}, 5), circle({6, 0, 1}, 5)}, {.point = {3, -9, 1}}).point,
+      {3, -4, 1});
   const Operand ball{Shape::sphere, {.point = {0, 0, 0}, .size = 5}};
-  check_near(made_near("INTOF", Shape::point, {line({0, 3, 0}, {0, 0, 1}), ball}, {.point = {0, 3, 9}}).point, {0, 3, 4});
-  CHECK(reason_near("INTOF", Shape::point, {line({0, 9, 0}, {1, 0, 0}), ring}) == "the line passes beside the circle or sphere");
-  CHECK(reason_near("INTOF", Shape::point, {line({}, {0, 0, 1}), ring}) == "the line stands on the plane of the circle");
+  check_near(made_near("INTOF", Shape::point, {line({0, 3, 0}, {0, 0, 1}), ball}, {.point = {0, 3, 9}}).point,
+             {0, 3, 4});
+  CHECK(reason_near("INTOF", Shape::point, {line({0, 9, 0}, {1, 0, 0}), ring}) ==
+        "the line passes beside the circle or sphere");
+  CHECK(reason_near("INTOF", Shape::point, {line({}, {0, 0, 1}), ring}) ==
+        "the line stands on the plane of the circle");
   CHECK(reason_near("INTOF", Shape::point, {circle({}, 1), circle({9, 0, 0}, 1)}) == "the two circles do not meet");
   CHECK(reason_near("INTOF", Shape::point, {circle({}, 1), circle({}, 2)}) == "the two circles have one centre");
-  CHECK(reason_near("INTOF", Shape::point, {circle({}, 1), circle({1, 0, 0}, 1, {1, 0, 0})}) == "the two circles do not lie in parallel planes");
-  CHECK(reason_near("INTOF", Shape::point, {{Shape::plane, {}}, ring}) == "the plane is parallel to that of the circle");
+  CHECK(reason_near("INTOF", Shape::point, {circle({}, 1), circle({1, 0, 0}, 1, {1, 0, 0})}) ==
+        "the two circles do not lie in parallel planes");
+  CHECK(reason_near("INTOF", Shape::point, {{Shape::plane, {}}, ring}) ==
+        "the plane is parallel to that of the circle");
 }
 
 TEST_CASE("A plane cuts a cylinder in an ellipse") {
@@ -127,5 +148,6 @@ TEST_CASE("A plane cuts a cylinder in an ellipse") {
   CHECK(e.size == doctest::Approx(5));
   CHECK(e.minor_size == 4);
   CHECK(std::fabs(dot(e.second, unit({4, 0, -3}))) == doctest::Approx(1));
-  CHECK(reason_near("INTOF", Shape::ellipse, {rod, {Shape::plane, {.point = {}, .direction = {1, 0, 0}}}}) == "the plane runs along the axis of the cylinder");
+  CHECK(reason_near("INTOF", Shape::ellipse, {rod, {Shape::plane, {.point = {}, .direction = {1, 0, 0}}}}) ==
+        "the plane runs along the axis of the cylinder");
 }

@@ -83,19 +83,13 @@ TEST_CASE("figures show the numbers of the formulas") {
   const Chart cosine = chart_of("probe.cosine_error");  // R (1 - cos 20 degrees), R = 1 and 2 mm
   CHECK(value_at(cosine.series[1], 20) == doctest::Approx(2e3 * (1 - std::cos(kPi / 9))));
   const Chart lobing = chart_of("probe.pretravel_lobing");  // 100 mm: 8 um range on the equator
-  const auto [low, high] =
-      std::minmax_element(lobing.series[0].y.begin(), lobing.series[0].y.end());
+  const auto [low, high] = std::minmax_element(lobing.series[0].y.begin(), lobing.series[0].y.end());
   CHECK(*high - *low == doctest::Approx(8).epsilon(0.01));
 }
 
 TEST_CASE("a new effect has a figure without saying anything of it") {
-  static constexpr EffectParameter kSize[] = {{.name = "size_um_per_kg",
-                                               .unit = "um/kg",
-                                               .help = "",
-                                               .typical = 1e-5,
-                                               .low = 0,
-                                               .high = 1,
-                                               .linear = true}};
+  static constexpr EffectParameter kSize[] = {
+      {.name = "size_um_per_kg", .unit = "um/kg", .help = "", .typical = 1e-5, .low = 0, .high = 1, .linear = true}};
   Effect effect;
   effect.name = "part.made_up";
   effect.title = "made up";

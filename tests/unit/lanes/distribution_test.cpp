@@ -24,23 +24,20 @@ std::vector<double> draws(const Deviation& d) {
 }
 
 double share_below(const std::vector<double>& x, double limit) {
-  return static_cast<double>(
-             std::count_if(x.begin(), x.end(), [&](double v) { return v <= limit; })) /
-         static_cast<double>(x.size());
+  return static_cast<double>(std::count_if(x.begin(), x.end(), [&](double v) { return v <= limit; })) /
+      static_cast<double>(x.size());
 }
 
 /// Six standard errors of a share: false alarm 2e-9.
 void check_share(const std::vector<double>& x, double limit, double expected) {
   CAPTURE(limit);
-  CHECK(std::fabs(share_below(x, limit) - expected) <
-        6 * std::sqrt(expected * (1 - expected) / kDraws));
+  CHECK(std::fabs(share_below(x, limit) - expected) < 6 * std::sqrt(expected * (1 - expected) / kDraws));
 }
 
 }  // namespace
 
 TEST_CASE("the exponential function agrees with libm to two units in the last place") {
-  for (double x = -690; x < 690; x += 0.37)
-    CHECK(std::fabs(exp_bounded(x) / std::exp(x) - 1) < 4.5e-16);
+  for (double x = -690; x < 690; x += 0.37) CHECK(std::fabs(exp_bounded(x) / std::exp(x) - 1) < 4.5e-16);
   CHECK(exp_bounded(0) == 1);
 }
 
@@ -48,9 +45,8 @@ TEST_CASE("every distribution has its mean and its standard deviation") {
   // Six standard errors; kurtosis up to 6 for t with 8 degrees of freedom and more. False alarm
   // below 1e-7 in all.
   for (const Deviation& d :
-       {Deviation{normal, 2, 0}, Deviation{student_t, 2, 8}, Deviation{rectangular, 3, 0},
-        Deviation{triangular, 3, 0}, Deviation{arcsine, 0.5, 0}, Deviation{trapezoidal, 2, 0.4},
-        Deviation{curvilinear_trapezoid, 0.05, 0.025}}) {
+       {Deviation{normal, 2, 0}, Deviation{student_t, 2, 8}, Deviation{rectangular, 3, 0}, Deviation{triangular, 3, 0},
+        Deviation{arcsine, 0.5, 0}, Deviation{trapezoidal, 2, 0.4}, Deviation{curvilinear_trapezoid, 0.05, 0.025}}) {
     CAPTURE(static_cast<int>(d.distribution));
     double sum = 0, squares = 0;
     for (const double x : draws(d)) sum += x, squares += x * x;
@@ -78,14 +74,12 @@ TEST_CASE("quantiles of tables are met") {
 }
 
 TEST_CASE("limits hold, and a width can be given by its standard deviation") {
-  for (const Deviation& d : {Deviation{rectangular, 3, 0}, Deviation{triangular, 3, 0},
-                             Deviation{arcsine, 3, 0}, Deviation{trapezoidal, 3, 0.4}})
+  for (const Deviation& d : {Deviation{rectangular, 3, 0}, Deviation{triangular, 3, 0}, Deviation{arcsine, 3, 0},
+                             Deviation{trapezoidal, 3, 0.4}})
     for (const double x : draws(d)) REQUIRE(std::fabs(x) <= 3);
   for (const double x : draws({curvilinear_trapezoid, 3, 1})) REQUIRE(std::fabs(x) <= 4);
-  for (const Distribution kind :
-       {rectangular, triangular, arcsine, trapezoidal, curvilinear_trapezoid})
-    CHECK(standard_deviation({kind, half_width_for(kind, 0.3, 2), 0.3}) ==
-          doctest::Approx(2).epsilon(1e-14));
+  for (const Distribution kind : {rectangular, triangular, arcsine, trapezoidal, curvilinear_trapezoid})
+    CHECK(standard_deviation({kind, half_width_for(kind, 0.3, 2), 0.3}) == doctest::Approx(2).epsilon(1e-14));
   CHECK(half_width_for(rectangular, 0, 1) == doctest::Approx(std::sqrt(3.0)));
   CHECK(half_width_for(curvilinear_trapezoid, 9, 1) == 0);
 }

@@ -20,15 +20,13 @@ TEST_CASE("Philox4x32-10 equals the known answers published with Random123") {
                       {0xa4093822, 0x299f31d0},
                       {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}}};
   for (const auto& k : known) {
-    const Philox4 r =
-        philox4x32(k.counter[0], k.counter[1], k.counter[2], k.counter[3], k.key[0], k.key[1]);
+    const Philox4 r = philox4x32(k.counter[0], k.counter[1], k.counter[2], k.counter[3], k.key[0], k.key[1]);
     for (int i = 0; i < 4; ++i) CHECK(r.v[i] == k.answer[i]);
   }
 }
 
 TEST_CASE("uniform numbers stay inside (0, 1) and are symmetric about 1/2") {
-  const double smallest = uniform_from_bits(0, 0),
-               largest = uniform_from_bits(0xffffffff, 0xffffffff);
+  const double smallest = uniform_from_bits(0, 0), largest = uniform_from_bits(0xffffffff, 0xffffffff);
   CHECK(smallest == 0x1p-53);
   CHECK(largest == 1 - 0x1p-53);
 }
@@ -49,14 +47,13 @@ TEST_CASE("every part of an address gives its own numbers") {
 TEST_CASE("the normal quantile agrees with 20-digit values to 1e-14") {
   struct {
     double p, x;
-  } const known[] = {{1e-300, -37.047096299361199237},    {1e-20, -9.2623400897984075796},
-                     {1e-10, -6.3613409024040561991},     {1.3e-11, -6.6676114565107408347},
-                     {1.4e-11, -6.6567230915181836356},   {0.001, -3.0902323061678135354},
-                     {0.02, -2.0537489106318230443},      {0.075, -1.4395314709384559349},
-                     {0.0749999, -1.4395321773759005864}, {0.2, -0.84162123357291416552},
-                     {0.49, -0.025068908258711058033},    {0.6, 0.25334710313579974132},
-                     {0.925, 1.4395314709384562291},      {0.95, 1.6448536269514722843},
-                     {0.975, 1.9599639845400538556},      {0.999999, 4.7534243088170877657}};
+  } const known[] = {
+      {1e-300, -37.047096299361199237},  {1e-20, -9.2623400897984075796},   {1e-10, -6.3613409024040561991},
+      {1.3e-11, -6.6676114565107408347}, {1.4e-11, -6.6567230915181836356}, {0.001, -3.0902323061678135354},
+      {0.02, -2.0537489106318230443},    {0.075, -1.4395314709384559349},   {0.0749999, -1.4395321773759005864},
+      {0.2, -0.84162123357291416552},    {0.49, -0.025068908258711058033},  {0.6, 0.25334710313579974132},
+      {0.925, 1.4395314709384562291},    {0.95, 1.6448536269514722843},     {0.975, 1.9599639845400538556},
+      {0.999999, 4.7534243088170877657}};
   for (const auto& [p, x] : known) {
     CAPTURE(p);
     CHECK(normal_quantile(p) == doctest::Approx(x).epsilon(1e-14));
@@ -97,8 +94,7 @@ TEST_CASE("moments of the normal numbers") {
   std::vector<double> a(n), b(n);
   normal_pairs(n, 1, machine.data(), stream_of("probe"), 0, visit.data(), 0, a.data(), b.data());
   double mean = 0, square = 0, fourth = 0, product = 0;
-  for (int i = 0; i < n; ++i)
-    mean += a[i], square += a[i] * a[i], fourth += std::pow(a[i], 4), product += a[i] * b[i];
+  for (int i = 0; i < n; ++i) mean += a[i], square += a[i] * a[i], fourth += std::pow(a[i], 4), product += a[i] * b[i];
   const double sd = 4.5 / std::sqrt(n);
   CHECK(std::fabs(mean / n) < sd);
   CHECK(std::fabs(square / n - 1) < sd * std::sqrt(2.0));

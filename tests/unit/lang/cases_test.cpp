@@ -20,26 +20,21 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> case_files(const std::string& folder) {
   std::vector<fs::path> files;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(ABBE_SOURCE_DIR) / "tests/lang" / folder))
+  for (const auto& entry : fs::directory_iterator(fs::path(ABBE_SOURCE_DIR) / "tests/lang" / folder))
     if (entry.path().extension() == ".dmi") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
 
 std::vector<std::string> expected_messages(const SourceFile& source) {
-  static const std::regex pattern(
-      R"(\$\$ expect (?:(?:error|warning|note) ([EWN]\d{4})|(lost))(?: at ([+-]?)(\d+))?)");
+  static const std::regex pattern(R"(\$\$ expect (?:(?:error|warning|note) ([EWN]\d{4})|(lost))(?: at ([+-]?)(\d+))?)");
   std::vector<std::string> out;
   for (int line = 1; line <= source.line_count(); ++line) {
     const std::string text(source.line(line));
     for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) {
       const std::string sign = (*it)[3], number = (*it)[4];
       const int value = number.empty() ? 0 : std::stoi(number);
-      const int at = number.empty() ? line
-                     : sign == "+"  ? line + value
-                     : sign == "-"  ? line - value
-                                    : value;
+      const int at = number.empty() ? line : sign == "+" ? line + value : sign == "-" ? line - value : value;
       out.push_back(fmt::format("{} {}", at, (*it)[2].matched ? "lost" : (*it)[1].str()));
     }
   }
@@ -49,8 +44,7 @@ std::vector<std::string> expected_messages(const SourceFile& source) {
 
 std::vector<std::string> actual_messages(const Sink& sink, const Compilation& compilation) {
   std::vector<std::string> out;
-  for (const Diagnostic& d : sink.list())
-    out.push_back(fmt::format("{} {}", d.place.line, info(d.code).name));
+  for (const Diagnostic& d : sink.list()) out.push_back(fmt::format("{} {}", d.place.line, info(d.code).name));
   for (const Lost& lost : compilation.lost) out.push_back(fmt::format("{} lost", lost.line));
   std::sort(out.begin(), out.end());
   return out;
@@ -91,8 +85,7 @@ void run_case(const fs::path& path) {
         fmt::format("{}", fmt::join(expected_messages(source), "\n")));
   check_messages_are_sound(source, sink);
   const fs::path golden = fs::path(path).replace_extension(".plan");
-  if (std::getenv("ABBE_REFRESH_GOLDEN") && fs::exists(golden))
-    std::ofstream(golden) << to_text(compilation.plan);
+  if (std::getenv("ABBE_REFRESH_GOLDEN") && fs::exists(golden)) std::ofstream(golden) << to_text(compilation.plan);
   if (fs::exists(golden)) CHECK(to_text(compilation.plan) == read_text(golden));
 }
 
@@ -116,7 +109,7 @@ TEST_CASE("every statement has a case in which it is right and one in which it i
     std::set<std::string> words;
     for (const fs::path& path : case_files(folder)) {
       const SourceFile source(path.string(), read_text(path));
-      std::set<int> lines;   // with an expected error
+      std::set<int> lines;  // with an expected error
       for (const std::string& message : expected_messages(source))
         if (message.find(" E") != std::string::npos) lines.insert(std::stoi(message));
       Sink sink;
@@ -130,7 +123,8 @@ TEST_CASE("every statement has a case in which it is right and one in which it i
   const std::set<std::string> right = words_of("ok", false), wrong = words_of("error", true);
   for (const Statement* s : statements()) {
     INFO(s->word);
-    CHECK((right.count(std::string(s->word)) > 0 || s->word == "READ"));   // there is no device to read from: always an error
+    // there is no device to read from: always an error
+    CHECK((right.count(std::string(s->word)) > 0 || s->word == "READ"));
     CHECK(wrong.count(std::string(s->word)) > 0);
   }
 }
@@ -175,11 +169,9 @@ TEST_CASE("no edit of a program crashes the compiler") {
 
 TEST_CASE("real programs compile without errors") {
   const char* set = std::getenv("ABBE_REFERENCE_DMIS");
-  const fs::path folder =
-      set ? fs::path(set) : fs::path(ABBE_SOURCE_DIR) / "../shared/reference/dmis";
+  const fs::path folder = set ? fs::path(set) : fs::path(ABBE_SOURCE_DIR) / "../shared/reference/dmis";
   if (!fs::is_directory(folder)) {
-    MESSAGE("skipped: no folder ", folder.string(),
-            "; set ABBE_REFERENCE_DMIS to one with .dmi files");
+    MESSAGE("skipped: no folder ", folder.string(), "; set ABBE_REFERENCE_DMIS to one with .dmi files");
     return;
   }
   int programs = 0;

@@ -19,7 +19,7 @@ std::string times(int n, const std::string& text) {
 std::string measured(const std::string& body) {
   return "DMISMN/'deep',5.2\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(P)\nF(A)=FEAT/POINT,CART,1,2,3,0,0,1\nMEAS/POINT,F(A),1\n"
          "PTMEAS/CART,1,2,3,0,0,1\nENDMES\nDECL/REAL,X\nX=OBTAIN/FA(A),6\n" +
-         body + "ENDFIL\n";
+      body + "ENDFIL\n";
 }
 
 std::string messages(const std::string& text) {
@@ -33,14 +33,17 @@ std::string messages(const std::string& text) {
 }  // namespace
 
 TEST_CASE("blocks are nested as deep as the limit, and no deeper") {
-  const auto nested = [](int n, const std::string& begin, const std::string& end) { return measured(times(n, begin) + times(n, end)); };
+  const auto nested = [](int n, const std::string& begin, const std::string& end) {
+    return measured(times(n, begin) + times(n, end));
+  };
   for (const auto& [begin, end] : {std::pair{"IF/(.TRUE.)\n", "ENDIF\n"}, {"DO/I,1,1\n", "ENDDO\n"}}) {
     INFO(begin);
     CHECK(messages(nested(256, begin, end)) == "");
     CHECK(messages(nested(257, begin, end)) == "E0126");
     CHECK(messages(nested(20'000, begin, end)) == "E0126");
   }
-  for (const auto& [begin, end] : {std::pair{"IF/(X .GT. 1)\n", "ENDIF\n"}, {"IF/(X .GT. 1)\nELSE\n", "ENDIF\n"}, {"DO/I,1,X\n", "ENDDO\n"}}) {
+  for (const auto& [begin, end] :
+       {std::pair{"IF/(X .GT. 1)\n", "ENDIF\n"}, {"IF/(X .GT. 1)\nELSE\n", "ENDIF\n"}, {"DO/I,1,X\n", "ENDDO\n"}}) {
     INFO(begin);
     CHECK(messages(nested(256, begin, end)) == "");
     CHECK(messages(nested(5'000, begin, end)) == "E0126");
@@ -57,6 +60,7 @@ TEST_CASE("cases of a measured value are nested too") {
 TEST_CASE("macros with deep blocks call each other") {
   std::string text;
   for (int k = 0; k < 20; ++k)
-    text += fmt::format("M(A{})=MACRO\n{}CALL/M(A{})\n{}ENDMAC\n", k, times(20, "IF/(X .GT. 1)\n"), k + 1, times(20, "ENDIF\n"));
+    text += fmt::format("M(A{})=MACRO\n{}CALL/M(A{})\n{}ENDMAC\n", k, times(20, "IF/(X .GT. 1)\n"), k + 1,
+                        times(20, "ENDIF\n"));
   CHECK(messages(measured(text + "M(A20)=MACRO\nENDMAC\nCALL/M(A0)\n")) == "E0126");
 }

@@ -39,8 +39,7 @@ TEST_CASE("the grammar for editors knows the words of the language") {
   rules["statement"]["match"] = fmt::format("(?i)^\\s*({})(?![A-Z0-9_(])(?!\\s*=)", majors);
   rules["statement_of_label"]["match"] = fmt::format("(?i)(=)\\s*({})(?![A-Z0-9_(])", majors);
   rules["label"]["match"] = fmt::format("(?i)\\b({})\\s*(\\([^(),]*\\))", alternatives(kinds));
-  rules["directive"]["patterns"][0]["match"] =
-      fmt::format("\\b(?:{})\\b", alternatives(directive_words));
+  rules["directive"]["patterns"][0]["match"] = fmt::format("\\b(?:{})\\b", alternatives(directive_words));
   if (std::getenv("ABBE_REFRESH_GOLDEN")) std::ofstream(kEditor + file) << expected.dump(2) << "\n";
   INFO("ABBE_REFRESH_GOLDEN=1 test_lang writes the grammar anew");
   CHECK(read_json(file) == expected);

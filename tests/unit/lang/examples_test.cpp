@@ -18,28 +18,27 @@ using namespace abbe::lang;
 namespace {
 
 /// What stands around an example of a word that cannot stand alone; {} is the example.
-const std::map<std::string_view, const char*> kAround = {
-    {"MEAS", "{}\nENDMES"},
-    {"RMEAS", "{}\nENDMES"},
-    {"CALIB", "{}\nENDMES"},
-    {"PTMEAS", "MEAS/CIRCLE,F(ANY),3\n{}\n{}\n{}\nENDMES"},
-    {"ENDMES", "MEAS/CIRCLE,F(ANY),4\n{}"},
-    {"IF", "{}\nENDIF"},
-    {"ELSE", "IF/(1 .LT. 2)\n{}\nENDIF"},
-    {"ENDIF", "IF/(1 .LT. 2)\n{}"},
-    {"DO", "{}\nENDDO"},
-    {"ENDDO", "DO/I,1,2\n{}"},
-    {"SELECT", "{}\nENDSEL"},
-    {"CASE", "SELECT/1\n{}\nENDCAS\nENDSEL"},
-    {"DFTCAS", "SELECT/1\n{}\nENDCAS\nENDSEL"},
-    {"ENDCAS", "SELECT/1\nCASE/1\n{}\nENDSEL"},
-    {"ENDSEL", "SELECT/1\n{}"},
-    {"JUMPTO", "{}\n(AGAIN)"},
-    {"MACRO", "{}\nENDMAC"},
-    {"ENDMAC", "M(EMPTY)=MACRO/Q\n{}"},
-    {"XTERN", "{}\nENDXTN"},
-    {"EXTFIL", "XTERN\n{}\nENDXTN"},
-    {"ENDXTN", "XTERN\n{}"}};
+const std::map<std::string_view, const char*> kAround = {{"MEAS", "{}\nENDMES"},
+                                                         {"RMEAS", "{}\nENDMES"},
+                                                         {"CALIB", "{}\nENDMES"},
+                                                         {"PTMEAS", "MEAS/CIRCLE,F(ANY),3\n{}\n{}\n{}\nENDMES"},
+                                                         {"ENDMES", "MEAS/CIRCLE,F(ANY),4\n{}"},
+                                                         {"IF", "{}\nENDIF"},
+                                                         {"ELSE", "IF/(1 .LT. 2)\n{}\nENDIF"},
+                                                         {"ENDIF", "IF/(1 .LT. 2)\n{}"},
+                                                         {"DO", "{}\nENDDO"},
+                                                         {"ENDDO", "DO/I,1,2\n{}"},
+                                                         {"SELECT", "{}\nENDSEL"},
+                                                         {"CASE", "SELECT/1\n{}\nENDCAS\nENDSEL"},
+                                                         {"DFTCAS", "SELECT/1\n{}\nENDCAS\nENDSEL"},
+                                                         {"ENDCAS", "SELECT/1\nCASE/1\n{}\nENDSEL"},
+                                                         {"ENDSEL", "SELECT/1\n{}"},
+                                                         {"JUMPTO", "{}\n(AGAIN)"},
+                                                         {"MACRO", "{}\nENDMAC"},
+                                                         {"ENDMAC", "M(EMPTY)=MACRO/Q\n{}"},
+                                                         {"XTERN", "{}\nENDXTN"},
+                                                         {"EXTFIL", "XTERN\n{}\nENDXTN"},
+                                                         {"ENDXTN", "XTERN\n{}"}};
 
 /// By label in upper case; a circle where there is none.
 using Kinds = std::map<std::string, std::string>;
@@ -54,7 +53,8 @@ std::string feature(const std::string& label, const Kinds& kinds = {}) {
   return fmt::format("F({0})=FEAT/{1},{2}\nMEAS/{1},F({0}),4\nENDMES\n", label, kind, kForms.at(kind));
 }
 
-/// The kind that a CONST statement names, for its result; for the features it takes, kinds of which the method makes that.
+/// The kind that a CONST statement names, for its result; for the features it takes, kinds of which the
+/// method makes that.
 Kinds kinds_in(const Construction& method, const std::string& example) {
   const std::size_t begin = example.find('/') + 1;
   const std::string result = example.substr(begin, example.find(',') - begin);
@@ -99,17 +99,19 @@ std::string program(std::string_view word, std::string_view example, const Kinds
   std::string body = text;
   if (around != kAround.end()) {
     body = around->second;
-    for (std::size_t at = body.find("{}"); at != std::string::npos; at = body.find("{}", at + text.size())) body.replace(at, 2, text);
+    for (std::size_t at = body.find("{}"); at != std::string::npos; at = body.find("{}", at + text.size()))
+      body.replace(at, 2, text);
   }
   if (first) return body + "\nENDFIL\n";
   return "DMISMN/'example',5.2\nSNSET/APPRCH,5\nDECL/REAL,X,Y\nDECL/INTGR,I,N\nX=ASSIGN/1\nY=ASSIGN/2\nN=ASSIGN/3\n"
          "S(ANY)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nSNSLCT/S(ANY)\n" +
-         definitions(text, kinds) + body + "\nENDFIL\n";
+      definitions(text, kinds) + body + "\nENDFIL\n";
 }
 
 void check_example(std::string_view word, std::string_view example, const Kinds& kinds = {}) {
   // Modules are looked for beside the program.
-  const SourceFile source(std::string(ABBE_SOURCE_DIR) + "/tests/lang/modules/example.dmi", program(word, example, kinds));
+  const SourceFile source(std::string(ABBE_SOURCE_DIR) + "/tests/lang/modules/example.dmi",
+                          program(word, example, kinds));
   Sink sink;
   compile(source, sink, {{{"X", "1"}}});
   std::string messages;
@@ -129,9 +131,11 @@ void check_example(std::string_view word, std::string_view example, const Kinds&
 TEST_CASE("the examples of statements, features, constructions and tolerances compile") {
   for (const Statement* s : statements()) {
     const bool constructs = s->word == "CONST";
-    check_example(s->word, s->example, constructs ? kinds_in(*find_construction("INTOF"), std::string(s->example)) : Kinds{});
+    check_example(s->word, s->example,
+                  constructs ? kinds_in(*find_construction("INTOF"), std::string(s->example)) : Kinds{});
   }
   for (const FeatureKind* k : feature_kinds()) check_example(k->word, k->example);
-  for (const Construction* c : constructions()) check_example(c->word, c->example, kinds_in(*c, std::string(c->example)));
+  for (const Construction* c : constructions())
+    check_example(c->word, c->example, kinds_in(*c, std::string(c->example)));
   for (const ToleranceKind* t : tolerance_kinds()) check_example(t->word, t->example);
 }

@@ -52,10 +52,8 @@ std::vector<std::pair<std::string, std::string>> programs() {
 }  // namespace
 
 TEST_CASE("the style") {
-  CHECK(formatted("f ( a b ) = feat / plane , cart , 0,0 ,0, 0,0,+1\n") ==
-        "F(a b)=FEAT/PLANE,CART,0,0,0,0,0,+1\n");
-  CHECK(formatted("text/oper,'it''s $$ here' $$ a comment  \n") ==
-        "TEXT/OPER,'it''s $$ here' $$ a comment\n");
+  CHECK(formatted("f ( a b ) = feat / plane , cart , 0,0 ,0, 0,0,+1\n") == "F(a b)=FEAT/PLANE,CART,0,0,0,0,0,+1\n");
+  CHECK(formatted("text/oper,'it''s $$ here' $$ a comment  \n") == "TEXT/OPER,'it''s $$ here' $$ a comment\n");
   CHECK(formatted("meas/plane,f(A),3\nptmeas/cart,1,2,3\n\n$$ note\nendmes") ==
         "MEAS/PLANE,F(A),3\n  PTMEAS/CART,1,2,3\n\n  $$ note\nENDMES\n");
   CHECK(formatted("if/(a .gt. 1)\ngoto/1,2,3\nelse\ngoto/x,y,z\nendif\n( l1 )\n") ==
@@ -72,10 +70,9 @@ TEST_CASE("lines are joined, and cut only where they are too long") {
 }
 
 TEST_CASE("what is no statement, comments over lines, line ends and marks stay") {
-  for (const std::string text :
-       {"Please  do not touch\n", "TEXT/OPER,'not closed  \n", "  GOTO/(1,2\n",
-        "$$ goes on $\n   here\n", "$$$$ a rule $$$$\n", "\xEF\xBB\xBFGOTO/1,2,3\r\n",
-        "GOTO/1,2,3\r", "F(\xC4)=FEAT/POINT,CART,0,0,0,0,0,1\n", "GOTO/1,2,3\n\n\nENDFIL\n"})
+  for (const std::string text : {"Please  do not touch\n", "TEXT/OPER,'not closed  \n", "  GOTO/(1,2\n",
+                                 "$$ goes on $\n   here\n", "$$$$ a rule $$$$\n", "\xEF\xBB\xBFGOTO/1,2,3\r\n",
+                                 "GOTO/1,2,3\r", "F(\xC4)=FEAT/POINT,CART,0,0,0,0,0,1\n", "GOTO/1,2,3\n\n\nENDFIL\n"})
     CHECK(formatted(text) == text);
   CHECK(formatted("") == "");
   CHECK(formatted("\n\n") == "");
@@ -97,8 +94,7 @@ TEST_CASE("blanks and cuts of lines leave no trace") {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
   int changed = 0;
   for (const auto& [path, text] : programs()) {
-    if (path.find("lang/ok") == std::string::npos && path.find("examples") == std::string::npos)
-      continue;
+    if (path.find("lang/ok") == std::string::npos && path.find("examples") == std::string::npos) continue;
     if (text.find('\r') != std::string::npos || text.find("\xEF\xBB\xBF") == 0) continue;
     INFO(path);
     // Statements without comments and without cuts of their own, so that a cut may come anywhere.
@@ -156,8 +152,7 @@ TEST_CASE("vocabulary") {
   CHECK(shared_kind("FA") == "F");
   CHECK(shared_kind("DAT") == "DAT");
   const std::vector<std::string_view> majors = major_words();
-  for (const std::string_view word : {"GOTO", "CALIB"})
-    CHECK(std::count(majors.begin(), majors.end(), word) == 1);
+  for (const std::string_view word : {"GOTO", "CALIB"}) CHECK(std::count(majors.begin(), majors.end(), word) == 1);
 }
 
 }  // namespace abbe::lang

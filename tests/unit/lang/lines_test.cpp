@@ -7,9 +7,7 @@ using namespace abbe::lang;
 
 namespace {
 
-std::vector<LogicalLine> lines_of(std::string text) {
-  return logical_lines(SourceFile("test.dmi", std::move(text)));
-}
+std::vector<LogicalLine> lines_of(std::string text) { return logical_lines(SourceFile("test.dmi", std::move(text))); }
 
 }  // namespace
 

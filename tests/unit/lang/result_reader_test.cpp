@@ -85,7 +85,8 @@ TEST_CASE("what is written of every kind of feature is read again") {
 }
 
 TEST_CASE("coordinate systems, values and uncertainties are read again") {
-  const SourceFile source("frames.dmi", "DMISMN/'f'\nD(P)=DATSET/TRMATX,0,1,0,-1,0,0,0,0,1,10,20,30\nOUTPUT/DA(P)\nENDFIL\n");
+  const SourceFile source("frames.dmi",
+                          "DMISMN/'f'\nD(P)=DATSET/TRMATX,0,1,0,-1,0,0,0,0,1,10,20,30\nOUTPUT/DA(P)\nENDFIL\n");
   Sink sink;
   const plan::Plan plan = compile(source, sink).plan;
   const Rigid X{{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}, {10, 20, 30}};
@@ -105,17 +106,19 @@ TEST_CASE("a turned coordinate system comes back to a nanometre over a metre") {
   const plan::Plan plan = compile(source, sink).plan;
   const double c = std::cos(0.5), s = std::sin(0.5);
   const Rigid X{{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}, {10, 20, 30}};
-  const DmisResult back = read(dmis_result(plan, {OutputRecord{static_cast<int>(plan.operations.size()) - 1, {}, {}, X}})).result;
+  const DmisResult back =
+      read(dmis_result(plan, {OutputRecord{static_cast<int>(plan.operations.size()) - 1, {}, {}, X}})).result;
   REQUIRE(back.frames.size() == 1);
   CHECK(norm(back.frames[0].X_MD.R * Vec3{600, 800, 0} - X.R * Vec3{600, 800, 0}) < 1e-6);
 }
 
 TEST_CASE("every form of a result and its uncertainty comes back as it was written") {
-  const SourceFile source("results.dmi",
-                          "DMISMN/'r'\nSNSLCT/SA(P)\nF(C)=FEAT/CIRCLE,INNER,CART,5,0,0,0,0,1,20\nMEAS/CIRCLE,F(C),4\nENDMES\n"
-                          "F(E)=FEAT/CIRCLE,INNER,CART,50,0,0,0,0,1,20\nMEAS/CIRCLE,F(E),4\nENDMES\nT(SIZE)=TOL/DIAM,-0.1,0.1\nT(PLACE)=TOL/POS,2D,0.1\n"
-                          "T(ANGLE)=TOL/CORTOL,ANGLE,-1,1\nT(APART)=TOL/DISTB,NOMINL,45,-0.1,0.1,XAXIS\nOUTPUT/FA(C),TA(SIZE),TA(PLACE),TA(ANGLE)\n"
-                          "OUTPUT/FA(C),FA(E),TA(APART)\nOUTPUT/FA(C),TA(SIZE)\nENDFIL\n");
+  const SourceFile source(
+      "results.dmi",
+      "DMISMN/'r'\nSNSLCT/SA(P)\nF(C)=FEAT/CIRCLE,INNER,CART,5,0,0,0,0,1,20\nMEAS/CIRCLE,F(C),4\nENDMES\n"
+      "F(E)=FEAT/CIRCLE,INNER,CART,50,0,0,0,0,1,20\nMEAS/CIRCLE,F(E),4\nENDMES\nT(SIZE)=TOL/DIAM,-0.1,0.1\nT(PLACE)=TOL/POS,2D,0.1\n"
+      "T(ANGLE)=TOL/CORTOL,ANGLE,-1,1\nT(APART)=TOL/DISTB,NOMINL,45,-0.1,0.1,XAXIS\nOUTPUT/FA(C),TA(SIZE),TA(PLACE),TA(ANGLE)\n"
+      "OUTPUT/FA(C),FA(E),TA(APART)\nOUTPUT/FA(C),TA(SIZE)\nENDFIL\n");
   Sink sink;
   const plan::Plan plan = compile(source, sink).plan;
   REQUIRE_FALSE(sink.has_errors());

@@ -32,8 +32,8 @@ Mismatch mismatched(std::string_view signature, const std::string& arguments) {
 }  // namespace
 
 TEST_CASE("words, choices and values") {
-  const Match m = matched("side:INNER|OUTER, CART, x:length, n:integer, name:text, from:feature",
-                          "outer,cart,2,3,'a',FA(b)");
+  const Match m =
+      matched("side:INNER|OUTER, CART, x:length, n:integer, name:text, from:feature", "outer,cart,2,3,'a',FA(b)");
   CHECK(m.text("side") == "OUTER");
   CHECK(m.number("x") == 2);
   CHECK(m.number("n") == 3);
@@ -49,8 +49,7 @@ TEST_CASE("lengths and angles take the units in force, numbers do not") {
   CHECK(m.number("x") == 50.8);
   CHECK(m.number("a") == 0.5);
   CHECK(m.number("n") == 3);
-  CHECK(matched("a:angle", "-90:30:00").number("a") ==
-        doctest::Approx(-90.5 * Units::kRadPerDegree).epsilon(1e-15));
+  CHECK(matched("a:angle", "-90:30:00").number("a") == doctest::Approx(-90.5 * Units::kRadPerDegree).epsilon(1e-15));
 }
 
 TEST_CASE("optional items are all or nothing, repeats append, the first alternative wins") {

@@ -47,8 +47,8 @@ TEST_CASE("every statement explains itself and its example fits its signature") 
     const auto raw = parse_statement(logical_lines(source).at(0), source, sink);
     REQUIRE(raw.has_value());
     CHECK(raw->word == s->word);
-    CHECK(std::holds_alternative<Match>(
-        match(parse_signature(s->signature), raw->arguments, Units{}, [](const RawArgument&) -> Evaluation { return boolean(true); })));
+    CHECK(std::holds_alternative<Match>(match(parse_signature(s->signature), raw->arguments, Units{},
+                                              [](const RawArgument&) -> Evaluation { return boolean(true); })));
     const std::string label = !raw->label ? "" : raw->label->kind.empty() ? "=" : raw->label->kind;
     if (s->label != "*") CHECK(label == s->label);
   }
@@ -125,8 +125,8 @@ TEST_CASE("what is lost says why") {
   CHECK(c.result.plan.characteristics.empty());
 }
 
-/// Processor time of four times as much text over that of the text, the best of three each: 4 where a line costs the same in both, 16 where it
-/// costs in proportion to their number.
+/// Processor time of four times as much text over that of the text, the best of three each: 4 where a line
+/// costs the same in both, 16 where it costs in proportion to their number.
 template <class Program>
 double cost_of_four_times(int lines, Program program) {
   const auto seconds = [&](int n) {

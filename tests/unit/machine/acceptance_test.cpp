@@ -82,8 +82,7 @@ TEST_CASE("E0 cannot see the roll of the ram, E150 can") {
   Machine machine = machine_2009();
   machine.mount_offset_mm = {0, 0, -400};
   const double s = 40e-9;  // 40 um/m over a metre
-  const TestResult result =
-      virtual_acceptance_test(machine, linear_error(machine, Component::ecz, s));
+  const TestResult result = virtual_acceptance_test(machine, linear_error(machine, Component::ecz, s));
   const auto lines = test_lines(machine);
   for (int k = 0; k < 7; ++k)
     for (const double error : result.error_mm[k]) CHECK(std::fabs(error) < 1e-12);
@@ -158,8 +157,7 @@ TEST_CASE("R0 follows from the standard deviations along the lines") {
   machine.specification.r0_mpl_mm = 3e-3;
   const ProbeCheck equal = only_check(machine);
   CHECK(equal.name == "R0");
-  CHECK(equal.share_passed ==
-        doctest::Approx(std::pow(range_of_three_cdf(3e-3 / (std::sqrt(2.0) * 0.5e-3)), 35)));
+  CHECK(equal.share_passed == doctest::Approx(std::pow(range_of_three_cdf(3e-3 / (std::sqrt(2.0) * 0.5e-3)), 35)));
   machine.specification.r0_mpl_mm = equal.median_mm;
   CHECK(only_check(machine).share_passed == doctest::Approx(0.5));
   // Noise along x only: nothing on the lines y and z, and u_x of it on the others.
@@ -168,16 +166,14 @@ TEST_CASE("R0 follows from the standard deviations along the lines") {
   double share = 1;
   for (const TestLine& line : test_lines(machine))
     if (line.test == "E0" && line.direction.x != 0)
-      share *= std::pow(
-          range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.x))), 5);
+      share *= std::pow(range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.x))), 5);
   CHECK(only_check(machine).share_passed == doctest::Approx(share));
   // A head turned by a quarter exchanges x and y.
   machine.head.mounting_rad = kPi / 2;
   share = 1;
   for (const TestLine& line : test_lines(machine))
     if (line.test == "E0" && line.direction.y != 0)
-      share *= std::pow(
-          range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.y))), 5);
+      share *= std::pow(range_of_three_cdf(2e-3 / (std::sqrt(2.0) * 0.5e-3 * std::fabs(line.direction.y))), 5);
   CHECK(only_check(machine).share_passed == doctest::Approx(share));
   machine.probe.sd_mm = {};
   CHECK(only_check(machine).share_passed == 1);
@@ -198,8 +194,7 @@ TEST_CASE("the size of a sphere has the variance that the pattern gives it") {
   }
 }
 
-TEST_CASE(
-    "the form of a sphere grows with the noise, and does not depend on the seed beyond chance") {
+TEST_CASE("the form of a sphere grows with the noise, and does not depend on the seed beyond chance") {
   Machine machine = read_machine("coord3-mc16");
   machine.specification.form_mpe_mm = 2e-3;
   const ProbeCheck once = only_check(machine, 1), again = only_check(machine, 2);

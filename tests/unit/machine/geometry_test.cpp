@@ -20,10 +20,9 @@ constexpr Axis kAxes[] = {Axis::x, Axis::y, Axis::z};
 
 /// Some number in (-1, 1) for case `i`, purpose `k`.
 double some(int i, int k) {
-  return 2 * uniform_pair({99, static_cast<std::uint32_t>(i), stream_of("test"),
-                           static_cast<std::uint32_t>(k), 0, 0})
-                 .a -
-         1;
+  return 2 *
+      uniform_pair({99, static_cast<std::uint32_t>(i), stream_of("test"), static_cast<std::uint32_t>(k), 0, 0}).a -
+      1;
 }
 
 /// All distributions of the three axes over the two sides, in every order.
@@ -38,8 +37,7 @@ std::vector<Machine> every_structure() {
       machine.mount_offset_mm = {30, -40, -350};
       machine.table_chain.assign(order.begin(), order.begin() + on_table);
       machine.ram_chain.assign(order.begin() + on_table, order.end());
-      for (const Axis axis : machine.table_chain)
-        machine.axes[static_cast<int>(axis)].table_side = true;
+      for (const Axis axis : machine.table_chain) machine.axes[static_cast<int>(axis)].table_side = true;
       machines.push_back(machine);
     }
   } while (std::next_permutation(order.begin(), order.end()));
@@ -49,18 +47,15 @@ std::vector<Machine> every_structure() {
 AxisErrors some_errors(int i) {
   AxisErrors errors;
   for (int k = 0; k < kComponents; ++k)
-    errors.value[k] =
-        is_rotation(static_cast<Component>(k)) ? 1e-5 * some(i, k) : 1e-2 * some(i, k);
+    errors.value[k] = is_rotation(static_cast<Component>(k)) ? 1e-5 * some(i, k) : 1e-2 * some(i, k);
   return errors;
 }
 
-AxisErrors errors_at(const Machine& machine, const GeometryCoefficients& coefficients,
-                     const Vec3& enc) {
+AxisErrors errors_at(const Machine& machine, const GeometryCoefficients& coefficients, const Vec3& enc) {
   AxisErrors errors;
   for (int k = 0; k < kComponents; ++k) {
     const auto component = static_cast<Component>(k);
-    errors.value[k] =
-        error_at(machine, coefficients, component, enc[static_cast<int>(axis_of(component))]);
+    errors.value[k] = error_at(machine, coefficients, component, enc[static_cast<int>(axis_of(component))]);
   }
   return errors;
 }
@@ -71,15 +66,12 @@ struct Touches {
     for (int i = 0; i < n; ++i) {
       lane[i] = i % lanes;
       for (int k = 0; k < 3; ++k) {
-        column[k][i] =
-            machine.axes[k].direction * machine.axes[k].travel_mm * (0.5 + 0.5 * some(i, 40 + k));
+        column[k][i] = machine.axes[k].direction * machine.axes[k].travel_mm * (0.5 + 0.5 * some(i, 40 + k));
         column[3 + k][i] = 100 * some(i, 50 + k);
       }
     }
   }
-  Vec3 at(int first, int i) const {
-    return {column[first][i], column[first + 1][i], column[first + 2][i]};
-  }
+  Vec3 at(int first, int i) const { return {column[first][i], column[first + 1][i], column[first + 2][i]}; }
   void run(const GeometryBlock& block, int from, int n) {
     const double* enc[3];
     const double* tip[3];
@@ -94,8 +86,7 @@ struct Touches {
   std::vector<std::vector<double>> column;  // enc, tip, d
 };
 
-std::vector<const GeometryCoefficients*> pointers(
-    const std::vector<GeometryCoefficients>& machines) {
+std::vector<const GeometryCoefficients*> pointers(const std::vector<GeometryCoefficients>& machines) {
   std::vector<const GeometryCoefficients*> out;
   for (const GeometryCoefficients& one : machines) out.push_back(&one);
   return out;
@@ -107,8 +98,7 @@ TEST_CASE("the first order agrees with the product of the transforms on every st
   int i = 0;
   for (const Machine& machine : every_structure()) {
     const AxisErrors errors = some_errors(++i);
-    const Vec3 enc{1000 * some(i, 20), 1000 * some(i, 21), 1000 * some(i, 22)},
-        tip{50 * some(i, 23), 60, -200};
+    const Vec3 enc{1000 * some(i, 20), 1000 * some(i, 21), 1000 * some(i, 22)}, tip{50 * some(i, 23), 60, -200};
     const Vec3 first = geometric_error(machine, errors, enc, tip),
                exact = geometric_error_exact(machine, errors, enc, tip);
     CHECK(norm(exact) > 1e-3);
@@ -164,9 +154,8 @@ TEST_CASE("error functions are zero at home and reach at most e_max times travel
       const double limit = machine[component].e_max * axis.travel_mm * 1e-3;
       CHECK(std::fabs(error_at(machine, drawn, component, 0)) < 1e-12 * limit);
       for (int i = 0; i <= 500; ++i) {
-        const double share = std::fabs(error_at(machine, drawn, component,
-                                                axis.direction * axis.travel_mm * i / 500)) /
-                             limit;
+        const double share =
+            std::fabs(error_at(machine, drawn, component, axis.direction * axis.travel_mm * i / 500)) / limit;
         CHECK(share < 1.005);
         largest_seen = std::max(largest_seen, share);
       }
@@ -187,8 +176,7 @@ TEST_CASE("sizes are uniform, signs balanced") {
       const MachineAxis& axis = machine[axis_of(component)];
       double extreme = 0;
       for (int i = 0; i <= 400; ++i) {
-        const double e =
-            error_at(machine, drawn, component, axis.direction * axis.travel_mm * i / 400);
+        const double e = error_at(machine, drawn, component, axis.direction * axis.travel_mm * i / 400);
         if (std::fabs(e) > std::fabs(extreme)) extreme = e;
       }
       const double share = extreme / (machine[component].e_max * axis.travel_mm * 1e-3);
@@ -230,8 +218,7 @@ TEST_CASE("known squarenesses open the angles of the axes, on either side") {
     machine.squareness_bwz_rad = 20e-6;
     machine.squareness_awz_rad = -5e-6;
     const Vec3 enc{300, 400, -200};
-    const Vec3 d = geometric_error(machine, errors_at(machine, draw_geometry(machine, 1, 0), enc),
-                                   enc, {0, 0, -300});
+    const Vec3 d = geometric_error(machine, errors_at(machine, draw_geometry(machine, 1, 0), enc), enc, {0, 0, -300});
     CHECK(d.x == doctest::Approx(10e-6 * 400 + 20e-6 * -200));
     CHECK(d.y == doctest::Approx(-5e-6 * -200));
     CHECK(d.z == doctest::Approx(0));
@@ -262,8 +249,7 @@ TEST_CASE("the lane kernel equals the plain reference") {
       touches.run(GeometryBlock(machine, pointers(drawn)), 0, 300);
       for (int i = 0; i < 300; ++i) {
         const AxisErrors errors = errors_at(machine, drawn[touches.lane[i]], touches.at(0, i));
-        CHECK(norm(touches.at(6, i) -
-                   geometric_error(machine, errors, touches.at(0, i), touches.at(3, i))) < 1e-14);
+        CHECK(norm(touches.at(6, i) - geometric_error(machine, errors, touches.at(0, i), touches.at(3, i))) < 1e-14);
       }
     }
 }

@@ -48,8 +48,7 @@ Case read(const Json& j) {
   c.tip_in_r = vec3(j["tip_in_r_mm"]);
   c.t = head_rotation(c.a, c.b) * c.tip_in_r + Vec3{0, 0, -double(j["l_r_mm"])};
   const double arcsec = kPi / 180 / 3600;
-  c.head_error =
-      double(j["head_error_arcsec"][0]) * arcsec * head_derivative_a(c.a, c.b, c.tip_in_r) +
+  c.head_error = double(j["head_error_arcsec"][0]) * arcsec * head_derivative_a(c.a, c.b, c.tip_in_r) +
       double(j["head_error_arcsec"][1]) * arcsec * head_derivative_b(c.a, c.b, c.tip_in_r);
   return c;
 }
@@ -65,8 +64,7 @@ TEST_CASE("kinematics of machine and head agree with the reference to 1e-6 um") 
     const Case c = read(j);
     const Json& expected = j["expected"];
     check_near(c.t, vec3(expected["tip_from_mount_mm"]), kTolerance_mm);
-    check_near(c.enc + c.machine.home_offset() + c.t, vec3(expected["nominal_tip_mm"]),
-               kTolerance_mm);
+    check_near(c.enc + c.machine.home_offset() + c.t, vec3(expected["nominal_tip_mm"]), kTolerance_mm);
     check_near(geometric_error(c.machine, c.errors, c.enc, c.t),
                1e-3 * vec3(expected["geometric_error_first_order_um"]), kTolerance_mm);
     check_near(geometric_error_exact(c.machine, c.errors, c.enc, c.t),
@@ -78,10 +76,10 @@ TEST_CASE("kinematics of machine and head agree with the reference to 1e-6 um") 
 TEST_CASE("the head's derivatives are those of its rotation") {
   const Vec3 tip{20, 5, -100};
   const double a = 0.7, b = -1.9, h = 1e-5;
-  check_near(head_derivative_a(a, b, tip),
-             (head_rotation(a + h, b) * tip - head_rotation(a - h, b) * tip) / (2 * h), 1e-7);
-  check_near(head_derivative_b(a, b, tip),
-             (head_rotation(a, b + h) * tip - head_rotation(a, b - h) * tip) / (2 * h), 1e-7);
+  check_near(head_derivative_a(a, b, tip), (head_rotation(a + h, b) * tip - head_rotation(a - h, b) * tip) / (2 * h),
+             1e-7);
+  check_near(head_derivative_b(a, b, tip), (head_rotation(a, b + h) * tip - head_rotation(a, b - h) * tip) / (2 * h),
+             1e-7);
   check_near(head_rotation(0, 0) * Vec3{0, 0, -1}, {0, 0, -1}, 0);
 }
 

@@ -12,16 +12,14 @@ inline std::vector<double> level_sample() {
   Machine machine;
   machine.harmonics = 5;
   for (int k = 0; k < 3; ++k)
-    machine.axes[k] = {
-        600.0 + 130 * k, k == 2 ? -1 : 1, {-20.0 + k, 37.0 * k, 11.0 - 5 * k}, k == 1};
+    machine.axes[k] = {600.0 + 130 * k, k == 2 ? -1 : 1, {-20.0 + k, 37.0 * k, 11.0 - 5 * k}, k == 1};
   machine.ram_chain = {Axis::x, Axis::z};
   machine.table_chain = {Axis::y};
   for (ComponentSpec& component : machine.components) component = {0.5, 0.2, 1e-3, {}};
   const int lanes = 37;
   std::vector<GeometryCoefficients> drawn;
   std::vector<const GeometryCoefficients*> pointers;
-  for (int i = 0; i < lanes; ++i)
-    drawn.push_back(draw_geometry(machine, 5, static_cast<std::uint32_t>(i)));
+  for (int i = 0; i < lanes; ++i) drawn.push_back(draw_geometry(machine, 5, static_cast<std::uint32_t>(i)));
   for (const GeometryCoefficients& one : drawn) pointers.push_back(&one);
 
   std::vector<double> columns(9 * lanes);
@@ -32,12 +30,10 @@ inline std::vector<double> level_sample() {
   std::vector<int> lane(lanes);
   for (int i = 0; i < lanes; ++i) {
     lane[i] = i;
-    for (int k = 0; k < 3; ++k)
-      enc[k][i] = machine.axes[k].direction * (3.7 * i + k), tip[k][i] = k - 0.1 * i;
+    for (int k = 0; k < 3; ++k) enc[k][i] = machine.axes[k].direction * (3.7 * i + k), tip[k][i] = k - 0.1 * i;
   }
   GeometryBlock(machine, pointers).add_error(lanes, lane.data(), enc, tip, d);
-  for (const GeometryCoefficients& one : drawn)
-    columns.insert(columns.end(), one.begin(), one.end());
+  for (const GeometryCoefficients& one : drawn) columns.insert(columns.end(), one.begin(), one.end());
   return columns;
 }
 

@@ -15,11 +15,11 @@ namespace {
 constexpr double kDegree = kPi / 180;
 
 /// The smallest machine file, with something more in it.
-std::string small_file(const std::string& more = "", const std::string& specification =
-                                                         R"("mpe": {"a_um": 2, "k_um_per_m": 3})") {
+std::string small_file(const std::string& more = "",
+                       const std::string& specification = R"("mpe": {"a_um": 2, "k_um_per_m": 3})") {
   return R"({"name": "small", "axes": {"x": {"travel_mm": 500}, "y": {"travel_mm": 600}, "z": {"travel_mm": 400, "direction": -1}},
   "specification": {)" +
-         specification + "}" + (more.empty() ? "" : ",\n" + more) + "}";
+      specification + "}" + (more.empty() ? "" : ",\n" + more) + "}";
 }
 
 std::vector<Diagnostic> faults(const std::string& text) {
@@ -154,8 +154,8 @@ TEST_CASE("impossible machines are refused at the place of the mistake") {
   check_fault(replaced(small_file(), "500", "-500"), Code::E0406, "axes.x.travel_mm");
   check_fault(replaced(small_file(), "-1", "0"), Code::E0406, "direction");
   check_fault(replaced(small_file(), "-1", "2"), Code::E0406, "direction");
-  check_fault(replaced(small_file(), "\"travel_mm\": 500", "\"travel\": 500, \"travel_mm\": 500"),
-              Code::E0402, "travel");
+  check_fault(replaced(small_file(), "\"travel_mm\": 500", "\"travel\": 500, \"travel_mm\": 500"), Code::E0402,
+              "travel");
   check_fault(small_file(R"("schema": "abbe.workpiece/1")"), Code::E0407, "abbe.workpiece/1");
   check_fault(
       R"({"axes": {"x": {"travel_mm": 1}, "y": {"travel_mm": 1}, "z": {"travel_mm": 1}}, "specification": {"mpe": {"a_um": 1, "k_um_per_m": 1}}})",
@@ -164,8 +164,8 @@ TEST_CASE("impossible machines are refused at the place of the mistake") {
 
 TEST_CASE("a chain has every axis once") {
   check_fault(small_file(R"("chain": {"ram_side": ["x", "z"]})"), Code::E0412, "\"y\" is missing");
-  check_fault(small_file(R"("chain": {"ram_side": ["x", "y", "z"], "table_side": ["y"]})"),
-              Code::E0412, "\"y\" stands more than once");
+  check_fault(small_file(R"("chain": {"ram_side": ["x", "y", "z"], "table_side": ["y"]})"), Code::E0412,
+              "\"y\" stands more than once");
   check_fault(small_file(R"("chain": {"ram_side": ["x", "y", "z", "w"]})"), Code::E0412, "\"w\"");
   CHECK(faults(small_file(R"("chain": {"ram_side": ["z"], "table_side": ["y", "x"]})")).empty());
 }
@@ -176,8 +176,8 @@ TEST_CASE("shares of an error function sum to 1") {
   };
   check_fault(with(R"("s": 0.8, "c": 0.3)"), Code::E0413, "1.1");
   check_fault(with(R"("s": 0.8, "c": 0.1, "harmonics": [0.05])"), Code::E0413, "0.95");
-  check_fault(with(R"("s": 0.8, "c": 0.1, "harmonics": [0.05, 0.05])", R"(, "harmonics": 1)"),
-              Code::E0413, "1 harmonics");
+  check_fault(with(R"("s": 0.8, "c": 0.1, "harmonics": [0.05, 0.05])", R"(, "harmonics": 1)"), Code::E0413,
+              "1 harmonics");
   check_fault(with(R"("s": 0, "c": 0)", R"(, "harmonics": 0)"), Code::E0413, "empty");
   check_fault(with(R"("e_max": -1)"), Code::E0406, "e_max");
   check_fault(with(R"("s": -0.1)"), Code::E0406, "\"geometry.components.exx.s\"");
@@ -191,31 +191,26 @@ TEST_CASE("a specification does not contradict itself") {
   check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": -3})"), Code::E0406, "k_um_per_m");
   check_fault(small_file("", R"("mpe": {"a_um": 0, "k_um_per_m": 0})"), Code::E0414, "both 0");
   check_fault(small_file("", R"("mpe": {"a_um": 1})"), Code::E0404, "k_um_per_m");
-  check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": 1}, "v_min": 2)"), Code::E0414,
-              "v_min");
-  check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": 1}, "longest_share": 1.2)"),
-              Code::E0406, "longest_share");
-  check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": 1}, "longest_share": 0)"),
-              Code::E0406, "longest_share");
+  check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": 1}, "v_min": 2)"), Code::E0414, "v_min");
+  check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": 1}, "longest_share": 1.2)"), Code::E0406,
+              "longest_share");
+  check_fault(small_file("", R"("mpe": {"a_um": 1, "k_um_per_m": 1}, "longest_share": 0)"), Code::E0406,
+              "longest_share");
 }
 
 TEST_CASE("sensors are possible things") {
-  const auto with = [](const std::string& sensor) {
-    return small_file(R"("sensors": {"S": {)" + sensor + "}}");
-  };
-  check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 0)"), Code::E0406,
-              "sensors.S.diameter_mm");
+  const auto with = [](const std::string& sensor) { return small_file(R"("sensors": {"S": {)" + sensor + "}}"); };
+  check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 0)"), Code::E0406, "sensors.S.diameter_mm");
   check_fault(with(R"("tip_in_r_mm": [0, 0], "diameter_mm": 1)"), Code::E0406, "3");
   check_fault(with(R"("diameter_mm": 1)"), Code::E0404, "tip_in_r_mm");
-  check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 1, "material": "cramic")"),
-              Code::E0406, "cramic");
+  check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 1, "material": "cramic")"), Code::E0406, "cramic");
   check_fault(small_file(R"("probe": {"sd_um": [0.5, -0.5, 0.5]})"), Code::E0406, "sd_um");
   check_fault(small_file(R"("head": {"model": "PH10M"})"), Code::E0404, "angle_sd_arcsec");
 }
 
 TEST_CASE("all mistakes of a file are reported at once, by place") {
-  const auto found = faults(small_file(
-      R"("prob": {}, "head": {"angle_sd_arcsec": {"A": -1, "B": 0}}, "motion": {"speed_mm_s": 0})"));
+  const auto found =
+      faults(small_file(R"("prob": {}, "head": {"angle_sd_arcsec": {"A": -1, "B": 0}}, "motion": {"speed_mm_s": 0})"));
   REQUIRE(found.size() == 3);
   CHECK(found[0].help.find("probe") != std::string::npos);
   CHECK(found[0].place.line == 3);
@@ -245,9 +240,12 @@ TEST_CASE("a machine without scale positions is usable, with a warning that name
   };
   CHECK(warned("").find("for x, y, z, mount:") != std::string::npos);
   CHECK(warned(R"("offsets_mm": {"y": [0, 1, 0], "x": [0, 0, 0]})").find("for z, mount:") != std::string::npos);
-  CHECK(machine_warnings(parse_machine("m.json", small_file(R"("offsets_mm": {"x": [0, 0, 0], "y": [0, 1, 0], "z": [0, 0, 0], "mount": [0, 0, 0]})"))).empty());
-  for (const std::string& name : shipped_machines())
-    CHECK(machine_warnings(read_machine(name)).empty());
+  CHECK(machine_warnings(
+            parse_machine(
+                "m.json",
+                small_file(R"("offsets_mm": {"x": [0, 0, 0], "y": [0, 1, 0], "z": [0, 0, 0], "mount": [0, 0, 0]})")))
+            .empty());
+  for (const std::string& name : shipped_machines()) CHECK(machine_warnings(read_machine(name)).empty());
 }
 
 TEST_CASE("test lengths shorter than those of the standard are suspect") {
@@ -280,13 +278,10 @@ TEST_CASE("a specification of 2009 states E150, R0 and what the probe does on a 
 TEST_CASE("limits that the edition does not know, or that contradict each other, are refused") {
   const std::string mpe = R"("mpe": {"a_um": 2, "k_um_per_m": 3})";
   const std::string old = R"("standard": "ISO 10360-2:2001", )" + mpe;
-  check_fault(small_file("", old + R"(, "e150_mpe": {"a_um": 2, "k_um_per_m": 3})"), Code::E0414,
-              "2009");
+  check_fault(small_file("", old + R"(, "e150_mpe": {"a_um": 2, "k_um_per_m": 3})"), Code::E0414, "2009");
   check_fault(small_file("", old + R"(, "r0_mpl_um": 2)"), Code::E0414, "r0_mpl_um");
-  check_fault(small_file("", R"("mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 1})"), Code::E0414,
-              "b is 1 um");
-  check_fault(small_file("", mpe + R"(, "probing": {"p_form_mpe_um": 0})"), Code::E0406,
-              "p_form_mpe_um");
+  check_fault(small_file("", R"("mpe": {"a_um": 2, "k_um_per_m": 3, "b_um": 1})"), Code::E0414, "b is 1 um");
+  check_fault(small_file("", mpe + R"(, "probing": {"p_form_mpe_um": 0})"), Code::E0406, "p_form_mpe_um");
   check_fault(small_file("", mpe + R"(, "probing": {"p_form_um": 2})"), Code::E0402, "p_form_um");
 }
 

@@ -10,9 +10,7 @@ namespace abbe {
 
 namespace {
 
-double share(std::uint64_t part, const ScreeningCounts& counts) {
-  return double(part) / double(counts.generated);
-}
+double share(std::uint64_t part, const ScreeningCounts& counts) { return double(part) / double(counts.generated); }
 
 }  // namespace
 
@@ -25,8 +23,7 @@ TEST_CASE("the lines of the virtual test lie in the middle of the travels") {
     CHECK(norm(line.direction) == doctest::Approx(1));
     CHECK(line.length_mm[0] == 25);
     for (int m = 1; m < 5; ++m)
-      CHECK(line.length_mm[m] - line.length_mm[m - 1] ==
-            doctest::Approx((line.length_mm[4] - 25) / 4));
+      CHECK(line.length_mm[m] - line.length_mm[m - 1] == doctest::Approx((line.length_mm[4] - 25) / 4));
     CHECK(norm(line.start_mm + 0.5 * line.length_mm[4] * line.direction - middle) < 1e-9);
   }
   CHECK(lines[0].length_mm[4] == doctest::Approx(0.66 * 1600));
@@ -35,11 +32,9 @@ TEST_CASE("the lines of the virtual test lie in the middle of the travels") {
   for (int k = 3; k < 7; ++k) CHECK(lines[k].length_mm[4] == doctest::Approx(0.66 * diagonal));
   // The first diagonal begins on the home side of every axis; no two run along the same space
   // diagonal.
-  CHECK(norm(lines[3].start_mm) <
-        norm(lines[3].start_mm + lines[3].length_mm[4] * lines[3].direction));
+  CHECK(norm(lines[3].start_mm) < norm(lines[3].start_mm + lines[3].length_mm[4] * lines[3].direction));
   for (int a = 3; a < 7; ++a)
-    for (int b = a + 1; b < 7; ++b)
-      CHECK(std::fabs(dot(lines[a].direction, lines[b].direction)) < 0.9);
+    for (int b = a + 1; b < 7; ++b) CHECK(std::fabs(dot(lines[a].direction, lines[b].direction)) < 0.9);
 }
 
 TEST_CASE("lines shorter than 25 mm still have five lengths") {
@@ -60,8 +55,8 @@ TEST_CASE("a pure scale error gives its own length errors, and v compares them w
   for (int m = 0; m < 5; ++m) {
     CHECK(result.error_mm[0][m] == doctest::Approx(per_mm * lines[0].length_mm[m]));
     CHECK(result.error_mm[1][m] == doctest::Approx(0));
-    CHECK(result.error_mm[3][m] == doctest::Approx(per_mm * lines[3].length_mm[m] *
-                                                   lines[3].direction.x * lines[3].direction.x));
+    CHECK(result.error_mm[3][m] ==
+          doctest::Approx(per_mm * lines[3].length_mm[m] * lines[3].direction.x * lines[3].direction.x));
   }
   const double longest = lines[0].length_mm[4];
   CHECK(result.v == doctest::Approx((5e-3 + 5e-6 * longest) / (per_mm * longest)));
@@ -76,8 +71,7 @@ TEST_CASE("the shares of the paper's machine") {
   const VirtualMachines machines = screened_machines(machine, 1, 10'000, 2);
   CHECK(machines.size() == 10'000);
   CHECK(machines.counts.used == 10'000);
-  CHECK(machines.counts.generated ==
-        machines.counts.used + machines.counts.failed_mpe + machines.counts.too_small);
+  CHECK(machines.counts.generated == machines.counts.used + machines.counts.failed_mpe + machines.counts.too_small);
   CHECK(machines.counts.share_accepted() > 0.37 - 0.009);
   CHECK(machines.counts.share_accepted() < 0.39 + 0.009);
   CHECK(share(machines.counts.failed_mpe, machines.counts) > 0.59 - 0.009);
@@ -136,12 +130,12 @@ TEST_CASE("the suggested factor raises the share to what it says") {
   CHECK(suggest_e_max_factor(machine, 1, 2000, 1)->factor == best->factor);
   for (ComponentSpec& component : machine.components) component.e_max *= best->factor;
   // Other candidates than those it was judged by: 1 % of standard deviation each.
-  CHECK(std::fabs(screened_machines(machine, 99, 1500, 2).counts.share_accepted() -
-                  best->share_accepted) < 0.05);
+  CHECK(std::fabs(screened_machines(machine, 99, 1500, 2).counts.share_accepted() - best->share_accepted) < 0.05);
 }
 
-// The share of the candidates that a factor was chosen with is the largest of 466: with 50 candidates it promises 4 % too much.
-// A share of 50 fresh ones has a standard deviation of 7 %, the mean over 40 seeds one of 1.1 %.
+// The share of the candidates that a factor was chosen with is the largest of 466: with 50 candidates it
+// promises 4 % too much. A share of 50 fresh ones has a standard deviation of 7 %, the mean over 40 seeds one
+// of 1.1 %.
 TEST_CASE("the share that a factor promises is no luckier than that of other candidates") {
   const Machine paper = read_machine("coord3-mc16");
   const auto expected = suggest_e_max_factor(paper, 1, 5000, 2);
@@ -202,8 +196,7 @@ TEST_CASE(
   REQUIRE(warning.has_value());
   CHECK(warning->code == Code::W0416);
   CHECK(warning->help.find("0.6") != std::string::npos);
-  CHECK(
-      !screening_warning(fitting, screened_machines(fitting, 1, 500, 2).counts, 1, 2).has_value());
+  CHECK(!screening_warning(fitting, screened_machines(fitting, 1, 500, 2).counts, 1, 2).has_value());
 }
 
 }  // namespace abbe

@@ -63,8 +63,8 @@ TEST_CASE("jets carry exact first and second derivatives") {
         doctest::Approx((value(x + h, y) - 2 * value(x, y) + value(x - h, y)) / (h * h)).epsilon(1e-5));
   CHECK(f.hessian[1][1] ==
         doctest::Approx((value(x, y + h) - 2 * value(x, y) + value(x, y - h)) / (h * h)).epsilon(1e-5));
-  CHECK(f.hessian[1][0] == doctest::Approx((value(x + h, y + h) - value(x + h, y - h) - value(x - h, y + h) +
-                                            value(x - h, y - h)) /
-                                           (4 * h * h))
-                               .epsilon(1e-5));
+  CHECK(f.hessian[1][0] ==
+        doctest::Approx((value(x + h, y + h) - value(x + h, y - h) - value(x - h, y + h) + value(x - h, y - h)) /
+                        (4 * h * h))
+            .epsilon(1e-5));
 }

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "engine/recording/recording.hpp"
 #include "engine/base/diagnostic.hpp"
+#include "engine/recording/recording.hpp"
 
 using namespace abbe;
 
@@ -38,7 +38,8 @@ TEST_CASE("what is written is read back") {
 }
 
 TEST_CASE("CRLF, byte order mark and blanks do not matter") {
-  const Recording r = read_recording(SourceFile("r.csv", "\xEF\xBB\xBF# free text\r\nfeature, touch, x,y,z\r\n A , 1, +1.5, 2,3\r\n\r\n"));
+  const Recording r = read_recording(
+      SourceFile("r.csv", "\xEF\xBB\xBF# free text\r\nfeature, touch, x,y,z\r\n A , 1, +1.5, 2,3\r\n\r\n"));
   REQUIRE(r.rows.size() == 1);
   CHECK(r.rows[0].feature == "A");
   CHECK(r.rows[0].position_mm == Vec3{1.5, 2, 3});
@@ -66,19 +67,24 @@ TEST_CASE("lines before the table and counts say something possible, or are refu
     FAIL(remark << row << " was read");
     return Diagnostic{};
   };
-  for (const char* remark : {"# approach_mm: -3\n", "# retract_mm: three\n", "# temperature_compensation: maybe\n", "# frame: free text\n", "# point: tip\n"}) {
+  for (const char* remark : {"# approach_mm: -3\n", "# retract_mm: three\n", "# temperature_compensation: maybe\n",
+                             "# frame: free text\n", "# point: tip\n"}) {
     CAPTURE(remark);
     const Diagnostic d = refused(remark, "feature,touch,x,y,z", "A,1,0,0,0");
     CHECK(d.code == Code::E0525);
     CHECK(d.place.line == 1);
     CHECK_FALSE(d.help.empty());
   }
-  for (const auto& [columns, row] : {std::pair{"feature,touch,x,y,z", "A,0,0,0,0"}, {"feature,touch,setup,x,y,z", "A,1,0,0,0,0"}, {"feature,touch,run,x,y,z", "A,1,-1,0,0,0"}}) {
+  for (const auto& [columns, row] : {std::pair{"feature,touch,x,y,z", "A,0,0,0,0"},
+                                     {"feature,touch,setup,x,y,z", "A,1,0,0,0,0"},
+                                     {"feature,touch,run,x,y,z", "A,1,-1,0,0,0"}}) {
     CAPTURE(row);
     const Diagnostic d = refused("", columns, row);
     CHECK(d.code == Code::E0530);
     CHECK(d.place.line == 2);
   }
-  const Recording r = read_recording(SourceFile("r.csv", "# approach_mm: 0\n# retract_mm: 3.5\n# temperature_compensation: off\n# note: anything\nfeature,touch,x,y,z\nA,1,0,0,0\n"));
+  const Recording r = read_recording(SourceFile(
+      "r.csv",
+      "# approach_mm: 0\n# retract_mm: 3.5\n# temperature_compensation: off\n# note: anything\nfeature,touch,x,y,z\nA,1,0,0,0\n"));
   CHECK(r.metadata.size() == 4);
 }

@@ -32,8 +32,11 @@ TEST_CASE("columns that are left out have their usual values") {
 }
 
 TEST_CASE("a recording of values is told by its header, whatever stands ahead of it") {
-  for (const char* ahead : {"", "\xEF\xBB\xBF", "\xEF\xBB\xBF# made: today\n", "\n", " \n# characteristic of nothing\n"})
-    for (const auto& [header, values] : {std::pair{"characteristic,value\nLEN,1\n", true}, std::pair{"value,\"characteristic\"\n1,LEN\n", true}, std::pair{"feature,touch\nA,1\n", false}})
+  for (const char* ahead :
+       {"", "\xEF\xBB\xBF", "\xEF\xBB\xBF# made: today\n", "\n", " \n# characteristic of nothing\n"})
+    for (const auto& [header, values] :
+         {std::pair{"characteristic,value\nLEN,1\n", true}, std::pair{"value,\"characteristic\"\n1,LEN\n", true},
+          std::pair{"feature,touch\nA,1\n", false}})
       CHECK(is_value_recording(SourceFile("v.csv", std::string(ahead) + header)) == values);
 }
 

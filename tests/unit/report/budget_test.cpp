@@ -28,8 +28,8 @@ Samples of(std::vector<double> v) { return samples(0, 500, {}, std::move(v)); }
 
 TEST_CASE("a budget has the uncertainty of each source and shares that sum to one") {
   const auto run = [](double a) { return run_of({of(values(a, 0))}, kMachines); };
-  const auto lines = variance_budget({{"exx", run(0.002)}, {"head", run(0)}, {"probe", run(0.001)}},
-                                     run(0.002).samples, 0, Unit::mm, 1);
+  const auto lines = variance_budget({{"exx", run(0.002)}, {"head", run(0)}, {"probe", run(0.001)}}, run(0.002).samples,
+                                     0, Unit::mm, 1);
   REQUIRE(lines.size() == 3);
   CHECK(lines[0].name == "exx");
   CHECK(lines[0].share == doctest::Approx(0.8));
@@ -40,8 +40,7 @@ TEST_CASE("a budget has the uncertainty of each source and shares that sum to on
 }
 
 TEST_CASE("alignment and feature share the variance by their covariances with the whole") {
-  const auto lines = alignment_split(of(values(0.001, 0.002)), of(values(0.001, 0)),
-                                     of(values(0, 0.002)), Unit::mm, 1);
+  const auto lines = alignment_split(of(values(0.001, 0.002)), of(values(0.001, 0)), of(values(0, 0.002)), Unit::mm, 1);
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].name == "alignment");
   CHECK(lines[0].share == doctest::Approx(0.2));
@@ -51,8 +50,7 @@ TEST_CASE("alignment and feature share the variance by their covariances with th
 }
 
 TEST_CASE("correlated parts may compensate: one share is negative and the sum is one") {
-  const auto lines =
-      alignment_split(of(values(0.001, 0)), of(values(-0.001, 0)), of(values(0.002, 0)), Unit::mm, 1);
+  const auto lines = alignment_split(of(values(0.001, 0)), of(values(-0.001, 0)), of(values(0.002, 0)), Unit::mm, 1);
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].share == doctest::Approx(-1));
   CHECK(lines[1].share == doctest::Approx(2));
@@ -60,8 +58,7 @@ TEST_CASE("correlated parts may compensate: one share is negative and the sum is
 
 TEST_CASE("what the two leave open is their interaction, named when it matters") {
   const auto split = [](double ab) {
-    return alignment_split(of(values(0.001, 0.001, ab)), of(values(0.001, 0)),
-                           of(values(0, 0.001)), Unit::mm, 1);
+    return alignment_split(of(values(0.001, 0.001, ab)), of(values(0.001, 0)), of(values(0, 0.001)), Unit::mm, 1);
   };
   CHECK(split(1e-5).size() == 2);  // 0.005 % of the variance
   const auto lines = split(0.001);
@@ -83,8 +80,7 @@ TEST_CASE("only machines that are in all three samples are compared") {
 }
 
 TEST_CASE("what varies by rounding only has no shares") {
-  for (const auto& line : alignment_split(of(values(1e-12, 0)), of(values(1e-12, 0)),
-                                          of(values(0, 0)), Unit::mm, 1)) {
+  for (const auto& line : alignment_split(of(values(1e-12, 0)), of(values(1e-12, 0)), of(values(0, 0)), Unit::mm, 1)) {
     CHECK(line.share == 0);
     CHECK(line.u == 0);
   }

@@ -25,8 +25,7 @@ std::vector<double> ramp(double middle, double step) {
   return values;
 }
 
-const CharacteristicReport::Contribution* contribution(const CharacteristicReport& c,
-                                                       const std::string& name) {
+const CharacteristicReport::Contribution* contribution(const CharacteristicReport& c, const std::string& name) {
   for (const auto& k : c.contributions)
     if (k.name == name) return &k;
   return nullptr;
@@ -46,7 +45,7 @@ TEST_CASE("limits are relative to the error-free value, conformance is a share")
   CHECK(c.line == 41);
   CHECK(c.lcl.value() == doctest::Approx(-475.5e-6).epsilon(1e-9));  // 25th of 1000
   CHECK(c.ucl.value() == doctest::Approx(474.5e-6).epsilon(1e-9));   // 975th
-  CHECK(*c.conformance_probability == 0.7);                  // i - 499.5 <= 200: 700 of 1000
+  CHECK(*c.conformance_probability == 0.7);                          // i - 499.5 <= 200: 700 of 1000
   CHECK(c.evaluated == 1000);
   CHECK(c.trapped == 0);
   CHECK(c.elsewhere == 3);
@@ -55,8 +54,7 @@ TEST_CASE("limits are relative to the error-free value, conformance is a share")
 TEST_CASE("the decision on the error-free value goes by the errors around it") {
   // Errors from 0.5005 to 1.4995 um: 95 % of them are not above 1.4495 um.
   const RunResult run = run_of({samples(0, 500, {499.998, 500.001}, ramp(500.001, 1e-6))}, 1000);
-  const CharacteristicReport::Decision d =
-      characteristic_reports(length_and_angle(), run, {}).at(0).decision.value();
+  const CharacteristicReport::Decision d = characteristic_reports(length_and_angle(), run, {}).at(0).decision.value();
   CHECK(d.guard_band.value() == doctest::Approx(1.4495e-3).epsilon(1e-9));
   CHECK(d.lower.value() == doctest::Approx(499.9994495).epsilon(1e-12));
   CHECK(d.upper.value() == doctest::Approx(499.9995505).epsilon(1e-12));
@@ -88,28 +86,22 @@ TEST_CASE("where every machine has limits of its own, the decision goes by them"
 }
 
 TEST_CASE("angles leave in degrees") {
-  const RunResult run = run_of(
-      {samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))},
-      1000);
+  const RunResult run =
+      run_of({samples(1, 90 * kDegree, {std::nullopt, 91 * kDegree}, ramp(90 * kDegree, 1e-3 * kDegree))}, 1000);
   const CharacteristicReport c = characteristic_reports(length_and_angle(), run, {}).at(0);
   CHECK(c.unit == "deg");
   CHECK(c.reference.value() == doctest::Approx(90).epsilon(1e-14));
   CHECK(c.nominal == doctest::Approx(90).epsilon(1e-14));
   CHECK(*c.upper == doctest::Approx(91).epsilon(1e-14));
   CHECK_FALSE(c.lower);
-  CHECK(c.summary.u ==
-        doctest::Approx(1e-3 * std::sqrt(1000 * 1001 / 12.0)).epsilon(1e-9));  // of n equal steps
+  CHECK(c.summary.u == doctest::Approx(1e-3 * std::sqrt(1000 * 1001 / 12.0)).epsilon(1e-9));  // of n equal steps
   CHECK(c.lcl.value() == doctest::Approx(-0.4755).epsilon(1e-9));
 }
 
 TEST_CASE("shares of variance sum to one and ignore rounding") {
-  const auto alone = [](double step) {
-    return run_of({samples(0, 500, {}, ramp(500, step))}, 1000);
-  };
-  const std::vector<ContributorRun> runs{
-      {"geometry", alone(2e-6)}, {"head", alone(1e-13)}, {"probe", alone(1e-6)}};
-  const CharacteristicReport c =
-      characteristic_reports(length_and_angle(), alone(3e-6), runs).at(0);
+  const auto alone = [](double step) { return run_of({samples(0, 500, {}, ramp(500, step))}, 1000); };
+  const std::vector<ContributorRun> runs{{"geometry", alone(2e-6)}, {"head", alone(1e-13)}, {"probe", alone(1e-6)}};
+  const CharacteristicReport c = characteristic_reports(length_and_angle(), alone(3e-6), runs).at(0);
   CHECK(contribution(c, "geometry")->share == doctest::Approx(0.8).epsilon(1e-6));
   CHECK(contribution(c, "probe")->share == doctest::Approx(0.2).epsilon(1e-6));
   CHECK(contribution(c, "head")->share == 0);  // u = 3e-11 mm is rounding
@@ -120,9 +112,7 @@ TEST_CASE("shares of variance sum to one and ignore rounding") {
 TEST_CASE("when nothing varies every share is zero, not NaN") {
   const RunResult constant = run_of({samples(0, 500, {}, std::vector<double>(1000, 500.0))}, 1000);
   const CharacteristicReport c =
-      characteristic_reports(length_and_angle(), constant,
-                             {{"geometry", constant}, {"probe", constant}})
-          .at(0);
+      characteristic_reports(length_and_angle(), constant, {{"geometry", constant}, {"probe", constant}}).at(0);
   CHECK(contribution(c, "geometry")->share == 0);
   CHECK(contribution(c, "probe")->share == 0);
 }
@@ -175,7 +165,8 @@ TEST_CASE("the same labels again in the same line are further occurrences") {
   plan.characteristics.push_back(plan.characteristics[0]);
   plan.characteristics.back().line = 50;
   const RunResult run = run_of({samples(0, 500, {}, {500, 501}), samples(1, 1, {}, {1, 2}),
-                                samples(2, 500, {}, {500, 501}), samples(3, 500, {}, {500, 501})}, 2);
+                                samples(2, 500, {}, {500, 501}), samples(3, 500, {}, {500, 501})},
+                               2);
   const auto reports = characteristic_reports(plan, run, {});
   REQUIRE(reports.size() == 4);
   CHECK(reports[0].occurrence == 1);
@@ -249,8 +240,9 @@ TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpi
 TEST_CASE("everything that an effect can do belongs to an influence") {
   // Effects of what is always modelled: they enlarge geometry, indexing and repeatability.
   const std::set<std::string_view> of_the_model{
-      "head.reindexing", "machine.scale", "machine.squareness", "machine.straightness_angle_coupling",
-      "machine.ram_droop", "machine.map_scallops", "machine.step", "probe.cosine_error", "probe.step"};
+      "head.reindexing",   "machine.scale",        "machine.squareness", "machine.straightness_angle_coupling",
+      "machine.ram_droop", "machine.map_scallops", "machine.step",       "probe.cosine_error",
+      "probe.step"};
   for (const Effect* effect : effects()) {
     Machine machine;
     const auto before = declare_influences(machine, {}).influences;
@@ -265,9 +257,7 @@ TEST_CASE("everything that an effect can do belongs to an influence") {
 
 TEST_CASE("samples as CSV: every machine, labels quoted, angles in degrees") {
   Study study;
-  study.result = run_of(
-      {samples(0, 500, {}, {500.25}), samples(1, 90 * kDegree, {}, {90 * kDegree, 45 * kDegree})},
-      2);
+  study.result = run_of({samples(0, 500, {}, {500.25}), samples(1, 90 * kDegree, {}, {90 * kDegree, 45 * kDegree})}, 2);
   study.result.samples[0].machine = {1};
   study.result.samples[0].reference = std::nullopt;
   study.candidates = {0, 7};

@@ -36,16 +36,8 @@ inline plan::Plan length_and_angle() {
   return plan;
 }
 
-inline Samples samples(int characteristic, double reference, ToleranceLimits limits,
-                       std::vector<double> values) {
-  Samples s{plan::CharacteristicId{characteristic},
-            1,
-            reference,
-            reference,
-            limits,
-            std::move(values),
-            {},
-            {}};
+inline Samples samples(int characteristic, double reference, ToleranceLimits limits, std::vector<double> values) {
+  Samples s{plan::CharacteristicId{characteristic}, 1, reference, reference, limits, std::move(values), {}, {}};
   for (std::uint32_t i = 0; i < s.value.size(); ++i) s.machine.push_back(i);
   return s;
 }

@@ -51,8 +51,7 @@ StudyOptions few(int machines) {
 }
 
 bool has(const std::vector<Diagnostic>& messages, Code code) {
-  return std::any_of(messages.begin(), messages.end(),
-                     [&](const Diagnostic& d) { return d.code == code; });
+  return std::any_of(messages.begin(), messages.end(), [&](const Diagnostic& d) { return d.code == code; });
 }
 
 }  // namespace
@@ -82,8 +81,7 @@ TEST_CASE("the probe's share is the variance of two touches") {
   // Of 2000 machines the sample variance of the probe scatters by sqrt(2 / 1999) = 3.2 %, and the
   // sum of the variances differs from u^2 by twice their sample covariance, at most 1 / sqrt(1999)
   // = 2.2 % of u^2. Four standard errors together: false-alarm rate 6e-5.
-  const double expected =
-      2 * machine().probe.sd_mm.y * machine().probe.sd_mm.y / (c.summary.u * c.summary.u);
+  const double expected = 2 * machine().probe.sd_mm.y * machine().probe.sd_mm.y / (c.summary.u * c.summary.u);
   CHECK(std::fabs(c.contributions[2].share / expected - 1) <= 4 * std::hypot(0.032, 0.022));
 }
 
@@ -93,8 +91,7 @@ TEST_CASE("threads change no bit of a study") {
   const Study a = run_study(length_plan(), machine(), one, length_source());
   const Study b = run_study(length_plan(), machine(), few(150), length_source());
   CHECK(a.result.samples[0].value == b.result.samples[0].value);
-  CHECK(a.report.characteristics[0].contributions[0].share ==
-        b.report.characteristics[0].contributions[0].share);
+  CHECK(a.report.characteristics[0].contributions[0].share == b.report.characteristics[0].contributions[0].share);
 }
 
 TEST_CASE("an adaptive study continues where a fixed one ends, and says when it gives up") {
@@ -106,8 +103,7 @@ TEST_CASE("an adaptive study continues where a fixed one ends, and says when it 
   REQUIRE(study.result.machines == 2 * kBlockMachines);
   CHECK(study.report.machines.used == 2 * kBlockMachines);
   CHECK(std::is_sorted(study.candidates.begin(), study.candidates.end()));
-  CHECK(std::adjacent_find(study.candidates.begin(), study.candidates.end()) ==
-        study.candidates.end());
+  CHECK(std::adjacent_find(study.candidates.begin(), study.candidates.end()) == study.candidates.end());
   CHECK(all.machine.front() == 0);
   CHECK(all.machine.back() == 2 * kBlockMachines - 1);
 
@@ -129,16 +125,15 @@ TEST_CASE("a characteristic that next to no machine reaches is lost, with the re
   b.append(plan::Obtain{y, p, plan::Quantity::y});
   // Every machine with an error loops without end; only the error-free one reads exactly 400.
   const int loop = static_cast<int>(b.plan.operations.size());
-  b.append(plan::JumpUnless{{plan::PushColumn{y}, plan::PushConstant{400}, plan::Op2::subtract,
-                             plan::Op1::abs, plan::PushConstant{1e-9}, plan::Op2::less},
+  b.append(plan::JumpUnless{{plan::PushColumn{y}, plan::PushConstant{400}, plan::Op2::subtract, plan::Op1::abs,
+                             plan::PushConstant{1e-9}, plan::Op2::less},
                             loop});
   b.evaluate({p, p}, "DISTB", distance());
   const Study study = run_study(b.plan, machine(), few(5), length_source());
   CHECK(study.report.characteristics.empty());
   REQUIRE(study.report.lost.size() == 1);
   CHECK(study.report.lost[0].feature == "F0, F0");
-  CHECK(study.report.lost[0].reason.starts_with(
-      "0 of 5 machines reached it; the first stopped at line"));
+  CHECK(study.report.lost[0].reason.starts_with("0 of 5 machines reached it; the first stopped at line"));
   CHECK(study.report.traps.size() == 5);
 }
 
@@ -162,15 +157,15 @@ TEST_CASE("an effect left in shifts the mean, corrected it leaves only its uncer
   CHECK(std::fabs(corrected.summary.mean - without.summary.mean) < 4 * 0.001 / std::sqrt(400));
   CHECK(corrected.summary.u > without.summary.u);
   CHECK(left_in.contributions.back().name == "probe.tip_radius");
-  CHECK(left_in.contributions.back().share ==
-        doctest::Approx(corrected.contributions.back().share).epsilon(1e-9));
+  CHECK(left_in.contributions.back().share == doctest::Approx(corrected.contributions.back().share).epsilon(1e-9));
 }
 
 TEST_CASE("an effect that moves no touch is told, and no influence counts as modelled by it") {
   Machine with = machine();
   with.effects = {{"thermal.part_expansion", {{"cte_error_ppm_per_K", {5, 1, ""}}}},  // at 20 degrees C
                   {"probe.tip_radius", {{"amplitude_um", {2, 0, ""}}}},
-                  {"machine.scale", {{"scale_um_per_m", {10, 1, ""}}, {"axis", {0, 0, "x"}}}}};  // the length lies along y
+                  // the length lies along y
+                  {"machine.scale", {{"scale_um_per_m", {10, 1, ""}}, {"axis", {0, 0, "x"}}}}};
   StudyOptions options = few(400);
   const auto idle = [&] {
     std::vector<std::string> told;

@@ -40,13 +40,11 @@ RunReport report() {
   r.cycle_time_s = 191.6;
   r.machines = {2711, 1640, 71, 1000};
   r.characteristics = {length()};
-  r.influences = {
-      {"geometry", "modelled"}, {"part temperature", "not modelled"}, {"operator", "not modelled"}};
+  r.influences = {{"geometry", "modelled"}, {"part temperature", "not modelled"}, {"operator", "not modelled"}};
   r.lost = {{77, "BORE", "the statement has errors"}};
   r.traps = {{3, 10, 84, "no points"}, {8, 10, 84, "no points"}, {9, 4, 12, "endless loop"}};
-  r.messages = {
-      diagnostic(Code::W0416, "only 36.9 % pass", "see `abbe machine screen`"),
-      diagnostic_at(SourceFile("block.dmi", "FOO/1\n"), {0, 3}, Code::E0604, "about a place")};
+  r.messages = {diagnostic(Code::W0416, "only 36.9 % pass", "see `abbe machine screen`"),
+                diagnostic_at(SourceFile("block.dmi", "FOO/1\n"), {0, 3}, Code::E0604, "about a place")};
   return r;
 }
 
@@ -71,9 +69,8 @@ TEST_CASE("writers are found by name") {
 
 TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   const Json j = Json::parse(written("json", report()));
-  const std::vector<std::string> published{"schema",     "program",  "machine",         "seed",
-                                           "version",    "machines", "characteristics", "lost",
-                                           "influences", "messages"};
+  const std::vector<std::string> published{"schema",   "program",         "machine", "seed",       "version",
+                                           "machines", "characteristics", "lost",    "influences", "messages"};
   std::vector<std::string> found = keys(j);
   std::erase_if(found, [&](const std::string& key) {
     return std::find(published.begin(), published.end(), key) == published.end();
@@ -82,42 +79,58 @@ TEST_CASE("JSON has the keys of schema abbe.run/1 in order") {
   CHECK(j["schema"] == "abbe.run/1");
   CHECK(j["seed"] == 7);
   CHECK(j["cycle_time_s"] == 191.6);
-  CHECK(j["machines"] == Json{{"used", 1000},
-                              {"generated", 2711},
-                              {"failed_mpe", 1640},
-                              {"too_small", 71},
-                              {"share_accepted", 1000.0 / 2711}});
+  CHECK(j["machines"] ==
+        Json{{"used", 1000},
+             {"generated", 2711},
+             {"failed_mpe", 1640},
+             {"too_small", 71},
+             {"share_accepted", 1000.0 / 2711}});
   const Json& c = j["characteristics"][0];
-  CHECK(keys(c) == std::vector<std::string>{
-                       "feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal",
-                       "reference", "mean", "u", "lcl", "ucl", "interval95", "monte_carlo_error",
-                       "tolerance_limits", "conformance_probability", "decision", "contributions", "trapped",
-                       "evaluated"});
+  CHECK(keys(c) ==
+        std::vector<std::string>{"feature",
+                                 "tolerance",
+                                 "kind",
+                                 "unit",
+                                 "line",
+                                 "occurrence",
+                                 "nominal",
+                                 "reference",
+                                 "mean",
+                                 "u",
+                                 "lcl",
+                                 "ucl",
+                                 "interval95",
+                                 "monte_carlo_error",
+                                 "tolerance_limits",
+                                 "conformance_probability",
+                                 "decision",
+                                 "contributions",
+                                 "trapped",
+                                 "evaluated"});
   CHECK(c["feature"] == Json{"END1", "END2"});
   CHECK(c["u"] == 0.00203);
-  CHECK(c["interval95"] ==
-        Json{{"symmetric", {499.996, 500.0042}}, {"shortest", {499.9961, 500.0041}}});
-  CHECK(c["monte_carlo_error"] ==
-        Json{{"mean", 6.4e-5}, {"u", 4.5e-5}, {"lcl", 1.7e-4}, {"ucl", 1.8e-4}});
+  CHECK(c["interval95"] == Json{{"symmetric", {499.996, 500.0042}}, {"shortest", {499.9961, 500.0041}}});
+  CHECK(c["monte_carlo_error"] == Json{{"mean", 6.4e-5}, {"u", 4.5e-5}, {"lcl", 1.7e-4}, {"ucl", 1.8e-4}});
   CHECK(c["tolerance_limits"] == Json{499.99, 500.01});
-  CHECK(c["decision"] == Json{{"rule", "ISO 14253-1:2017"},
-                              {"probability", 0.95},
-                              {"guard_band", 0.0034},
-                              {"acceptance_limits", {499.9934, 500.0066}},
-                              {"verdict", "conforms"},
-                              {"tolerance_to_uncertainty", 4.878}});
+  CHECK(c["decision"] ==
+        Json{{"rule", "ISO 14253-1:2017"},
+             {"probability", 0.95},
+             {"guard_band", 0.0034},
+             {"acceptance_limits", {499.9934, 500.0066}},
+             {"verdict", "conforms"},
+             {"tolerance_to_uncertainty", 4.878}});
   CHECK(c["contributions"] == Json{{"geometry", 0.62}, {"head", 0.0}, {"probe", 0.38}});
-  CHECK(j["lost"][0] ==
-        Json{{"line", 77}, {"feature", "BORE"}, {"reason", "the statement has errors"}});
+  CHECK(j["lost"][0] == Json{{"line", 77}, {"feature", "BORE"}, {"reason", "the statement has errors"}});
   CHECK(j["influences"][1] == Json{{"name", "part temperature"}, {"status", "not modelled"}});
   CHECK(j["traps"].size() == 3);
   CHECK(j["traps"][2] == Json{{"machine", 9}, {"line", 12}, {"reason", "endless loop"}});
-  CHECK(j["messages"][0] == Json{{"code", "W0416"},
-                                 {"severity", "warning"},
-                                 {"line", nullptr},
-                                 {"column", nullptr},
-                                 {"message", "only 36.9 % pass"},
-                                 {"help", "see `abbe machine screen`"}});
+  CHECK(j["messages"][0] ==
+        Json{{"code", "W0416"},
+             {"severity", "warning"},
+             {"line", nullptr},
+             {"column", nullptr},
+             {"message", "only 36.9 % pass"},
+             {"help", "see `abbe machine screen`"}});
   CHECK(j["messages"][1]["line"] == 1);
   CHECK(j["messages"][1]["column"] == 1);
 }
@@ -138,50 +151,49 @@ TEST_CASE("JSON never holds NaN or bytes that are not UTF-8") {
 }
 
 TEST_CASE("the text report reads at a glance") {
-  CHECK(written("text", report()) ==
-        "block.dmi\n"
-        "machine coord3-mc16: 1000 virtual machines used of 2711 generated (36.9 % accepted), seed "
-        "7\n"
-        "estimated cycle time 3 min 12 s\n"
-        "\n"
-        "line  feature     tolerance    unit     value       u      LCL      UCL     lower     "
-        "upper  conforms  geometry  head  probe\n"
-        "  41  END1, END2  LEN (DISTB)  mm    500.0000  0.0020  -0.0040  +0.0042  499.9900  "
-        "500.0100    99.8 %      62 %   0 %   38 %\n"
-        "\n"
-        "value: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
-        "and 97.5 %) minus value;\n"
-        "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of "
-        "the variance.\n"
-        "Monte Carlo error of u: 2.2 % (standard error, the largest of the table).\n"
-        "\n"
-        "line  feature     tolerance    unit     value  accepted              verdict   T/U\n"
-        "  41  END1, END2  LEN (DISTB)  mm    500.0000  499.9934 to 500.0066  conforms  4.9\n"
-        "\n"
-        "accepted: the values that prove conformity by ISO 14253-1:2017 (95 %), the tolerance limits less a guard band from the simulated\n"
-        "errors; verdict: on the value; T/U: tolerance over expanded uncertainty (half of the 95 % interval).\n"
-        "\n"
-        "1 of 1000 machines stopped at line 12: endless loop\n"
-        "2 of 1000 machines stopped at line 84: no points\n"
-        "lost: line 77: BORE: the statement has errors\n"
-        "warning W0416: only 36.9 % pass\n"
-        "  help: see `abbe machine screen`\n"
-        "Not modelled: part temperature, operator.\n");
+  CHECK(
+      written("text", report()) ==
+      "block.dmi\n"
+      "machine coord3-mc16: 1000 virtual machines used of 2711 generated (36.9 % accepted), seed "
+      "7\n"
+      "estimated cycle time 3 min 12 s\n"
+      "\n"
+      "line  feature     tolerance    unit     value       u      LCL      UCL     lower     "
+      "upper  conforms  geometry  head  probe\n"
+      "  41  END1, END2  LEN (DISTB)  mm    500.0000  0.0020  -0.0040  +0.0042  499.9900  "
+      "500.0100    99.8 %      62 %   0 %   38 %\n"
+      "\n"
+      "value: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
+      "and 97.5 %) minus value;\n"
+      "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of "
+      "the variance.\n"
+      "Monte Carlo error of u: 2.2 % (standard error, the largest of the table).\n"
+      "\n"
+      "line  feature     tolerance    unit     value  accepted              verdict   T/U\n"
+      "  41  END1, END2  LEN (DISTB)  mm    500.0000  499.9934 to 500.0066  conforms  4.9\n"
+      "\n"
+      "accepted: the values that prove conformity by ISO 14253-1:2017 (95 %), the tolerance limits less a guard band from the simulated\n"
+      "errors; verdict: on the value; T/U: tolerance over expanded uncertainty (half of the 95 % interval).\n"
+      "\n"
+      "1 of 1000 machines stopped at line 12: endless loop\n"
+      "2 of 1000 machines stopped at line 84: no points\n"
+      "lost: line 77: BORE: the statement has errors\n"
+      "warning W0416: only 36.9 % pass\n"
+      "  help: see `abbe machine screen`\n"
+      "Not modelled: part temperature, operator.\n");
 }
 
 TEST_CASE("a bounded influence shows its bound and who stated it") {
   RunReport r = report();
   r.influences[1] = {"part temperature", "bounded", 0.35, "climate log"};
   const Json influences = Json::parse(written("json", r))["influences"];
-  CHECK(influences[1] == Json{{"name", "part temperature"},
-                              {"status", "bounded"},
-                              {"at_most_um", 0.35},
-                              {"source", "climate log"}});
+  CHECK(influences[1] ==
+        Json{{"name", "part temperature"}, {"status", "bounded"}, {"at_most_um", 0.35}, {"source", "climate log"}});
   CHECK(!influences[0].contains("at_most_um"));
   const std::string text = written("text", r);
-  CHECK(text.ends_with(
-      "Bounded, not in u: part temperature, at most 0.35 um at a touch (climate log).\n"
-      "Not modelled: operator.\n"));
+  CHECK(
+      text.ends_with("Bounded, not in u: part temperature, at most 0.35 um at a touch (climate log).\n"
+                     "Not modelled: operator.\n"));
 }
 
 TEST_CASE("an interval of another coverage is shown when it was asked for") {
@@ -213,13 +225,13 @@ TEST_CASE("a page shows the table and the distribution of each characteristic") 
   CHECK(page.find("END1, END2: LEN (DISTB)") != std::string::npos);
   CHECK(page.find("99.8 %") != std::string::npos);
   CHECK(count("<svg") == 1);
-  CHECK(count("fill-opacity=\"0.75\"") == 3);   // bars whose middle is between LCL and UCL
+  CHECK(count("fill-opacity=\"0.75\"") == 3);  // bars whose middle is between LCL and UCL
   CHECK(count("fill-opacity=\"0.3\"") == 2);
-  CHECK(count("stroke-dasharray") == 2);         // both tolerance limits, 10 um away
+  CHECK(count("stroke-dasharray") == 2);  // both tolerance limits, 10 um away
   CHECK(page.find("lost: line 77: BORE") != std::string::npos);
   CHECK(page.find("part temperature") != std::string::npos);
   CHECK(page.find("<script") == std::string::npos);
-  r.characteristics[0].lower = 490;              // too far away to be drawn
+  r.characteristics[0].lower = 490;  // too far away to be drawn
   const std::string far = written("html", r);
   CHECK(far.find("stroke-dasharray") == far.rfind("stroke-dasharray"));
   r.characteristics.clear();

@@ -1,4 +1,5 @@
-// Programs whose path depends on measured values: machines part and meet again, and each must get exactly what it gets alone.
+// Programs whose path depends on measured values: machines part and meet again, and each must get exactly
+// what it gets alone.
 #include <doctest/doctest.h>
 
 #include "engine/lanes/random.hpp"
@@ -10,8 +11,9 @@ using namespace abbe::test;
 
 namespace {
 
-/// A random program: measures points and, wherever a measured coordinate differs from its nominal by more or less than a random
-/// threshold of the size of the errors, measures other points, builds another coordinate system or loops back.
+/// A random program: measures points and, wherever a measured coordinate differs from its nominal by more or
+/// less than a random threshold of the size of the errors, measures other points, builds another coordinate
+/// system or loops back.
 Plan random_program(std::uint32_t number) {
   std::uint32_t next = 0;
   const auto uniform = [&] { return uniform_pair({number, 0, stream_of("random program"), 0, 0, next++}).a; };
@@ -116,7 +118,8 @@ TEST_CASE("an endless loop ends in a message, not in a hang") {
 }
 
 TEST_CASE("a machine that cannot go on is trapped and counted; the others go on") {
-  // Division by (y - reference) where the reference machine has y = 400 exactly: only a machine whose column is negative fails.
+  // Division by (y - reference) where the reference machine has y = 400 exactly: only a machine whose column
+  // is negative fails.
   PlanBuilder b;
   b.append(SelectSensor{b.sensor(0, 0, 100)});
   const FeatureId p = b.point({800, 400, -500}, {0, -1, 0});

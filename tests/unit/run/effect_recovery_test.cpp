@@ -1,5 +1,5 @@
-// Every effect of the registry is found again by its own sensitivity: a recording with the effect at one size is explained, by least
-// squares, by the change that a small size makes. What simulates is what diagnoses.
+// Every effect of the registry is found again by its own sensitivity: a recording with the effect at one size
+// is explained, by least squares, by the change that a small size makes. What simulates is what diagnoses.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -14,7 +14,8 @@ namespace {
 /// Two stylus systems in four orientations at three heights, each touching a ball all round, at two speeds.
 plan::Plan rich_program() {
   PlanBuilder b;
-  const std::vector<plan::SensorId> sensors{b.sensor(0, 0, 60), b.sensor(45, 60, 120), b.sensor(90, -30, 120), b.sensor(0, 90, 60)};
+  const std::vector<plan::SensorId> sensors{b.sensor(0, 0, 60), b.sensor(45, 60, 120), b.sensor(90, -30, 120),
+                                            b.sensor(0, 90, 60)};
   for (std::size_t s = 0; s < sensors.size(); ++s) {
     b.append(plan::SelectSensor{sensors[s]});
     b.append(plan::SetMotion{plan::MotionSetting::measuring_speed, s % 2 ? 3.0 : 8.0, false});
@@ -35,7 +36,9 @@ std::vector<double> errors(const Effect& effect, double size) {
   static const plan::Plan plan = rich_program();
   static const Machine plain = read_machine("coord3-mc16");
   static const VirtualMachines one = screened_machines(plain, 1, 1, 1);
-  static const Workpiece warm = parse_workpiece(SourceFile("warm.json", R"({"schema": "abbe.workpiece/1", "name": "warm", "material": {"cte_ppm_per_K": 11.5}, "scales": {"cte_ppm_per_K": 8},
+  static const Workpiece warm = parse_workpiece(SourceFile(
+      "warm.json",
+      R"({"schema": "abbe.workpiece/1", "name": "warm", "material": {"cte_ppm_per_K": 11.5}, "scales": {"cte_ppm_per_K": 8},
       "temperature": {"part_C": 23, "scale_C": 22, "air_C": 24, "table_top_minus_bottom_K": 0.4, "bridge_gradient_K": 0.3,
       "legs_difference_K": 0.2}, "load_kg": 200})"));
   Machine machine = plain;
@@ -45,7 +48,8 @@ std::vector<double> errors(const Effect& effect, double size) {
   RunOptions options;
   options.workpiece = &warm;
   std::vector<double> r;
-  for (const RecordingRow& row : record_plan(plan, machine, one, options, no_source()).recording.rows) r.push_back(dot(*row.normal, row.position_mm - *row.target_mm));
+  for (const RecordingRow& row : record_plan(plan, machine, one, options, no_source()).recording.rows)
+    r.push_back(dot(*row.normal, row.position_mm - *row.target_mm));
   return r;
 }
 
@@ -55,9 +59,11 @@ TEST_CASE("every effect is found again by its own sensitivity run") {
   for (const Effect* effect : effects()) {
     CAPTURE(effect->name);
     const EffectParameter& size = effect->parameters[0];
-    if (!size.linear) continue;  // a ratio or a share: it changes the noise, and a small one is not a tenth of a large one
+    // a ratio or a share: it changes the noise, and a small one is not a tenth of a large one
+    if (!size.linear) continue;
     const double truth = size.typical, step = size.typical / 10;
-    const std::vector<double> without = errors(*effect, 0), with = errors(*effect, truth), perturbed = errors(*effect, step);
+    const std::vector<double> without = errors(*effect, 0), with = errors(*effect, truth),
+                              perturbed = errors(*effect, step);
     double sensitivity_sq = 0, projection = 0, rest_sq = 0;
     for (std::size_t i = 0; i < with.size(); ++i) {
       const double s = (perturbed[i] - without[i]) / step;

@@ -52,7 +52,8 @@ Machine with(std::vector<EffectSetting> effects) {
 }
 
 bool has_linear(const Effect& effect) {
-  return std::any_of(effect.parameters.begin(), effect.parameters.end(), [](const EffectParameter& p) { return p.linear; });
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                     [](const EffectParameter& p) { return p.linear; });
 }
 
 /// The effect with its sizes at `share` of what is typical.
@@ -84,12 +85,13 @@ TEST_CASE("what an effect adds does not depend on the effects beside it") {
     CAPTURE(all[j]->name);
     const auto both = values(with({sized(*all[j], 1), sized(*all[i], 1)}));
     REQUIRE(both.size() == without.size());
-    for (std::size_t k = 0; k < both.size(); ++k) CHECK(std::fabs((both[k] - alone[j][k]) - (alone[i][k] - without[k])) < 1e-12);
+    for (std::size_t k = 0; k < both.size(); ++k)
+      CHECK(std::fabs((both[k] - alone[j][k]) - (alone[i][k] - without[k])) < 1e-12);
   };
   for (std::size_t i = 0; i < all.size(); ++i) check_pair(i, (i + 1) % all.size());
 
-  // One of each family and each way of drawing numbers, among those that act here, against every other: the rest need what this
-  // program does not have, a load, a temperature, a later time.
+  // One of each family and each way of drawing numbers, among those that act here, against every other: the
+  // rest need what this program does not have, a load, a temperature, a later time.
   std::vector<std::size_t> representatives;
   std::set<std::pair<std::string_view, DrawsPer>> seen;
   std::set<std::string_view> families;

@@ -27,8 +27,9 @@ EffectSetting setting_of(const Effect& effect, UncertainParameters uncertain) {
   EffectSetting setting{std::string(effect.name), {}};
   for (const EffectParameter& p : effect.parameters) {
     const double value = !p.is_code() ? 0.5 * (p.typical + p.standard) : p.standard;
-    const bool doubtful =
-        uncertain == UncertainParameters::everything ? !p.is_code() : uncertain == UncertainParameters::sizes && p.linear;
+    const bool doubtful = uncertain == UncertainParameters::everything
+        ? !p.is_code()
+        : uncertain == UncertainParameters::sizes && p.linear;
     const double u = doubtful ? 1e-3 * (p.high - p.low) : 0;
     setting.parameters[std::string(p.name)] = {std::clamp(value, p.low, p.high), u, ""};
   }
@@ -65,7 +66,7 @@ Case case_of(const TouchScene& scene, const std::vector<int>& lanes, const std::
     c.batch.visit[i] = m % 3;
     const int slot = static_cast<int>(i);
     c.batch.error.set(slot, {});
-    c.batch.surface.set(slot, {});   // where the part is does not matter, nor the size of the tip
+    c.batch.surface.set(slot, {});  // where the part is does not matter, nor the size of the tip
     c.batch.surface_normal.set(slot, scene.normal);
     c.batch.normal.set(slot, scene.normal);
     c.batch.radius[slot] = 0;
@@ -99,9 +100,9 @@ Vec3 plain(const EffectSet& set, int k, const EffectSet::LaneParameters& drawn, 
   }
   for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(effect.draws); ++j) {
     const std::uint32_t m = c.batch.machine[slot];
-    z.push_back(effect.draws_per == DrawsPer::machine ? drawn.machine_draws[k][j * width + lane]
-                : effect.draws_per == DrawsPer::visit ? draw(effect, m, kVisitSite, c.group.indexings[slot], j)
-                                                      : draw(effect, m, kSite, c.batch.visit[slot], j));
+    z.push_back(effect.draws_per == DrawsPer::machine     ? drawn.machine_draws[k][j * width + lane]
+                    : effect.draws_per == DrawsPer::visit ? draw(effect, m, kVisitSite, c.group.indexings[slot], j)
+                                                          : draw(effect, m, kSite, c.batch.visit[slot], j));
   }
   const Vec3 d = effect.displace(scene, theta.data(), z.data());
   const bool subtract = taken_out && effect.draws_per == DrawsPer::none;
@@ -143,7 +144,8 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
     for (int slot = 0; slot < all.batch.n; ++slot) {
       const Vec3 others = total[slot];
       for (int k = 0; k < set.size(); ++k)
-        if (sees_reading(set.effect(k))) total[slot] += plain(set, k, drawn, all, slot, use == EffectUse::corrected ? &settings[k] : nullptr, others);
+        if (sees_reading(set.effect(k)))
+          total[slot] += plain(set, k, drawn, all, slot, use == EffectUse::corrected ? &settings[k] : nullptr, others);
     }
     for (int slot = 0; slot < all.batch.n; ++slot)
       CHECK(norm(all.batch.error.get(slot) - total[slot]) <= 1e-15 * std::fmax(1, 10 * largest));
@@ -153,8 +155,10 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
 }  // namespace
 
 TEST_CASE("effect set: every effect is what displace() says, lane by lane") {
-  const std::vector<int> together = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, middle = {4, 5, 6}, scattered = {0, 3, 4, 7, 10}, one = {9};
-  for (const UncertainParameters uncertain : {UncertainParameters::nothing, UncertainParameters::sizes, UncertainParameters::everything})
+  const std::vector<int> together = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, middle = {4, 5, 6},
+                         scattered = {0, 3, 4, 7, 10}, one = {9};
+  for (const UncertainParameters uncertain :
+       {UncertainParameters::nothing, UncertainParameters::sizes, UncertainParameters::everything})
     for (const EffectUse use : {EffectUse::left_in, EffectUse::corrected})
       for (const auto* lanes : {&together, &middle, &scattered, &one}) {
         CAPTURE(static_cast<int>(uncertain));
@@ -213,7 +217,8 @@ TEST_CASE("effect set: two settings of one effect draw their own numbers, and th
     EffectSetting setting = setting_of(*find_effect(name), UncertainParameters::sizes);
     setting.parameters["axis"] = {0, 0, "x"};
     if (setting.name != "machine.scale") setting.parameters.erase("axis");
-    const Columns3 alone = errors({setting}, 0), first = errors({setting, setting}, 0), second = errors({setting, setting}, 1);
+    const Columns3 alone = errors({setting}, 0), first = errors({setting, setting}, 0),
+                   second = errors({setting, setting}, 1);
     for (const int i : lanes) {
       CHECK(first.get(i) == alone.get(i));
       CHECK(norm(second.get(i) - first.get(i)) > 0);
@@ -223,7 +228,8 @@ TEST_CASE("effect set: two settings of one effect draw their own numbers, and th
 
 TEST_CASE("effect set: an effect acts once it moves a touch along its normal") {
   const auto machines = machines_from(100, kMachines);
-  const EffectSet set({{"machine.scale", {{"axis", {0, 0, "x"}}, {"scale_um_per_m", {10, 0, ""}}}}}, EffectUse::left_in, "test");
+  const EffectSet set({{"machine.scale", {{"axis", {0, 0, "x"}}, {"scale_um_per_m", {10, 0, ""}}}}}, EffectUse::left_in,
+                      "test");
   const auto acted = [&](EffectSet::Acted before, const Vec3& normal) {
     Case c = case_of({}, {0, 1}, machines);
     c.scene.reading = {500, 500, 500};

@@ -32,7 +32,8 @@ Arguments coordinate(const char* axis) {
 }
 
 /// Measures the feature at points with normals, relative to kPart.
-plan::FeatureId measured(PlanBuilder& b, Shape shape, Element nominal, const std::vector<std::pair<Vec3, Vec3>>& touches,
+plan::FeatureId measured(PlanBuilder& b, Shape shape, Element nominal,
+                         const std::vector<std::pair<Vec3, Vec3>>& touches,
                          FitCriterion criterion = FitCriterion::least_squares) {
   nominal.point += kPart;
   const plan::FeatureId id = b.feature(shape, nominal);
@@ -114,13 +115,15 @@ TEST_CASE("criteria, profile and run-out see the touches themselves") {
   b.evaluate({inscribed}, "DIAM", limits(-1, 1));
   const auto around = measured(b, Shape::circle, hub, round, FitCriterion::minimum_circumscribed);
   b.evaluate({around}, "DIAM", limits(-1, 1));
-  const auto datum = measured(b, Shape::circle, hub, {{{10, 0, 0}, {1, 0, 0}}, {{0, 10, 0}, {0, 1, 0}}, {{-10, 0, 0}, {-1, 0, 0}}});
+  const auto datum =
+      measured(b, Shape::circle, hub, {{{10, 0, 0}, {1, 0, 0}}, {{0, 10, 0}, {0, 1, 0}}, {{-10, 0, 0}, {-1, 0, 0}}});
   Arguments about = zone(0.1);
   about.add_feature("datum", datum.value);
   b.evaluate({around}, "CRNOUT", about);
   b.evaluate({around}, "PROFS", limits(-0.1, 0.1));
   const RunResult r = run(b.plan, 20);
-  // Inside, three touches at 10 and one at 10.04: the circle through (0, +-10) and the near side may move by 0.02 to the far one.
+  // Inside, three touches at 10 and one at 10.04: the circle through (0, +-10) and the near side may move by
+  // 0.02 to the far one.
   CHECK(r.samples[0].reference.value() == Approx(20.0).epsilon(1e-5));
   CHECK(r.samples[0].reference.value() >= 20.0);
   CHECK(r.samples[1].reference.value() == Approx(20.04).epsilon(1e-9));
@@ -161,8 +164,10 @@ TEST_CASE("the uncertainty of a 3-2-1 alignment is that of the closed form") {
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
   const Vec3 up{0, 0, 1}, front{0, -1, 0}, left{-1, 0, 0};
-  const auto face = measured(b, Shape::plane, {.point = {}, .direction = up}, {{{0, 0, 0}, up}, {{L, 0, 0}, up}, {{0, L, 0}, up}});
-  const auto edge = measured(b, Shape::line, {.point = {0, 0, depth}, .direction = {1, 0, 0}}, {{{0, 0, depth}, front}, {{L, 0, depth}, front}});
+  const auto face =
+      measured(b, Shape::plane, {.point = {}, .direction = up}, {{{0, 0, 0}, up}, {{L, 0, 0}, up}, {{0, L, 0}, up}});
+  const auto edge = measured(b, Shape::line, {.point = {0, 0, depth}, .direction = {1, 0, 0}},
+                             {{{0, 0, depth}, front}, {{L, 0, depth}, front}});
   const auto stop = measured(b, Shape::point, {.point = {0, yc, depth}, .direction = left}, {{{0, yc, depth}, left}});
   b.plan.frames.push_back({"PART", {}});
   plan::SetDatumFrame set{{0}, {}};

@@ -61,9 +61,19 @@ TEST_CASE("a feature lives as long as anything names it") {
   b.plan.tolerances.push_back({"D", find_tolerance_kind("CORTOL"), datum, {}});
   b.plan.characteristics.push_back({{second}, {2}, {}, 0, {}});
   b.plan.characteristics.push_back({{second}, {1}, {}, 0, {{first, {0}, Condition::maximum_material}}});
-  const Action uses[] = {BeginMeasure{first}, EndMeasure{first}, Construct{second, nullptr, {first}, {}}, Construct{first, nullptr, {}, {}},
-                         SetDatumFrame{{0}, {axis}}, TranslateFrame{{0}, {OriginShift{Axis::x, first, {}}}}, RotateFrame{{0}, Axis::z, first, {}, {}},
-                         Evaluate{{0}}, Evaluate{{2}}, Evaluate{{3}}, Output{{first}, {}}, Obtain{{0}, first}, ObtainDisplacement{{0}, first}};
+  const Action uses[] = {BeginMeasure{first},
+                         EndMeasure{first},
+                         Construct{second, nullptr, {first}, {}},
+                         Construct{first, nullptr, {}, {}},
+                         SetDatumFrame{{0}, {axis}},
+                         TranslateFrame{{0}, {OriginShift{Axis::x, first, {}}}},
+                         RotateFrame{{0}, Axis::z, first, {}, {}},
+                         Evaluate{{0}},
+                         Evaluate{{2}},
+                         Evaluate{{3}},
+                         Output{{first}, {}},
+                         Obtain{{0}, first},
+                         ObtainDisplacement{{0}, first}};
   for (const Action& use : uses) {
     CAPTURE(use.index());
     PlanBuilder used = b;

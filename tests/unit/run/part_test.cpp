@@ -14,8 +14,7 @@ using namespace abbe::test;
 namespace {
 
 Workpiece workpiece(const std::string& members) {
-  return parse_workpiece(
-      SourceFile("w.json", R"({"schema": "abbe.workpiece/1", "name": "w", )" + members + "}"));
+  return parse_workpiece(SourceFile("w.json", R"({"schema": "abbe.workpiece/1", "name": "w", )" + members + "}"));
 }
 
 Arguments nominal_zero() {
@@ -51,8 +50,7 @@ plan::Plan circle(bool inner) {
   b.append(plan::BeginMeasure{id});
   for (int k = 0; k < 12; ++k) {
     const Vec3 out{std::cos(k * kPi / 6), std::sin(k * kPi / 6), 0};
-    b.append(
-        plan::Touch{id, constant(nominal.point + 20 * out), constant(inner ? -out : out), true});
+    b.append(plan::Touch{id, constant(nominal.point + 20 * out), constant(inner ? -out : out), true});
   }
   b.append(plan::EndMeasure{id});
   b.evaluate({id}, "DIAM", nominal_zero());
@@ -100,8 +98,7 @@ std::string faults(const plan::Plan& plan, const Workpiece& w) {
 }  // namespace
 
 TEST_CASE("a steel part of 500 mm is 5.75 um longer at 21 degrees C") {
-  const Workpiece warm =
-      workpiece(R"("material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 21})");
+  const Workpiece warm = workpiece(R"("material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 21})");
   const RunResult r = run(length(), warm, 3);
   CHECK(r.samples[0].reference.value() == doctest::Approx(500).epsilon(1e-14));
   for (const double v : r.samples[0].value) CHECK(std::fabs(v - 500.00575) < 1e-9);
@@ -127,8 +124,7 @@ TEST_CASE("compensation removes the expansion and leaves what it does not know")
   CHECK(std::fabs(compensated.mean - 500) < 6 * u_mm / std::sqrt(n));
   CHECK(std::fabs(compensated.sd / u_mm - 1) < 6 / std::sqrt(2.0 * n));
   const double expansion_mm = 500 * 11.5e-6 * 5, u_off_mm = 500 * 5 * 0.5e-6;
-  CHECK(std::fabs(moments(lengths(off, n)).mean - 500 - expansion_mm) <
-        6 * u_off_mm / std::sqrt(n));
+  CHECK(std::fabs(moments(lengths(off, n)).mean - 500 - expansion_mm) < 6 * u_off_mm / std::sqrt(n));
   // TECOMP of the program wins over the file.
   CHECK(run(length(true), off, 5).samples[0].value == run(length(), on, 5).samples[0].value);
   CHECK(run(length(false), on, 5).samples[0].value == run(length(), off, 5).samples[0].value);
@@ -148,34 +144,31 @@ TEST_CASE("the reference is the true value, and machines add what is not known o
 TEST_CASE("a diameter is the same for a bore and a shaft") {
   for (const bool inner : {false, true}) {
     CAPTURE(inner);
-    CHECK(run(circle(inner), workpiece(R"("surfaces": {"F0": {"diameter_mm": 40.01}})"), 1)
-              .samples[0]
-              .reference == doctest::Approx(40.01).epsilon(1e-12));
-    CHECK(run(circle(inner), workpiece(R"("surfaces": {"F0": {"diameter_deviation_um": -4}})"), 1)
-              .samples[0]
-              .reference == doctest::Approx(39.996).epsilon(1e-12));
-    CHECK(run(circle(inner), workpiece(R"("surfaces": {"F0": {"offset_um": 1}})"), 1)
-              .samples[0]
-              .reference == doctest::Approx(inner ? 39.998 : 40.002).epsilon(1e-12));
+    CHECK(run(circle(inner), workpiece(R"("surfaces": {"F0": {"diameter_mm": 40.01}})"), 1).samples[0].reference ==
+          doctest::Approx(40.01).epsilon(1e-12));
+    CHECK(
+        run(circle(inner), workpiece(R"("surfaces": {"F0": {"diameter_deviation_um": -4}})"), 1).samples[0].reference ==
+        doctest::Approx(39.996).epsilon(1e-12));
+    CHECK(run(circle(inner), workpiece(R"("surfaces": {"F0": {"offset_um": 1}})"), 1).samples[0].reference ==
+          doctest::Approx(inner ? 39.998 : 40.002).epsilon(1e-12));
   }
 }
 
 TEST_CASE("a known form is in the reference, an unknown one only in the machines") {
   // Three lobes with touches every 30 degrees: the touches meet crest and trough, so the roundness
   // is twice the amplitude.
-  const Workpiece known = workpiece(
-      R"("surfaces": {"F0": {"form": [{"undulations": 3, "amplitude_um": 2, "phase_deg": 0}]}})");
+  const Workpiece known =
+      workpiece(R"("surfaces": {"F0": {"form": [{"undulations": 3, "amplitude_um": 2, "phase_deg": 0}]}})");
   const RunResult a = run(circle(false), known, 3);
   CHECK(a.samples[1].reference.value() == doctest::Approx(0.004).epsilon(1e-6));
   for (const double v : a.samples[1].value) CHECK(v == doctest::Approx(0.004).epsilon(1e-6));
-  const Workpiece unknown = workpiece(
-      R"("surfaces": {"F0": {"form": [{"undulations": 3, "amplitude_um": 2, "phase_deg": "random"}]}})");
+  const Workpiece unknown =
+      workpiece(R"("surfaces": {"F0": {"form": [{"undulations": 3, "amplitude_um": 2, "phase_deg": "random"}]}})");
   const RunResult b = run(circle(false), unknown, 200);
   CHECK(b.samples[1].reference.value() < 1e-9);
   // Touches every 90 degrees of the wave meet at least cos 45 degrees of it; different machines
   // have different phases.
-  for (const double v : b.samples[1].value)
-    CHECK((v > 0.004 * std::sqrt(0.5) - 1e-7 && v < 0.004 + 1e-7));
+  for (const double v : b.samples[1].value) CHECK((v > 0.004 * std::sqrt(0.5) - 1e-7 && v < 0.004 + 1e-7));
   CHECK(b.samples[1].value[0] != b.samples[1].value[1]);
 }
 
@@ -189,11 +182,8 @@ TEST_CASE("a random form scatters like its standard deviation and belongs to the
   const plan::Plan plan = circle(false);
   const Part part(w, plan);
   const Part::Draw draw = part.draw({1, 0});
-  const PlaceOnPart at{{0},       {820, 500, -500}, {1, 0, 0}, plan.features[0].nominal,
-                       {1, 0, 0}, {0, 1, 0}};
-  const auto at_site = [&](std::uint32_t site) {
-    return part.error(draw, at, {}, {}, false, site);
-  };
+  const PlaceOnPart at{{0}, {820, 500, -500}, {1, 0, 0}, plan.features[0].nominal, {1, 0, 0}, {0, 1, 0}};
+  const auto at_site = [&](std::uint32_t site) { return part.error(draw, at, {}, {}, false, site); };
   CHECK(at_site(3) == at_site(3));
   CHECK(at_site(3) != at_site(4));
 }
@@ -201,24 +191,23 @@ TEST_CASE("a random form scatters like its standard deviation and belongs to the
 TEST_CASE("effects of the machine see the temperatures and the load of the workpiece") {
   Machine machine = read_machine("coord3-mc16");
   machine.effects.push_back({"thermal.part_expansion", {{"cte_error_ppm_per_K", {1, 0, ""}}}});
-  const Workpiece w =
-      workpiece(R"("material": {"cte_ppm_per_K": 0}, "temperature": {"part_C": 25})");
+  const Workpiece w = workpiece(R"("material": {"cte_ppm_per_K": 0}, "temperature": {"part_C": 25})");
   RunOptions options;
   options.contributors.geometry = options.contributors.head = options.contributors.probe = false;
   options.workpiece = &w;
-  const RunResult r =
-      run_plan(length(), machine, screened_machines(machine, 1, 2, 1), options, no_source());
+  const RunResult r = run_plan(length(), machine, screened_machines(machine, 1, 2, 1), options, no_source());
   // 1 ppm/K, 5 K, 500 mm.
   CHECK(r.samples[0].value[0] == doctest::Approx(500.0025).epsilon(1e-12));
 }
 
 TEST_CASE("effects of the machine see the temperatures that each virtual machine drew") {
-  // d = -(e (T - 20)) s over 500 mm along x, with e = 2 ppm/K and T = 22 +- 0.5 degrees C, and then with e +- 0.5 ppm/K too:
-  // var = L^2 [ (e u_T)^2 + (u_e (T - 20))^2 + (u_e u_T)^2 ], the product of two independent quantities.
+  // d = -(e (T - 20)) s over 500 mm along x, with e = 2 ppm/K and T = 22 +- 0.5 degrees C, and then with e +-
+  // 0.5 ppm/K too: var = L^2 [ (e u_T)^2 + (u_e (T - 20))^2 + (u_e u_T)^2 ], the product of two independent
+  // quantities.
   constexpr int kMany = 4000;
   constexpr double kLength_mm = 500, kE = 2e-6, kUE = 0.5e-6, kT = 2, kUT = 0.5;
-  const Workpiece w = workpiece(
-      R"("material": {"cte_ppm_per_K": 0}, "temperature": {"scale_C": {"value": 22, "u": 0.5}})");
+  const Workpiece w =
+      workpiece(R"("material": {"cte_ppm_per_K": 0}, "temperature": {"scale_C": {"value": 22, "u": 0.5}})");
   const auto run_with = [&](double u, EffectUse use, int block_lanes, bool part) {
     Machine machine = read_machine("coord3-mc16");
     machine.effects = {{"thermal.scale_expansion", {{"cte_error_ppm_per_K", {2, u, ""}}}}};
@@ -252,8 +241,7 @@ TEST_CASE("a logged temperature acts at the time of the touch") {
   RunOptions options;
   options.contributors.geometry = options.contributors.head = options.contributors.probe = false;
   const auto rows =
-      record_plan(length(), machine, screened_machines(machine, 1, 1, 1), options, no_source())
-          .recording.rows;
+      record_plan(length(), machine, screened_machines(machine, 1, 1, 1), options, no_source()).recording.rows;
   w.log.time_s = {*rows[0].time_s, *rows[1].time_s};
   w.log.temperature_C[TemperatureLog::part] = {20, 21};
   for (const double v : lengths(w, 2)) CHECK(v == doctest::Approx(500.005).epsilon(1e-12));
@@ -261,29 +249,24 @@ TEST_CASE("a logged temperature acts at the time of the touch") {
 
 TEST_CASE("surfaces that the program does not have, or that cannot have the size, are refused") {
   const Workpiece unknown = workpiece(R"("surfaces": {"F00": {"offset_um": 1}})");
-  CHECK(faults(length(), unknown).find("error E0423: the program measures no feature 'F00'") !=
-        std::string::npos);
+  CHECK(faults(length(), unknown).find("error E0423: the program measures no feature 'F00'") != std::string::npos);
   CHECK(faults(length(), unknown).find("did you mean 'F0'?") != std::string::npos);
   CHECK(faults(length(), workpiece(R"("surfaces": {"F0": {"diameter_mm": 5}})"))
             .find("error E0424: feature 'F0' is a POINT and has no diameter") != std::string::npos);
-  CHECK(
-      faults(
-          length(),
-          workpiece(
-              R"("surfaces": {"F0": {"form": [{"undulations": 2, "amplitude_um": 1, "phase_deg": 0}]}})"))
-          .find("no undulations") != std::string::npos);
+  CHECK(faults(length(),
+               workpiece(R"("surfaces": {"F0": {"form": [{"undulations": 2, "amplitude_um": 1, "phase_deg": 0}]}})"))
+            .find("no undulations") != std::string::npos);
   CHECK(faults(length(), workpiece(R"("surfaces": {"f0": {"offset_um": 1}})")).empty());
 }
 
 TEST_CASE("a recording has the temperatures and the load that the file gives, and no others") {
   static const Machine machine = read_machine("coord3-mc16");
-  const Workpiece w = workpiece(
-      R"("material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 21, "air_C": 19}, "load_kg": 30)");
+  const Workpiece w =
+      workpiece(R"("material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 21, "air_C": 19}, "load_kg": 30)");
   RunOptions options;
   options.workpiece = &w;
   const RecordingRow row =
-      record_plan(length(), machine, screened_machines(machine, 1, 1, 1), options, no_source())
-          .recording.rows.at(1);
+      record_plan(length(), machine, screened_machines(machine, 1, 1, 1), options, no_source()).recording.rows.at(1);
   CHECK(row.temp_part_C == 21);
   CHECK(row.temp_air_C == 19);
   CHECK(row.load_kg == 30);

@@ -7,7 +7,9 @@
 
 namespace abbe::test {
 
-inline plan::Point constant(const Vec3& v) { return {plan::Operand{v.x, {}}, plan::Operand{v.y, {}}, plan::Operand{v.z, {}}}; }
+inline plan::Point constant(const Vec3& v) {
+  return {plan::Operand{v.x, {}}, plan::Operand{v.y, {}}, plan::Operand{v.z, {}}};
+}
 
 /// Of a plan that no text was compiled to.
 inline const SourceFile& no_source() {
@@ -59,7 +61,8 @@ struct PlanBuilder {
     return id;
   }
   plan::CharacteristicId evaluate(std::vector<plan::FeatureId> features, std::string_view word, Arguments arguments) {
-    plan.tolerances.push_back({"T" + std::to_string(plan.tolerances.size()), find_tolerance_kind(word), std::move(arguments), {}});
+    plan.tolerances.push_back(
+        {"T" + std::to_string(plan.tolerances.size()), find_tolerance_kind(word), std::move(arguments), {}});
     plan.characteristics.push_back({std::move(features), {static_cast<int>(plan.tolerances.size()) - 1}, {}, 0, {}});
     const plan::CharacteristicId id{static_cast<int>(plan.characteristics.size()) - 1};
     append(plan::Evaluate{id});

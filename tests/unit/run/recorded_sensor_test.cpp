@@ -34,7 +34,8 @@ bool holds(const std::string& text, const char* part) { return text.find(part) !
 }  // namespace
 
 TEST_CASE("a sensor line says what a machine file says, and leaves out the same") {
-  const NamedSensor s = sensor_read("head_deg 90 -90 tip_in_r_mm 1 2 -100 diameter_mm 4 shaft_diameter_mm 1.5 young_GPa 200 cte_ppm_per_K -0.4");
+  const NamedSensor s = sensor_read(
+      "head_deg 90 -90 tip_in_r_mm 1 2 -100 diameter_mm 4 shaft_diameter_mm 1.5 young_GPa 200 cte_ppm_per_K -0.4");
   CHECK(s.head_a_rad == doctest::Approx(kPi / 2));
   CHECK(s.head_b_rad == doctest::Approx(-kPi / 2));
   CHECK(s.tip_in_r_mm == Vec3{1, 2, -100});
@@ -44,7 +45,7 @@ TEST_CASE("a sensor line says what a machine file says, and leaves out the same"
   CHECK(s.cte_ppm_per_K == -0.4);
   const NamedSensor usual = sensor_read("diameter_mm 4 tip_in_r_mm 0 0 -100");
   CHECK(usual.head_a_rad == 0);
-  CHECK(usual.shaft_diameter_mm == 2);   // half as thick as the ball, of tungsten carbide
+  CHECK(usual.shaft_diameter_mm == 2);  // half as thick as the ball, of tungsten carbide
   CHECK(usual.young_GPa == 620);
   CHECK(usual.cte_ppm_per_K == 5);
 }
@@ -71,7 +72,8 @@ TEST_CASE("of one name the stylus of the recording counts, and another one is to
     Recording r;
     r.metadata = {{"sensor T", "head_deg 90 0 tip_in_r_mm " + tip + " diameter_mm 4"}};
     Machine machine;
-    machine.sensors["T"].head_a_rad = kPi / 2, machine.sensors["T"].tip_in_r_mm = {0, 0, -150}, machine.sensors["T"].radius_mm = 2;
+    machine.sensors["T"].head_a_rad = kPi / 2, machine.sensors["T"].tip_in_r_mm = {0, 0, -150},
+    machine.sensors["T"].radius_mm = 2;
     std::vector<Diagnostic> messages;
     add_recorded_sensors(r, machine, "r.csv", messages);
     return std::pair{machine.sensors.at("T").tip_in_r_mm.z, messages};

@@ -32,13 +32,15 @@ Recording ball(double off_mm) {
 
 TEST_CASE("only effects within a signal period see what a touch itself adds to its raw reading") {
   const Machine machine = read_machine("coord3-mc16");
-  const RecordedTouches clean = recorded_touches(ball(0), machine, "clean"), off = recorded_touches(ball(0.004), machine, "off");
+  const RecordedTouches clean = recorded_touches(ball(0), machine, "clean"),
+                        off = recorded_touches(ball(0.004), machine, "off");
   const Effect &scale = *find_effect("machine.scale"), &interpolation = *find_effect("machine.scale_interpolation");
   REQUIRE(off.touches.size() == 8);
   for (std::size_t i = 0; i < clean.touches.size(); ++i) {
     const RecordedTouch& t = off.touches[i];
     CHECK(norm(scene_for(scale, t).reading - scene_for(scale, clean.touches[i]).reading) < 1e-9);
-    CHECK(norm(scene_for(interpolation, t).reading - scene_for(interpolation, clean.touches[i]).reading - 0.004 * t.scene.normal) < 1e-9);
+    CHECK(norm(scene_for(interpolation, t).reading - scene_for(interpolation, clean.touches[i]).reading -
+               0.004 * t.scene.normal) < 1e-9);
   }
 }
 
@@ -67,14 +69,16 @@ TEST_CASE("two names are two names, even where their hashes are close") {
   REQUIRE_FALSE(alike.first.empty());
   Recording r = ball(0);
   for (std::size_t k = 0; k < r.rows.size(); ++k) r.rows[k].feature = k < 4 ? alike.first : alike.second;
-  CHECK((recorded_touches(r, read_machine("coord3-mc16"), "r").varying & static_cast<unsigned>(Covariate::feature)) != 0);
+  CHECK((recorded_touches(r, read_machine("coord3-mc16"), "r").varying & static_cast<unsigned>(Covariate::feature)) !=
+        0);
 }
 
 TEST_CASE("targets of a program are of the point and in the frame that the recording states") {
   // One touch of a part that stands turned by a right angle about z, 0.01 mm too far out.
   MachineRecord program;
   RecordingRow aimed;
-  aimed.feature = "FACE", aimed.normal = Vec3{0, 1, 0}, aimed.target_mm = Vec3{700, 402, -550}, aimed.travel = Vec3{0, -1, 0};
+  aimed.feature = "FACE", aimed.normal = Vec3{0, 1, 0}, aimed.target_mm = Vec3{700, 402, -550},
+  aimed.travel = Vec3{0, -1, 0};
   program.recording.rows = {aimed};
   const Rigid X_MD{rotation({0, 0, 1}, kPi / 2), {700, 400, -550}};
   program.aims = {{X_MD, 2.0}};
@@ -87,7 +91,7 @@ TEST_CASE("targets of a program are of the point and in the frame that the recor
       row.feature = "FACE", row.position_mm = in_part ? inverse(X_MD) * measured : measured;
       r.rows = {row};
       complete_from_program(r, program, "r");
-      CHECK_FALSE(r.in_part_frame);   // the program says where the part stands
+      CHECK_FALSE(r.in_part_frame);  // the program says where the part stands
       CHECK(norm(r.rows[0].position_mm - measured) < 1e-9);
       CHECK(norm(*r.rows[0].normal - Vec3{0, 1, 0}) < 1e-9);
       CHECK(dot(*r.rows[0].normal, r.rows[0].position_mm - *r.rows[0].target_mm) == doctest::Approx(0.01));
@@ -95,10 +99,16 @@ TEST_CASE("targets of a program are of the point and in the frame that the recor
   }
 }
 
-TEST_CASE("the head stands as its stylus says where no column tells it, and as nothing says where the stylus is assumed") {
+TEST_CASE(
+    "the head stands as its stylus says where no column tells it, and as nothing says where the stylus is assumed") {
   Machine machine = read_machine("coord3-mc16");
   for (const auto& [name, a_rad] : {std::pair{"DOWN", 0.0}, {"SIDE", kPi / 2}})
-    machine.sensors[name] = {.head_a_rad = a_rad, .tip_in_r_mm = {0, 0, -100}, .radius_mm = 2, .material = "", .young_GPa = 600, .cte_ppm_per_K = 5};
+    machine.sensors[name] = {.head_a_rad = a_rad,
+                             .tip_in_r_mm = {0, 0, -100},
+                             .radius_mm = 2,
+                             .material = "",
+                             .young_GPa = 600,
+                             .cte_ppm_per_K = 5};
   const unsigned head = static_cast<unsigned>(Covariate::head);
   Recording r = ball(0);
   const RecordedTouches assumed = recorded_touches(r, machine, "assumed");

@@ -55,19 +55,22 @@ TEST_CASE("without errors every machine sees the reference, exactly where the pr
 
 TEST_CASE("with one orientation the head's errors cancel out of a length") {
   const Machine machine = read_machine("coord3-mc16");
-  const RunResult r = run_plan(two_points(45, 45), machine, screened_machines(machine, 1, 200, 1), only_head(), no_source());
+  const RunResult r =
+      run_plan(two_points(45, 45), machine, screened_machines(machine, 1, 200, 1), only_head(), no_source());
   for (const double v : r.samples[0].value) CHECK(std::fabs(v - 200) < 1e-9);
 }
 
 TEST_CASE("with two orientations the head's variance is that of the closed form") {
-  // Both with B = 90: the tip is at (0, sinA l, -cosA l), so along y only A matters: dy/dA = l cosA. The two indexings are
-  // independent: var = (l sd)^2 (cos^2 A1 + cos^2 A2).
+  // Both with B = 90: the tip is at (0, sinA l, -cosA l), so along y only A matters: dy/dA = l cosA. The two
+  // indexings are independent: var = (l sd)^2 (cos^2 A1 + cos^2 A2).
   const Machine machine = read_machine("coord3-mc16");
   constexpr int n = 4000;
-  const RunResult r = run_plan(two_points(20, 60), machine, screened_machines(machine, 1, n, 2), only_head(), no_source());
+  const RunResult r =
+      run_plan(two_points(20, 60), machine, screened_machines(machine, 1, n, 2), only_head(), no_source());
   const double sd = machine.head.sd_a_rad, a1 = 20 * kPi / 180, a2 = 60 * kPi / 180;
   const double expected = std::pow(150 * sd, 2) * (std::pow(std::cos(a1), 2) + std::pow(std::cos(a2), 2));
-  // The variance of n normal numbers has a relative standard deviation of sqrt(2/(n-1)); 3.9 of them: false alarms 1 in 10 000.
+  // The variance of n normal numbers has a relative standard deviation of sqrt(2/(n-1)); 3.9 of them: false
+  // alarms 1 in 10 000.
   CHECK(std::fabs(variance(r.samples[0].value) / expected - 1) < 3.9 * std::sqrt(2.0 / (n - 1)));
 }
 
@@ -82,7 +85,8 @@ TEST_CASE("returning to an orientation indexes anew, selecting the same one agai
     b.append(plan::SelectSensor{tilted});
     const auto q = b.point({800, 600, -500}, {0, 1, 0});
     b.evaluate({p, q}, "DISTB", distance("YAXIS"));
-    return variance(run_plan(b.plan, machine, screened_machines(machine, 1, 50, 1), only_head(), no_source()).samples[0].value);
+    return variance(
+        run_plan(b.plan, machine, screened_machines(machine, 1, 50, 1), only_head(), no_source()).samples[0].value);
   };
   CHECK(distance_after(false) < 1e-20);
   CHECK(distance_after(true) > 1e-8);
@@ -95,9 +99,12 @@ TEST_CASE("switching a contributor off changes no number of the others") {
   RunOptions all, geometry = all, rest = all;
   geometry.contributors.head = geometry.contributors.probe = false;
   rest.contributors.geometry = false;
-  const auto values = [&](const RunOptions& o) { return run_plan(plan, machine, machines, o, no_source()).samples[0].value; };
+  const auto values = [&](const RunOptions& o) {
+    return run_plan(plan, machine, machines, o, no_source()).samples[0].value;
+  };
   const auto sum = values(all), first = values(geometry), second = values(rest);
-  for (std::size_t i = 0; i < sum.size(); ++i) CHECK((first[i] - 200) + (second[i] - 200) == doctest::Approx(sum[i] - 200).epsilon(1e-6));
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    CHECK((first[i] - 200) + (second[i] - 200) == doctest::Approx(sum[i] - 200).epsilon(1e-6));
 }
 
 TEST_CASE("a touch outside the travel is refused with its reading and the range") {
@@ -153,7 +160,8 @@ TEST_CASE("a program of another machine is moved into the z travel, and only the
     b.point(point, {0, 0, 1});
     return find_placement(b.plan, machine, no_source());
   };
-  // The tip is 100 mm below the mount and the touch 2 mm above the point: 40 mm needs the reading 142, outside [-800, 0].
+  // The tip is 100 mm below the mount and the touch 2 mm above the point: 40 mm needs the reading 142,
+  // outside [-800, 0].
   const Placement moved = placed({800, 400, 40});
   CHECK(moved.shift_mm == Vec3{0, 0, -542});
   REQUIRE(moved.message);
@@ -178,7 +186,8 @@ TEST_CASE("recording a machine that cannot go on is an error at its place") {
     RunOptions options;
     options.seed = seed;
     try {
-      const Recording recording = record_plan(b.plan, machine, screened_machines(machine, seed, 1, 1), options, no_source()).recording;
+      const Recording recording =
+          record_plan(b.plan, machine, screened_machines(machine, seed, 1, 1), options, no_source()).recording;
       CHECK(recording.rows.size() == 1);
     } catch (const UserError& e) {
       CHECK(e.diagnostics()[0].code == Code::E0308);

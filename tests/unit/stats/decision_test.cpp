@@ -75,9 +75,9 @@ TEST_CASE("verdicts of normal errors are those of the closed form") {
     const double p = normal_conformance(y, lower, upper);
     CAPTURE(y);
     CAPTURE(p);
-    const Conformity expected = p >= 0.95   ? Conformity::conforms
-                             : p <= 0.05 ? Conformity::does_not_conform
-                                         : Conformity::undecided;
+    const Conformity expected = p >= 0.95 ? Conformity::conforms
+        : p <= 0.05                       ? Conformity::does_not_conform
+                                          : Conformity::undecided;
     CHECK(decide(y, standard_normal(), lower, upper) == expected);
     ++met[static_cast<int>(expected)];
   }

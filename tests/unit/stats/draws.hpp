@@ -12,13 +12,9 @@ namespace abbe::test {
 /// The random numbers of one trial, one after the other.
 class Trial {
  public:
-  Trial(std::uint64_t seed, std::uint32_t number)
-      : address_{seed, number, stream_of("test.stats")} {}
+  Trial(std::uint64_t seed, std::uint32_t number) : address_{seed, number, stream_of("test.stats")} {}
 
-  double uniform() {
-    return uniform_pair({address_.seed, address_.machine, address_.stream, 0, 0, address_.draw++})
-        .a;
-  }
+  double uniform() { return uniform_pair({address_.seed, address_.machine, address_.stream, 0, 0, address_.draw++}).a; }
   double rectangular(double low, double high) { return low + (high - low) * uniform(); }
   double normal(double mean = 0, double sd = 1) { return mean + sd * normal_quantile(uniform()); }
   /// Student's t with `dof` degrees of freedom: a normal over the root of an independent
@@ -63,8 +59,7 @@ struct FourRectangular {
   double density(double x) const { return signed_powers(x, 3) / 6; }
   double quantile(double p) const {
     double low = -(a[0] + a[1] + a[2] + a[3]), high = -low;
-    for (int i = 0; i < 100; ++i)
-      (distribution((low + high) / 2) < p ? low : high) = (low + high) / 2;
+    for (int i = 0; i < 100; ++i) (distribution((low + high) / 2) < p ? low : high) = (low + high) / 2;
     return (low + high) / 2;
   }
 
@@ -84,8 +79,6 @@ struct FourRectangular {
   }
 };
 
-inline double normal_density(double z) {
-  return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
-}
+inline double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 
 }  // namespace abbe::test

@@ -14,15 +14,15 @@ TEST_CASE("a histogram counts every value once") {
   const Histogram h = histogram(y);
   CHECK(h.low == 1);
   CHECK(h.high == 8);
-  CHECK(h.counts == std::vector<int>{4, 4});   // 2 iqr n^(-1/3) = 2 (7 - 3) / 2 = 4, for an extent of 7
+  CHECK(h.counts == std::vector<int>{4, 4});  // 2 iqr n^(-1/3) = 2 (7 - 3) / 2 = 4, for an extent of 7
 }
 
 TEST_CASE("bins become narrower with the cube root of the sample") {
   std::vector<double> few, many;
   for (int k = 0; k < 64; ++k) few.push_back(k / 63.0);
   for (int k = 0; k < 4096; ++k) many.push_back(k / 4095.0);
-  CHECK(histogram(few).counts.size() == 4);     // width 2 / 2 / 4
-  CHECK(histogram(many).counts.size() == 16);   // width 2 / 2 / 16
+  CHECK(histogram(few).counts.size() == 4);    // width 2 / 2 / 4
+  CHECK(histogram(many).counts.size() == 16);  // width 2 / 2 / 16
   const Histogram h = histogram(many);
   CHECK(std::accumulate(h.counts.begin(), h.counts.end(), 0) == 4096);
 }

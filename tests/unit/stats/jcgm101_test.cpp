@@ -25,21 +25,17 @@ void check_near(double found, double expected, double standard_error, double rou
   CHECK(std::fabs(found - expected) <= kSigmas * standard_error + rounding);
 }
 
-double quantile_error(double p, double density) {
-  return std::sqrt(p * (1 - p) / kTrials) / density;
-}
+double quantile_error(double p, double density) { return std::sqrt(p * (1 - p) / kTrials) / density; }
 
 /// A sample whose 97.5 % quantile, density there, u and excess of kurtosis are known.
-void check_symmetric_about_zero(const Summary& s, double u, double excess, double quantile,
-                                double density) {
+void check_symmetric_about_zero(const Summary& s, double u, double excess, double quantile, double density) {
   check_near(s.mean, 0, u / std::sqrt(kTrials));
   check_near(s.u, u, u * std::sqrt((2 + excess) / (4.0 * kTrials)));
   check_near(s.symmetric.low, -quantile, quantile_error(0.025, density));
   check_near(s.symmetric.high, quantile, quantile_error(0.025, density));
 }
 
-void check_four_rectangular(const FourRectangular& exact, double published_limit,
-                            double half_digit) {
+void check_four_rectangular(const FourRectangular& exact, double published_limit, double half_digit) {
   double variance = 0, fourth = 0;
   for (const double a : exact.a)
     variance += a * a / 3, fourth += -2 * std::pow(a, 4) / 15;  // kurtosis: a^4/5 - 3 (a^2/3)^2
@@ -50,15 +46,14 @@ void check_four_rectangular(const FourRectangular& exact, double published_limit
     for (const double a : exact.a) sum += t.rectangular(-a, a);
     return sum;
   }));
-  check_symmetric_about_zero(s, std::sqrt(variance), fourth / (variance * variance), limit,
-                             exact.density(limit));
+  check_symmetric_about_zero(s, std::sqrt(variance), fourth / (variance * variance), limit, exact.density(limit));
 }
 
 }  // namespace
 
 TEST_CASE("JCGM 101 9.2.2: the sum of four normal variables") {
-  const Summary s = summarize(
-      sample(kTrials, [](Trial& t) { return t.normal() + t.normal() + t.normal() + t.normal(); }));
+  const Summary s =
+      summarize(sample(kTrials, [](Trial& t) { return t.normal() + t.normal() + t.normal() + t.normal(); }));
   const double z = 1.959963984540054;
   check_symmetric_about_zero(s, 2, 0, 2 * z, normal_density(z) / 2);
   CHECK(s.symmetric.high == doctest::Approx(3.92).epsilon(0.01));  // as printed
@@ -113,8 +108,7 @@ TEST_CASE("specific risk is one minus the conformance probability") {
   };
   for (const Case c : {Case{10, 0.01242}, Case{10.5, 0.10574}, Case{12, 0.99379}}) {
     const auto y = sample(kTrials, [&](Trial& t) { return t.normal(c.mean, 0.4); });
-    check_near(1 - conformance_probability(y, 9, 11), c.risk,
-               std::sqrt(c.risk * (1 - c.risk) / kTrials), 0.000005);
+    check_near(1 - conformance_probability(y, 9, 11), c.risk, std::sqrt(c.risk * (1 - c.risk) / kTrials), 0.000005);
   }
 }
 
@@ -122,8 +116,8 @@ TEST_CASE("a one-sided guard band of k u leaves the risk of a normal tail") {
   struct Case {
     double k, risk, half_digit;
   };
-  for (const Case c : {Case{0, 0.50, 0}, Case{1, 0.1587, 0.00005}, Case{1.645, 0.0500, 0.00005},
-                       Case{2, 0.02275, 0.000005}}) {
+  for (const Case c :
+       {Case{0, 0.50, 0}, Case{1, 0.1587, 0.00005}, Case{1.645, 0.0500, 0.00005}, Case{2, 0.02275, 0.000005}}) {
     const auto y = sample(kTrials, [&](Trial& t) { return t.normal(10 - c.k * 0.3, 0.3); });
     const double error = std::sqrt(c.risk * (1 - c.risk) / kTrials);
     check_near(1 - conformance_probability(y, {}, 10.0), c.risk, error, c.half_digit);

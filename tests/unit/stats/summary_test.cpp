@@ -56,9 +56,7 @@ TEST_CASE("mean and u of a small sample by hand") {
   CHECK(s.u == doctest::Approx(std::sqrt(32.0 / 7)).epsilon(1e-15));
   CHECK(s.mean_error == doctest::Approx(std::sqrt(32.0 / 7 / 8)).epsilon(1e-15));
   // m4 = (81 + 3 + 0 + 16 + 256) / 8 = 44.5; var(u^2) = (44.5 - (32/7)^2 * 5/7) / 8.
-  CHECK(s.u_error ==
-        doctest::Approx(std::sqrt((44.5 - std::pow(32.0 / 7, 2) * 5 / 7) / 8) / (2 * s.u))
-            .epsilon(1e-14));
+  CHECK(s.u_error == doctest::Approx(std::sqrt((44.5 - std::pow(32.0 / 7, 2) * 5 / 7) / 8) / (2 * s.u)).epsilon(1e-14));
 }
 
 TEST_CASE("the order of the values does not change a bit") {
@@ -107,8 +105,7 @@ TEST_CASE("standard errors agree with the scatter of repeated samples") {
   double mean_square_error[4] = {};
   for (int k = 0; k < kRepeats; ++k) {
     const Summary s = summarize(sample(
-        kMachines, [](Trial& t) { return t.normal(); }, 7,
-        static_cast<std::uint32_t>(k * kMachines)));
+        kMachines, [](Trial& t) { return t.normal(); }, 7, static_cast<std::uint32_t>(k * kMachines)));
     const double values[4] = {s.mean, s.u, s.symmetric.low, s.symmetric.high};
     const double errors[4] = {s.mean_error, s.u_error, s.low_error, s.high_error};
     for (int i = 0; i < 4; ++i) {
@@ -119,8 +116,7 @@ TEST_CASE("standard errors agree with the scatter of repeated samples") {
   for (int i = 0; i < 4; ++i) {
     CAPTURE(i);
     const double bias = i < 2 ? 0 : 0.04;
-    CHECK(std::fabs(std::sqrt(mean_square_error[i]) / summarize(figures[i]).u - 1) <=
-          4 * 0.0158 + bias);
+    CHECK(std::fabs(std::sqrt(mean_square_error[i]) / summarize(figures[i]).u - 1) <= 4 * 0.0158 + bias);
   }
 }
 
@@ -128,8 +124,7 @@ TEST_CASE("numerical tolerance: the examples of JCGM 101 7.9.2") {
   CHECK(numerical_tolerance(0.35, 2) == doctest::Approx(0.005).epsilon(1e-14));
   CHECK(numerical_tolerance(0.35, 1) == doctest::Approx(0.05).epsilon(1e-14));
   CHECK(numerical_tolerance(2.0, 1) == doctest::Approx(0.5).epsilon(1e-14));
-  CHECK(numerical_tolerance(0.0996, 2) ==
-        doctest::Approx(0.005).epsilon(1e-14));  // reads 0.10 = 10e-2
+  CHECK(numerical_tolerance(0.0996, 2) == doctest::Approx(0.005).epsilon(1e-14));  // reads 0.10 = 10e-2
   CHECK(numerical_tolerance(0.0994, 2) == doctest::Approx(0.0005).epsilon(1e-14));
   CHECK(numerical_tolerance(0, 2) == 0);
 }

@@ -6,8 +6,7 @@ using doctest::Approx;
 
 namespace {
 
-Evaluation nominal_distance(const char* word, const char* axis, double nominal, double lower,
-                            double upper) {
+Evaluation nominal_distance(const char* word, const char* axis, double nominal, double lower, double upper) {
   Evaluation e(word);
   e.number("nominal", nominal).number("lower", lower).number("upper", upper).word("axis", axis);
   return e;
@@ -17,8 +16,7 @@ Evaluation nominal_distance(const char* word, const char* axis, double nominal, 
 
 TEST_CASE("DISTB along an axis and straight, unsigned") {
   const Element a = at({10, 20, 30}), b = at({7, 24, 42});
-  for (const auto& [axis, distance] :
-       {std::pair{"XAXIS", 3.0}, {"YAXIS", 4.0}, {"ZAXIS", 12.0}, {"PT2PT", 13.0}}) {
+  for (const auto& [axis, distance] : {std::pair{"XAXIS", 3.0}, {"YAXIS", 4.0}, {"ZAXIS", 12.0}, {"PT2PT", 13.0}}) {
     CHECK(nominal_distance("DISTB", axis, distance, -0.1, 0.1)
               .feature(Shape::point, a)
               .feature(Shape::point, b)
@@ -51,35 +49,21 @@ TEST_CASE("DISTB with LIMIT takes its nominal from the nominal features") {
 
 TEST_CASE("A distance is signed where its limits allow negative values") {
   const Element a = at({10, 0, 0}), b = at({9.98, 0, 0});
-  CHECK(nominal_distance("DISTB", "XAXIS", 0, -0.1, 0.1)
-            .feature(Shape::point, a)
-            .feature(Shape::point, b)
-            .value() == Approx(-0.02));
-  CHECK(nominal_distance("DISTB", "XAXIS", 0, -0.1, 0.1)
-            .feature(Shape::point, b)
-            .feature(Shape::point, a)
-            .value() == Approx(0.02));
-  CHECK(nominal_distance("DISTB", "XAXIS", 0, 0, 0.1)
-            .feature(Shape::point, a)
-            .feature(Shape::point, b)
-            .value() == Approx(0.02));
-  CHECK(nominal_distance("DISTB", "PT2PT", 0, -0.1, 0.1)
-            .feature(Shape::point, a)
-            .feature(Shape::point, b)
-            .value() == Approx(0.02));
-  CHECK(nominal_distance("DISTB", "PT2PT", 0, -0.1, 0.1)
-            .feature(Shape::point, a)
-            .feature(Shape::point, a)
-            .value() == 0);
+  CHECK(nominal_distance("DISTB", "XAXIS", 0, -0.1, 0.1).feature(Shape::point, a).feature(Shape::point, b).value() ==
+        Approx(-0.02));
+  CHECK(nominal_distance("DISTB", "XAXIS", 0, -0.1, 0.1).feature(Shape::point, b).feature(Shape::point, a).value() ==
+        Approx(0.02));
+  CHECK(nominal_distance("DISTB", "XAXIS", 0, 0, 0.1).feature(Shape::point, a).feature(Shape::point, b).value() ==
+        Approx(0.02));
+  CHECK(nominal_distance("DISTB", "PT2PT", 0, -0.1, 0.1).feature(Shape::point, a).feature(Shape::point, b).value() ==
+        Approx(0.02));
+  CHECK(nominal_distance("DISTB", "PT2PT", 0, -0.1, 0.1).feature(Shape::point, a).feature(Shape::point, a).value() ==
+        0);
 }
 
 TEST_CASE("MAX and MIN reach to the far and near ends") {
   auto value = [](const char* use, Shape s, const Element& a, Shape t, const Element& b) {
-    return nominal_distance("DISTB", "XAXIS", 30, -1, 1)
-        .word("use", use)
-        .feature(s, a)
-        .feature(t, b)
-        .value();
+    return nominal_distance("DISTB", "XAXIS", 30, -1, 1).word("use", use).feature(s, a).feature(t, b).value();
   };
   const Element s = sized(at({0, 0, 0}), 5), t = sized(at({30, 9, 0}), 3);
   CHECK(value("MAX", Shape::sphere, s, Shape::sphere, t) == Approx(38));
@@ -91,14 +75,10 @@ TEST_CASE("MAX and MIN reach to the far and near ends") {
   CHECK(value("MAX", Shape::circle, sized(at({}, {1, 0, 0}), 5), Shape::point, t) == Approx(30));
   CHECK(value("MAX", Shape::circle, sized(at({}, {0.5, std::sqrt(0.75), 0}), 5), Shape::point, t) ==
         Approx(30 + 5 * std::sqrt(0.75)));
-  CHECK(value("MAX", Shape::line, spanning(at({}, {-0.6, 0.8, 0}), -10, 20), Shape::point, t) ==
-        Approx(42));
-  CHECK(value("MIN", Shape::line, spanning(at({}, {-0.6, 0.8, 0}), -10, 20), Shape::point, t) ==
-        Approx(24));
-  CHECK(value("MAX", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) ==
-        Approx(30.1));
-  CHECK(value("MIN", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) ==
-        Approx(29.8));
+  CHECK(value("MAX", Shape::line, spanning(at({}, {-0.6, 0.8, 0}), -10, 20), Shape::point, t) == Approx(42));
+  CHECK(value("MIN", Shape::line, spanning(at({}, {-0.6, 0.8, 0}), -10, 20), Shape::point, t) == Approx(24));
+  CHECK(value("MAX", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) == Approx(30.1));
+  CHECK(value("MIN", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) == Approx(29.8));
 }
 
 TEST_CASE("DISTWRT measures from its reference") {
@@ -142,7 +122,8 @@ TEST_CASE("A straight distance leaves out what a plane does not determine") {
   CHECK(apart(Shape::point, at({0, 0, 30}), Shape::plane, kFloor).value() == Approx(30));
   CHECK(apart(Shape::plane, kFloor, Shape::sphere, at({0, 0, -30})).value() == Approx(30));
   // Of a tilted plane at the point itself: 100 mm beside its centroid a tilt of 0.001 is 0.1 mm.
-  CHECK(apart(Shape::plane, at({}, leaning(1e-3)), Shape::point, at({100, 7, 30})).value() == Approx(30.1).epsilon(1e-6));
+  CHECK(apart(Shape::plane, at({}, leaning(1e-3)), Shape::point, at({100, 7, 30})).value() ==
+        Approx(30.1).epsilon(1e-6));
   // Two planes: midway between their centroids, where one has risen by 10e-3 and the other fallen by as much.
   CHECK(apart(Shape::plane, at({0, 0, 0}, leaning(-1e-3)), Shape::plane, at({20, 0, 30}, leaning(1e-3))).value() ==
         Approx(30).epsilon(1e-6));
@@ -160,7 +141,8 @@ TEST_CASE("A straight distance leaves out places along a line or an axis") {
         Approx(100 - 10e-3).epsilon(1e-6));
   // Lines that cross: their common perpendicular, wherever their points are.
   CHECK(apart(Shape::line, at({7, 0, 0}, {1, 0, 0}), Shape::line, at({0, -90, 12}, {0, 1, 0})).value() == Approx(12));
-  CHECK(apart(Shape::line, at({7, 0, 0}, {1, 0, 0}), Shape::cylinder, at({0, -90, 0}, {0, 1, 0})).value() == Approx(0).scale(1));
+  CHECK(apart(Shape::line, at({7, 0, 0}, {1, 0, 0}), Shape::cylinder, at({0, -90, 0}, {0, 1, 0})).value() ==
+        Approx(0).scale(1));
 }
 
 TEST_CASE("The nominals say what is parallel") {
@@ -188,10 +170,16 @@ TEST_CASE("A cone is at its apex") {
   nominal.angle = angle;
   CHECK(apart(Shape::cone, cone, Shape::plane, kFloor).value() == Approx(40));
   CHECK(apart(Shape::cone, cone, Shape::cylinder, at({13, 24, 0})).value() == Approx(5));
-  CHECK(nominal_distance("DISTB", "ZAXIS", 40, -1, 1).feature(Shape::cone, cone).feature(Shape::point, at({})).value() == Approx(40));
+  CHECK(
+      nominal_distance("DISTB", "ZAXIS", 40, -1, 1).feature(Shape::cone, cone).feature(Shape::point, at({})).value() ==
+      Approx(40));
   // MAX and MIN are between measured ends: z from -25 to -10.
   const auto use = [&](const char* which) {
-    return nominal_distance("DISTB", "ZAXIS", 40, -1, 1).word("use", which).feature(Shape::cone, cone, nominal).feature(Shape::point, at({})).value();
+    return nominal_distance("DISTB", "ZAXIS", 40, -1, 1)
+        .word("use", which)
+        .feature(Shape::cone, cone, nominal)
+        .feature(Shape::point, at({}))
+        .value();
   };
   CHECK(use("MAX") == Approx(25));
   CHECK(use("MIN") == Approx(10));
@@ -201,7 +189,10 @@ TEST_CASE("MAX and MIN of a tilted plane are at its outermost touches") {
   // 1 um/mm over 90 mm along x; the second feature brings its own touches.
   const Element bottom = spanning(at({50, 30, 0}), -51, 51), top = spanning(at({50, 30, 20}, leaning(-1e-3)), -51, 51);
   const auto value = [&](const char* axis, const char* use) {
-    Evaluation e = nominal_distance("DISTB", axis, 20, -0.1, 0.1).word("use", use).feature(Shape::plane, bottom).feature(Shape::plane, top);
+    Evaluation e = nominal_distance("DISTB", axis, 20, -0.1, 0.1)
+                       .word("use", use)
+                       .feature(Shape::plane, bottom)
+                       .feature(Shape::plane, top);
     for (const double x : {5.0, 95.0})
       for (const double y : {5.0, 55.0}) {
         e.touches.push_back({{x, y, 0}, {x, y, 0}, {0, 0, 1}});
@@ -216,13 +207,18 @@ TEST_CASE("MAX and MIN of a tilted plane are at its outermost touches") {
   CHECK(value("PT2PT", "MAX") == Approx(20.045).epsilon(1e-6));
   CHECK(value("PT2PT", "MIN") == Approx(19.955).epsilon(1e-6));
   // Without touches of one face: the tilt over the extent.
-  Evaluation made = nominal_distance("DISTB", "ZAXIS", 20, -0.1, 0.1).word("use", "MAX").feature(Shape::point, at({})).feature(Shape::plane, top);
+  Evaluation made = nominal_distance("DISTB", "ZAXIS", 20, -0.1, 0.1)
+                        .word("use", "MAX")
+                        .feature(Shape::point, at({}))
+                        .feature(Shape::plane, top);
   CHECK(made.value() == Approx(20.051).epsilon(1e-6));
-  for (const double side : {1.0, -1.0}) made.second_touches.push_back({{50, 30, 20 + side}, {50, 30, 20 + side}, {0, 0, side}});
+  for (const double side : {1.0, -1.0})
+    made.second_touches.push_back({{50, 30, 20 + side}, {50, 30, 20 + side}, {0, 0, side}});
   CHECK(made.value() == Approx(20.051).epsilon(1e-6));
 }
 
 TEST_CASE("A distance looks at touches where it goes to the ends") {
   CHECK_FALSE(needs_touches(*find_tolerance_kind("DISTB"), nominal_distance("DISTB", "XAXIS", 1, 0, 0).arguments));
-  CHECK(needs_touches(*find_tolerance_kind("DISTWRT"), nominal_distance("DISTWRT", "XAXIS", 1, 0, 0).word("use", "MIN").arguments));
+  CHECK(needs_touches(*find_tolerance_kind("DISTWRT"),
+                      nominal_distance("DISTWRT", "XAXIS", 1, 0, 0).word("use", "MIN").arguments));
 }

@@ -21,12 +21,8 @@ struct Evaluation {
 
   explicit Evaluation(const char* word) : kind(find_tolerance_kind(word)) { REQUIRE(kind); }
 
-  Evaluation& number(const char* name, double value) {
-    return arguments.add_number(name, value), *this;
-  }
-  Evaluation& word(const char* name, const char* value) {
-    return arguments.add_text(name, value), *this;
-  }
+  Evaluation& number(const char* name, double value) { return arguments.add_number(name, value), *this; }
+  Evaluation& word(const char* name, const char* value) { return arguments.add_text(name, value), *this; }
   Evaluation& feature(Shape shape, const Element& as_measured, const Element& as_nominal) {
     shapes.push_back(shape), actual.push_back(as_measured), nominal.push_back(as_nominal);
     return *this;
@@ -40,7 +36,8 @@ struct Evaluation {
   Evaluation& datum(Shape shape, const Element& both) { return datum(shape, both, both); }
 
   Outcome<double> outcome() const {
-    return kind->evaluate(arguments, {shapes, actual, nominal, datum_shapes, datums, nominal_datums, touches, second_touches, faces});
+    return kind->evaluate(
+        arguments, {shapes, actual, nominal, datum_shapes, datums, nominal_datums, touches, second_touches, faces});
   }
   double value() const {
     const Outcome<double> made = outcome();
@@ -60,13 +57,9 @@ struct Evaluation {
   }
 };
 
-inline Element at(Vec3 point, Vec3 direction = {0, 0, 1}) {
-  return {.point = point, .direction = unit(direction)};
-}
+inline Element at(Vec3 point, Vec3 direction = {0, 0, 1}) { return {.point = point, .direction = unit(direction)}; }
 inline Element sized(Element e, double size) { return e.size = size, e; }
-inline Element spanning(Element e, double begin, double end) {
-  return e.begin = begin, e.end = end, e;
-}
+inline Element spanning(Element e, double begin, double end) { return e.begin = begin, e.end = end, e; }
 inline Element spread(Element e, double low, double high) { return e.low = low, e.high = high, e; }
 
 }  // namespace abbe::test

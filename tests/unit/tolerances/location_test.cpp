@@ -38,7 +38,10 @@ TEST_CASE("Concentricity is twice the distance from the datum axis") {
 TEST_CASE("Concentricity with a face, and about a centre") {
   Evaluation faced("CONCEN");
   const Element leaning = spanning(at({10, 20, 0}, {0, 0.01, 1}), -15, 15);
-  faced.number("zone", 0).feature(Shape::circle, at({10.03, 20.04, 7})).datum(Shape::plane, kFace).datum(Shape::cylinder, leaning);
+  faced.number("zone", 0)
+      .feature(Shape::circle, at({10.03, 20.04, 7}))
+      .datum(Shape::plane, kFace)
+      .datum(Shape::cylinder, leaning);
   CHECK(faced.value() == Approx(0.10));  // the axis stands on the face whatever the bore's tilt
   CHECK_FALSE(faced.limits().upper.has_value());
   Evaluation balls("CONCEN");
@@ -58,7 +61,9 @@ TEST_CASE("Concentricity with a face, and about a centre") {
 TEST_CASE("Symmetry about a median plane and about an axis") {
   const Element middle = at({0, 0, 0}, {1, 0, 0});
   Evaluation slot("SYM");
-  slot.number("zone", 0.1).feature(Shape::plane, spanning(at({0.02, 5, 5}, {1, 2e-3, 0}), -10, 10)).datum(Shape::plane, middle);
+  slot.number("zone", 0.1)
+      .feature(Shape::plane, spanning(at({0.02, 5, 5}, {1, 2e-3, 0}), -10, 10))
+      .datum(Shape::plane, middle);
   CHECK(slot.value() == Approx(2 * (0.02 + 10 * 2e-3)).epsilon(1e-5));
   Evaluation hole("SYM");
   hole.feature(Shape::circle, at({-0.03, 5, 5})).datum(Shape::plane, middle);
@@ -69,12 +74,13 @@ TEST_CASE("Symmetry about a median plane and about an axis") {
   Evaluation key("SYM");
   key.feature(Shape::plane, spanning(at({10.05, 8, 3}, {1, 0, 0}), -10, 10)).datum(Shape::cylinder, kBore);
   CHECK(key.value() == Approx(0.10));
-  // Faces at x = +-5 that lean by 1e-3 and stand 0.002 beside the middle, touched from y = -4 to 10: at the far end the median plane is
-  // 0.002 + 10 x 1e-3 from it.
+  // Faces at x = +-5 that lean by 1e-3 and stand 0.002 beside the middle, touched from y = -4 to 10: at the
+  // far end the median plane is 0.002 + 10 x 1e-3 from it.
   Evaluation faces("SYM");
   faces.feature(Shape::plane, spanning(at({0.002, 0, 0}, {1, -1e-3, 0}), -10, 10)).datum(Shape::plane, middle);
   for (const double side : {5.0, -5.0})
-    for (const double y : {-4.0, 10.0}) faces.faces.push_back(Vec3{0.002 + 1e-3 * y, y, 0} + side * unit({1, -1e-3, 0}));
+    for (const double y : {-4.0, 10.0})
+      faces.faces.push_back(Vec3{0.002 + 1e-3 * y, y, 0} + side * unit({1, -1e-3, 0}));
   CHECK(faces.value() == Approx(2 * (0.002 + 10 * 1e-3)).epsilon(1e-5));
   Evaluation anywhere("SYM");
   anywhere.feature(Shape::plane, at({0.01, 0, 0}, {1, 0, 0})).datum(Shape::plane, middle);
@@ -141,8 +147,11 @@ TEST_CASE("Datums carry the frame of a profile") {
   Evaluation e("PROFS");
   const Element side = at({0, 10, -5}, {-1, 0, 0}), front = at({25, 0, -5}, {0, -1, 0});
   e.number("lower", -0.1).number("upper", 0.1).feature(Shape::plane, kFace);
-  e.datum(Shape::plane, moved * kFace, kFace).datum(Shape::plane, moved * side, side).datum(Shape::plane, moved * front, front);
-  e.touches = {{moved * Vec3{30, 20, 12.01}, {30, 20, 12}, {0, 0, 1}}, {moved * Vec3{60, 20, 12}, {60, 20, 12}, {0, 0, 1}}};
+  e.datum(Shape::plane, moved * kFace, kFace)
+      .datum(Shape::plane, moved * side, side)
+      .datum(Shape::plane, moved * front, front);
+  e.touches = {{moved * Vec3{30, 20, 12.01}, {30, 20, 12}, {0, 0, 1}},
+               {moved * Vec3{60, 20, 12}, {60, 20, 12}, {0, 0, 1}}};
   CHECK(e.value() == Approx(0.02));
 }
 
@@ -150,10 +159,10 @@ TEST_CASE("The size departs from its size at the material condition") {
   const ToleranceKind &diam = *find_tolerance_kind("DIAM"), &rad = *find_tolerance_kind("RAD");
   const ToleranceLimits limits{9.9, 10.2};
   const auto most = Condition::maximum_material, least = Condition::least_material;
-  CHECK(departure_mm(diam, 10.05, limits, true, most) == Approx(0.15));    // a hole: smallest is MMC
+  CHECK(departure_mm(diam, 10.05, limits, true, most) == Approx(0.15));  // a hole: smallest is MMC
   CHECK(departure_mm(diam, 10.05, limits, true, least) == Approx(0.15));
   CHECK(departure_mm(diam, 10.1, limits, true, least) == Approx(0.1));
-  CHECK(departure_mm(diam, 10.1, limits, false, most) == Approx(0.1));     // a shaft: largest is MMC
+  CHECK(departure_mm(diam, 10.1, limits, false, most) == Approx(0.1));  // a shaft: largest is MMC
   CHECK(departure_mm(diam, 10.1, limits, false, least) == Approx(0.2));
   CHECK(departure_mm(diam, 9.8, limits, true, most) == 0);
   CHECK(departure_mm(diam, 10.5, limits, true, most) == Approx(0.3));      // never more than the tolerance

@@ -9,16 +9,11 @@ namespace {
 constexpr double kTilt = 1e-3;
 const double kSine = std::sin(kTilt);
 const Vec3 kLeaningX{std::sin(kTilt), 0, std::cos(kTilt)};  // z, leaning to x
-const Element kUp = at({5, 5, 5}), kAlongX = at({1, 2, 3}, {1, 0, 0}),
-              kAlongY = at({1, 2, 3}, {0, 1, 0});
+const Element kUp = at({5, 5, 5}), kAlongX = at({1, 2, 3}, {1, 0, 0}), kAlongY = at({1, 2, 3}, {0, 1, 0});
 
-double width(const char* word, Shape shape, const Element& feature, Shape datum_shape,
-             const Element& datum, double angle = 0) {
-  return Evaluation(word)
-      .number("angle", angle)
-      .feature(shape, feature)
-      .datum(datum_shape, datum)
-      .value();
+double width(const char* word, Shape shape, const Element& feature, Shape datum_shape, const Element& datum,
+             double angle = 0) {
+  return Evaluation(word).number("angle", angle).feature(shape, feature).datum(datum_shape, datum).value();
 }
 
 }  // namespace
@@ -29,8 +24,7 @@ TEST_CASE("Perpendicularity") {
   CHECK(width("PERP", Shape::cylinder, axis, Shape::cylinder, kAlongX) == Approx(50 * kSine));
   CHECK(width("PERP", Shape::cylinder, axis, Shape::cylinder, kAlongY) ==
         Approx(0));  // free to lean in the zone of planes
-  const Element wall =
-      spread(spanning(at({}, {std::cos(kTilt), 0, std::sin(kTilt)}), -30, 30), -0.002, 0.003);
+  const Element wall = spread(spanning(at({}, {std::cos(kTilt), 0, std::sin(kTilt)}), -30, 30), -0.002, 0.003);
   CHECK(width("PERP", Shape::plane, wall, Shape::plane, kUp) == Approx(60 * kSine + 0.005));
   CHECK(width("PERP", Shape::plane, wall, Shape::line, kAlongX) == Approx(60 * kSine + 0.005));
 }
@@ -42,14 +36,14 @@ TEST_CASE("Parallelism") {
   CHECK(width("PARLEL", Shape::plane, top, Shape::cylinder, kAlongY) == Approx(0.005));
   const Element axis = spanning(at({}, kLeaningX), 0, 50);
   CHECK(width("PARLEL", Shape::cone, axis, Shape::cylinder, kUp) == Approx(50 * kSine));
-  CHECK(width("PARLEL", Shape::line, spread(axis, -0.004, 0.004), Shape::plane, kAlongX) ==
-        Approx(50 * kSine + 0.008));
+  CHECK(width("PARLEL", Shape::line, spread(axis, -0.004, 0.004), Shape::plane, kAlongX) == Approx(50 * kSine + 0.008));
 }
 
 TEST_CASE("The zone of a measured plane holds its touches") {
   // Touches of a wall 100 long and 20 high that leans by 0.02 over its height; the last is a bump.
   const double lean = std::atan(0.02 / 20), s = std::sin(lean), c = std::cos(lean);
-  auto zone = [](const char* word, const Vec3& normal, const Element& datum, Shape shape, std::vector<Vec3> touches, double angle = 0) {
+  auto zone = [](const char* word, const Vec3& normal, const Element& datum, Shape shape, std::vector<Vec3> touches,
+                 double angle = 0) {
     Evaluation e(word);
     e.number("angle", angle).feature(Shape::plane, spanning(at({}, normal), -51, 51)).datum(shape, datum);
     for (const Vec3& p : touches) e.touches.push_back({p, p, normal});
@@ -59,7 +53,8 @@ TEST_CASE("The zone of a measured plane holds its touches") {
   CHECK(zone("PERP", {c, 0, s}, kUp, Shape::plane, wall) == Approx(0.02));
   CHECK(zone("PERP", {-c, 0, -s}, kUp, Shape::plane, wall) == Approx(0.02));  // seen from behind
   // A wall that also turns about the datum's normal: only its lean counts.
-  CHECK(zone("PERP", {0.8 * c, 0.6 * c, s}, kUp, Shape::plane, {{0, 0, 0}, {-60, 80, 0}, {-0.016, -0.012, 20}, {-60.016, 79.988, 20}}) == Approx(0.02));
+  CHECK(zone("PERP", {0.8 * c, 0.6 * c, s}, kUp, Shape::plane,
+             {{0, 0, 0}, {-60, 80, 0}, {-0.016, -0.012, 20}, {-60.016, 79.988, 20}}) == Approx(0.02));
   const std::vector<Vec3> top{{0, 0, 20}, {100, 0, 20.03}, {100, 100, 20.03}, {0, 100, 20}};
   CHECK(zone("PARLEL", {-3e-4, 0, 1}, kUp, Shape::plane, top) == Approx(0.03));
   CHECK(zone("PERP", {-3e-4, 0, 1}, kUp, Shape::cylinder, top) == Approx(0.03));
@@ -78,15 +73,12 @@ TEST_CASE("Angularity") {
     const double a = degrees * kPi / 180 + kTilt;
     return spanning(at({}, {std::sin(a), 0, std::cos(a)}), -25, 25);
   };
-  CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, kPi / 6) ==
-        Approx(50 * kSine));
+  CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, kPi / 6) == Approx(50 * kSine));
   CHECK(width("ANGLR", Shape::plane, plane_at(30), Shape::plane, kUp, 5 * kPi / 6) ==
         Approx(50 * kSine));  // the same angle, seen from behind
   // An axis at 60 degrees to the plane leans by 30 from its normal.
-  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::plane, kUp, kPi / 3) ==
-        Approx(50 * kSine));
-  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::line, kUp, kPi / 6) ==
-        Approx(50 * kSine));
+  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::plane, kUp, kPi / 3) == Approx(50 * kSine));
+  CHECK(width("ANGLR", Shape::cylinder, plane_at(30), Shape::line, kUp, kPi / 6) == Approx(50 * kSine));
 }
 
 TEST_CASE("Orientations that cannot be evaluated") {
@@ -96,10 +88,8 @@ TEST_CASE("Orientations that cannot be evaluated") {
     CHECK(Evaluation(word).feature(Shape::plane, kUp).refusal().empty());
     CHECK(Evaluation(word).feature(Shape::plane, kUp).datum(Shape::plane, kUp).failure() ==
           "the extent of the feature is not known, so that it has no zone");
-    CHECK(Evaluation(word)
-              .feature(Shape::plane, spanning(kUp, -1, 1))
-              .datum(Shape::point, kUp)
-              .failure() == "a point or a sphere is no datum for an orientation");
+    CHECK(Evaluation(word).feature(Shape::plane, spanning(kUp, -1, 1)).datum(Shape::point, kUp).failure() ==
+          "a point or a sphere is no datum for an orientation");
     CHECK(*Evaluation(word).number("zone", 0.02).feature(Shape::plane, kUp).limits().upper == 0.02);
     CHECK(Evaluation(word).feature(Shape::plane, kUp).nominal_value() == 0);
   }
@@ -134,13 +124,9 @@ TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
   CHECK(angle(2 * kPi / 3, Shape::line, kAlongX, Shape::line, at60) == Approx(2 * kPi / 3));
   CHECK(angle(kPi / 6, Shape::plane, kUp, Shape::plane, at60) == Approx(kPi / 6));
   CHECK(angle(kPi / 3, Shape::plane, kUp, Shape::cylinder, at60) == Approx(kPi / 3));
-  CHECK(angle(kPi / 2, Shape::plane, kUp, Shape::cylinder, at({}, kLeaningX)) ==
-        Approx(kPi / 2 - kTilt));
+  CHECK(angle(kPi / 2, Shape::plane, kUp, Shape::cylinder, at({}, kLeaningX)) == Approx(kPi / 2 - kTilt));
   Evaluation limit("ANGLB");
-  limit.number("lower", 1.9)
-      .number("upper", 2.3)
-      .feature(Shape::line, kAlongX)
-      .feature(Shape::line, at60);
+  limit.number("lower", 1.9).number("upper", 2.3).feature(Shape::line, kAlongX).feature(Shape::line, at60);
   CHECK(limit.value() == Approx(2 * kPi / 3));
   CHECK(limit.nominal_value() == Approx(2.1));
   CHECK(*limit.limits().lower == 1.9);
@@ -152,13 +138,14 @@ TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
 }
 
 TEST_CASE("The zone of a median plane holds the touches of its faces where they lie on it") {
-  // A slot 10 wide, 100 long and 10 deep whose median plane leans by 0.01 over its depth: the zone is 0.01 wide, and not 0.1, which it
-  // would be of a disc as long as the slot.
+  // A slot 10 wide, 100 long and 10 deep whose median plane leans by 0.01 over its depth: the zone is 0.01
+  // wide, and not 0.1, which it would be of a disc as long as the slot.
   const Vec3 normal = unit({1, 0, -1e-3});
   for (const char* word : {"PARLEL", "PERP"}) {
     Evaluation e(word);
     const bool parallel = e.kind->word == "PARLEL";
-    e.feature(Shape::plane, spanning(at({}, normal), -50, 50)).datum(Shape::plane, parallel ? at({}, {1, 0, 0}) : at({}));
+    e.feature(Shape::plane, spanning(at({}, normal), -50, 50))
+        .datum(Shape::plane, parallel ? at({}, {1, 0, 0}) : at({}));
     for (const double side : {5.0, -5.0})
       for (const double y : {-50.0, 50.0})
         for (const double z : {-5.0, 5.0}) e.faces.push_back(Vec3{1e-3 * z, y, z} + side * normal);
@@ -167,13 +154,15 @@ TEST_CASE("The zone of a median plane holds the touches of its faces where they 
 }
 
 TEST_CASE("The zone of a measured line holds its touches") {
-  auto zone = [](const char* word, const Vec3& along, const Vec3& normal, const Element& datum, Shape shape, std::vector<Vec3> touches, double angle = 0) {
+  auto zone = [](const char* word, const Vec3& along, const Vec3& normal, const Element& datum, Shape shape,
+                 std::vector<Vec3> touches, double angle = 0) {
     Evaluation e(word);
     e.number("angle", angle).feature(Shape::line, spread(spanning(at({}, along), -20, 20), -1, 1)).datum(shape, datum);
     for (const Vec3& p : touches) e.touches.push_back({p, p, normal});
     return e.value();
   };
-  // Heights 0, 4, 12, 12 and 12 um: least squares put the line at a slope of 0.32 um/mm, but planes 12 um apart hold the touches.
+  // Heights 0, 4, 12, 12 and 12 um: least squares put the line at a slope of 0.32 um/mm, but planes 12 um
+  // apart hold the touches.
   const std::vector<Vec3> heights{{0, -20, 0}, {0, -10, 0.004}, {0, 0, 0.012}, {0, 10, 0.012}, {0, 20, 0.012}};
   const Vec3 rising = {0, 1, 3.2e-4}, up{0, 0, 1};
   CHECK(zone("PARLEL", rising, up, kUp, Shape::plane, heights) == Approx(0.012));
@@ -181,7 +170,8 @@ TEST_CASE("The zone of a measured line holds its touches") {
   // Along an axis, in the section of the surface; and across a plane.
   CHECK(zone("PARLEL", rising, up, kAlongY, Shape::cylinder, heights) == Approx(0.012));
   CHECK(zone("PERP", rising, up, kAlongY, Shape::plane, heights) == Approx(0.012));
-  // Sideways it is nominal, but a surface along the datum's normal is no section: a cylinder about the middle (0, 0, 0) of the line.
+  // Sideways it is nominal, but a surface along the datum's normal is no section: a cylinder about the middle
+  // (0, 0, 0) of the line.
   CHECK(zone("PARLEL", rising, {0, 1, 0}, kAlongY, Shape::cylinder, heights) == Approx(0.024));
   // 30 degrees to the plane, on a slope; the touches lie 0, 3, -1 um beside it.
   const double c = std::cos(kPi / 6), s = 0.5;

@@ -14,8 +14,7 @@ Evaluation position(const char* space, double zone = 0.1) {
   return e;
 }
 
-const Element kTop = at({40, 30, 0}), kSide = at({0, 10, -5}, {-1, 0, 0}),
-              kFront = at({25, 0, -5}, {0, -1, 0});
+const Element kTop = at({40, 30, 0}), kSide = at({0, 10, -5}, {-1, 0, 0}), kFront = at({25, 0, -5}, {0, -1, 0});
 
 }  // namespace
 
@@ -25,9 +24,7 @@ TEST_CASE("Position in space and in the plane across the nominal direction") {
   CHECK(position("3D").feature(Shape::circle, actual, nominal).value() == Approx(0.26));
   CHECK(position("2D").feature(Shape::circle, actual, nominal).value() == Approx(0.10));
   const Element along_y = at({10, 20, 30}, {0, 1, 0});
-  CHECK(
-      position("2D").feature(Shape::cylinder, at({10.03, 25, 30.04}, {0, 1, 0}), along_y).value() ==
-      Approx(0.10));
+  CHECK(position("2D").feature(Shape::cylinder, at({10.03, 25, 30.04}, {0, 1, 0}), along_y).value() == Approx(0.10));
   CHECK(position("2D").feature(Shape::sphere, actual, along_y).value() ==
         Approx(0.10));  // a sphere has no direction: z
 }
@@ -39,10 +36,8 @@ TEST_CASE("An axis is out of position by its worse end") {
   CHECK(position("3D").feature(Shape::cylinder, straight, nominal).value() == Approx(0.10));
   // 0.02 off at the point, and turned by 1e-3 the same way: 0.02 + 15e-3 at the far end.
   const Element tilted = spanning(at({10.02, 20, 5}, {std::sin(tilt), 0, std::cos(tilt)}), -10, 15);
-  CHECK(position("3D").feature(Shape::cylinder, tilted, nominal).value() ==
-        Approx(2 * (0.02 + 15 * std::sin(tilt))));
-  CHECK(position("2D").feature(Shape::cylinder, tilted, nominal).value() ==
-        Approx(2 * (0.02 + 15 * std::sin(tilt))));
+  CHECK(position("3D").feature(Shape::cylinder, tilted, nominal).value() == Approx(2 * (0.02 + 15 * std::sin(tilt))));
+  CHECK(position("2D").feature(Shape::cylinder, tilted, nominal).value() == Approx(2 * (0.02 + 15 * std::sin(tilt))));
   CHECK(position("2D").feature(Shape::torus, tilted, nominal).value() == Approx(0.04));  // a centre
 }
 
@@ -55,17 +50,16 @@ TEST_CASE("A plane is out of position by its worst corner") {
             .feature(Shape::plane, spread(spanning(at({7, 8, 49.98}), -9, 9), -0.001, 0.005), nominal)
             .value() == Approx(0.042));
   const Element tilted = spanning(at({0, 0, 50.01}, {1e-3, 0, 1}), -20, 20);
-  CHECK(position("3D").feature(Shape::plane, tilted, nominal).value() ==
-        Approx(0.06).epsilon(1e-5));
-  CHECK(position("3D").feature(Shape::plane, at({0, 0, 50.01}), nominal).failure() == "the extent of the feature is not known, so that it has no zone");
+  CHECK(position("3D").feature(Shape::plane, tilted, nominal).value() == Approx(0.06).epsilon(1e-5));
+  CHECK(position("3D").feature(Shape::plane, at({0, 0, 50.01}), nominal).failure() ==
+        "the extent of the feature is not known, so that it has no zone");
   // Touched over 100 x 20 mm, 5 um low along one long side and 5 um high along the other: the zone of +-5 um holds it.
   Evaluation touched = position("3D");
   touched.feature(Shape::plane, spanning(at({0, 0, 50}, {0, -5e-4, 1}), -51, 51), nominal);
   for (const double x : {-50.0, 50.0})
     for (const double y : {-10.0, 10.0}) touched.touches.push_back({{x, y, 50 + 5e-4 * y}, {x, y, 50}, {0, 0, 1}});
   CHECK(touched.value() == Approx(0.010));
-  CHECK(position("2D").feature(Shape::plane, nominal).refusal() ==
-        "the position of a plane is written 3D");
+  CHECK(position("2D").feature(Shape::plane, nominal).refusal() == "the position of a plane is written 3D");
 }
 
 TEST_CASE("Datums carry the frame of the position") {
@@ -105,10 +99,8 @@ TEST_CASE("Datums carry the frame of the position") {
               .feature(Shape::sphere, at({60, 40, -9.99}), nominal)
               .datum(Shape::plane, at({40, 30, 0.01}), kTop)
               .value() == Approx(0).scale(1));
-    CHECK(position("3D")
-              .feature(Shape::sphere, at({60.02, 40, -10}), nominal)
-              .datum(Shape::plane, kTop)
-              .value() == Approx(0.04));
+    CHECK(position("3D").feature(Shape::sphere, at({60.02, 40, -10}), nominal).datum(Shape::plane, kTop).value() ==
+          Approx(0.04));
   }
   CHECK(position("3D")
             .feature(Shape::sphere, nominal)
@@ -168,7 +160,9 @@ Vec3 deviations(Shape shape, const Element& actual, const Element& nominal) {
   Vec3 made;
   for (int k = 0; k < 3; ++k) {
     Evaluation e("CORTOL");
-    made[k] = e.word("axis", std::array{"XAXIS", "YAXIS", "ZAXIS"}[static_cast<std::size_t>(k)]).feature(shape, actual, nominal).value();
+    made[k] = e.word("axis", std::array{"XAXIS", "YAXIS", "ZAXIS"}[static_cast<std::size_t>(k)])
+                  .feature(shape, actual, nominal)
+                  .value();
   }
   return made;
 }
@@ -187,7 +181,8 @@ TEST_CASE("CORTOL compares where a plane, line or axis passes the nominal point"
   check_deviations(deviations(Shape::plane, at(25 * along + Vec3{0, 25, 0}, slope), at({}, slope)), {});
   check_deviations(deviations(Shape::plane, at(25 * along + 0.02 * slope, slope), at({}, slope)), 0.02 * slope);
   check_deviations(deviations(Shape::plane, at({40, 30, 0.02}), at({50, 50, 0})), {0, 0, 0.02});  // square to an axis
-  check_deviations(deviations(Shape::line, at({50 + 9 * along.x, 0.03, 9 * along.z}, along), at({50, 0, 0}, along)), {0, 0.03, 0});
+  check_deviations(deviations(Shape::line, at({50 + 9 * along.x, 0.03, 9 * along.z}, along), at({50, 0, 0}, along)),
+                   {0, 0.03, 0});
   check_deviations(deviations(Shape::cylinder, at({3.01, 3.98, -15}), at({3, 4, 0})), {0.01, -0.02, 0});
   // The axis leans: at the nominal height it is 10 mm above its own point.
   const Vec3 d = unit({1e-3, 0, 1});

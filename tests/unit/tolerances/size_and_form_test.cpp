@@ -23,18 +23,14 @@ TEST_CASE("Every tolerance describes itself and is found by its word") {
 
 TEST_CASE("Sizes are compared with the nominal size") {
   Evaluation d("DIAM");
-  d.number("lower", -0.1)
-      .number("upper", 0.2)
-      .feature(Shape::cylinder, sized(at({}), 10.01), sized(at({}), 10));
+  d.number("lower", -0.1).number("upper", 0.2).feature(Shape::cylinder, sized(at({}), 10.01), sized(at({}), 10));
   CHECK(d.value() == Approx(20.02));
   CHECK(d.nominal_value() == Approx(20));
   CHECK(*d.limits().lower == Approx(19.9));
   CHECK(*d.limits().upper == Approx(20.2));
   CHECK(d.refusal().empty());
   Evaluation r("RAD");
-  r.number("lower", -0.1)
-      .number("upper", 0.2)
-      .feature(Shape::sphere, sized(at({}), 10.01), sized(at({}), 10));
+  r.number("lower", -0.1).number("upper", 0.2).feature(Shape::sphere, sized(at({}), 10.01), sized(at({}), 10));
   CHECK(r.value() == Approx(10.01));
   CHECK(r.nominal_value() == Approx(10));
   CHECK(*r.limits().lower == Approx(9.9));
@@ -55,10 +51,8 @@ TEST_CASE("Form is the spread of the residuals") {
   CHECK(Evaluation("FLAT").feature(Shape::plane, at({})).value() == 0);
   CHECK(Evaluation("FLAT").feature(Shape::line, e).refusal() == "flatness is for planes");
   CHECK(Evaluation("STRGHT").feature(Shape::plane, e).refusal() == "straightness is for lines");
-  CHECK(Evaluation("CIRLTY").feature(Shape::cylinder, e).refusal() ==
-        "circularity is for circles and spheres");
-  CHECK(Evaluation("CYLCTY").feature(Shape::circle, e).refusal() ==
-        "cylindricity is for cylinders");
+  CHECK(Evaluation("CIRLTY").feature(Shape::cylinder, e).refusal() == "circularity is for circles and spheres");
+  CHECK(Evaluation("CYLCTY").feature(Shape::circle, e).refusal() == "cylindricity is for cylinders");
   for (const auto& [word, shape] : {std::pair{"FLAT", Shape::plane},
                                     {"STRGHT", Shape::line},
                                     {"CIRLTY", Shape::circle},
@@ -87,11 +81,9 @@ TEST_CASE("The straightness of a line of a surface is a zone in its section") {
 }
 
 TEST_CASE("A zone is an upper limit, and a zone of zero sets none") {
-  const ToleranceLimits limits =
-      Evaluation("FLAT").number("zone", 0.05).feature(Shape::plane, at({})).limits();
+  const ToleranceLimits limits = Evaluation("FLAT").number("zone", 0.05).feature(Shape::plane, at({})).limits();
   CHECK_FALSE(limits.lower);
   CHECK(*limits.upper == 0.05);
   CHECK(Evaluation("FLAT").feature(Shape::plane, at({})).nominal_value() == 0);
-  CHECK_FALSE(
-      Evaluation("CYLCTY").number("zone", 0).feature(Shape::cylinder, at({})).limits().upper);
+  CHECK_FALSE(Evaluation("CYLCTY").number("zone", 0).feature(Shape::cylinder, at({})).limits().upper);
 }

@@ -1,5 +1,6 @@
-// The uncertainty that alignments pass on to what is measured in them, through the language, against closed forms. Only the probe has
-// errors: sd is that of one touch, the same for all touches and independent, so variances add up with squared weights.
+// The uncertainty that alignments pass on to what is measured in them, through the language, against closed
+// forms. Only the probe has errors: sd is that of one touch, the same for all touches and independent, so
+// variances add up with squared weights.
 #include <cmath>
 
 #include "tests/unit/whole/programs.hpp"
@@ -21,10 +22,11 @@ RunOptions only_probe() {
 /// Three touches on the face z = 0, two on the edge y = 0, one on the stop x = 0, four in a bore about the origin.
 std::string datums() {
   return measured("FACE", "PLANE,CART,0,0,0,0,0,1", {"0,0,0,0,0,1", "100,0,0,0,0,1", "0,100,0,0,0,1"}) +
-         measured("EDGE", "LINE,UNBND,CART,0,0,0,1,0,0,0,-1,0", {"0,0,0,0,-1,0", "100,0,0,0,-1,0"}) +
-         measured("STOP", "POINT,CART,0,0,0,-1,0,0", {"0,0,0,-1,0,0"}) +
-         measured("BORE", "CIRCLE,INNER,CART,0,0,0,0,0,1,20", {"10,0,0,-1,0,0", "0,10,0,0,-1,0", "-10,0,0,1,0,0", "0,-10,0,0,1,0"}) +
-         "DATDEF/FA(FACE),DAT(A)\nDATDEF/FA(EDGE),DAT(B)\nDATDEF/FA(STOP),DAT(C)\n";
+      measured("EDGE", "LINE,UNBND,CART,0,0,0,1,0,0,0,-1,0", {"0,0,0,0,-1,0", "100,0,0,0,-1,0"}) +
+      measured("STOP", "POINT,CART,0,0,0,-1,0,0", {"0,0,0,-1,0,0"}) +
+      measured("BORE", "CIRCLE,INNER,CART,0,0,0,0,0,1,20",
+               {"10,0,0,-1,0,0", "0,10,0,0,-1,0", "-10,0,0,1,0,0", "0,-10,0,0,1,0"}) +
+      "DATDEF/FA(FACE),DAT(A)\nDATDEF/FA(EDGE),DAT(B)\nDATDEF/FA(STOP),DAT(C)\n";
 }
 
 /// A point measured in the system that the statements make of the part's, and the variance of one of its coordinates.
@@ -46,11 +48,13 @@ const Case kCases[] = {
     {"DATSET/DAT(A),ZDIR,ZORIG", {X, Y, 0}, 'X', 1},
     // Two datums: the line through two touches, read at X.
     {"DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG", {X, 0, 0}, 'Y', kEdge},
-    // The same the other way round: y runs along the edge that was x, so the system is turned and the part lies along -x.
+    // The same the other way round: y runs along the edge that was x, so the system is turned and the part
+    // lies along -x.
     {"DATSET/DAT(A),ZDIR,ZORIG,DAT(B),YDIR,XORIG", {0, X, 0}, 'X', kEdge},
     // Three datums: the stop, and the rotation by the edge times the lever.
     {"DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG,DAT(C),XORIG", {0, Y, 0}, 'X', 2 + 2 * square(Y / L)},
-    // The origin moved to a point: its error and the own one; to the centre of a bore: half of each of two opposite touches.
+    // The origin moved to a point: its error and the own one; to the centre of a bore: half of each of two
+    // opposite touches.
     {"TRANS/XORIG,FA(STOP)", {X, Y, 0}, 'X', 2},
     {"TRANS/XORIG,FA(BORE),YORIG,FA(BORE)", {X, Y, 0}, 'X', 1.5},
     {"TRANS/XORIG,FA(BORE),YORIG,FA(BORE)", {X, Y, 0}, 'Y', 1.5},
@@ -67,9 +71,10 @@ std::string program() {
   int number = 0;
   for (const Case& c : kCases) {
     const Vec3 n = c.axis == 'X' ? Vec3{-1, 0, 0} : c.axis == 'Y' ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
-    const std::string at = fmt::format("{},{},{},{},{},{}", c.at.x, c.at.y, c.at.z, n.x, n.y, n.z), label = fmt::format("P{}", number);
+    const std::string at = fmt::format("{},{},{},{},{},{}", c.at.x, c.at.y, c.at.z, n.x, n.y, n.z),
+                      label = fmt::format("P{}", number);
     out += fmt::format("RECALL/D(PART)\nD(NEW)={}\nT(T{})=TOL/CORTOL,{}AXIS,-1,1\n", c.system, number, c.axis) +
-           measured(label, "POINT,CART," + at, {at}) + fmt::format("OUTPUT/FA({}),TA(T{})\n", label, number);
+        measured(label, "POINT,CART," + at, {at}) + fmt::format("OUTPUT/FA({}),TA(T{})\n", label, number);
     ++number;
   }
   return out;
@@ -96,14 +101,17 @@ TEST_CASE("alignments pass on the uncertainty of their touches as the closed for
     const Samples& samples = ran.samples(fmt::format("T{}", number++));
     CHECK(std::fabs(samples.reference.value()) < 1e-9);
     // 3.9 standard deviations of the variance of so many normal numbers.
-    CHECK(std::fabs(variance(samples.value) / (square(sd.x) * c.variance) - 1) < 3.9 * std::sqrt(2.0 / (kMachines - 1)));
+    CHECK(std::fabs(variance(samples.value) / (square(sd.x) * c.variance) - 1) <
+          3.9 * std::sqrt(2.0 / (kMachines - 1)));
   }
 }
 
 TEST_CASE("a chain of systems is what its links make together") {
   // (10, 20) in a system moved by (100, 0) and turned by a quarter lies at (80, 10) of the part.
-  const Ran ran("SAVE/D(PART)\nD(A)=TRANS/XORIG,100\nD(B)=ROTATE/ZAXIS,90\nSAVE/D(B)\n" + measured("P", "POINT,CART,10,20,0,0,0,1", {"10,20,0,0,0,1"}) +
-                "RECALL/D(PART)\nOUTPUT/FA(P)\nRECALL/DA(B)\n" + measured("Q", "POINT,CART,0,0,0,0,0,1", {"0,0,0,0,0,1"}) + "RECALL/D(A)\nOUTPUT/FA(Q)\nOUTPUT/DA(B)\n");
+  const Ran ran("SAVE/D(PART)\nD(A)=TRANS/XORIG,100\nD(B)=ROTATE/ZAXIS,90\nSAVE/D(B)\n" +
+                measured("P", "POINT,CART,10,20,0,0,0,1", {"10,20,0,0,0,1"}) +
+                "RECALL/D(PART)\nOUTPUT/FA(P)\nRECALL/DA(B)\n" +
+                measured("Q", "POINT,CART,0,0,0,0,0,1", {"0,0,0,0,0,1"}) + "RECALL/D(A)\nOUTPUT/FA(Q)\nOUTPUT/DA(B)\n");
   check_near(ran.output("P").point, {80, 10, 0});
   check_near(ran.output("Q").point, {0, 0, 0});
   const OutputRecord& frame = ran.result.reference_outputs.back();

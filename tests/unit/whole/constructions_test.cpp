@@ -10,7 +10,9 @@ using doctest::Approx;
 
 namespace {
 
-std::string spot(const std::string& label, const std::string& at) { return measured(label, "POINT,CART," + at + ",0,0,1", {at + ",0,0,1"}); }
+std::string spot(const std::string& label, const std::string& at) {
+  return measured(label, "POINT,CART," + at + ",0,0,1", {at + ",0,0,1"});
+}
 
 std::string circle(const std::string& label, double x, double y, double r) {
   std::vector<std::string> touches;
@@ -19,11 +21,11 @@ std::string circle(const std::string& label, double x, double y, double r) {
   return measured(label, fmt::format("CIRCLE,INNER,CART,{},{},0,0,0,1,{}", x, y, 2 * r), touches);
 }
 
-/// What the constructions work on: three points of a right triangle and one above, planes (the slope is z = x + 10), two parallel lines, a
-/// circle about (50, 50), a cylinder upright through (20, 30).
+/// What the constructions work on: three points of a right triangle and one above, planes (the slope is z = x
+/// + 10), two parallel lines, a circle about (50, 50), a cylinder upright through (20, 30).
 std::string parts() {
-  std::string out = spot("A", "0,0,0") + spot("B", "10,0,0") + spot("C", "0,20,0") + spot("D", "5,5,30") + spot("E", "24,50,0") +
-                    circle("K", 50, 50, 10) + circle("K2", 90, 50, 10);
+  std::string out = spot("A", "0,0,0") + spot("B", "10,0,0") + spot("C", "0,20,0") + spot("D", "5,5,30") +
+      spot("E", "24,50,0") + circle("K", 50, 50, 10) + circle("K2", 90, 50, 10);
   out += measured("TOP", "PLANE,CART,0,0,0,0,0,1", {"0,0,0,0,0,1", "40,0,0,0,0,1", "0,40,0,0,0,1"});
   out += measured("ROOF", "PLANE,CART,0,0,10,0,0,1", {"0,0,10,0,0,1", "40,0,10,0,0,1", "0,40,10,0,0,1"});
   out += measured("FRONT", "PLANE,CART,0,-5,0,0,-1,0", {"0,-5,0,0,-1,0", "40,-5,0,0,-1,0", "0,-5,40,0,-1,0"});
@@ -36,14 +38,18 @@ std::string parts() {
 
 /// The element that a construction makes of parts(), in the system of the part.
 Element made(const std::string& nominal, const std::string& arguments) {
-  const Ran ran(parts() + "F(R)=FEAT/" + nominal + "\nCONST/" + nominal.substr(0, nominal.find(',')) + ",F(R)," + arguments + "\nOUTPUT/FA(R)\n");
+  const Ran ran(parts() + "F(R)=FEAT/" + nominal + "\nCONST/" + nominal.substr(0, nominal.find(',')) + ",F(R)," +
+                arguments + "\nOUTPUT/FA(R)\n");
   return ran.output("R");
 }
 
-const std::string kPoint = "POINT,CART,0,0,0,0,0,1", kLine = "LINE,UNBND,CART,0,0,0,1,0,0,0,0,1", kUp = "LINE,UNBND,CART,0,0,0,0,0,1,1,0,0",
-                  kPlane = "PLANE,CART,0,0,0,0,0,1", kSlope = "PLANE,CART,0,0,0,-1,0,1", kCircle = "CIRCLE,INNER,CART,0,0,0,0,0,1,20";
+const std::string kPoint = "POINT,CART,0,0,0,0,0,1", kLine = "LINE,UNBND,CART,0,0,0,1,0,0,0,0,1",
+                  kUp = "LINE,UNBND,CART,0,0,0,0,0,1,1,0,0", kPlane = "PLANE,CART,0,0,0,0,0,1",
+                  kSlope = "PLANE,CART,0,0,0,-1,0,1", kCircle = "CIRCLE,INNER,CART,0,0,0,0,0,1,20";
 
-void check_point(const std::string& arguments, const Vec3& expected) { check_near(made(kPoint, arguments).point, expected); }
+void check_point(const std::string& arguments, const Vec3& expected) {
+  check_near(made(kPoint, arguments).point, expected);
+}
 
 }  // namespace
 
@@ -83,7 +89,8 @@ TEST_CASE("constructed lines run as hand calculation says") {
   check_near(beside.direction, {1, 0, 0});
   CHECK(beside.point.y == Approx(20));
   // From (24, 50), 26 before the centre of a circle of radius 10, the tangent is 24 long.
-  check_near(made("LINE,UNBND,CART,0,0,0,1,0.4,0,0,0,1", "TANTO,FA(K),THRU,FA(E)").direction, {24.0 / 26, 10.0 / 26, 0});
+  check_near(made("LINE,UNBND,CART,0,0,0,1,0.4,0,0,0,1", "TANTO,FA(K),THRU,FA(E)").direction,
+             {24.0 / 26, 10.0 / 26, 0});
 }
 
 TEST_CASE("constructed planes and circles are those of hand calculation") {
@@ -107,8 +114,8 @@ TEST_CASE("constructed planes and circles are those of hand calculation") {
 TEST_CASE("a torus is found where its touches are") {
   // The tube has a radius of 10.1 about a circle of radius 40: outside at 50.1, above at 10.1.
   const Ran ran(measured("T", "TORUS,OUTER,CART,0,0,0,0,0,1,80,20",
-                         {"50.1,0,0,1,0,0", "0,50.1,0,0,1,0", "-50.1,0,0,-1,0,0", "0,-50.1,0,0,-1,0", "40,0,10.1,0,0,1", "0,40,10.1,0,0,1", "-40,0,10.1,0,0,1",
-                          "0,-40,-10.1,0,0,-1"}) +
+                         {"50.1,0,0,1,0,0", "0,50.1,0,0,1,0", "-50.1,0,0,-1,0,0", "0,-50.1,0,0,-1,0", "40,0,10.1,0,0,1",
+                          "0,40,10.1,0,0,1", "-40,0,10.1,0,0,1", "0,-40,-10.1,0,0,-1"}) +
                 "OUTPUT/FA(T)\n");
   CHECK(ran.output("T").size == Approx(40));
   CHECK(ran.output("T").minor_size == Approx(10.1));
@@ -117,7 +124,8 @@ TEST_CASE("a torus is found where its touches are") {
 
 TEST_CASE("every construction is tried here") {
   // A construction without a line in the cases above has no value that anyone worked out.
-  const std::string_view tried = "INTOF MIDPT PROJPT MOVEPT EXTREM COG TR VECBLD BF MIDLI PROJLI PERPTO PARTO TANTO MIDPL OFFSET";
+  const std::string_view tried =
+      "INTOF MIDPT PROJPT MOVEPT EXTREM COG TR VECBLD BF MIDLI PROJLI PERPTO PARTO TANTO MIDPL OFFSET";
   for (const Construction* method : constructions()) {
     CAPTURE(std::string(method->word));
     CHECK(tried.find(method->word) != std::string_view::npos);
@@ -125,7 +133,9 @@ TEST_CASE("every construction is tried here") {
 }
 
 TEST_CASE("a feature may stand where a datum is asked for") {
-  const Ran ran(parts() + "DATDEF/FA(TOP),DAT(A)\nT(P)=TOL/PARLEL,0.1,DAT(A)\nT(Q)=TOL/PARLEL,0.1,FA(TOP)\nOUTPUT/FA(SLOPE),TA(P),TA(Q)\n");
+  const Ran ran(
+      parts() +
+      "DATDEF/FA(TOP),DAT(A)\nT(P)=TOL/PARLEL,0.1,DAT(A)\nT(Q)=TOL/PARLEL,0.1,FA(TOP)\nOUTPUT/FA(SLOPE),TA(P),TA(Q)\n");
   CHECK(ran["P"] > 1);
   CHECK(ran["P"] == ran["Q"]);
 }

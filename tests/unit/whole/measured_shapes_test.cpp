@@ -10,16 +10,18 @@ namespace {
 /// Two faces 20 mm apart, the upper one rising by 1 um/mm along x, touched from x = 5 to 95.
 std::string wedge() {
   return measured("LOW", "PLANE,CART,50,30,0,0,0,1", {"5,5,0,0,0,1", "5,55,0,0,0,1", "95,5,0,0,0,1", "95,55,0,0,0,1"}) +
-         measured("TOP", "PLANE,CART,50,30,20,0,0,1", {"5,5,19.955,0,0,1", "5,55,19.955,0,0,1", "95,5,20.045,0,0,1", "95,55,20.045,0,0,1"});
+      measured("TOP", "PLANE,CART,50,30,20,0,0,1",
+               {"5,5,19.955,0,0,1", "5,55,19.955,0,0,1", "95,5,20.045,0,0,1", "95,55,20.045,0,0,1"});
 }
 
 }  // namespace
 
 TEST_CASE("the farthest and the nearest touches of two faces") {
-  const Ran ran(wedge() +
-                "T(MAX)=TOL/DISTB,NOMINL,20,-.1,.1,ZAXIS,MAX\nT(MIN)=TOL/DISTB,NOMINL,20,-.1,.1,ZAXIS,MIN\nT(AVG)=TOL/DISTB,NOMINL,20,-.1,.1,PT2PT\n"
-                "OUTPUT/FA(LOW),FA(TOP),TA(MAX),TA(MIN),TA(AVG)\n"
-                "T(WRT)=TOL/DISTWRT,NOMINL,20,-.1,.1,FA(TOP),ZAXIS,MAX\nOUTPUT/FA(LOW),TA(WRT)\n");
+  const Ran ran(
+      wedge() +
+      "T(MAX)=TOL/DISTB,NOMINL,20,-.1,.1,ZAXIS,MAX\nT(MIN)=TOL/DISTB,NOMINL,20,-.1,.1,ZAXIS,MIN\nT(AVG)=TOL/DISTB,NOMINL,20,-.1,.1,PT2PT\n"
+      "OUTPUT/FA(LOW),FA(TOP),TA(MAX),TA(MIN),TA(AVG)\n"
+      "T(WRT)=TOL/DISTWRT,NOMINL,20,-.1,.1,FA(TOP),ZAXIS,MAX\nOUTPUT/FA(LOW),TA(WRT)\n");
   CHECK(ran["MAX"] == Approx(20.045));
   CHECK(ran["MIN"] == Approx(19.955));
   CHECK(ran["AVG"] == Approx(20));
@@ -44,7 +46,8 @@ TEST_CASE("a line of a surface is as straight as its section, an axis as its cyl
 TEST_CASE("a median plane is judged without the touches of its faces") {
   const Ran ran(measured("BASE", "PLANE,CART,0,0,0,0,1,0", {"0,0,0,0,1,0", "50,0,0,0,1,0", "0,0,20,0,1,0"}) +
                 measured("SLOT", "PARPLN,INNER,MIDPL,CART,40,30,-5,0,1,0,10",
-                         {"20,25,-2,0,1,0", "60,25,-2,0,1,0", "60,25,-8,0,1,0", "20,35,-2,0,-1,0", "60,35,-2,0,-1,0", "20,35,-8,0,-1,0"}) +
+                         {"20,25,-2,0,1,0", "60,25,-2,0,1,0", "60,25,-8,0,1,0", "20,35,-2,0,-1,0", "60,35,-2,0,-1,0",
+                          "20,35,-8,0,-1,0"}) +
                 "DATDEF/FA(BASE),DAT(A)\nT(PAR)=TOL/PARLEL,0.05,DAT(A)\nT(FAR)=TOL/DISTB,NOMINL,30,-.1,.1,PT2PT,MAX\n"
                 "OUTPUT/FA(SLOT),TA(PAR)\nOUTPUT/FA(BASE),FA(SLOT),TA(FAR)\n");
   CHECK(ran["PAR"] == Approx(0).scale(1));

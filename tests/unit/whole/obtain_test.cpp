@@ -14,8 +14,9 @@ namespace {
 std::vector<double> values(const std::string& statements, const std::vector<std::string>& expressions) {
   std::string text = statements;
   for (std::size_t i = 0; i < expressions.size(); ++i)
-    text += fmt::format("VALUE{0}={1}\nF(V{0})=FEAT/POINT,CART,VALUE{0},0,0,0,0,1\nMEAS/POINT,F(V{0}),1\nPTMEAS/CART,VALUE{0},0,0,0,0,1\nENDMES\nOUTPUT/FA(V{0})\n",
-                        i, expressions[i]);
+    text += fmt::format(
+        "VALUE{0}={1}\nF(V{0})=FEAT/POINT,CART,VALUE{0},0,0,0,0,1\nMEAS/POINT,F(V{0}),1\nPTMEAS/CART,VALUE{0},0,0,0,0,1\nENDMES\nOUTPUT/FA(V{0})\n",
+        i, expressions[i]);
   const Ran ran(text);
   std::vector<double> out;
   for (std::size_t i = 0; i < expressions.size(); ++i) out.push_back(ran.output(fmt::format("V{}", i)).point.x);
@@ -37,22 +38,25 @@ bool is_word(std::string_view example, int argument) {
 
 TEST_CASE("what is measured of a feature without errors is what defines it, argument by argument") {
   // The examples, and what they do not try: other forms of the same kinds.
-  std::vector<std::string> forms = {"F(X)=FEAT/LINE,UNBND,CART,1,2,3,1,0,0,0,0,1", "F(X)=FEAT/ELLIPS,INNER,CART,-30,0,0,30,0,0,MINOR,80,0,0,1",
-                                    "F(X)=FEAT/PARPLN,INNER,CART,0,25,0,0,1,0,0,35,0,0,-1,0", "F(X)=FEAT/CIRCLE,OUTER,POL,50,30,4,0,0,1,20",
-                                    "F(X)=FEAT/RCTNGL,OUTER,CART,0,0,0,1,0,0,60,0,-1,0,40,0,0,1,20"};
+  std::vector<std::string> forms = {
+      "F(X)=FEAT/LINE,UNBND,CART,1,2,3,1,0,0,0,0,1", "F(X)=FEAT/ELLIPS,INNER,CART,-30,0,0,30,0,0,MINOR,80,0,0,1",
+      "F(X)=FEAT/PARPLN,INNER,CART,0,25,0,0,1,0,0,35,0,0,-1,0", "F(X)=FEAT/CIRCLE,OUTER,POL,50,30,4,0,0,1,20",
+      "F(X)=FEAT/RCTNGL,OUTER,CART,0,0,0,1,0,0,60,0,-1,0,40,0,0,1,20"};
   for (const FeatureKind* kind : feature_kinds())
     if (!pattern_help(kind->shape).empty()) forms.emplace_back(kind->example);
   int numbers = 0;
   for (const std::string& form : forms) {
     CAPTURE(form);
-    const std::string label = form.substr(2, form.find(')') - 2), kind = form.substr(form.find('/') + 1, form.find(',') - form.find('/') - 1);
+    const std::string label = form.substr(2, form.find(')') - 2),
+                      kind = form.substr(form.find('/') + 1, form.find(',') - form.find('/') - 1);
     std::vector<std::string> measured_and_defined;
     for (int k = 3; k <= arguments_of(form); ++k) {
       if (is_word(form, k)) continue;
       measured_and_defined.push_back(fmt::format("OBTAIN/FA({}),{}", label, k));
       measured_and_defined.push_back(fmt::format("OBTAIN/F({}),{}", label, k));
     }
-    const std::vector<double> v = values(form + fmt::format("\nMEAS/{},F({}),12\nENDMES\n", kind, label), measured_and_defined);
+    const std::vector<double> v =
+        values(form + fmt::format("\nMEAS/{},F({}),12\nENDMES\n", kind, label), measured_and_defined);
     // Where along itself a line or an axis has its point, and how long it is, depends on the touches.
     for (std::size_t i = 0; i < v.size(); i += 2) {
       CAPTURE(measured_and_defined[i]);
@@ -65,23 +69,27 @@ TEST_CASE("what is measured of a feature without errors is what defines it, argu
 }
 
 TEST_CASE("numbers come in the units of the program") {
-  const std::vector<double> v = values("UNITS/INCH,ANGDEC\nF(C)=FEAT/CIRCLE,INNER,CART,1,1,0,0,0,1,2\nMEAS/CIRCLE,F(C),4\nENDMES\n",
-                                       {"OBTAIN/FA(C),5", "OBTAIN/FA(C),11"});
+  const std::vector<double> v =
+      values("UNITS/INCH,ANGDEC\nF(C)=FEAT/CIRCLE,INNER,CART,1,1,0,0,0,1,2\nMEAS/CIRCLE,F(C),4\nENDMES\n",
+             {"OBTAIN/FA(C),5", "OBTAIN/FA(C),11"});
   CHECK(v[0] == Approx(25.4));  // the values are put out in mm
   CHECK(v[1] == Approx(50.8));
 }
 
 TEST_CASE("tolerances and sensors can be read") {
-  const std::string defined = "T(D)=TOL/DIAM,-0.2,0.1\nF(C)=FEAT/CIRCLE,INNER,CART,20,20,0,0,0,1,10\nMEAS/CIRCLE,F(C),4\n"
-                              "PTMEAS/CART,25.1,20,0,-1,0,0\nPTMEAS/CART,20,25.1,0,0,-1,0\nPTMEAS/CART,14.9,20,0,1,0,0\nPTMEAS/CART,20,14.9,0,0,1,0\nENDMES\nEVAL/FA(C),T(D)\n";
+  const std::string defined =
+      "T(D)=TOL/DIAM,-0.2,0.1\nF(C)=FEAT/CIRCLE,INNER,CART,20,20,0,0,0,1,10\nMEAS/CIRCLE,F(C),4\n"
+      "PTMEAS/CART,25.1,20,0,-1,0,0\nPTMEAS/CART,20,25.1,0,0,-1,0\nPTMEAS/CART,14.9,20,0,1,0,0\nPTMEAS/CART,20,14.9,0,0,1,0\nENDMES\nEVAL/FA(C),T(D)\n";
   const std::vector<double> v = values(defined, {"OBTAIN/T(D),3", "OBTAIN/T(D),4", "OBTAIN/TA(D),3", "OBTAIN/S(P),10"});
   CHECK(v[0] == Approx(-0.2));
   CHECK(v[1] == Approx(0.1));
   CHECK(v[2] == Approx(10.2));
   CHECK(v[3] == Approx(150));
   // Diameter 10.2 is outside 10 -0.2 +0.1, and texts can be compared.
-  const std::vector<double> texts = values(defined + "DECL/CHAR,9,A,B,C\nDECL/REAL,X\nX=ASSIGN/0\nA=OBTAIN/TA(D),4\nB=OBTAIN/S(P),3\nC=OBTAIN/T(D),1\n"
-                                                     "IF/(A .EQ. 'OUTOL' .AND. B .EQ. 'INDEX' .AND. C .EQ. 'TOL')\nX=ASSIGN/1\nENDIF\n",
-                                           {"ASSIGN/X"});
+  const std::vector<double> texts =
+      values(defined +
+                 "DECL/CHAR,9,A,B,C\nDECL/REAL,X\nX=ASSIGN/0\nA=OBTAIN/TA(D),4\nB=OBTAIN/S(P),3\nC=OBTAIN/T(D),1\n"
+                 "IF/(A .EQ. 'OUTOL' .AND. B .EQ. 'INDEX' .AND. C .EQ. 'TOL')\nX=ASSIGN/1\nENDIF\n",
+             {"ASSIGN/X"});
   CHECK(texts[0] == 1);
 }

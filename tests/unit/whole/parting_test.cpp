@@ -1,5 +1,6 @@
-// Programs in the language whose path depends on measured values: each machine must get exactly what it gets alone, whatever
-// block it runs in. The programs are random; their thresholds are of the size of the machine's errors, so machines do part.
+// Programs in the language whose path depends on measured values: each machine must get exactly what it gets
+// alone, whatever block it runs in. The programs are random; their thresholds are of the size of the
+// machine's errors, so machines do part.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -17,10 +18,11 @@ class Author {
   explicit Author(std::uint32_t number) : number_(number) {}
 
   std::string program() {
-    text_ = "DMISMN/'random',5.2\nDECL/REAL,X,Y,A[4]\nDECL/INTGR,I,J,N\nDECL/CHAR,9,L\nDECL/BOOL,B\n"
-            "S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4\nS(Q)=SNSDEF/PROBE,INDEX,POL,45,90,0,0,-1,150,4\nSNSLCT/S(P)\n"
-            "M(POINT)=MACRO/'NAME',XX,ZZ\nF('NAME')=FEAT/POINT,CART,XX,300,ZZ,0,-1,0\nMEAS/POINT,F('NAME'),1\nPTMEAS/CART,XX,300,ZZ,0,-1,0\nENDMES\n"
-            "Y=OBTAIN/FA('NAME'),5\nENDMAC\nT(T)=TOL/CORTOL,YAXIS,-0.002,0.002\nN=ASSIGN/0\nX=ASSIGN/0\n";
+    text_ =
+        "DMISMN/'random',5.2\nDECL/REAL,X,Y,A[4]\nDECL/INTGR,I,J,N\nDECL/CHAR,9,L\nDECL/BOOL,B\n"
+        "S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4\nS(Q)=SNSDEF/PROBE,INDEX,POL,45,90,0,0,-1,150,4\nSNSLCT/S(P)\n"
+        "M(POINT)=MACRO/'NAME',XX,ZZ\nF('NAME')=FEAT/POINT,CART,XX,300,ZZ,0,-1,0\nMEAS/POINT,F('NAME'),1\nPTMEAS/CART,XX,300,ZZ,0,-1,0\nENDMES\n"
+        "Y=OBTAIN/FA('NAME'),5\nENDMAC\nT(T)=TOL/CORTOL,YAXIS,-0.002,0.002\nN=ASSIGN/0\nX=ASSIGN/0\n";
     for (int step = 0; step < 5; ++step) {
       measure(fmt::format("'A{}'", step));
       part(step);
@@ -33,7 +35,9 @@ class Author {
   double uniform() { return uniform_pair({number_, 0, stream_of("random text"), 0, 0, next_++}).a; }
   int below(int n) { return static_cast<int>(uniform() * n); }
   std::string threshold() { return fmt::format("{:.5f}", 300 + 0.004 * (uniform() - 0.5)); }
-  void measure(const std::string& label) { text_ += fmt::format("CALL/M(POINT),{},{:.1f},{:.1f}\n", label, 600 + 300 * uniform(), -600 + 200 * uniform()); }
+  void measure(const std::string& label) {
+    text_ += fmt::format("CALL/M(POINT),{},{:.1f},{:.1f}\n", label, 600 + 300 * uniform(), -600 + 200 * uniform());
+  }
 
   /// Something that machines may do differently after Y was measured.
   void part(int step) {
@@ -43,30 +47,39 @@ class Author {
         measure(fmt::format("'B{}'", step));
         text_ += fmt::format("ELSE\nIF/(Y .LT. {} .OR. X .GT. 2)\n", threshold());
         measure(fmt::format("'B{}'", step));
-        text_ += fmt::format("ENDIF\nX=ASSIGN/7\nENDIF\nIF/(X .GE. 1 .AND. X .LT. 7)\nEVAL/FA(B{}),TA(T)\nENDIF\n", step);
+        text_ +=
+            fmt::format("ENDIF\nX=ASSIGN/7\nENDIF\nIF/(X .GE. 1 .AND. X .LT. 7)\nEVAL/FA(B{}),TA(T)\nENDIF\n", step);
         break;
       case 1:
         text_ += fmt::format("(AGAIN{})\nN=ASSIGN/N+1\n", step);
         measure(fmt::format("'C{}'", step));
-        text_ += fmt::format("IF/(Y .GT. {} .AND. N .LT. 8)\nJUMPTO/(AGAIN{})\nENDIF\nEVAL/FA(C{}),TA(T)\n", threshold(), step, step);
+        text_ += fmt::format("IF/(Y .GT. {} .AND. N .LT. 8)\nJUMPTO/(AGAIN{})\nENDIF\nEVAL/FA(C{}),TA(T)\n",
+                             threshold(), step, step);
         break;
       case 2:
-        text_ += fmt::format("J=ASSIGN/NINT((Y-300)*1000)\nSELECT/ABS(J)\nCASE/0\nL=ASSIGN/'ZERO'\nENDCAS\nCASE/1,2\nL=ASSIGN/'SOME'\n");
+        text_ += fmt::format(
+            "J=ASSIGN/NINT((Y-300)*1000)\nSELECT/ABS(J)\nCASE/0\nL=ASSIGN/'ZERO'\nENDCAS\nCASE/1,2\nL=ASSIGN/'SOME'\n");
         measure(fmt::format("'D{}'", step));
-        text_ += "ENDCAS\nDFTCAS\nL=ASSIGN/'MANY'\nD(D)=TRANS/YORIG,Y-300\nENDCAS\nENDSEL\nIF/(L .EQ. 'SOME')\nSNSLCT/S(P)\nX=ASSIGN/X*2\nENDIF\n";
+        text_ +=
+            "ENDCAS\nDFTCAS\nL=ASSIGN/'MANY'\nD(D)=TRANS/YORIG,Y-300\nENDCAS\nENDSEL\nIF/(L .EQ. 'SOME')\nSNSLCT/S(P)\nX=ASSIGN/X*2\nENDIF\n";
         break;
       case 3:
         text_ += fmt::format("DO/I,1,MN(4,1+ABS(NINT((Y-300)*800)))\n");
         measure(fmt::format("'E{}'", step));
-        text_ += fmt::format("A[I]=ASSIGN/Y\nIF/(Y .GT. {})\nJUMPTO/(OUT{})\nENDIF\nENDDO\n(OUT{})\nEVAL/FA(E{}),TA(T)\n", threshold(), step, step, step);
+        text_ +=
+            fmt::format("A[I]=ASSIGN/Y\nIF/(Y .GT. {})\nJUMPTO/(OUT{})\nENDIF\nENDDO\n(OUT{})\nEVAL/FA(E{}),TA(T)\n",
+                        threshold(), step, step, step);
         break;
       case 4:
-        text_ += fmt::format("F(G{0})=FEAT/LINE,UNBND,CART,700,300,-500,1,0,0,0,-1,0\nMEAS/LINE,F(G{0}),2\nPTMEAS/CART,700,300,-500,0,-1,0\nPTMEAS/CART,800,300,-500,0,-1,0\n"
-                             "IF/(Y .LT. {1})\nPTMEAS/CART,900,300,-500,0,-1,0\nENDIF\nENDMES\nT(S{0})=TOL/STRGHT,0.01\nEVAL/FA(G{0}),TA(S{0})\n",
-                             step, threshold());
+        text_ += fmt::format(
+            "F(G{0})=FEAT/LINE,UNBND,CART,700,300,-500,1,0,0,0,-1,0\nMEAS/LINE,F(G{0}),2\nPTMEAS/CART,700,300,-500,0,-1,0\nPTMEAS/CART,800,300,-500,0,-1,0\n"
+            "IF/(Y .LT. {1})\nPTMEAS/CART,900,300,-500,0,-1,0\nENDIF\nENDMES\nT(S{0})=TOL/STRGHT,0.01\nEVAL/FA(G{0}),TA(S{0})\n",
+            step, threshold());
         break;
       default:
-        text_ += fmt::format("B=ASSIGN/Y .GT. {}\nDO/I,1,3\nIF/(B)\nJUMPTO/(NEXT{})\nENDIF\nX=ASSIGN/X+I\n(NEXT{})\nENDDO\nGOTO/X,200,-300\n", threshold(), step, step);
+        text_ += fmt::format(
+            "B=ASSIGN/Y .GT. {}\nDO/I,1,3\nIF/(B)\nJUMPTO/(NEXT{})\nENDIF\nX=ASSIGN/X+I\n(NEXT{})\nENDDO\nGOTO/X,200,-300\n",
+            threshold(), step, step);
     }
   }
 
@@ -74,7 +87,8 @@ class Author {
   std::string text_;
 };
 
-RunResult run(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, int block_lanes, const SourceFile& source) {
+RunResult run(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines, int block_lanes,
+              const SourceFile& source) {
   RunOptions options;
   options.block_lanes = block_lanes;
   options.threads = 2;
@@ -122,11 +136,12 @@ TEST_CASE("machines that part by what they measure get exactly what each gets al
 }
 
 TEST_CASE("what only virtual machines evaluate has samples, but no reference") {
-  const SourceFile source("branches.dmi",
-                          "DMISMN/'branches',5.2\nDECL/REAL,D\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4\nSNSLCT/S(P)\n"
-                          "D(R)=TRANS/XORIG,700,YORIG,400,ZORIG,-500\nF(H)=FEAT/CIRCLE,INNER,CART,50,30,-5,0,0,1,10\n"
-                          "MEAS/CIRCLE,F(H),6\nENDMES\nD=OBTAIN/FA(H),11\nIF/(D .GT. 10.0001)\nT(BIG)=TOL/DIAM,-0.01,0.01\n"
-                          "EVAL/FA(H),TA(BIG)\nELSE\nT(SMALL)=TOL/DIAM,-0.02,0.02\nEVAL/FA(H),TA(SMALL)\nENDIF\nENDFIL\n");
+  const SourceFile source(
+      "branches.dmi",
+      "DMISMN/'branches',5.2\nDECL/REAL,D\nS(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4\nSNSLCT/S(P)\n"
+      "D(R)=TRANS/XORIG,700,YORIG,400,ZORIG,-500\nF(H)=FEAT/CIRCLE,INNER,CART,50,30,-5,0,0,1,10\n"
+      "MEAS/CIRCLE,F(H),6\nENDMES\nD=OBTAIN/FA(H),11\nIF/(D .GT. 10.0001)\nT(BIG)=TOL/DIAM,-0.01,0.01\n"
+      "EVAL/FA(H),TA(BIG)\nELSE\nT(SMALL)=TOL/DIAM,-0.02,0.02\nEVAL/FA(H),TA(SMALL)\nENDIF\nENDFIL\n");
   Sink sink;
   const plan::Plan plan = lang::compile(source, sink).plan;
   INFO(messages(sink));

@@ -39,7 +39,8 @@ struct Ran {
     INFO(messages);
     REQUIRE_FALSE(sink.has_errors());
     const Machine machine = read_machine("coord3-mc16");
-    result = run_plan(plan, machine, machines > 0 ? screened_machines(machine, 1, machines, 1) : VirtualMachines{}, options, source);
+    result = run_plan(plan, machine, machines > 0 ? screened_machines(machine, 1, machines, 1) : VirtualMachines{},
+                      options, source);
   }
   /// What was evaluated of the tolerance first.
   const Samples& samples(const std::string& tolerance) const {
@@ -53,7 +54,8 @@ struct Ran {
   /// The feature as the error-free machine put it out last, in the system current there.
   const Element& output(const std::string& feature) const {
     for (auto record = result.reference_outputs.rbegin(); record != result.reference_outputs.rend(); ++record) {
-      const auto* what = std::get_if<plan::Output>(&plan.operations[static_cast<std::size_t>(record->operation)].action);
+      const auto* what =
+          std::get_if<plan::Output>(&plan.operations[static_cast<std::size_t>(record->operation)].action);
       for (std::size_t k = 0; what && k < what->features.size(); ++k)
         if (plan[what->features[k]].label == feature) return record->features[k];
     }

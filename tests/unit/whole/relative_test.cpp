@@ -13,13 +13,15 @@ namespace {
 /// A face that lies 0.3 mm above its nominal and is tilted by 1 : 100 about y, and a bore 0.2 mm beside its nominal.
 std::string face_and_bore() {
   return measured("FACE", "PLANE,CART,0,0,0,0,0,1", {"0,0,0.3,-0.01,0,1", "50,0,0.8,-0.01,0,1", "0,50,0.3,-0.01,0,1"}) +
-         measured("BORE", "CIRCLE,INNER,CART,20,20,-5,0,0,1,20",
-                  {"30.2,20,-5,-1,0,0", "20.2,30,-5,0,-1,0", "10.2,20,-5,1,0,0", "20.2,10,-5,0,1,0"});
+      measured("BORE", "CIRCLE,INNER,CART,20,20,-5,0,0,1,20",
+               {"30.2,20,-5,-1,0,0", "20.2,30,-5,0,-1,0", "10.2,20,-5,1,0,0", "20.2,10,-5,0,1,0"});
 }
 
 /// A point at (10, 40, 0) measured relative to a feature; where it is found.
 Vec3 point_beside(const std::string& reference, const std::string& before = "") {
-  return Ran(face_and_bore() + before + measured("P", "POINT,CART,10,40,0,0,0,1", {"10,40,0,0,0,1"}, "RMEAS/{},F({}),{}", reference) + "OUTPUT/FA(P)\n")
+  return Ran(face_and_bore() + before +
+             measured("P", "POINT,CART,10,40,0,0,0,1", {"10,40,0,0,0,1"}, "RMEAS/{},F({}),{}", reference) +
+             "OUTPUT/FA(P)\n")
       .output("P")
       .point;
 }
@@ -42,13 +44,16 @@ TEST_CASE("the displacement counts from where the feature was defined, whatever 
 }
 
 TEST_CASE("default touches of a relative measurement are displaced as well") {
-  const Ran ran(face_and_bore() + "F(C)=FEAT/CIRCLE,OUTER,CART,60,20,0,0,0,1,10\nRMEAS/CIRCLE,F(C),4,FA(BORE)\nENDMES\nOUTPUT/FA(C)\n");
+  const Ran ran(face_and_bore() +
+                "F(C)=FEAT/CIRCLE,OUTER,CART,60,20,0,0,0,1,10\nRMEAS/CIRCLE,F(C),4,FA(BORE)\nENDMES\nOUTPUT/FA(C)\n");
   check_near(ran.output("C").point, {60.2, 20, 0});
 }
 
 TEST_CASE("a calibration measures its sphere") {
   const Ran ran("T(D)=TOL/DIAM,-1,1\n" +
-                measured("BALL", "SPHERE,OUTER,CART,0,0,0,20", {"10,0,0,1,0,0", "0,10,0,0,1,0", "-10,0,0,-1,0,0", "0,0,10,0,0,1"}, "CALIB/SENS,S(P),F({1}),{2}") +
+                measured("BALL", "SPHERE,OUTER,CART,0,0,0,20",
+                         {"10,0,0,1,0,0", "0,10,0,0,1,0", "-10,0,0,-1,0,0", "0,0,10,0,0,1"},
+                         "CALIB/SENS,S(P),F({1}),{2}") +
                 "EVAL/FA(BALL),T(D)\n");
   CHECK(ran["D"] == Approx(20));
 }
@@ -65,7 +70,8 @@ TEST_CASE("an error-free machine on a path of its own knows where the part is on
   // Y is 300 exactly without errors, so about half of the machines move the origin and the reference does not.
   const Ran ran(measured("P", "POINT,CART,0,300,0,0,-1,0", {"0,300,0,0,-1,0"}) +
                     "Y=OBTAIN/FA(P),5\nIF/(Y .GT. 300)\nD(A)=TRANS/XORIG,10,YORIG,5\nENDIF\n" +
-                    measured("C", "CIRCLE,INNER,CART,20,20,-5,0,0,1,20", {"30,20,-5,-1,0,0", "20,30,-5,0,-1,0", "10,20,-5,1,0,0"}) +
+                    measured("C", "CIRCLE,INNER,CART,20,20,-5,0,0,1,20",
+                             {"30,20,-5,-1,0,0", "20,30,-5,0,-1,0", "10,20,-5,1,0,0"}) +
                     "D(B)=TRANS/XORIG,FA(C),YORIG,FA(C)\nT(X)=TOL/CORTOL,XAXIS,-1,1\n" +
                     measured("Q", "POINT,CART,30,0,0,1,0,0", {"30,0,0,1,0,0"}) + "EVAL/FA(Q),T(X)\n",
                 40);

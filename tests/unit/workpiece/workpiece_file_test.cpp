@@ -10,8 +10,7 @@ using namespace abbe;
 namespace {
 
 Workpiece parse(const std::string& members) {
-  return parse_workpiece(
-      SourceFile("w.json", R"({"schema": "abbe.workpiece/1", "name": "w", )" + members + "}"));
+  return parse_workpiece(SourceFile("w.json", R"({"schema": "abbe.workpiece/1", "name": "w", )" + members + "}"));
 }
 
 /// All messages about a file, one a line; "" when it is good.
@@ -27,13 +26,9 @@ std::string faults(const std::string& members) {
   return "";
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-std::string surface(const std::string& members) {
-  return R"("surfaces": {"A": {)" + members + "}}";
-}
+std::string surface(const std::string& members) { return R"("surfaces": {"A": {)" + members + "}}"; }
 
 }  // namespace
 
@@ -59,8 +54,8 @@ TEST_CASE("every way to write a quantity is understood") {
 }
 
 TEST_CASE("a workpiece file may bound influences") {
-  const Workpiece w = parse(
-      R"("bounds": [{"influence": "fixturing", "at_most_um": 2, "source": "FE model of the clamps"}])");
+  const Workpiece w =
+      parse(R"("bounds": [{"influence": "fixturing", "at_most_um": 2, "source": "FE model of the clamps"}])");
   REQUIRE(w.bounds.size() == 1);
   CHECK(w.bounds[0].influence == "fixturing");
   CHECK(w.bounds[0].at_most_mm == doctest::Approx(0.002));
@@ -76,74 +71,56 @@ TEST_CASE("contradictions in a quantity are named (E0421)") {
   CHECK(has(offset(R"("half_width": 1, "u": 1, "distribution": "triangular")"),
             "E0421 \"u\" and \"half_width\" say the same thing"));
   CHECK(has(offset(R"("distribution": "triangular")"), "E0421 neither \"u\" nor \"half_width\""));
-  CHECK(has(offset(R"("half_width": 1, "distribution": "normal")"),
-            "no limits, so no \"half_width\""));
+  CHECK(has(offset(R"("half_width": 1, "distribution": "normal")"), "no limits, so no \"half_width\""));
   CHECK(has(offset(R"("half_width": 1, "distribution": "trapezoidal")"), "needs \"top_share\""));
   CHECK(has(offset(R"("half_width": 1, "distribution": "curvilinear_trapezoid", "inexactness": 2)"),
             "is more than the half width 1"));
-  CHECK(has(offset(R"("half_width": 1, "distribution": "rectangulr")"),
-            "did you mean \"rectangular\"?"));
-  CHECK(has(offset(R"("u": 1, "components": [{"u": 1}])"),
-            "has \"components\" and an uncertainty of its own"));
+  CHECK(has(offset(R"("half_width": 1, "distribution": "rectangulr")"), "did you mean \"rectangular\"?"));
+  CHECK(has(offset(R"("u": 1, "components": [{"u": 1}])"), "has \"components\" and an uncertainty of its own"));
   CHECK(has(offset(R"("halfwidth": 1)"), "did you mean \"half_width\"?"));
   CHECK(has(offset(R"("u": 1, "dof": 2)"), "must be greater than 2"));
-  CHECK(has(offset(R"("half_width": 1, "distribution": "rectangular", "dof": 5)"),
-            "unknown key \"dof\""));
+  CHECK(has(offset(R"("half_width": 1, "distribution": "rectangular", "dof": 5)"), "unknown key \"dof\""));
   CHECK(offset(R"("half_width": 1, "distribution": "rectangular")").empty());
 }
 
 TEST_CASE("nothing may be said twice (E0422)") {
   const std::string cte = R"("material": {"cte_ppm_per_K": 11.5}, )";
-  CHECK(has(faults(cte + R"("temperature": {"scale_C": 21, "scale_x_C": 22})"),
-            "E0422 \"scale_x_C\" and \"scale_C\""));
-  CHECK(
-      has(faults(cte + R"("temperature": {"part_C": 21, "scale_C": 22, "part_minus_scale_K": 0})"),
-          "E0422 \"part_minus_scale_K\""));
+  CHECK(has(faults(cte + R"("temperature": {"scale_C": 21, "scale_x_C": 22})"), "E0422 \"scale_x_C\" and \"scale_C\""));
+  CHECK(has(faults(cte + R"("temperature": {"part_C": 21, "scale_C": 22, "part_minus_scale_K": 0})"),
+            "E0422 \"part_minus_scale_K\""));
   CHECK(has(faults(cte + R"("temperature": {"scale_y_C": 22, "part_minus_scale_K": 0})"),
             "E0422 \"part_minus_scale_K\""));
   CHECK(has(
-      faults(
-          R"("scales": {"cte_ppm_per_K": 8}, "material": {"cte_ppm_per_K": 11, "cte_minus_scale_ppm_per_K": 3})"),
+      faults(R"("scales": {"cte_ppm_per_K": 8}, "material": {"cte_ppm_per_K": 11, "cte_minus_scale_ppm_per_K": 3})"),
       "E0422"));
-  CHECK(has(faults(surface(R"("offset_um": 1, "diameter_mm": 20)")),
-            "E0422 \"offset_um\" and \"diameter_mm\""));
+  CHECK(has(faults(surface(R"("offset_um": 1, "diameter_mm": 20)")), "E0422 \"offset_um\" and \"diameter_mm\""));
   CHECK(has(faults(surface(R"("diameter_mm": 20, "diameter_deviation_um": 1)")), "E0422"));
-  CHECK(has(faults(R"("surfaces": {"bore": {"offset_um": 1}, "TOP": {}, "BORE": {"offset_um": 2}})"), "E0422 \"BORE\" and \"bore\""));
+  CHECK(has(faults(R"("surfaces": {"bore": {"offset_um": 1}, "TOP": {}, "BORE": {"offset_um": 2}})"),
+            "E0422 \"BORE\" and \"bore\""));
 }
 
 TEST_CASE("what is missing or mistyped is named with its place") {
-  CHECK(has(faults(R"("temperature": {"part_C": 21})"),
-            "E0404 temperatures need the coefficient of expansion"));
-  CHECK(has(faults(R"("material": {"cte_minus_scale_ppm_per_K": 0})"),
-            "E0404 a coefficient relative to the scales"));
+  CHECK(has(faults(R"("temperature": {"part_C": 21})"), "E0404 temperatures need the coefficient of expansion"));
+  CHECK(has(faults(R"("material": {"cte_minus_scale_ppm_per_K": 0})"), "E0404 a coefficient relative to the scales"));
   CHECK(has(faults(R"("material": {"cte_ppm_per_C": 11})"), "did you mean \"cte_ppm_per_K\"?"));
-  CHECK(has(faults(R"("material": {"cte_ppm_per_K": 0.0115, "nam": "steel"})"),
-            "did you mean \"name\"?"));
+  CHECK(has(faults(R"("material": {"cte_ppm_per_K": 0.0115, "nam": "steel"})"), "did you mean \"name\"?"));
   CHECK(has(faults(surface(R"("offset_mm": 1)")), "did you mean \"offset_um\"?"));
-  CHECK(has(faults(surface(R"("form": [{"amplitude_um": 1, "phase_deg": 0}])")),
-            "needs \"undulations\""));
-  CHECK(has(faults(surface(R"("form": [{"undulations": 2, "phase_deg": 0}])")),
-            "needs \"amplitude_um\""));
-  CHECK(has(
-      faults(surface(R"("form": [{"undulations": 2, "amplitude_um": 1, "phase_deg": "rndom"}])")),
-      "did you mean \"random\"?"));
-  CHECK(has(faults(surface(R"("form": [{"undulations": 0, "amplitude_um": 1, "phase_deg": 0}])")),
-            "E0406"));
+  CHECK(has(faults(surface(R"("form": [{"amplitude_um": 1, "phase_deg": 0}])")), "needs \"undulations\""));
+  CHECK(has(faults(surface(R"("form": [{"undulations": 2, "phase_deg": 0}])")), "needs \"amplitude_um\""));
+  CHECK(has(faults(surface(R"("form": [{"undulations": 2, "amplitude_um": 1, "phase_deg": "rndom"}])")),
+            "did you mean \"random\"?"));
+  CHECK(has(faults(surface(R"("form": [{"undulations": 0, "amplitude_um": 1, "phase_deg": 0}])")), "E0406"));
   CHECK(has(faults(R"("material": {"cte_ppm_per_K": 11}, "temperature": {"part_C": 293})"),
             "must be between -50 and 150"));
-  CHECK_THROWS_AS(
-      parse_workpiece(SourceFile("m.json", R"({"schema": "abbe.machine/1", "name": "m"})")),
-      UserError);
+  CHECK_THROWS_AS(parse_workpiece(SourceFile("m.json", R"({"schema": "abbe.machine/1", "name": "m"})")), UserError);
 }
 
 TEST_CASE("part and scales can be given by their difference") {
   const std::string cte = R"("material": {"cte_ppm_per_K": 11.5}, )";
-  const Temperatures a =
-      parse(cte + R"("temperature": {"part_C": 21, "part_minus_scale_K": 0.5})").temperatures(0);
+  const Temperatures a = parse(cte + R"("temperature": {"part_C": 21, "part_minus_scale_K": 0.5})").temperatures(0);
   CHECK(a.part == 21);
   for (const double scale : a.scale) CHECK(scale == 20.5);
-  const Temperatures b =
-      parse(cte + R"("temperature": {"scale_C": 22, "part_minus_scale_K": -1})").temperatures(0);
+  const Temperatures b = parse(cte + R"("temperature": {"scale_C": 22, "part_minus_scale_K": -1})").temperatures(0);
   CHECK(b.part == 21);
   CHECK(b.scale[2] == 22);
   const Workpiece none = parse(R"("load_kg": 12.5)");
@@ -153,8 +130,8 @@ TEST_CASE("part and scales can be given by their difference") {
 }
 
 TEST_CASE("a temperature log runs straight between its lines and stays at its ends") {
-  const TemperatureLog log = read_temperature_log(
-      SourceFile("t.csv", "time_s,temp_part_C, temp_x_C\n0,20,19\n100,21,19\n200,21,20\n"));
+  const TemperatureLog log =
+      read_temperature_log(SourceFile("t.csv", "time_s,temp_part_C, temp_x_C\n0,20,19\n100,21,19\n200,21,20\n"));
   CHECK(log.at(TemperatureLog::part, -5) == 20);
   CHECK(log.at(TemperatureLog::part, 25) == doctest::Approx(20.25));
   CHECK(log.at(TemperatureLog::part, 100) == 21);
@@ -200,8 +177,7 @@ TEST_CASE("strain is the difference of part and scales, less what the compensati
       R"("material": {"cte_ppm_per_K": 11.5}, "scales": {"cte_ppm_per_K": 8}, "temperature": {"part_C": 21, "scale_y_C": 22},
                                "compensation": {"cte_ppm_per_K": 10})");
   const ThermalDraw d = draw_thermal(w, {1, 0});
-  const Vec3 off = strain(w, d, w.temperatures(0), false),
-             on = strain(w, d, w.temperatures(0), true);
+  const Vec3 off = strain(w, d, w.temperatures(0), false), on = strain(w, d, w.temperatures(0), true);
   CHECK(off.x == doctest::Approx(11.5e-6));
   CHECK(off.y == doctest::Approx(11.5e-6 - 16e-6));
   CHECK(on.x == doctest::Approx(1.5e-6));
@@ -211,8 +187,7 @@ TEST_CASE("strain is the difference of part and scales, less what the compensati
 TEST_CASE("another uncertain quantity changes no number of the others") {
   const std::string part =
       R"("material": {"cte_ppm_per_K": {"value": 11.5, "u": 1}}, "temperature": {"part_C": {"value": 21, "u": 0.3})";
-  const Workpiece one = parse(part + "}"),
-                  more = parse(part + R"(, "scale_C": {"value": 20, "u": 0.2}})");
+  const Workpiece one = parse(part + "}"), more = parse(part + R"(, "scale_C": {"value": 20, "u": 0.2}})");
   for (std::uint32_t m = 0; m < 5; ++m) {
     const ThermalDraw a = draw_thermal(one, {1, m}), b = draw_thermal(more, {1, m});
     CHECK(a.part_cte_per_K == b.part_cte_per_K);

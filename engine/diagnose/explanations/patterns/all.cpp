@@ -29,9 +29,11 @@ void Family::append(std::string shape, const std::vector<Matrix>& variants, bool
 void add_other(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
   using namespace patterns;
   constexpr std::pair<Factor, void (*)(const TouchFactors&, Family&)> families[] = {
-      {Factor::time, over_time},     {Factor::position, over_position}, {Factor::direction, over_direction}, {Factor::head, over_head},
-      {Factor::sensor, over_sensor}, {Factor::feature, over_feature},   {Factor::setup, over_setup},         {Factor::run, over_run},
-      {Factor::speed, over_speed},   {Factor::temperature, over_temperature}};
+      {Factor::time, over_time},           {Factor::position, over_position},
+      {Factor::direction, over_direction}, {Factor::head, over_head},
+      {Factor::sensor, over_sensor},       {Factor::feature, over_feature},
+      {Factor::setup, over_setup},         {Factor::run, over_run},
+      {Factor::speed, over_speed},         {Factor::temperature, over_temperature}};
   const TouchFactors factors(t, rows);
   for (const auto& [factor, add] : families) {
     Family family(factor, out);

@@ -22,7 +22,8 @@ std::vector<Matrix> lobes(const TouchFactors& f) {
   return out;
 }
 
-/// A probe that does not come home: displaced on the head by the direction of the touch before, of all styli alike, or of each by itself.
+/// A probe that does not come home: displaced on the head by the direction of the touch before, of all styli
+/// alike, or of each by itself.
 std::vector<Matrix> after_the_touch_before(const TouchFactors& f) {
   const Matrix before = along(constant(f.before_on_probe.size()), f.before_on_probe);
   std::vector<Matrix> out{along(before, f.normal_on_probe)};
@@ -30,7 +31,8 @@ std::vector<Matrix> after_the_touch_before(const TouchFactors& f) {
   return out;
 }
 
-/// What oblique approaches drag along the surface, in proportion or by its direction alone; of all styli alike, or of each by itself.
+/// What oblique approaches drag along the surface, in proportion or by its direction alone; of all styli
+/// alike, or of each by itself.
 std::vector<Matrix> skidding(const TouchFactors& f) {
   constexpr double kNone = 0.02;
   Directions way = f.skid;

@@ -1,6 +1,7 @@
-// OTHER: random patterns in each factor, for physics that the catalogue does not have. Without it a diagnosis names the nearest effect with
-// great confidence whatever the truth is. A family is the patterns that lie in one factor: functions of it alone, and of it together with
-// each other factor that physics may tie to it, because what the catalogue leaves out is seldom a function of one thing.
+// OTHER: random patterns in each factor, for physics that the catalogue does not have. Without it a diagnosis
+// names the nearest effect with great confidence whatever the truth is. A family is the patterns that lie in
+// one factor: functions of it alone, and of it together with each other factor that physics may tie to it,
+// because what the catalogue leaves out is seldom a function of one thing.
 #pragma once
 
 #include <string>

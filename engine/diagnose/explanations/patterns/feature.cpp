@@ -15,7 +15,8 @@ std::vector<Matrix> one_spot(const TouchFactors& f) {
     for (std::size_t i = 0; i < spots.size(); ++i)
       if (in(static_cast<Eigen::Index>(i), k) > 0) mine.push_back(spots[i]);
     for (const double width : {0.35, 0.7})
-      for (const auto& centre : centres(mine, 2 * width, kMost)) out.push_back(in.col(k).asDiagonal() * bump(spots, centre, width));
+      for (const auto& centre : centres(mine, 2 * width, kMost))
+        out.push_back(in.col(k).asDiagonal() * bump(spots, centre, width));
   }
   return out;
 }

@@ -31,11 +31,13 @@ Matrix functions(const Points& points, const Points& at, Covariance covariance) 
 }  // namespace
 
 Matrix smooth(const Points& points, double length, int most) {
-  return functions(points, centres(points, length, most), [&](double d2) { return std::exp(-d2 / (2 * length * length)); });
+  return functions(points, centres(points, length, most),
+                   [&](double d2) { return std::exp(-d2 / (2 * length * length)); });
 }
 
 Matrix rugged(const Points& points, double length, int most) {
-  return functions(points, centres(points, 4.0 / most, most), [&](double d2) { return std::exp(-std::sqrt(d2) / length); });
+  return functions(points, centres(points, 4.0 / most, most),
+                   [&](double d2) { return std::exp(-std::sqrt(d2) / length); });
 }
 
 Points centres(const Points& points, double length, int most) {
@@ -92,16 +94,19 @@ Points as_points(const Directions& directions) {
 
 Matrix along(const Matrix& field, const Directions& directions) {
   Matrix out(field.rows(), 3 * field.cols());
-  for (int k = 0; k < 3; ++k) out.middleCols(k * field.cols(), field.cols()) = component(directions, k).asDiagonal() * field;
+  for (int k = 0; k < 3; ++k)
+    out.middleCols(k * field.cols(), field.cols()) = component(directions, k).asDiagonal() * field;
   return out;
 }
 
 std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions& directions) {
   std::vector<Matrix> out{along(field, directions)};
-  for (int code = 14; code < 27; ++code) {   // the half of the 27 directions with components -1, 0, 1 that is after the middle
+  // the half of the 27 directions with components -1, 0, 1 that is after the middle
+  for (int code = 14; code < 27; ++code) {
     const Vec3 d{double(code / 9 - 1), double(code / 3 % 3 - 1), double(code % 3 - 1)};
     Vector share(field.rows());
-    for (Eigen::Index i = 0; i < field.rows(); ++i) share(i) = dot(directions[static_cast<std::size_t>(i)], d) / norm(d);
+    for (Eigen::Index i = 0; i < field.rows(); ++i)
+      share(i) = dot(directions[static_cast<std::size_t>(i)], d) / norm(d);
     out.push_back(share.asDiagonal() * field);
   }
   return out;
@@ -120,7 +125,8 @@ Matrix indicator(const std::vector<int>& group) {
 Matrix by_group(const Matrix& columns, const std::vector<int>& group) {
   const Matrix in = indicator(group);
   Matrix out = Matrix::Zero(columns.rows(), columns.cols() * in.cols());
-  for (Eigen::Index g = 0; g < in.cols(); ++g) out.middleCols(g * columns.cols(), columns.cols()) = in.col(g).asDiagonal() * columns;
+  for (Eigen::Index g = 0; g < in.cols(); ++g)
+    out.middleCols(g * columns.cols(), columns.cols()) = in.col(g).asDiagonal() * columns;
   return out;
 }
 

@@ -12,9 +12,10 @@ namespace abbe::diagnose::patterns {
 using Points = std::vector<std::vector<double>>;
 using Directions = std::vector<Vec3>;
 
-/// Functions of the points with a squared-exponential covariance of this length, which are smooth, or with an exponential one, which may
-/// jump: columns of variance about 1, on at most `most` centres. Gaussian processes in their subset-of-regressors form, K_rows,centres
-/// K_centres^(-1/2) (Rasmussen & Williams 2006, 4.2.1 and 8.3.1).
+/// Functions of the points with a squared-exponential covariance of this length, which are smooth, or with an
+/// exponential one, which may jump: columns of variance about 1, on at most `most` centres. Gaussian
+/// processes in their subset-of-regressors form, K_rows,centres K_centres^(-1/2) (Rasmussen & Williams 2006,
+/// 4.2.1 and 8.3.1).
 Matrix smooth(const Points&, double length, int most);
 Matrix rugged(const Points&, double length, int most);
 

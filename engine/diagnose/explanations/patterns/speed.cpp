@@ -12,8 +12,8 @@ Vector faster(const TouchFactors& f) {
   return v / v.cwiseAbs().maxCoeff();
 }
 
-/// At each speed and acceleration: over the angle between approach and shank alone, up to its second power, or over the direction of travel on
-/// the probe; each stylus by itself.
+/// At each speed and acceleration: over the angle between approach and shank alone, up to its second power,
+/// or over the direction of travel on the probe; each stylus by itself.
 std::vector<Matrix> of_each_sensor(const TouchFactors& f) {
   const Vector c = component(f.travel_on_probe, 2);
   Matrix about_the_shank(c.size(), 3);

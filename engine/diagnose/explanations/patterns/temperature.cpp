@@ -9,7 +9,8 @@ std::vector<Matrix> along_a_scale(const TouchFactors& f) {
   std::vector<Matrix> out;
   for (int k = 0; k < 3; ++k)
     if (differ(f.scale_above_20[k]))
-      out.push_back(Vector(f.scale_above_20[k].array() * component(f.normal, k).array()).asDiagonal() * smooth(f.reading[k], 0.1, 16));
+      out.push_back(Vector(f.scale_above_20[k].array() * component(f.normal, k).array()).asDiagonal() *
+                    smooth(f.reading[k], 0.1, 16));
   return out;
 }
 
@@ -18,7 +19,8 @@ std::vector<Matrix> along_a_scale(const TouchFactors& f) {
 void over_temperature(const TouchFactors& f, Family& family) {
   if (differ(f.part_above_20)) {
     const Vector warmer = f.part_above_20.array() - f.part_above_20.mean();
-    const Matrix of_feature = warmer.asDiagonal() * indicator(f.feature), of_sensor = warmer.asDiagonal() * indicator(f.sensor);
+    const Matrix of_feature = warmer.asDiagonal() * indicator(f.feature),
+                 of_sensor = warmer.asDiagonal() * indicator(f.sensor);
     family.add("growth", along(f.part_above_20.asDiagonal() * linear(f.place), f.normal));
     family.add_joint("over position", along(warmer.asDiagonal() * smooth(f.place, 0.6, 8), f.normal));
     family.add_joint("over direction", warmer.asDiagonal() * smooth(as_points(f.normal), 0.9, 8));

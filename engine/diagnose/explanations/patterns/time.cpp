@@ -11,7 +11,8 @@ std::vector<Matrix> stretching(const TouchFactors& f) {
   std::vector<Matrix> out;
   const Matrix course = rugged(f.time, 0.2, 20);
   for (int k = 0; k < 3; ++k)
-    out.push_back(component(f.normal, k).asDiagonal() * products(side_by_side(constant(f.time.size()), from_middle(f.reading[k])), course));
+    out.push_back(component(f.normal, k).asDiagonal() *
+                  products(side_by_side(constant(f.time.size()), from_middle(f.reading[k])), course));
   return out;
 }
 
@@ -21,7 +22,8 @@ std::vector<Matrix> leaning(const TouchFactors& f) {
   const Matrix course = rugged(f.time, 0.2, 20);
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j)
-      if (j != k) out.push_back(Vector(component(f.normal, k).array() * from_middle(f.reading[j]).array()).asDiagonal() * course);
+      if (j != k)
+        out.push_back(Vector(component(f.normal, k).array() * from_middle(f.reading[j]).array()).asDiagonal() * course);
   return out;
 }
 
@@ -31,7 +33,8 @@ std::vector<Matrix> turning(const TouchFactors& f) {
   Vec3 middle;
   for (const auto& p : f.place) middle += Vec3{p[0], p[1], p[2]} / double(f.place.size());
   Directions turned;
-  for (std::size_t i = 0; i < f.place.size(); ++i) turned.push_back(cross(Vec3{f.place[i][0], f.place[i][1], f.place[i][2]} - middle, f.normal[i]));
+  for (std::size_t i = 0; i < f.place.size(); ++i)
+    turned.push_back(cross(Vec3{f.place[i][0], f.place[i][1], f.place[i][2]} - middle, f.normal[i]));
   std::vector<Matrix> out;
   for (int half_cycles = 1; half_cycles <= kMostHalfCycles; ++half_cycles) {
     Matrix wave(f.time.size(), 2);
@@ -52,7 +55,8 @@ std::vector<Matrix> on_the_probe(const TouchFactors& f) {
   return out;
 }
 
-/// What gathers on the tip, or wears off it, with every touch and not with the clock: on all styli alike, or on each by itself.
+/// What gathers on the tip, or wears off it, with every touch and not with the clock: on all styli alike, or
+/// on each by itself.
 std::vector<Matrix> sizes_along_the_sequence(const TouchFactors& f) {
   std::vector<Matrix> out{rugged(f.touch, 0.2, 40)};
   if (several(f.sensor)) out.push_back(by_group(rugged(f.touch, 0.2, 24), f.sensor));

@@ -25,7 +25,9 @@ void onto_unit(Points& points) {
     for (std::size_t k = 0; k < p.size(); ++k) p[k] = (p[k] - low[k]) / extent;
 }
 
-bool same_visit(const TouchScene& a, const TouchScene& b) { return a.run == b.run && a.setup == b.setup && a.visit == b.visit; }
+bool same_visit(const TouchScene& a, const TouchScene& b) {
+  return a.run == b.run && a.setup == b.setup && a.visit == b.visit;
+}
 
 /// The number of a key, in the order of their first use.
 template <class Key>
@@ -33,7 +35,8 @@ int ordinal(std::map<Key, int>& known, const Key& key) {
   return known.emplace(key, static_cast<int>(known.size())).first->second;
 }
 
-/// Groups by the order of their first use. Of more than a pattern may have columns for, those that follow one another are taken together.
+/// Groups by the order of their first use. Of more than a pattern may have columns for, those that follow one
+/// another are taken together.
 void in_few(std::vector<int>& group) {
   constexpr int kMostGroups = 32;
   std::map<int, int> known;
@@ -64,8 +67,11 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     normal.push_back(s.normal);
     normal_on_part.push_back(s.normal_on_part);
     normal_on_probe.push_back(on_probe(s.normal));
-    before_on_probe.push_back(i > 0 && rows[i - 1] + 1 == rows[i] && same_visit(s, t.touches[static_cast<std::size_t>(rows[i - 1])].scene) ? normal_on_probe[i - 1] : Vec3{});
-    turned.push_back(cross(-s.stylus.length_mm / kLever_mm * s.stylus.to_head, s.normal));   // n . (w x l) = w . (l x n)
+    before_on_probe.push_back(i > 0 && rows[i - 1] + 1 == rows[i] &&
+                                      same_visit(s, t.touches[static_cast<std::size_t>(rows[i - 1])].scene)
+                                  ? normal_on_probe[i - 1]
+                                  : Vec3{});
+    turned.push_back(cross(-s.stylus.length_mm / kLever_mm * s.stylus.to_head, s.normal));  // n . (w x l) = w . (l x n)
     travel.push_back(s.travel);
     travel_on_probe.push_back(on_probe(s.travel));
     skid.push_back(on_probe(s.travel - dot(s.travel, s.normal) * s.normal));
@@ -106,7 +112,8 @@ Matrix trend(const TouchFactors& f) {
 
 Matrix settling(const Points& since) {
   Matrix m(since.size(), 2);
-  for (std::size_t i = 0; i < since.size(); ++i) m.row(static_cast<Eigen::Index>(i)) << since[i][0], std::sqrt(since[i][0]);
+  for (std::size_t i = 0; i < since.size(); ++i)
+    m.row(static_cast<Eigen::Index>(i)) << since[i][0], std::sqrt(since[i][0]);
   return m;
 }
 

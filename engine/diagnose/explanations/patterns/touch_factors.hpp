@@ -12,26 +12,26 @@ struct TouchFactors {
 
   // Of [0, 1] from the first to the last.
   Points time;
-  Points touch;                      ///< its number in the sequence
-  Points settled, clamped;           ///< time since the head, or the part, was moved to where it is
+  Points touch;             ///< its number in the sequence
+  Points settled, clamped;  ///< time since the head, or the part, was moved to where it is
   Points reading[3];
-  Points place;                      ///< in W, from 0 to 1 along the longest extent
+  Points place;  ///< in W, from 0 to 1 along the longest extent
 
   // Directions and displacements that a change of one unit has along the normal.
   Directions normal, normal_on_part;
-  Directions normal_on_probe;        ///< last link of the head
-  Directions turned;                 ///< of a small rotation of the wrist about its centre; 100 mm of stylus is the unit
+  Directions normal_on_probe;  ///< last link of the head
+  Directions turned;           ///< of a small rotation of the wrist about its centre; 100 mm of stylus is the unit
   Directions travel, travel_on_probe;
-  Directions skid;                   ///< what of the travel is along the surface, on the probe
-  Directions before_on_probe;        ///< normal of the touch before, in the same visit of the head; zero where there is none
-  bool oblique = false;              ///< some approaches are not along the normal
+  Directions skid;             ///< what of the travel is along the surface, on the probe
+  Directions before_on_probe;  ///< normal of the touch before, in the same visit of the head; zero where there is none
+  bool oblique = false;        ///< some approaches are not along the normal
 
   // Groups.
   std::vector<int> orientation, sensor, feature, setup, run;
-  std::vector<int> speed;            ///< um/s
-  std::vector<int> dynamics;         ///< speeds and accelerations that were used together
+  std::vector<int> speed;     ///< um/s
+  std::vector<int> dynamics;  ///< speeds and accelerations that were used together
 
-  Vector part_above_20, scale_above_20[3];   ///< degrees C
+  Vector part_above_20, scale_above_20[3];  ///< degrees C
 };
 
 /// Whether there is more than one group.
