@@ -84,8 +84,7 @@ struct Mount {
   double turn_rad = 0;
 };
 
-/// Labels, folded to upper case. `spoilt` holds "F:NAME" and the reason why the label cannot be
-/// used;
+/// Labels, folded to upper case. `spoilt` holds "F:NAME" and the reason why the label cannot be used;
 /// `ambiguous` holds labels that mean different things on paths that have met, in the same form.
 struct Symbols {
   template <class Meaning>

@@ -4,10 +4,10 @@
 // The same text matches the arguments of a program, says in a message what was expected, and prints
 // the help and the language reference, so the three cannot drift apart. Two marks beyond the
 // notation of arguments.hpp:
-//   ...            whatever follows; a kind named earlier publishes the signature for it, or it has
-//   no meaning here l:label        any label whatever its kind, for words that are understood and
-//   skipped
-//   c:condition    a logical value; v:value any value
+// - `...`: whatever follows; a kind named earlier publishes the signature for it, or it has no meaning here
+// - `l:label`: any label whatever its kind, for words that are understood and skipped
+// - `c:condition`: a logical value
+// - `v:value`: any value
 // A number, condition or value may be an expression over variables. Words are upper case, types lower case;
 // that tells `side:INNER|OUTER` from `x:length`.
 //

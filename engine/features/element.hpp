@@ -34,33 +34,31 @@ constexpr bool is_flat(Shape s) {
 
 /// A geometric element, in whatever frame its holder says (mm; directions are unit vectors).
 ///
-/// | shape    | point                     | direction               | size            | angle      |
-/// |----------|---------------------------|-------------------------|-----------------|------------|
-/// | point    | the point                 | surface normal          |                 |            |
-/// | line     | a point of it (centroid)  | along                   |                 |            |
-/// | plane    | a point of it (centroid)  | normal, out of material |                 |            |
-/// | circle   | centre                    | normal of its plane     | radius          |            |
-/// | cylinder | point of the axis         | axis                    | radius          |            |
-/// | sphere   | centre                    | (unused)                | radius          |            |
-/// | cone     | point of the axis         | apex to open side       | radius at point | half angle |
-/// | torus    | centre                    | axis                    | major radius    |            |
-/// | arc      | as a circle; `second` from the centre to its start; `angle` how far it sweeps      |
-/// | edge_point | the point               | the edge's vector       | `second`: normal of the surface beside it |
-/// | surface  | mean of the touches       | (unused)                |                 |            |
-/// | slot     | centre                    | normal of its plane     | half length     | `minor_size`: half width |
-/// | rectangle | centre                   | third side              | half of first side | `minor_size`: half
-/// of the second | | ellipse  | centre                    | normal of its plane     | major half axis |
-/// `minor_size`: minor half axis | | parallel_planes, symmetry_plane | middle of the median plane | its
-/// normal | half width | |
+/// - point: the point; direction the surface normal.
+/// - line: a point of it (centroid); along it.
+/// - plane: a point of it (centroid); its normal, out of the material.
+/// - circle: its centre; normal of its plane; size its radius.
+/// - cylinder: a point of the axis; the axis; size its radius.
+/// - sphere: its centre; direction unused; size its radius.
+/// - cone: a point of the axis; from the apex to the open side; size the radius at that point, angle its half angle.
+/// - torus: its centre; its axis; size the major radius, minor_size that of the tube.
+/// - arc: as a circle; second points from the centre to its start, angle is how far it sweeps.
+/// - edge_point: the point; the edge's vector; second the normal of the surface beside it.
+/// - surface: the mean of the touches; direction unused.
+/// - slot: its centre; normal of its plane; size half its length, minor_size half its width; second along it; angle
+///   1 where its ends are flat, 0 where they are round.
+/// - rectangle: its centre; the third side; size half the first side, minor_size half the second; second the first.
+/// - ellipse: its centre; normal of its plane; size the major half axis, minor_size the minor one; second the major.
+/// - parallel_planes, symmetry_plane: the middle of the median plane; its normal; size half the width.
 struct Element {
   Vec3 point;
   Vec3 direction{0, 0, 1};
   double size = 0;        ///< mm
-  double minor_size = 0;  ///< torus: radius of the tube, mm
+  double minor_size = 0;  ///< mm
   /// What turns the element about `direction`, a unit vector: along a slot, the first side of a rectangle,
   /// the major axis of an ellipse; of a line the normal of its surface. Unused by others.
   Vec3 second{1, 0, 0};
-  double angle = 0;  ///< cone: half angle, rad
+  double angle = 0;  ///< rad, or a choice
   /// Signed residuals of the fit, out of the material positive: form = high - low. For a 3-D line low =
   /// -high, where high is the largest distance, so that form is the diameter of the enclosing cylinder (of a
   /// line of a surface it is less: engine/tolerances/form.hpp). Zero for what was not fitted.
