@@ -26,7 +26,10 @@ struct RecordingRow {
   std::optional<Vec3> travel;  ///< unit vector of the motion at the touch
   std::optional<double> temp_part_C, temp_x_C, temp_y_C, temp_z_C, temp_air_C, load_kg;
   std::optional<Vec3> reading_mm;  ///< raw scale readings
-  int line = 0;                    ///< of the file it was read from; 0: made by a simulation
+  /// Point of the surface and its normal in the part's own coordinates (engine/run/part_frame.hpp); from the
+  /// program that was measured, in no file.
+  std::optional<Vec3> on_part_mm, normal_on_part;
+  int line = 0;  ///< of the file it was read from; 0: made by a simulation
 };
 
 enum class RecordedPoint { tip_centre, surface };

@@ -3,11 +3,12 @@
 // In a program, the coordinate system in which most touches are made, of equally many the first. One for all
 // touches: the part does not move when the program changes its coordinate system.
 //
-// In a recording, which has no such systems, those of the machine in the first setup, with the centre of its
-// targets as origin. Other setups are brought onto them by what they share with it, with the best rigid
-// transform (rigid_fit): the touches of the same feature and index where these are the same points of the
-// part, else the centres of the features that are touched from enough sides to have one (balls, mostly). A
-// setup that shares too little keeps the orientation of the machine's axes.
+// In a recording those of its program; without a program those of the file where it is in part coordinates.
+// Else those of the machine in the first setup, with the centre of its targets as origin. Other setups are
+// brought onto them by what they share with it, with the best rigid transform (rigid_fit): the touches of the
+// same feature and index where these are the same points of the part, else the centres of the features that
+// are touched from enough sides to have one (balls, mostly). A setup that shares too little keeps the
+// orientation of the machine's axes.
 #pragma once
 
 #include <array>

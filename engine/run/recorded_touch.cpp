@@ -350,6 +350,8 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i),
                      *recording.rows[i].normal});
   const PartFrames part(aimed);
+  const bool planned = std::all_of(recording.rows.begin(), recording.rows.end(),
+                                   [](const RecordingRow& row) { return row.on_part_mm && row.normal_on_part; });
   for (const int i : order_of(recording)) {
     const RecordingRow& row = recording.rows[i];
     const Sensor& sensor = *sensor_of[i];
@@ -363,8 +365,12 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     const Vec3 surface = surface_of(static_cast<std::size_t>(i));
     s.point = surface + shift;
     s.reading = readings[i] + shift;
-    s.on_part = part.on_part(row.setup, surface);
-    s.normal_on_part = part.direction_on_part(row.setup, s.normal);
+    if (planned)
+      s.on_part = *row.on_part_mm, s.normal_on_part = *row.normal_on_part;
+    else if (recording.in_part_frame)
+      s.on_part = surface, s.normal_on_part = s.normal;
+    else
+      s.on_part = part.on_part(row.setup, surface), s.normal_on_part = part.direction_on_part(row.setup, s.normal);
     s.stylus = stylus_scene(sensor);
     s.touch = static_cast<int>(out.touches.size());
     s.feature = label_index(out.features, row.feature);
@@ -399,6 +405,9 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
   for (std::size_t k = 0; k < nominal.recording.rows.size(); ++k)
     partner[{nominal.recording.rows[k].feature, nominal.recording.rows[k].touch}] = k;
   for (const auto& line : nominal.recording.metadata) recording.metadata.push_back(line);
+  FrameCount frames;
+  for (const TouchAim& aim : nominal.aims) frames.add(aim.X_MD);
+  const Rigid X_PM = inverse(frames.most_used());
   std::vector<std::string> lost;
   for (RecordingRow& row : recording.rows) {
     const auto found = partner.find({row.feature, row.touch});
@@ -410,7 +419,10 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     RecordingRow from = nominal.recording.rows[found->second];
     const TouchAim& aim = nominal.aims[found->second];
     if (recording.in_part_frame) carry(aim.X_MD, row);
-    if (recording.point == RecordedPoint::surface) *from.target_mm -= aim.radius_mm * *from.normal;
+    const Vec3 surface = *from.target_mm - aim.radius_mm * *from.normal;
+    row.on_part_mm = X_PM * surface;
+    row.normal_on_part = X_PM.R * *from.normal;
+    if (recording.point == RecordedPoint::surface) from.target_mm = surface;
     const auto fill = [&](auto member) {
       if (!(row.*member)) row.*member = from.*member;
     };

@@ -6,9 +6,8 @@
 // reach outside the travel of the machine the whole recording is put into the middle of its volume, and a
 // message says so, because where a part stood decides its errors.
 //
-// Every setup has its own placement of the part. The part's own coordinates, which effects of the part need,
-// are those of the first setup with the centre of its targets as origin; other setups are brought onto them
-// by the touches that they share (best rigid fit).
+// Every setup has its own placement of the part; part_frame.hpp says what the part's own coordinates are, which
+// effects of the part need.
 #pragma once
 
 #include <set>

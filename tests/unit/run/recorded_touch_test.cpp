@@ -95,6 +95,8 @@ TEST_CASE("targets of a program are of the point and in the frame that the recor
       CHECK(norm(r.rows[0].position_mm - measured) < 1e-9);
       CHECK(norm(*r.rows[0].normal - Vec3{0, 1, 0}) < 1e-9);
       CHECK(dot(*r.rows[0].normal, r.rows[0].position_mm - *r.rows[0].target_mm) == doctest::Approx(0.01));
+      CHECK(norm(*r.rows[0].on_part_mm) < 1e-9);  // the origin of the program's coordinate system
+      CHECK(norm(*r.rows[0].normal_on_part - Vec3{1, 0, 0}) < 1e-9);
     }
   }
 }
