@@ -319,7 +319,7 @@ void find_curved(std::vector<RecordedTouch>& touches) {
 
 TouchScene scene_for(const Effect& effect, const RecordedTouch& touch) {
   TouchScene scene = touch.scene;
-  if (needs_raw_reading(effect)) scene.reading += touch.beyond_target_mm * scene.normal;
+  if (needs_raw_reading(effect)) scene.reading += touch.beyond_target_mm;
   return scene;
 }
 
@@ -377,7 +377,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     fill_covariates(row, machine, s.touch, s);
     set_structure(machine, s);
     if (row.reading_mm) {
-      t.beyond_target_mm = t.residual_mm;
+      t.beyond_target_mm = t.residual_mm * s.normal;
       s.reading = *row.reading_mm - t.residual_mm * s.normal;
     }
     out.touches.push_back(std::move(t));

@@ -26,9 +26,8 @@ struct RecordedTouch {
   TouchScene scene;                 ///< its readings are those at the target: free of the touch's own errors and noise
   double residual_mm = 0;           ///< n . (recorded - target): positive when the surface seems too far out
   Vec3 per_rad_a_mm, per_rad_b_mm;  ///< of the tip per radian of the head's angles, W
-  /// along the normal, from there to where the axes stopped; 0 where no reading was logged
-  double beyond_target_mm = 0;
-  int row = 0;  ///< index into the recording
+  Vec3 beyond_target_mm;            ///< from there to where the axes stopped, W; zero where no reading was logged
+  int row = 0;                      ///< index into the recording
 };
 
 /// The scene as an effect sees it: with the readings where the axes stopped, if it needs raw readings.

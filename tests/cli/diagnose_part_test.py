@@ -11,6 +11,22 @@ def workpiece(surfaces=None, **more):
     return json.dumps({"schema": "abbe.workpiece/1", "name": "ball 12", "surfaces": surfaces or {}, **more})
 
 
+def turned_plate():
+    lines = ["DMISMN/'a plate turned on the table',5.2", "UNITS/MM,ANGDEC", "S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,50,4", "SNSLCT/S(P)",
+             "D(PLACE)=TRANS/XORIG,700,YORIG,500,ZORIG,-500", "D(TURNED)=ROTATE/ZAXIS,90"]
+
+    def face(name, normal, points):
+        at = ",".join(map(str, points[0]))
+        lines.extend([f"F({name})=FEAT/PLANE,CART,{at},{normal}", f"MEAS/PLANE,F({name}),{len(points)}",
+                      *(f"PTMEAS/CART,{x},{y},{z},{normal}" for x, y, z in points), "ENDMES"])
+
+    face("TOP", "0,0,1", [(x, y, 0) for x in range(-150, 151, 50) for y in range(-90, 91, 60)])
+    face("RIGHT", "1,0,0", [(152, y, z) for y in (-60, 60) for z in (-5, -15)])
+    face("LEFT", "-1,0,0", [(-152, y, z) for y in (-60, 60) for z in (-5, -15)])
+    face("FRONT", "0,-1,0", [(x, -92, z) for x in (-120, 120) for z in (-5, -15)])
+    return "\n".join([*lines, "ENDFIL", ""])
+
+
 class CalibratedPart(harness.Case):
     def record(self, *options, name="rec.csv", header=""):
         self.abbe("record", BALL, "--machine", MACHINE, "-o", name, *options)
@@ -75,6 +91,18 @@ class CalibratedPart(harness.Case):
         said = self.diagnosis(recording, "--workpiece", warm)
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertLess(self.diagnosis(recording)["rivals"]["chi2"]["p"], said["rivals"]["chi2"]["p"])
+
+    def test_what_a_part_does_is_told_in_its_own_coordinates(self):
+        """A plate that lies turned by a right angle: it bows along its own x, which is the machine's y. All of its top is one place of the scale of z."""
+        plate = self.write("plate.dmi", turned_plate())
+        self.abbe("record", plate, "--machine", MACHINE, "--with", "part.clamping:bow_um=20", "-o", "rec.csv")
+        said = self.diagnosis("rec.csv", "--program", plate, "--model-out", "m.json")
+        self.assertEqual(said["effects"][0]["members"], ["part.clamping"])
+        settings, = json.loads((self.folder / "m.json").read_text())["effects"]
+        bow, twist = (settings["parameters"][name] for name in ("bow_um", "twist_um"))
+        self.assertLess(abs(bow["value"] - 20), 3 * bow["u"])
+        self.assertGreater(bow["value"], 10 * bow["u"])
+        self.assertLess(abs(twist["value"]), 3 * twist["u"])
 
     def test_mistakes_in_the_workpiece_file(self):
         recording = self.record()
