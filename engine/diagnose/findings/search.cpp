@@ -92,19 +92,25 @@ bool better_with_partner(const Case& c, const std::vector<Finding>& before, cons
       log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
 }
 
-/// Names a finding again, given what was found after it, which may have taken over part of it: the other
-/// names, and the pattern beside them. Where a pattern is likelier now than any name, it is that pattern.
+/// What the others leave for a finding to explain: the other names, and the pattern beside them.
+Evidence left_by_others(const Case& c, const std::vector<Finding>& all, std::size_t which,
+                        const std::optional<Finding>& beside) {
+  SearchResult others;
+  others.findings = all;
+  others.findings.erase(others.findings.begin() + static_cast<std::ptrdiff_t>(which));
+  others.other = beside;
+  return rest_of(c, signatures_of(c, others)).evidence();
+}
+
+/// Names a finding again, given what was found after it, which may have taken over part of it. Where a pattern
+/// is likelier now than any name, it is that pattern.
 struct Renamed {
   Finding finding;
   bool pattern = false;
 };
 Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which,
                 const std::optional<Finding>& beside) {
-  SearchResult others;
-  others.findings = all;
-  others.findings.erase(others.findings.begin() + static_cast<std::ptrdiff_t>(which));
-  others.other = beside;
-  const Evidence evidence = rest_of(c, signatures_of(c, others)).evidence();
+  const Evidence evidence = left_by_others(c, all, which, beside);
   Finding name = finding_of(c.explanations, evidence, true), pattern = finding_of(c.explanations, evidence, false);
   name.p = pattern.p = all[which].p;
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
@@ -164,7 +170,18 @@ void drop_names_beside_a_pattern(const Case& c, SearchResult& result) {
   if (log_belief(c, alone) <= together) return;
   result.findings.clear();
   result.other = alone;
-  result.other->p = result.p_value;
+}
+
+/// A finding that later ones have taken over altogether is none: beside them nothing speaks for it.
+void drop_needless(const Case& c, SearchResult& result) {
+  while (result.findings.size() > 1) {
+    std::vector<double> left;
+    for (std::size_t k = 0; k < result.findings.size(); ++k)
+      left.push_back(left_by_others(c, result.findings, k, result.other).statistic);
+    const auto least = std::min_element(left.begin(), left.end());
+    if (*least > 0) return;
+    result.findings.erase(result.findings.begin() + (least - left.begin()));
+  }
 }
 
 /// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is
@@ -196,6 +213,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   first.extend(c.explanations, grid);
   result.first = first.evidence();
   drop_names_beside_a_pattern(c, result);
+  drop_needless(c, result);
   name_again(c, result);
   result.hyper =
       result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
