@@ -114,7 +114,7 @@ struct NoiseFinding {
   std::vector<DiagnosedParameter> parameters;
   std::string sentence;
   bool certain = true;  ///< that it is noise: what scatters may else be a pattern too fine for this recording
-  Factor factor = Factor::direction;  ///< in which it shows
+  std::optional<Factor> factor = {};  ///< in which it shows; none of what is everywhere
   std::vector<std::pair<std::string, std::string>> where = {};
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);

@@ -66,6 +66,12 @@ double most_out_mm(const Recording& r, const Machine& machine, const DiagnoseOpt
   return unknown || options.workpiece || !machine.effects.empty() ? kBeyondSizes_mm : kBeyondPretravel_mm;
 }
 
+/// Whether the file holds targets in the place of positions.
+bool holds_targets_only(const Recording& r) {
+  return std::all_of(r.rows.begin(), r.rows.end(),
+                     [](const RecordingRow& row) { return row.target_mm && row.position_mm == *row.target_mm; });
+}
+
 /// The recording without what its file does wrong, with every part on its targets.
 Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
                 const std::string& file, std::vector<Diagnostic>& messages) {
@@ -217,8 +223,8 @@ constexpr double kPriorScatter = 0.01;
 void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) {
   for (NoiseFinding& n : noise) {
     const std::string in_file = tell_machine_file(c, *n.effect, n.parameters, out);
-    if (out.effects.empty() && !out.unexplained)
-      out.location.push_back({std::string(abbe::diagnose::name(n.factor)), n.where, 1, n.p});
+    if (n.factor && out.effects.empty() && !out.unexplained)
+      out.location.push_back({std::string(abbe::diagnose::name(*n.factor)), n.where, 1, n.p});
     out.effects.push_back({{std::string(n.effect->name)},
                            believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain),
                            n.parameters,
@@ -345,7 +351,7 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
   const Diagnosis before = out;
   Case c = on_the_bench(recording, machine, options, surfaces, file, out);
   // What holds no error at all says no more than its plan.
-  const bool as_planned = !options.design_only && c.baseline.model.y.isZero(0);
+  const bool as_planned = !options.design_only && holds_targets_only(recording);
   if (as_planned) out.messages.push_back(nothing_but_targets(file));
   const bool plan = options.design_only || as_planned;
   if (plan) {

@@ -167,7 +167,7 @@ struct Diagnosis {
   /// much for the same machine.
   std::optional<double> beyond_known;
   std::optional<LengthError> beyond;  ///< a length that no machine of the specification makes so wrong
-  Rivals rivals;
+  std::optional<Rivals> rivals;       ///< none where nothing was judged
   std::vector<ResidualRow> residuals;
   std::vector<JudgedValue> values;  ///< of a recording of values, in its order; then there are no touches
   std::vector<Diagnostic> messages;

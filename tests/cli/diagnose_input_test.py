@@ -94,8 +94,9 @@ class Placement(Input):
         self.write("m.json", json.dumps(machine))
         path = self.changed(self.recording, lambda row: row | {a: row["t" + a] for a in "xyz"})
         said = self.said(path, "--machine", "m.json")
-        self.assertEqual((said["verdict"], said["p_value"], self.codes(said)), ("no_mismatch", 1, ["W0717"]))
+        self.assertEqual((said["verdict"], said["p_value"], said["rivals"], self.codes(said)), ("no_mismatch", 1, None, ["W0717"]))
         self.assertGreater(len(said["smallest_detectable"]), 5)
+        self.assertIn("W0717", self.codes(self.said(path)))       # nor has a machine with errors reported them
         said = self.said(self.recording, "--machine", "m.json")   # and a real one of such a machine is judged
         self.assertEqual(said["effects"][0]["members"][0], "probe.tip_radius")
 

@@ -2,6 +2,7 @@
 import csv
 import json
 import pathlib
+import random
 
 import harness
 
@@ -106,6 +107,34 @@ class Diagnose(harness.Case):
         loud = json.loads((self.folder / "loud.json").read_text())["effects"]
         self.assertEqual([e["name"] for e in loud], ["noise.vibration"])
         self.assertAlmostEqual(loud[0]["parameters"]["sd_um"]["value"], 13, delta=2)   # 12 found beside 5
+
+    def test_steps_of_all_positions_are_located_nowhere(self):
+        lines = self.record().read_text().splitlines()
+        start = next(k for k, line in enumerate(lines) if not line.startswith("#"))
+        at = [lines[start].split(",").index(axis) for axis in "xyz"]
+        rounded = [",".join(f"{float(v):.3f}" if k in at else v for k, v in enumerate(line.split(","))) for line in lines[start + 1:]]
+        said = self.diagnosis(self.write("rounded.csv", "\n".join([*lines[:start + 1], *rounded]) + "\n"))
+        self.assertIn("noise.resolution", [e["members"][0] for e in said["effects"]])
+        self.assertEqual(said["location"], [])
+
+    def test_noise_is_told_of_each_stylus(self):
+        """A probe that scatters more along its axis: one stylus touched from the side, another from above."""
+        machine = json.loads(self.abbe("machine", "init", "coord3-mc16").stdout)
+        machine["probe"]["sd_um"] = [0.5, 0.5, 3]
+        for name, length in ("SHORT", 100), ("LONG", 200):
+            machine["sensors"][name] = next(iter(machine["sensors"].values())) | {"tip_in_r_mm": [0, 0, -length]}
+        self.write("m.json", json.dumps(machine))
+        draw = random.Random(2)
+        lines = ["feature,touch,x,y,z,tx,ty,tz,nx,ny,nz,setup,run,sensor,time_s"]
+        for stylus, sd_mm, normals in ("SHORT", 0.0005, [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)]), ("LONG", 0.003, [(0, 0, 1)]):
+            for k in range(60):
+                n, at, e = normals[k % len(normals)], (600 + k % 8 * 30, 400 + k // 8 * 30, -500), draw.gauss(0, sd_mm)
+                fields = [stylus, k + 1, *(f"{c + e * u:.7f}" for c, u in zip(at, n)), *at, *n, 1, 1, stylus, 5 * len(lines)]
+                lines.append(",".join(map(str, fields)))
+        self.write("rec.csv", "\n".join(lines) + "\n")
+        noise = json.loads(self.abbe("diagnose", "rec.csv", "--machine", "m.json", "--format", "json").stdout)["baseline"]["noise_by_sensor_um"]
+        self.assertAlmostEqual(noise["SHORT"], 0.5, delta=0.2)
+        self.assertAlmostEqual(noise["LONG"], 3, delta=1)
 
     def test_the_answer_does_not_depend_on_threads(self):
         recording = self.record("--with", "probe.tip_radius:amplitude_um=2")

@@ -188,7 +188,7 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
     NoiseFinding f{find_effect("noise.vibration"), e.p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
     f.certain = other_each_time(c, r, along, e.size / (1 + e.size));
-    f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
+    f.factor = Factor::direction, f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
     f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.",
                              "xyz"[axis], sd);
     best = std::move(f);

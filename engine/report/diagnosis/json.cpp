@@ -174,7 +174,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                        {"error_um", number(1e3 * d.beyond->error_mm)},
                        {"mpe_um", number(1e3 * d.beyond->mpe_mm)}}
                 : Json()},
-      {"rivals", d.judged && d.touches > 0 ? rivals(d.rivals) : Json()},
+      {"rivals", d.rivals ? rivals(*d.rivals) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) {
          return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}};
        })}};
