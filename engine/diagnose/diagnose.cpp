@@ -85,14 +85,18 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   b.known = known;
   b.geometry_scale = hyper.scale;
   b.correlation = hyper.correlation;
-  double sum = 0;
-  for (Eigen::Index i = 0; i < c.model.y.size(); ++i)
-    sum += std::pow(c.model.noise_um(i) * hyper.noise(c.model.noise_group[i]), 2);
-  b.noise_um = std::sqrt(sum / double(c.model.y.size()));
-  const double stated = c.model.noise_um.mean();
-  for (std::size_t g = 0; g < c.baseline.noise_names.size(); ++g)
-    if (!c.baseline.noise_names[g].empty())
-      b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], stated * hyper.noise(static_cast<Eigen::Index>(g)));
+  Vector square = Vector::Zero(hyper.noise.size()), rows = square;
+  for (Eigen::Index i = 0; i < c.model.y.size(); ++i) {
+    const int g = c.model.noise_group[static_cast<std::size_t>(i)];
+    square(g) += std::pow(c.model.noise_um(i) * hyper.noise(g), 2);
+    ++rows(g);
+  }
+  b.noise_um = std::sqrt(square.sum() / rows.sum());
+  for (std::size_t g = 0; g < c.baseline.noise_names.size(); ++g) {
+    const auto k = static_cast<Eigen::Index>(g);
+    if (!c.baseline.noise_names[g].empty() && rows(k) > 0)
+      b.noise_by_sensor.emplace_back(c.baseline.noise_names[g], std::sqrt(square(k) / rows(k)));
+  }
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
     if (!c.masked[i]) continue;
     const RecordingRow& row = c.recording->rows[c.touches.touches[i].row];
