@@ -157,18 +157,28 @@ RunChange change_of(const Block& variant, const Block& found) {
 /// A member that would need a size which no such effect has explains nothing, where another of its set does
 /// with a possible one.
 void drop_impossible_members(const Case& c, SearchResult& result) {
+  const auto weight = [&](const Finding& f, int member) {
+    return c.explanations.list[static_cast<std::size_t>(member)].prior *
+        std::exp(f.evidence.log_bayes[static_cast<std::size_t>(member)] -
+                 f.evidence.log_bayes[static_cast<std::size_t>(f.explanation)]);
+  };
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding as_found = result.findings[k];
+    double all = 0, dropped = 0;
+    for (const int member : as_found.set) all += weight(as_found, member);
     Finding& f = result.findings[k];
     while (!plausible(estimate_size(c, result, k).parameters)) {
       if (f.set.size() == 1) {
         f = as_found;
         break;
       }
+      dropped += weight(as_found, f.set.front());
       f.set.erase(f.set.begin());
       f.explanation = f.set.front();
       f.block = best_block(c.explanations.list[static_cast<std::size_t>(f.explanation)], f.evidence);
-      f.variants.clear();
+      // of all that were in question before, those outside the set too
+      const double impossible = as_found.probability * dropped / all;
+      f.probability = (as_found.probability - impossible) / (1 - impossible);
     }
   }
 }
