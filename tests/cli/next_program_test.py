@@ -120,6 +120,19 @@ class NextProgram(harness.Case):
                 up = length * math.cos(math.radians(a))
         self.assertEqual(selected, 5)
 
+    def test_one_stylus_in_several_orientations_is_several_tips(self):
+        first = self.record(SPHERE, "first.csv", "--machine", PORTAL, "--with", "probe.tip_radius:amplitude_um=2")
+        header, *body = [line.split(",") for line in first.read_text().splitlines() if not line.startswith("#")]
+        sensor = header.index("sensor")
+        for fields in body:
+            fields[sensor] = body[0][sensor]
+        about = [line for line in first.read_text().splitlines() if line.startswith("#") and not line.startswith("# sensor")]
+        stylus, = (line for line in first.read_text().splitlines() if line.startswith(f"# sensor {body[0][sensor]}:"))
+        self.write("one.csv", "\n".join([*about, stylus, *map(",".join, [header, *body])]) + "\n")
+        program, _, _ = self.proposal(self.folder / "one.csv", "--machine", PORTAL)
+        again = rows(self.record(program, "again.csv", "--machine", PORTAL))
+        self.assertEqual(len({(row["head_A_deg"], row["head_B_deg"]) for row in again}), 5)
+
     def test_repeats_how_it_was_touched(self):
         """Speeds that change within a feature, the approach, compensation; every touch under its label and number."""
         varied = block("TECOMP/ON\n").replace("F(FRONT)", "FEDRAT/MESVEL,MMPS,5\nACLRAT/MESACL,MMPSS,300\nF(FRONT)", 1)

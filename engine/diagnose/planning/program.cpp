@@ -34,7 +34,12 @@ double distance_said(const Recording& r, std::string_view key, double usual) {
 class Writer {
  public:
   Writer(const Case& c, const Change& change, const Longer& longer)
-      : case_(c), change_(change), longer_(longer), path_(path_of(longer)), touches_(longer.touches.touches) {
+      : case_(c),
+        change_(change),
+        longer_(longer),
+        path_(path_of(longer)),
+        touches_(longer.touches.touches),
+        labels_(tip_labels(longer)) {
     find_blocks();
     X_DW_ = {Mat3{}, surface_of(longer, longer.first) - scene(longer.first).point};
   }
@@ -95,17 +100,19 @@ class Writer {
 
   /// Definitions of all styli: the recording may know some that the machine file does not.
   void styli() {
-    std::set<std::string_view> defined;
+    std::set<int> defined;
     for (std::size_t k = longer_.first; k < touches_.size(); ++k) {
       const StylusScene& s = scene(k).stylus;
       const auto named = longer_.machine.sensors.find(std::string(s.name));
-      if (named == longer_.machine.sensors.end() || !defined.insert(s.name).second) continue;
+      if (named == longer_.machine.sensors.end() || !defined.insert(s.tip_ordinal).second) continue;
+      const std::string& label = labels_.at(s.tip_ordinal);
+      if (label != s.name) say(fmt::format("{}: stylus '{}' of the first recording", label, s.name));
       const Vec3 tip = named->second.tip_in_r_mm;
       out_ += s.indexed
-          ? fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f}\n", s.name,
+          ? fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f}\n", label,
                         s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi, tip.x / norm(tip), tip.y / norm(tip),
                         tip.z / norm(tip), norm(tip), 2 * s.radius_mm)
-          : fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},0,0,-1,{:.4f}\n", s.name,
+          : fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},0,0,-1,{:.4f}\n", label,
                         s.tip_from_mount_mm.x, s.tip_from_mount_mm.y, s.tip_from_mount_mm.z, 2 * s.radius_mm);
     }
   }
@@ -163,7 +170,7 @@ class Writer {
     out_ += fmt::format("GOTO/{:.4f},{:.4f},{:.4f}\n", p.x, p.y, p.z);
   }
 
-  void select(std::size_t k) { out_ += fmt::format("SNSLCT/SA({})\n", scene(k).stylus.name); }
+  void select(std::size_t k) { out_ += fmt::format("SNSLCT/SA({})\n", labels_.at(scene(k).stylus.tip_ordinal)); }
 
   /// Settings that this touch has and the one before had not.
   void set(const char* statement, double value, double& before) {
@@ -218,6 +225,7 @@ class Writer {
   const Longer& longer_;
   Path path_;
   const std::vector<RecordedTouch>& touches_;
+  std::map<int, std::string> labels_;          ///< of the qualified tips
   std::map<std::size_t, std::size_t> blocks_;  ///< first and last touch of each
   Rigid X_DW_;
   double approach_mm_ = 0, retract_mm_ = 0;  ///< where there is room
