@@ -124,14 +124,8 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Finding&
     const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];
     const auto at = static_cast<Eigen::Index>(k);
     const double value = s.mean(at) * b.columns[k].unit, u = std::sqrt(s.covariance(at, at)) * b.columns[k].unit;
-    out.push_back({std::string(p.name),
-                   std::string(p.unit),
-                   value,
-                   u,
-                   value - 1.96 * u,
-                   value + 1.96 * u,
-                   {},
-                   value >= p.low && value <= p.high});
+    const double low = value - 1.96 * u, high = value + 1.96 * u;
+    out.push_back({std::string(p.name), std::string(p.unit), value, u, low, high, {}, high >= p.low && low <= p.high});
   }
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const EffectParameter& parameter = effect.parameters[p];
@@ -155,7 +149,7 @@ void tell_pattern(const ValueCase& c, const Finding& f, Diagnosis& out) {
       e.shape,
       rms,
       u,
-      rms - 1.96 * u,
+      std::max(0.0, rms - 1.96 * u),
       rms + 1.96 * u,
       e.shape == "single values"
           ? "No effect of the catalogue explains it: single values stray (the table says which)."
@@ -171,6 +165,7 @@ void tell_name(const ValueCase& c, const Finding& f, double adequacy, Diagnosis&
     e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
     titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
   }
+  const Effect& effect = *all.list[static_cast<std::size_t>(f.explanation)].effect;
   e.parameters = parameters_of(c, f);
   const bool size = plausible(e.parameters);
   e.probability = believed(f.probability, adequacy < kInadequate || !size);
@@ -178,7 +173,7 @@ void tell_name(const ValueCase& c, const Finding& f, double adequacy, Diagnosis&
   if (!size)
     e.sentence += kNoSuchSize;
   else
-    out.model_effects.push_back(setting_of(e.members.front(), e.parameters));
+    out.model_effects.push_back(nearest_possible(effect, setting_of(e.members.front(), e.parameters)));
   out.adequacy_p = adequacy;
   out.verdict = f.set.size() > 1 ? Verdict::one_of : Verdict::named;
   out.effects.push_back(std::move(e));
