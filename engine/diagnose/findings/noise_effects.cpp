@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/effects/noise/noise.hpp"
 
 namespace abbe::diagnose {
 
@@ -134,7 +135,7 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
       {"fast probing", Factor::speed, figure("faster_than_mm_s", "mm/s", fast_mm_s, 0), Vector(rows)}};
   for (Eigen::Index k = 0; k < rows; ++k) {
     splits[0].in(k) = length(k) > long_mm;
-    splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > 0.02;
+    splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > kUpright_rad;
     splits[2].in(k) = speed(k) > fast_mm_s;
   }
   std::optional<Unequal> best;

@@ -12,6 +12,9 @@ extern const Effect kOutliers;
 extern const Effect kResolution;
 extern const Effect kUnequalNoise;
 
+/// Heads that are tilted by more count as tilted (noise.unequal).
+inline constexpr double kUpright_rad = 1 * kDegree;
+
 /// The probability below a standard normal number: makes a uniform draw of a normal one.
 inline double normal_probability(double z) { return 0.5 * std::erfc(-z * std::sqrt(0.5)); }
 

@@ -16,7 +16,6 @@ namespace {
 
 enum Group { long_styli, tilted_head, fast_probing };
 constexpr std::string_view kGroups[] = {"long styli", "tilted head", "fast probing"};
-constexpr double kUpright_rad = 1 * kDegree;
 
 constexpr EffectParameter kUnequalNoiseParameters[] = {
     {.name = "ratio",
