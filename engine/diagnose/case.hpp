@@ -50,7 +50,6 @@ struct Finding {
   std::vector<int> variants;  ///< blocks, those of its variants that count; empty: those of its explanation
   std::vector<int> set;       ///< explanations that together reach kCredible, likeliest first
   double probability = 0;     ///< of the set
-  double p = 1;               ///< that the search finds so much without a mismatch
   Evidence evidence;          ///< given the findings before
 };
 

@@ -44,7 +44,7 @@ double within_mm(const RecordedTouches& t, double share) {
 
 /// Where so many touches lie further out than this, and no effect explains it, the targets are not those of
 /// the part: no machine does so much.
-constexpr double kBeyondMachines_mm = 0.1, kHalf = 0.5, kNineTenths = 0.9;
+constexpr double kBeyondMachines_mm = 0.1, kHalfOfThem = 0.5, kNineTenths = 0.9;
 
 Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::string& file) {
   return diagnostic(
@@ -52,7 +52,7 @@ Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::st
       fmt::format(
           "{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
           "Every surface point counts as unknown, and only what repeats differently is judged",
-          file, share == kHalf ? "half" : "a tenth", within_mm(t, share)),
+          file, share == kHalfOfThem ? "half" : "a tenth", within_mm(t, share)),
       "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right");
 }
 
@@ -228,7 +228,7 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
 std::string known_state_beside(const Case& c, const SearchResult& result) {
   Baseline beside = c.baseline;
   beside.model = with_free(without_rows(c.baseline.model, c.masked), signatures_of(c, result));
-  return write_known_state(posterior(beside, result.hyper, std::vector<char>(c.rows.size(), 0)), result.hyper);
+  return write_known_state(posterior(beside, result.hyper), result.hyper);
 }
 
 /// One recording in so many has a change of the scatter.
@@ -344,9 +344,9 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
     remove_expected(*part, c.touches),
         out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
   const std::optional<KnownGeometry> known = read_known_state(machine);
-  if (!surfaces && within_mm(c.touches, kHalf) > kBeyondMachines_mm) {
+  if (!surfaces && within_mm(c.touches, kHalfOfThem) > kBeyondMachines_mm) {
     surfaces = Surfaces::unknown;
-    out.messages.push_back(not_its_targets(c.touches, kHalf, file));
+    out.messages.push_back(not_its_targets(c.touches, kHalfOfThem, file));
   }
   c.baseline =
       baseline_of(c.touches, machine,

@@ -232,8 +232,8 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   return out;
 }
 
-KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, const std::vector<char>& dropped) {
-  const LinearModel m = without_rows(b.model, dropped);
+KnownGeometry posterior(const Baseline& b, const Hyperparameters& h) {
+  const LinearModel& m = b.model;
   const Projection project(m, h);
   const Matrix z = project(m.random);
   Matrix precision = z.transpose() * z;

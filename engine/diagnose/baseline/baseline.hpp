@@ -59,6 +59,6 @@ inline constexpr double kQualificationShare = 0.6;
 inline constexpr int kEnsemble = 800;
 
 /// Mean and covariance of the coefficients given the recording: what a later diagnosis may start from.
-KnownGeometry posterior(const Baseline&, const Hyperparameters&, const std::vector<char>& dropped);
+KnownGeometry posterior(const Baseline&, const Hyperparameters&);
 
 }  // namespace abbe::diagnose

@@ -112,7 +112,6 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
                 const std::optional<Finding>& beside) {
   const Evidence evidence = left_by_others(c, all, which, beside);
   Finding name = finding_of(c.explanations, evidence, true), pattern = finding_of(c.explanations, evidence, false);
-  name.p = pattern.p = all[which].p;
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
 }
 
@@ -133,7 +132,6 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     }
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     auto [named, other] = named_on_finer_grid(c, here);
-    named.p = other.p = r.p;
     result.findings.push_back(named);
     if (!likelier(c.explanations, named, other, kNamed) &&
         (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {

@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kSame_um = 1e-6;
+constexpr double kSameValue_um = 1e-6;
 
 /// What a file of values does not tell: when, at which readings and loads, and what is drawn anew each time.
 constexpr unsigned kNotInValues =
@@ -146,7 +146,7 @@ std::vector<Vector> grow(const Plantation& plantation, const std::vector<Plantin
 bool repeats_values(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
   for (const int b : of.blocks) {
     const Matrix& m = blocks[static_cast<std::size_t>(b)].signature;
-    if (m.cols() == block.signature.cols() && (m - block.signature).cwiseAbs().maxCoeff() < kSame_um) return true;
+    if (m.cols() == block.signature.cols() && (m - block.signature).cwiseAbs().maxCoeff() < kSameValue_um) return true;
   }
   return false;
 }
@@ -159,7 +159,7 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
   for (Draft& d : drafts) {
     for (const int p : d.parameter) {
       const Vector& values = grown[at++];
-      if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kSame_um) continue;
+      if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kSameValue_um) continue;
       d.block.columns.push_back({p, 0, effect.parameters[static_cast<std::size_t>(p)].typical});
       d.block.signature.conservativeResize(values.size(), d.block.signature.cols() + 1);
       d.block.signature.rightCols(1) = values;

@@ -41,7 +41,7 @@ TEST_CASE("what is left of the geometry is that of touches whose neighbours have
   const Matrix covariance =
       b.factor * (prior - gain * m.random * prior).topLeftCorner(kCoefficients, kCoefficients) * b.factor.transpose();
 
-  const KnownGeometry known = posterior(b, h, std::vector<char>(kTouches, 0));
+  const KnownGeometry known = posterior(b, h);
   CHECK((known.mean - mean).cwiseAbs().maxCoeff() < 1e-9);
   CHECK((known.factor * known.factor.transpose() - covariance).cwiseAbs().maxCoeff() < 1e-9);
 }
