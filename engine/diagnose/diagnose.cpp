@@ -155,7 +155,7 @@ RunChange change_of(const Block& variant, const Block& found) {
 }
 
 /// A member that would need a size which no such effect has explains nothing, where another of its set does
-/// with a possible one.
+/// with a possible one. What was believed of it is believed of no other.
 void drop_impossible_members(const Case& c, SearchResult& result) {
   const auto weight = [&](const Finding& f, int member) {
     return c.explanations.list[static_cast<std::size_t>(member)].prior *

@@ -102,8 +102,7 @@ struct ThermalDraw {
   std::array<double, 3> scale_sensor_K{};
 };
 ThermalDraw draw_thermal(const Workpiece&, DrawFor);
-/// Are part or scales known with an uncertainty only, so that every virtual machine has its own
-/// temperatures?
+/// Whether the temperature of part or scales is uncertain, so that every virtual machine has its own.
 bool temperatures_vary(const Workpiece&);
 /// The temperatures of one virtual machine at a moment for which temperatures() gives `estimate`.
 Temperatures drawn_temperatures(const Temperatures& estimate, const ThermalDraw&);

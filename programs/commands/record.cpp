@@ -33,8 +33,8 @@ EffectSetting::Value parameter_value(const std::string& text) {
   return value;
 }
 
-/// EFFECT[:name=value,...]. An effect without parameters acts with the typical size of its first one: a size
-/// of zero would do nothing.
+/// EFFECT[:name=value,...]. An effect that is given without parameters acts with the typical size of its first
+/// one: a size of zero would do nothing.
 EffectSetting effect_setting(const std::string& text) {
   EffectSetting setting;
   setting.option = "--with " + text;

@@ -10,8 +10,8 @@
 // other cannot imitate, over its variants. What the second recording adds, D = delta(both) - delta(first),
 // makes the log odds of the truth normal with mean D / 2 and variance D. The expected probability of the
 // truth follows, averaged over the rivals as truth: what a recording cannot tell apart counts as equally
-// likely (Atkinson & Fedorov, Biometrika 62, 1975). Where no single change decides, the best one is tried
-// together with each of the others. Ranked by gain per minute, a round of an hour included.
+// likely (Atkinson & Fedorov, Biometrika 62, 1975). Where no single change decides, the best ones are
+// tried two at a time. Ranked by gain per minute, a round of an hour included.
 #pragma once
 
 #include <functional>
