@@ -46,7 +46,11 @@ SourceFile read_source(const std::string& path) {
     throw UserError(
         diagnostic(Code::E0601, "cannot read '" + path + "': " + cause, "check the name and the permissions"));
   }
-  return SourceFile(path, text.str());
+  std::string bytes = text.str();
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
+    throw UserError(
+        diagnostic(Code::E0618, "'" + path + "' is in UTF-16", "save it as UTF-8 (\"CSV UTF-8\" in Excel)"));
+  return SourceFile(path, std::move(bytes));
 }
 
 namespace {
@@ -82,9 +86,6 @@ std::string from_windows_1252(std::string_view text) {
 
 SourceFile read_text(const std::string& path, Sink& sink) {
   SourceFile file = read_source(path);
-  if (file.text().starts_with("\xFF\xFE") || file.text().starts_with("\xFE\xFF"))
-    throw UserError(
-        diagnostic(Code::E0618, "'" + path + "' is in UTF-16", "save it as UTF-8 (\"CSV UTF-8\" in Excel)"));
   const std::size_t foreign = first_foreign(file.text());
   if (foreign == file.text().size()) return file;
   const int line = file.place(static_cast<std::uint32_t>(foreign)).line;

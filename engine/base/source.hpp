@@ -43,14 +43,14 @@ class SourceFile {
   std::vector<std::uint32_t> line_begin_;
 };
 
-/// Reads a whole file. Throws UserError (diagnostic.hpp) that names the file and the cause when it cannot.
+/// Reads a whole file. Throws UserError (diagnostic.hpp) where it cannot, and of UTF-16: nothing reads that.
 SourceFile read_source(const std::string& path);
 
 class Sink;
 
 /// Reads a file of text that people or other programs wrote. What is not UTF-8 is taken as Windows-1252, of
-/// which Latin-1 is a part, and the sink says so (N0617). Throws UserError as read_source, and for UTF-16,
-/// which has twice as many bytes as letters.
+/// which Latin-1 is a part, and the sink says so (N0617).
+/// Throws UserError as read_source.
 SourceFile read_text(const std::string& path, Sink&);
 
 }  // namespace abbe

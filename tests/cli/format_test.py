@@ -34,6 +34,12 @@ class Format(harness.Case):
         self.abbe("format", "--write", "latin.dmi")
         self.assertIn("F(\u00c4)".encode("latin-1"), path.read_bytes())
 
+    def test_utf16_is_refused_and_stays(self):
+        path = self.write("wide.dmi", LENGTH.encode("utf-16"))
+        before = path.read_bytes()
+        self.refused("E0618", "format", "--write", "wide.dmi")
+        self.assertEqual(path.read_bytes(), before)
+
     def test_wrong_usage(self):
         self.write("a.dmi", LENGTH)
         self.refused("E0609", "format", "--check", "--write", "a.dmi")
