@@ -3,6 +3,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
@@ -62,6 +64,29 @@ void continue_clock(const Recording& before, Recording& next, const std::string&
                   "if it was measured at another time, write its true times into time_s")});
 }
 
+/// Whoever forgets to number the repeats has the same run in every file. The same touch with another value is
+/// a further run, else the machine would seem to have changed in the middle of one.
+void continue_runs(const Recording& before, Recording& next, const std::string& file) {
+  const auto named = [](const RecordingRow& row) { return std::tie(row.feature, row.touch, row.setup, row.run); };
+  std::map<std::tuple<std::string, int, int, int>, Vec3> touched;
+  for (const RecordingRow& row : before.rows) touched.emplace(named(row), row.position_mm);
+  const bool again = std::any_of(next.rows.begin(), next.rows.end(), [&](const RecordingRow& row) {
+    const auto found = touched.find(named(row));
+    return found != touched.end() && !(found->second == row.position_mm);
+  });
+  if (!again) return;
+  const auto in_run_order = [](const RecordingRow& a, const RecordingRow& b) { return a.run < b.run; };
+  const int last = std::max_element(before.rows.begin(), before.rows.end(), in_run_order)->run;
+  const int first = std::min_element(next.rows.begin(), next.rows.end(), in_run_order)->run;
+  for (RecordingRow& row : next.rows) row.run += last + 1 - first;
+  print_messages({diagnostic(
+      Code::N0708,
+      fmt::format("{}: it repeats touches of the recording ahead of it under the same run; its runs are counted on: "
+                  "run {} counts as {}",
+                  file, first, last + 1),
+      "give every repeat its own number in the column 'run'")});
+}
+
 std::string machine_in(const Recording& recording) {
   for (const auto& [key, value] : recording.metadata)
     if (key == "machine") return value;
@@ -108,6 +133,7 @@ Recording joined(const std::vector<SourceFile>& files) {
     refuse_copy(all, files[0].name(), one, name);
     doubt_machine(all, files[0].name(), one, name);
     continue_clock(all, one, name);
+    continue_runs(all, one, name);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     // new styli; of what is said twice the first counts
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());

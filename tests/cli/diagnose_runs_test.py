@@ -23,6 +23,18 @@ class DiagnoseRuns(harness.Case):
         self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 250))
         self.assertGreater(said["p_value"], 0.01)
 
+    def test_a_repeat_without_a_number_of_its_own_is_a_further_run(self):
+        first, second = self.record(1, "--seed", 2), self.record(2, "--seed", 2)
+        unnumbered = self.changed(self.folder / second, lambda row: row | {"run": "1"}, "unnumbered.csv")
+        said = self.diagnosis(first, unnumbered)
+        numbered = self.diagnosis(first, second)
+        for key in ("verdict", "p_value", "touches", "baseline"):
+            self.assertEqual(said[key], numbered[key], key)
+        told = "its runs are counted on: run 1 counts as 2"
+        self.assertIn(told, self.abbe("diagnose", first, unnumbered, "--machine", MACHINE, "--design-only").stderr)
+        placed_anew = self.changed(unnumbered, lambda row: row | {"setup": "2"}, "placed_anew.csv")
+        self.assertNotIn(told, self.abbe("diagnose", first, placed_anew, "--machine", MACHINE, "--design-only").stderr)
+
     def test_another_machine_than_the_known_one_is_told(self):
         """Sixteen balls all over the volume: what the first recording left uncertain is far less than what two machines differ by."""
         points = [(0, 0, 1)] + [(math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e))
