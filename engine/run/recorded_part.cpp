@@ -15,7 +15,7 @@
 
 namespace abbe {
 
-std::optional<double> round_radius(const RecordedTouches& t, const std::vector<int>& rows) {
+std::optional<double> round_radius(const RecordedTouches& t, const std::vector<int>& rows, double form_mm) {
   struct Mean {
     Vec3 point, normal;
     double n = 0;
@@ -35,12 +35,13 @@ std::optional<double> round_radius(const RecordedTouches& t, const std::vector<i
     const auto [p, n] = centred(i);
     product += dot(p, n), square += dot(n, n);
   }
-  constexpr double kSpread = 1e-3, kRound_mm = 1e-3;
+  // the means and the radius share what one touch is off
+  constexpr double kSpread = 1e-3, kRound_mm = 1e-3, kFormShare = 4;
   if (square < kSpread * double(rows.size())) return std::nullopt;
   const double radius = product / square;
   for (const int i : rows) {
     const auto [p, n] = centred(i);
-    if (std::abs(dot(p - radius * n, n)) > kRound_mm) return std::nullopt;
+    if (std::abs(dot(p - radius * n, n)) > kRound_mm + kFormShare * form_mm) return std::nullopt;
   }
   return radius;
 }
@@ -93,11 +94,13 @@ class PartReader {
       for (const int i : rows) out_.expected_mm[i] += offset->value;
     if (!offset->exact()) set(add_doubt(), rows, offset->u());
     if (s.random_form_mm.value > 0) add_random_form(rows, s.random_form_mm.value);
-    if (!s.form.empty())
+    if (!targets_hold_form(s))
       out_.messages.push_back(
           diagnostic_at(w_.source, s.label_span, Code::W0549,
-                        fmt::format("the form of surface '{}' is not used: a diagnosis takes it as round", s.label),
-                        "give targets with the form in them, or \"random_form_um\""));
+                        fmt::format("{} of surface '{}' is not used: a diagnosis takes it as round",
+                                    shifts_ ? "the form" : "what the targets do not hold of the form", s.label),
+                        shifts_ ? "give targets with the form in them, or \"random_form_um\""
+                                : "give waves of unknown phase or amplitude as \"random_form_um\""));
   }
 
   void refuse_unknown(const Surface& s) {
@@ -112,10 +115,23 @@ class PartReader {
             : fmt::format("did you mean '{}'?", near)));
   }
 
+  /// The waves that true targets hold: those of known phase.
+  static double known_form_mm(const Surface& s) {
+    double sum = 0;
+    for (const FormHarmonic& wave : s.form)
+      if (wave.phase_half_turns) sum += std::abs(wave.amplitude_mm.value);
+    return sum;
+  }
+
+  bool targets_hold_form(const Surface& s) const {
+    const auto exact = [](const FormHarmonic& wave) { return wave.phase_half_turns && wave.amplitude_mm.exact(); };
+    return s.form.empty() || (!shifts_ && std::all_of(s.form.begin(), s.form.end(), exact));
+  }
+
   /// How far the surface lies beyond its target, along the outward normal.
   std::optional<Uncertain> offset_of(const Surface& s, const std::vector<int>& rows) {
     if (!s.diameter_mm && !s.diameter_deviation_mm) return s.offset_mm;
-    const std::optional<double> radius = round_radius(t_, rows);
+    const std::optional<double> radius = round_radius(t_, rows, shifts_ ? 0 : known_form_mm(s));
     if (!radius) {
       errors_.push_back(diagnostic_at(
           w_.source, s.label_span, Code::E0547,

@@ -28,8 +28,8 @@ struct RecordedPart {
 };
 
 /// The nominal radius of a round feature from the targets of its touches, negative for a bore; nothing when
-/// the feature is not round.
-std::optional<double> round_radius(const RecordedTouches&, const std::vector<int>& touches);
+/// the feature is not round. `form_mm`: by how much its surface may lie off the round one.
+std::optional<double> round_radius(const RecordedTouches&, const std::vector<int>& touches, double form_mm = 0);
 
 /// Temperatures and load of the workpiece file in rows that have none.
 void fill_from_workpiece(Recording&, const Workpiece&);

@@ -125,6 +125,16 @@ class CalibratedPart(harness.Case):
         part = self.write("ring.json", workpiece({feature: {"form": [{"undulations": 3, "amplitude_um": 1, "phase_deg": 0}]}}))
         self.assertIn("W0549", self.abbe("diagnose", "ring.csv", "--workpiece", part, "--machine", "coord3-mc16").stderr)
 
+    def test_true_targets_may_hold_the_form(self):
+        """The calibrated bore of docs/formats.md: its waves of known phase are in the targets that `record` writes."""
+        ring = harness.ROOT / "examples/programs/ring_gauge.dmi"
+        known, unknown = {"undulations": 3, "amplitude_um": 2, "phase_deg": 15}, {"undulations": 2, "amplitude_um": 1, "phase_deg": "random"}
+        for waves, unused in (([known], False), ([known, unknown], True)):
+            part = self.write("ring.json", workpiece({"BORE": {"diameter_mm": {"value": 50.0021, "u": 0.0004}, "form": waves}}))
+            self.abbe("record", ring, "--machine", "coord3-mc16", "--workpiece", part, "-o", "ring.csv")
+            told = self.abbe("diagnose", "ring.csv", "--workpiece", part, "--machine", "coord3-mc16", "--fail-on-mismatch").stderr
+            self.assertEqual("W0549" in told, unused)
+
 
 if __name__ == "__main__":
     harness.main()
