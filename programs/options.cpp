@@ -218,7 +218,8 @@ void add_machine(CLI::App& app, Chosen& chosen) {
   add_machine_action(machine, chosen, "show",
                      "what a machine file says, with all defaults, and one virtual machine of it", "MACHINE");
   add_machine_action(machine, chosen, "screen", "how many virtual machines satisfy the specification", "MACHINE");
-  add_machine_action(machine, chosen, "init", "write a machine file to start from", "NAME");
+  add_machine_action(machine, chosen, "init", "a machine file to start from: NAME prints it, NAME.json writes it",
+                     "NAME");
 }
 
 void add_record(CLI::App& app, Chosen& chosen) {
@@ -264,8 +265,9 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
       ->add_option("--workpiece", o->workpiece, "workpiece file: calibrated sizes, temperatures, expansion coefficient")
       ->type_name("W.json");
   command
-      ->add_option("--known", o->known,
-                   "machine file that an earlier diagnosis wrote: start from what is known of the machine")
+      ->add_option(
+          "--known", o->known,
+          "machine file that an earlier diagnosis wrote: start from what is known of the machine (counts before --machine)")
       ->type_name("K.json");
   command->add_option("--report", o->report, "write the diagnosis as a page with figures, one HTML file")
       ->type_name("R.html");

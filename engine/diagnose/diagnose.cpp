@@ -313,7 +313,7 @@ Diagnostic another_machine(double times, const std::string& file) {
       Code::W0720,
       fmt::format("{}: beside what was found, the machine differs by {:.1f} times what its file leaves uncertain", file,
                   times),
-      "it is another machine than the file knows, or one that has changed as a whole: diagnose without --known, and write its state anew with --model-out");
+      "it is another machine than the file knows, or one that has changed as a whole: diagnose with a machine file that has no known_state, and write its state anew with --model-out");
 }
 
 /// `surfaces`: what they count as; without, they are what the targets say unless half of them is not.
