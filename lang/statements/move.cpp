@@ -63,7 +63,8 @@ const Statement kGoto = {"GOTO",
                          "( POL, r:length, a:angle, h:length ; INCR, distance:length, i:number, j:number, k:number ; "
                          "[ CART ], x:length, y:length, z:length ), [ turn:HEADCS|PROBCS|DATUMCS|SNSLCT|WRIST ], ...",
                          "Moves the centre of the tip to a point of the current coordinate system; POL: radius, angle, "
-                         "height; INCR: by a distance along a vector. The head is turned by SNSLCT, not by GOTO.",
+                         "height; INCR: by a distance along a vector. The head is turned by SNSLCT; a GOTO that "
+                         "would turn it is refused (E0256).",
                          "GOTO/10,20,30",
                          "ISO 22093, GOTO",
                          go,
