@@ -6,21 +6,12 @@
 #include <cmath>
 #include <span>
 
+#include "lang/vocabulary.hpp"
+
 namespace abbe::lang {
 
-namespace {
-
-/// "FA" and "F" to "F", and so on for the pairs that share their names.
-std::string_view base_kind(std::string_view kind) {
-  for (const std::string_view pair : {"FA", "TA", "DA", "SA"})
-    if (kind == pair) return pair.substr(0, 1);
-  return kind;
-}
-
-}  // namespace
-
 std::string spoilt_key(std::string_view kind, std::string_view name) {
-  return fmt::format("{}:{}", base_kind(kind), upper(name));
+  return fmt::format("{}:{}", shared_kind(kind), upper(name));
 }
 
 std::string chain(std::string consequence, std::string_view cause) {

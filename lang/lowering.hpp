@@ -114,7 +114,8 @@ struct State {
   std::map<std::string, std::string> setting_doubts;  ///< reasons, by the setting: PRCOMP, GEOALG/CIRCLE
   std::string flow_doubt;  ///< an error in a statement of control: which statements run is unknown from there on
   Variables variables;
-  /// what VALUE reads: last argument of a setting as written, by its word
+  /// What VALUE reads: by the word of a statement its first argument, by "WORD,FIRST" its last one; numbers that were
+  /// converted in the units of the program.
   SharedMap<std::string, std::string> settings;
   bool reachable = true;  ///< false after a jump
 };

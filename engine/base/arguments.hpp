@@ -6,7 +6,8 @@
 //   CART                    the literal word
 //   side:INNER|OUTER        one of several words, kept under the name `side`
 //   x:length                a value under the name `x`; types: number, length, angle, integer, text, feature (F or FA label),
-//                           datum (DAT label), tolerance (T or TA), sensor (S or SA), frame (D or DA), word (any bare word)
+//                           datum (DAT label), tolerance (T or TA), sensor (S or SA), frame (D or DA), label (any),
+//                           word (any bare word), condition (of IF), value (of any type)
 //   [ a, b ]                optional, all or nothing
 //   { a, b }                repeated zero or more times; values are appended under their names
 //   ( a, b ; c, d )         alternatives, first match wins

@@ -4,7 +4,7 @@
 //
 // Values known when the program is compiled stand in the operations; values that exist only while a program
 // runs live in *columns*, one number per lane. Operations are in program order and jumps name operations by
-// index, so that lanes which part can meet again (docs/architecture.md, "Control flow").
+// index, so that lanes which part can meet again (docs/architecture.md, "Running a plan").
 #pragma once
 
 #include <array>
@@ -235,7 +235,7 @@ struct SetDatumFrame {
   FrameId result;
   std::vector<DatumRef> datums;
 };
-/// to the point of `from`, or by a length when it is not valid
+/// Along `axis` to the point of `from`, or by the length `by` where `from` names no feature.
 struct OriginShift {
   Axis axis{};
   FeatureId from;

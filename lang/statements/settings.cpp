@@ -1,9 +1,7 @@
-// How the machine moves and what a touch yields: SNSET, FEDRAT, ACLRAT, FLY, PRCOMP, GEOALG.
+// How the machine moves and what a touch yields: SNSET, FEDRAT, ACLRAT, FLY, PRCOMP.
 #include <fmt/format.h>
 
-#include "engine/features/feature.hpp"
 #include "lang/statement.hpp"
-#include "lang/statements/words.hpp"
 
 namespace abbe::lang {
 

@@ -81,7 +81,7 @@ std::optional<plan::ToleranceId> instance(Lowering& lowering, const ToleranceSym
   return id;
 }
 
-/// One feature of OUTPUT has this shape; the tolerance says whether it suits.
+/// One tolerance of OUTPUT or EVAL: a characteristic, when it suits the features.
 void evaluate(Lowering& lowering, const RawStatement& raw, const std::vector<plan::FeatureId>& features,
               const MatchedValue& use) {
   const ToleranceSymbol* symbol = lowering.tolerance(use.label);

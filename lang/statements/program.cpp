@@ -1,4 +1,4 @@
-// The frame of a program: DMISMN, ENDFIL, UNITS, MODE, DMESW.
+// What is around a program: DMISMN, ENDFIL, UNITS, MODE, DMESW.
 #include <fmt/format.h>
 
 #include "lang/statement.hpp"
