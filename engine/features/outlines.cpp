@@ -4,11 +4,10 @@
 
 #include "engine/features/nominal.hpp"
 #include "engine/features/outline.hpp"
+#include "engine/features/shape_traits.hpp"
 
 namespace abbe {
 namespace {
-
-constexpr double kSquare = 0.0175;  // sine of 1 degree: meant as a right angle
 
 /// (i, j, k) with a suffix as a unit vector, zero when it has no length.
 Vec3 vector_of(const Arguments& arguments, const std::string& suffix) {
@@ -21,7 +20,7 @@ Vec3 vector_of(const Arguments& arguments, const std::string& suffix) {
 Outcome<Element> outline(const Vec3& centre, const Vec3& normal, const Vec3& along, double length, double width) {
   using Made = Outcome<Element>;
   if (norm(normal) == 0 || norm(along) == 0) return Made::failed("a direction vector has no length");
-  if (std::fabs(dot(normal, along)) > kSquare)
+  if (std::fabs(dot(normal, along)) > kOneDegreeSine)
     return Made::failed("its direction must lie across the normal of its plane");
   if (!(length > 0 && width > 0)) return Made::failed("its length and width must be positive");
   return {{.point = centre,
@@ -42,7 +41,9 @@ Outcome<Element> slot(const Arguments& arguments) {
 Outcome<Element> rectangle(const Arguments& arguments) {
   Outcome<Element> made = outline(location(arguments), vector_of(arguments, "3"), vector_of(arguments, "1"),
                                   arguments.number("len1"), arguments.number("len2"));
-  if (made && std::fabs(dot(vector_of(arguments, "2"), cross(made.value.direction, made.value.second))) < 1 - kSquare)
+  const Vec3 other = vector_of(arguments, "2");
+  const auto square_to = [&](const Vec3& v) { return std::fabs(dot(other, v)) <= kOneDegreeSine; };
+  if (made && !(norm(other) > 0 && square_to(made.value.direction) && square_to(made.value.second)))
     return Outcome<Element>::failed("its three directions must be at right angles");
   made.value.end = arguments.number("len3") / 2, made.value.begin = -made.value.end;
   return made;

@@ -6,6 +6,7 @@
 
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/shape_traits.hpp"
 #include "engine/features/solve.hpp"
 #include "engine/features/spread.hpp"
 
@@ -28,7 +29,8 @@ Outcome<Element> nominal_planes(const Arguments& arguments) {
   const Vec3 n1{arguments.number("i1"), arguments.number("j1"), arguments.number("k1")};
   const Vec3 n2{arguments.number("i2"), arguments.number("j2"), arguments.number("k2")};
   if (!(norm(n1) > 0 && norm(n2) > 0)) return Outcome<Element>::failed("a normal has no length");
-  if (norm(cross(unit(n1), unit(n2))) > 0.0175) return Outcome<Element>::failed("the two planes are not parallel");
+  if (norm(cross(unit(n1), unit(n2))) > kOneDegreeSine)
+    return Outcome<Element>::failed("the two planes are not parallel");
   return median(0.5 * (p1 + p2), unit(n1), std::fabs(dot(p2 - p1, unit(n1))));
 }
 

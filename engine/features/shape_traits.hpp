@@ -20,6 +20,10 @@ constexpr Shape acts_as(Shape s) {
   }
 }
 
+/// The sine up to which directions that are written with few decimals, or were measured, are meant as parallel or at
+/// right angles: 1 degree.
+inline constexpr double kOneDegreeSine = 0.0175;
+
 /// Slots, rectangles and ellipses: curves in a plane, with a centre and a long side.
 constexpr bool is_outline(Shape s) { return s == Shape::slot || s == Shape::rectangle || s == Shape::ellipse; }
 

@@ -111,8 +111,6 @@ Ruler laid_along(const Vec3& n, const Vec3& from_to) {
   return {distance < 0 ? -n : n, std::fabs(distance)};
 }
 
-constexpr double kParallel = 0.0175;  // sine of 1 degree
-
 Vec3 mean_direction(const Vec3& a, const Vec3& b) { return unit(a + (dot(a, b) < 0 ? -b : b)); }
 
 bool is_straight_line(Shape s) { return s == Shape::line || s == Shape::cylinder; }
@@ -123,8 +121,8 @@ struct Two {
   const Element* element[2];
   Vec3 nominal_direction[2];
 
-  bool parallel() const { return norm(cross(nominal_direction[0], nominal_direction[1])) < kParallel; }
-  bool square() const { return std::fabs(dot(nominal_direction[0], nominal_direction[1])) < kParallel; }
+  bool parallel() const { return norm(cross(nominal_direction[0], nominal_direction[1])) < kOneDegreeSine; }
+  bool square() const { return std::fabs(dot(nominal_direction[0], nominal_direction[1])) < kOneDegreeSine; }
   const Vec3& direction(int k) const { return element[k]->direction; }
   Vec3 from_to() const { return place(shape[1], *element[1]) - place(shape[0], *element[0]); }
 };

@@ -29,13 +29,10 @@ Outcome<double> spread(const Arguments&, const EvaluationInput& in) { return {in
 
 Outcome<double> straightness_value(const Arguments&, const EvaluationInput& in) { return {straightness(in)}; }
 
-/// The sine up to which vectors of touches count as one normal: written with few decimals, or taken from
-/// a surface that is nearly flat.
-constexpr double kOneNormal = 0.0175;  // 1 degree
-
+/// Vectors of touches that differ little count as one: they are taken from a surface that is nearly flat.
 bool have_one_normal(std::span<const TouchedPoint> touches) {
   return !touches.empty() && std::all_of(touches.begin(), touches.end(), [&](const TouchedPoint& touch) {
-    return norm(touch.normal - touches[0].normal) < kOneNormal;
+    return norm(touch.normal - touches[0].normal) < kOneDegreeSine;
   });
 }
 
@@ -74,7 +71,7 @@ std::vector<Vec3> points_of_plane(const EvaluationInput& in) {
 std::optional<Vec3> section_normal(std::span<const TouchedPoint> touches, const Vec3& v) {
   if (!have_one_normal(touches)) return std::nullopt;
   const Vec3 across = perpendicular_part(touches[0].normal, v);
-  if (norm(across) < kOneNormal) return std::nullopt;
+  if (norm(across) < kOneDegreeSine) return std::nullopt;
   return unit(across);
 }
 

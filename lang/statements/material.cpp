@@ -10,9 +10,7 @@ namespace abbe::lang {
 
 namespace {
 
-constexpr double kSameDirection = 0.017;  // sine of 1 degree
-
-bool along(const Vec3& a, const Vec3& b) { return norm(cross(a, b)) < kSameDirection; }
+bool along(const Vec3& a, const Vec3& b) { return norm(cross(a, b)) < kOneDegreeSine; }
 
 /// One label of the tolerance and the word that follows it.
 struct Modified {

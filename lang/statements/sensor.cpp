@@ -9,14 +9,13 @@
 
 #include <cmath>
 
+#include "engine/features/shape_traits.hpp"
 #include "lang/statement.hpp"
 #include "lang/statements/words.hpp"
 
 namespace abbe::lang {
 
 namespace {
-
-constexpr double kOneDegree = kPi / 180;
 
 void set_mount(Lowering& lowering, const RawStatement&, const Match& match) {
   const std::optional<Vec3> x = direction_vector(lowering, match, "xi"), z = direction_vector(lowering, match, "zi");
@@ -50,7 +49,7 @@ void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& 
   if (!along) return;
   const Vec3 stylus = stylus_direction(def.head_a_rad, def.head_b_rad);
   const bool straight_mount = std::fabs(std::fabs(along->z) - 1) < 1e-9;
-  if (straight_mount || norm(cross(*along, stylus)) < std::sin(kOneDegree)) return;
+  if (straight_mount || norm(cross(*along, stylus)) < kOneDegreeSine) return;
   lowering.warn(Code::W0223, match.find("i")->span,
                 "this vector is neither along the ram nor along the stylus that the head angles give",
                 "the head angles hold; 0,0,-1 is the usual vector");

@@ -52,7 +52,6 @@ Outcome<Element> point_of_planes(Elements p, const Element& nominal) {
 }
 
 Outcome<Element> section(const Element& plane, Shape shape, const Element& body, const Element& nominal) {
-  constexpr double kSquare = 0.0175;  // sine of 1 degree
   Element circle;
   circle.direction = plane.direction;
   if (shape == Shape::sphere) {
@@ -61,7 +60,7 @@ Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
     circle.point = body.point - height * plane.direction;
     circle.size = std::sqrt(body.size * body.size - height * height);
   } else {
-    if (norm(cross(body.direction, plane.direction)) > kSquare)
+    if (norm(cross(body.direction, plane.direction)) > kOneDegreeSine)
       return cannot("the section is not a circle: the plane is not square to the axis");
     circle.point = line_meets_plane(body.point, body.direction, plane);
     circle.size = body.size;
