@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/run/alignment_features.hpp"
 #include "engine/run/block_run.hpp"
 
@@ -41,20 +43,23 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
 }
 
 void Executor::find_recorded_points() {
+  std::multimap<std::string, int> features;
+  for (std::size_t f = 0; f < plan_.features.size(); ++f)
+    features.emplace(upper(plan_.features[f].label), static_cast<int>(f));
   for (const RecordingRow& row : options_.recorded->rows) {
-    for (std::size_t f = 0; f < plan_.features.size(); ++f) {
-      if (plan_.features[f].label != row.feature) continue;
+    const auto [begin, end] = features.equal_range(upper(row.feature));
+    for (auto feature = begin; feature != end; ++feature) {
       const Vec3 tip = row.position_mm + options_.placement_mm +
           (options_.recorded->point == RecordedPoint::surface && row.normal ? recorded_radius(row) * *row.normal
                                                                             : Vec3{});
-      recorded_.emplace(std::pair{static_cast<int>(f), static_cast<std::size_t>(row.touch - 1)}, tip);
+      recorded_.emplace(std::pair{feature->second, static_cast<std::size_t>(row.touch - 1)}, tip);
     }
   }
 }
 
 double Executor::recorded_radius(const RecordingRow& row) const {
   for (const Sensor& sensor : sensors_)
-    if (row.sensor && sensor.name == *row.sensor) return sensor.radius_mm;
+    if (row.sensor && same_label(sensor.name, *row.sensor)) return sensor.radius_mm;
   return sensors_.empty() ? 0 : sensors_.front().radius_mm;
 }
 

@@ -403,14 +403,14 @@ void carry(const Rigid& X_MD, RecordingRow& row) {
 void complete_from_program(Recording& recording, const MachineRecord& nominal, const std::string& file) {
   std::map<std::pair<std::string, int>, std::size_t> partner;
   for (std::size_t k = 0; k < nominal.recording.rows.size(); ++k)
-    partner[{nominal.recording.rows[k].feature, nominal.recording.rows[k].touch}] = k;
+    partner[{upper(nominal.recording.rows[k].feature), nominal.recording.rows[k].touch}] = k;
   for (const auto& line : nominal.recording.metadata) recording.metadata.push_back(line);
   FrameCount frames;
   for (const TouchAim& aim : nominal.aims) frames.add(aim.X_MD);
   const Rigid X_PM = inverse(frames.most_used());
   std::vector<std::string> lost;
   for (RecordingRow& row : recording.rows) {
-    const auto found = partner.find({row.feature, row.touch});
+    const auto found = partner.find({upper(row.feature), row.touch});
     if (found == partner.end()) {
       if (!row.target_mm || !row.normal || recording.in_part_frame)
         lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
@@ -418,6 +418,7 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     }
     RecordingRow from = nominal.recording.rows[found->second];
     const TouchAim& aim = nominal.aims[found->second];
+    row.feature = from.feature;  // labels are the same whatever their case
     if (recording.in_part_frame) carry(aim.X_MD, row);
     const Vec3 surface = *from.target_mm - aim.radius_mm * *from.normal;
     row.on_part_mm = X_PM * surface;

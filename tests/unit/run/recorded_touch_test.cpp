@@ -88,10 +88,11 @@ TEST_CASE("targets of a program are of the point and in the frame that the recor
       r.point = point, r.in_part_frame = in_part;
       const Vec3 measured{700, (point == RecordedPoint::surface ? 400 : 402) + 0.01, -550};
       RecordingRow row;
-      row.feature = "FACE", row.position_mm = in_part ? inverse(X_MD) * measured : measured;
+      row.feature = "Face", row.position_mm = in_part ? inverse(X_MD) * measured : measured;
       r.rows = {row};
       complete_from_program(r, program, "r");
-      CHECK_FALSE(r.in_part_frame);  // the program says where the part stands
+      CHECK(r.rows[0].feature == "FACE");  // as the program has it
+      CHECK_FALSE(r.in_part_frame);        // the program says where the part stands
       CHECK(norm(r.rows[0].position_mm - measured) < 1e-9);
       CHECK(norm(*r.rows[0].normal - Vec3{0, 1, 0}) < 1e-9);
       CHECK(dot(*r.rows[0].normal, r.rows[0].position_mm - *r.rows[0].target_mm) == doctest::Approx(0.01));
