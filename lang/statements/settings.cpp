@@ -19,6 +19,9 @@ void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match
       : word == "RETRCT"                         ? MotionSetting::retract
       : word == "CLRSRF"                         ? MotionSetting::clearance
                                                  : MotionSetting::depth;
+  if (const MatchedValue* distance = match.find("distance"); distance && distance->number < 0)
+    return lowering.error(Code::E0106, distance->span, fmt::format("the distance of {} is less than zero", word),
+                          "give how far it is, without a sign");
   lowering.emit(plan::SetMotion{setting, match.number("distance", 0)});
 }
 
@@ -66,6 +69,9 @@ void set_acceleration(Lowering& lowering, const RawStatement&, const Match& matc
 }
 
 void set_fly(Lowering& lowering, const RawStatement&, const Match& match) {
+  if (const MatchedValue* radius = match.find("radius"); radius && radius->number < 0)
+    return lowering.error(Code::E0106, radius->span, "the radius of FLY is less than zero",
+                          "give a length, or FLY/OFF to stop at every position");
   lowering.emit(plan::SetMotion{MotionSetting::fly_radius, match.number("radius", 0)});
 }
 
