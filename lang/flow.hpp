@@ -101,7 +101,7 @@ class Flow {
   // flow_blocks.cpp
   Step condition(int at);
   Step loop(int at);
-  Jump written_out(int at, const std::string& variable, double first, double limit, double step);
+  Jump written_out(int at, const std::string& variable, double first, double step, double last);
   void rolled(int at, const std::string& variable, const Match&);
   Step choice(int at);
   Jump choose(const std::vector<int>& cases, std::size_t first, int fallback, const Value& value);

@@ -67,7 +67,12 @@ Flow::Step Flow::condition(int at) {
 
 namespace {
 
-bool goes_on(double i, double limit, double step) { return step > 0 ? i <= limit : i >= limit; }
+/// A turn n of DO, counted from 0, has the variable at first + n step. It is run while n <= (limit - first) / step; this is
+/// added to the right, because 0.1 three times is not 0.3.
+constexpr double kTurnSlack = 1e-9;
+
+plan::Expression fixed_number(double v) { return {plan::PushConstant{v}}; }
+plan::Expression number_in(plan::ColumnId id) { return {plan::PushColumn{id}}; }
 
 Value number_of(const MatchedValue& v, const Value& known) {
   return v.column.valid() ? Value{Type::real, {{plan::PushColumn{v.column}}}} : known;
@@ -92,18 +97,18 @@ Flow::Step Flow::loop(int at) {
   const VariableNames names = assigned(at + 1, end);
   const bool known = !first->column.valid() && !limit->column.valid() && !(step && step->column.valid()) &&
       !names.all && names.names.count(variable) == 0;
-  if (known && (limit->number - first->number) / by < kMaximumTurns)
-    return {end + 1, written_out(at, variable, first->number, limit->number, by)};
+  if (const double last = known ? (limit->number - first->number) / by : 0; known && last < kMaximumTurns)
+    return {end + 1, written_out(at, variable, first->number, by, last + kTurnSlack)};
   rolled(at, variable, *match);
   return {end + 1, std::nullopt};
 }
 
-Flow::Jump Flow::written_out(int at, const std::string& variable, double first, double limit, double step) {
+Flow::Jump Flow::written_out(int at, const std::string& variable, double first, double step, double last) {
   const Line& line = (*routine_)[at];
-  for (double i = first;; i += step) {
+  for (int turn = 0;; ++turn) {
     lowering_.statement = &line.raw;
     count();
-    if (!set(variable, number(i)) || !goes_on(i, limit, step)) return std::nullopt;
+    if (!set(variable, number(first + turn * step)) || turn > last) return std::nullopt;
     if (const Jump out = range(at + 1, line.partner, at)) return out;
     if (!lowering_.reachable) return std::nullopt;
   }
@@ -121,14 +126,18 @@ bool Flow::set(const std::string& variable, const Value& value) {
   }
 }
 
-/// A loop whose turns differ from machine to machine, or that has too many to write them out.
+/// A loop whose turns differ from machine to machine, or that has too many to write them out. Where its body sets the
+/// variable itself, turns are counted from there.
 void Flow::rolled(int at, const std::string& variable, const Match& match) {
   const RawStatement& raw = (*routine_)[at].raw;
   const int end = (*routine_)[at].partner;
   const MatchedValue *first = match.find("first"), *limit = match.find("limit"), *step = match.find("step");
-  if (!set(variable, number_of(*first, number(first->number)))) return;
+  const Value from = number_of(*first, number(first->number));
+  if (!set(variable, from)) return;
   VariableNames names = assigned(at + 1, end);
+  const bool body_sets_it = names.all || names.names.count(variable) > 0;
   names.names.insert(variable);
+  const plan::ColumnId start = lowering_.evaluated(from.parts[0]), turn = lowering_.evaluated(fixed_number(0));
   store(lowering_, names);
   forget(lowering_, names);
   const State before = lowering_;
@@ -136,22 +145,21 @@ void Flow::rolled(int at, const std::string& variable, const Match& match) {
   place(top);
   part();
   ++lowering_.looping;
-  const auto index = [&] { return read(lowering_, *find_variable(lowering_, variable), std::nullopt); };
   const plan::Expression to = number_of(*limit, number(limit->number)).parts[0];
-  const Value by = step ? number_of(*step, number(step->number)) : number(1);
-  if (by.known()) {
-    lowering_.emit(
-        plan::JumpUnless{combine(by.constant() > 0 ? Op2::less_equal : Op2::greater_equal, index().parts[0], to), out});
-  } else {  // (limit - i) step >= 0
-    const plan::Expression way = combine(Op2::multiply, combine(Op2::subtract, to, index().parts[0]), by.parts[0]);
-    lowering_.emit(plan::JumpUnless{combine(Op2::greater_equal, way, {plan::PushConstant{0}}), out});
-  }
+  const plan::Expression by = (step ? number_of(*step, number(step->number)) : number(1)).parts[0];
+  const plan::Expression last = combine(Op2::divide, combine(Op2::subtract, to, number_in(start)), by);
+  lowering_.emit(plan::JumpUnless{
+      combine(Op2::less_equal, number_in(turn), combine(Op2::add, last, fixed_number(kTurnSlack))), out});
   range(at + 1, end, at);
   lowering_.statement = &raw;
   if (lowering_.reachable) {
-    Value next = index();
-    next.parts[0] = combine(Op2::add, std::move(next.parts[0]), by.parts[0]);
-    set(variable, next);
+    if (body_sets_it) {
+      const Value now = read(lowering_, *find_variable(lowering_, variable), std::nullopt);
+      lowering_.emit(plan::Assign{start, now.parts[0]});
+      lowering_.emit(plan::Assign{turn, fixed_number(0)});
+    }
+    lowering_.emit(plan::Assign{turn, combine(Op2::add, number_in(turn), fixed_number(1))});
+    set(variable, {Type::real, {combine(Op2::add, number_in(start), combine(Op2::multiply, number_in(turn), by))}});
     store(lowering_, names);
     check_same_meaning(before);
     lowering_.emit(plan::Jump{top});

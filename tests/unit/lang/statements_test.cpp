@@ -173,3 +173,25 @@ TEST_CASE("a thousand jumps on measured values are found in a few passes") {
   CHECK(c.result.plan.features.size() == 1000);
   CHECK(cost_of_four_times(250, program) < 9);
 }
+
+namespace {
+
+/// Where the GOTO statements of a program lead along x.
+std::vector<double> goto_places(const Compilation& c) {
+  std::vector<double> x;
+  for (const plan::Operation& o : c.plan.operations)
+    if (const auto* move = std::get_if<plan::Move>(&o.action)) x.push_back(move->to[0].constant);
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("the turns of a DO are counted, not added up") {
+  const auto places = [](const std::string& text) { return goto_places(compile_text(text).result); };
+  const std::vector<double> tenths = places("DECL/REAL,X\nDO/X,0,0.3,0.1\nGOTO/X,0,0\nENDDO\nGOTO/X,0,0\n");
+  REQUIRE(tenths.size() == 5);
+  for (int k = 0; k < 5; ++k) CHECK(tenths[k] == doctest::Approx(0.1 * k));
+  CHECK(places("DECL/INTGR,I\nDO/I,0,2,0.5\nGOTO/I,0,0\nENDDO\n") == std::vector<double>{0, 0, 1, 1, 2});
+  CHECK(places("DO/I,3,1,-1\nGOTO/I,0,0\nENDDO\n") == std::vector<double>{3, 2, 1});
+  CHECK(places("DO/I,3,1\nGOTO/I,0,0\nENDDO\n").empty());
+}

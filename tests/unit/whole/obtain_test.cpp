@@ -93,3 +93,20 @@ TEST_CASE("tolerances and sensors can be read") {
              {"ASSIGN/X"});
   CHECK(texts[0] == 1);
 }
+
+TEST_CASE("a DO whose limit is measured has the turns of one that is known") {
+  const std::string loop = "DECL/INTGR,N,LAST\nDECL/REAL,X,ZERO\nDECL/INTGR,I\n" +
+      measured("A", "POINT,CART,0,0,0,0,0,1", {"0,0,0,0,0,1"}) + "ZERO=OBTAIN/FA(A),6\n";
+  // The last turn is where the sum of three steps is not the limit; whole numbers are cut off turn by turn.
+  const std::vector<double> turns =
+      values(loop + "N=ASSIGN/0\nDO/X,0,0.3+ZERO,0.1\nN=ASSIGN/N+1\nENDDO\n", {"ASSIGN/N", "ASSIGN/X"});
+  CHECK(turns[0] == 4);
+  CHECK(turns[1] == Approx(0.4));
+  const std::vector<double> halves =
+      values(loop + "N=ASSIGN/0\nLAST=ASSIGN/0\nDO/I,0,2+ZERO,0.5\nN=ASSIGN/N+1\nLAST=ASSIGN/10*LAST+I\nENDDO\n",
+             {"ASSIGN/N", "ASSIGN/LAST"});
+  CHECK(halves == std::vector<double>{5, 112});
+  // A body that sets the variable is left early.
+  CHECK(values(loop + "N=ASSIGN/0\nDO/I,1,9+ZERO\nN=ASSIGN/N+1\nI=ASSIGN/I+3\nENDDO\n", {"ASSIGN/N"}) ==
+        std::vector<double>{3});
+}
