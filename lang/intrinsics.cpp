@@ -6,7 +6,9 @@
 #include <array>
 #include <optional>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/base/utf8.hpp"
 #include "engine/math/axis.hpp"
 #include "lang/expression.hpp"
 
@@ -130,28 +132,28 @@ Value joined(Values& a, Texts& texts) {
   return texts.value(text);
 }
 
-template <char (*f)(char)>
+template <std::string (*f)(std::string_view)>
 Value letters(Values& a, Texts& texts) {
-  std::string text = texts[a[0]];
-  std::transform(text.begin(), text.end(), text.begin(), f);
-  return texts.value(text);
+  return texts.value(f(texts[a[0]]));
 }
-char lower_letter(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-char upper_letter(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+Value character_count(Values& a, Texts& texts) { return integer(static_cast<double>(count_characters(texts[a[0]]))); }
 
 Value piece(Values& a, Texts& texts) {
   const std::string text = texts[a[0]];
-  const double size = static_cast<double>(text.size()), first = a[1].constant(),
+  const double size = static_cast<double>(count_characters(text)), first = a[1].constant(),
                last = a.size() > 2 ? a[2].constant() : size;
   if (!(first >= 1 && last <= size && first <= last + 1))
-    refuse(fmt::format("characters {} to {} of a text of {}", first, last, text.size()),
+    refuse(fmt::format("characters {} to {} of a text of {}", first, last, size),
            "SUBSTR(text,first,last) counts from 1");
-  return texts.value(text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(last - first + 1)));
+  const std::string_view start = first_characters(text, static_cast<std::size_t>(last));
+  return texts.value(start.substr(first_characters(start, static_cast<std::size_t>(first) - 1).size()));
 }
 
 Value position(Values& a, Texts& texts) {
-  const std::size_t at = texts[a[0]].find(texts[a[1]]);
-  return integer(at == std::string::npos ? 0 : static_cast<double>(at + 1));
+  const std::string_view text = texts[a[0]];
+  const std::size_t at = text.find(texts[a[1]]);
+  return integer(at == std::string::npos ? 0 : static_cast<double>(count_characters(text.substr(0, at)) + 1));
 }
 
 Value trimmed(Values& a, Texts& texts) {
@@ -163,13 +165,15 @@ Value trimmed(Values& a, Texts& texts) {
 Value character(Values& a, Texts& texts) {
   const double code = a[0].constant();
   if (!(code >= 0 && code <= 255)) refuse(fmt::format("there is no character {}", code), "CHR takes 0 to 255");
-  return texts.value(std::string(1, static_cast<char>(static_cast<unsigned char>(code))));
+  std::string text;
+  append_utf8(text, static_cast<char32_t>(code));
+  return texts.value(text);
 }
 
 Value code_of(Values& a, Texts& texts) {
   const std::string& text = texts[a[0]];
   if (text.empty()) refuse("an empty text has no first character");
-  return integer(static_cast<unsigned char>(text[0]));
+  return integer(static_cast<double>(character_at(text, 0).code));
 }
 
 // clang-format off
@@ -203,12 +207,12 @@ constexpr std::array kIntrinsics = {
     Intrinsic{"VECX", "VECX(v)", "v", "first component", part<0>},
     Intrinsic{"VECY", "VECY(v)", "v", "second component", part<1>},
     Intrinsic{"VECZ", "VECZ(v)", "v", "third component", part<2>},
-    Intrinsic{"CHR", "CHR(n)", "k", "the character with this code", character},
-    Intrinsic{"ORD", "ORD(text)", "t", "the code of the first character", code_of},
+    Intrinsic{"CHR", "CHR(n)", "k", "the character with this code of Latin-1, 0 to 255", character},
+    Intrinsic{"ORD", "ORD(text)", "t", "the code of the first character in Unicode; up to 255 it is that of Latin-1", code_of},
     Intrinsic{"CONCAT", "CONCAT(text,text,...)", "tt+", "texts joined", joined},
-    Intrinsic{"LEN", "LEN(text)", "t", "how many characters a text has", [](Values& a, Texts& texts) { return integer(static_cast<double>(texts[a[0]].size())); }},
-    Intrinsic{"LWC", "LWC(text)", "t", "in lower case", letters<lower_letter>},
-    Intrinsic{"UPC", "UPC(text)", "t", "in upper case", letters<upper_letter>},
+    Intrinsic{"LEN", "LEN(text)", "t", "how many characters a text has", character_count},
+    Intrinsic{"LWC", "LWC(text)", "t", "in lower case", letters<lower>},
+    Intrinsic{"UPC", "UPC(text)", "t", "in upper case", letters<upper>},
     Intrinsic{"SUBSTR", "SUBSTR(text,first,last)", "tk?k", "from the first to the last character, counted from 1; without last to the end", piece},
     Intrinsic{"INDX", "INDX(text,part)", "tt", "where part begins in text, 0 when it is not there", position},
     Intrinsic{"TRIM", "TRIM(text)", "t", "without blanks at the end", trimmed},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/utf8.hpp"
 #include "lang/lowering.hpp"
 
 namespace abbe::lang {
@@ -77,11 +78,11 @@ Value converted(Lowering& lowering, const Variable& v, Value value) {
     value.parts[0] = combine(plan::Op1::truncate, std::move(value.parts[0]));
   if (v.type == Type::text && v.length > 0 && value.known()) {
     const std::string text = lowering.texts[value];
-    if (text.size() > static_cast<std::size_t>(v.length)) {
+    if (const std::size_t characters = count_characters(text); characters > static_cast<std::size_t>(v.length)) {
       lowering.warn(Code::W0125, lowering.statement->span,
-                    fmt::format("'{}' has {} characters, {} holds {}", text, text.size(), v.name, v.length),
+                    fmt::format("'{}' has {} characters, {} holds {}", text, characters, v.name, v.length),
                     "the rest is cut off; declare it longer");
-      value = lowering.texts.value(std::string_view(text).substr(0, static_cast<std::size_t>(v.length)));
+      value = lowering.texts.value(first_characters(text, static_cast<std::size_t>(v.length)));
     }
   }
   value.type = v.type;

@@ -41,6 +41,16 @@ char32_t capital(char32_t c) {
   return small ? static_cast<char32_t>(static_cast<int>(c) + range->up) : c;
 }
 
+/// Where several small letters share a capital, as sigma and the one at the end of a word, the last of the list.
+char32_t small(char32_t c) {
+  if (c < 0x80) return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
+  for (auto range = kSmallLetters.rbegin(); range != kSmallLetters.rend(); ++range) {
+    const auto letter = static_cast<char32_t>(static_cast<int>(c) - range->up);
+    if (letter >= range->first && letter <= range->last && (letter - range->first) % range->step == 0) return letter;
+  }
+  return c;
+}
+
 }  // namespace
 
 std::string upper(std::string_view text) {
@@ -53,6 +63,16 @@ std::string upper(std::string_view text) {
     }
     const Character c = character_at(text, at);
     append_utf8(out, capital(c.code));
+    at += c.bytes;
+  }
+  return out;
+}
+
+std::string lower(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const Character c = character_at(text, at);
+    append_utf8(out, small(c.code));
     at += c.bytes;
   }
   return out;

@@ -17,6 +17,9 @@ constexpr char upper_letter(char c) { return c >= 'a' && c <= 'z' ? static_cast<
 /// In upper case and UTF-8. A byte that is no UTF-8 is taken as the Latin-1 letter.
 std::string upper(std::string_view text);
 
+/// In lower case and UTF-8, by the same mappings.
+std::string lower(std::string_view text);
+
 bool same_label(std::string_view a, std::string_view b);
 
 }  // namespace abbe

@@ -43,6 +43,12 @@ std::size_t count_characters(std::string_view text) {
   return count;
 }
 
+std::string_view first_characters(std::string_view text, std::size_t count) {
+  std::size_t end = 0;
+  for (; count > 0 && end < text.size(); --count) end += character_at(text, end).bytes;
+  return text.substr(0, end);
+}
+
 void append_utf8(std::string& out, char32_t c) {
   const auto last = [&](int shift) { out += static_cast<char>(0x80 | (c >> shift & 0x3F)); };
   if (c < 0x80) {

@@ -20,6 +20,9 @@ Character character_at(std::string_view text, std::size_t at);
 /// How many characters the text has by `character_at`.
 std::size_t count_characters(std::string_view text);
 
+/// The text up to and with that many characters; all of a text that has fewer.
+std::string_view first_characters(std::string_view text, std::size_t count);
+
 void append_utf8(std::string& out, char32_t code);
 
 }  // namespace abbe

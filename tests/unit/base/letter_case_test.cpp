@@ -24,6 +24,17 @@ TEST_CASE("capitals stay what they are, and no letter has two") {
   }
 }
 
+TEST_CASE("small letters are those of the capitals") {
+  CHECK(lower("AZ_az-09[`{") == "az_az-09[`{");
+  CHECK(lower("ÄÖÜŸ×ĀŽΣΜΏДЏӀ") == "äöüÿ×āžσμώдџӏ");
+  for (char32_t c = 0; c < 0x600; ++c) {
+    std::string letter;
+    append_utf8(letter, c);
+    CHECK(lower(lower(letter)) == lower(letter));
+    CHECK(upper(lower(letter)) == upper(letter));
+  }
+}
+
 TEST_CASE("labels of a file in Latin-1 and of one in UTF-8 are the same") {
   CHECK(same_label("B\xF6re", "BÖRE"));
   CHECK(same_label("b\xD6re", "böre"));

@@ -195,3 +195,14 @@ TEST_CASE("the turns of a DO are counted, not added up") {
   CHECK(places("DO/I,3,1,-1\nGOTO/I,0,0\nENDDO\n") == std::vector<double>{3, 2, 1});
   CHECK(places("DO/I,3,1\nGOTO/I,0,0\nENDDO\n").empty());
 }
+
+TEST_CASE("texts are counted in characters, whatever their bytes") {
+  const auto places = [](const std::string& text) { return goto_places(compile_text(text).result); };
+  CHECK(places("GOTO/LEN('Ä€x'),0,0\nGOTO/INDX('Ä€x','x'),0,0\nGOTO/ORD('Ä'),0,0\nGOTO/ORD(CHR(196)),0,0\n") ==
+        std::vector<double>{3, 3, 196, 196});
+  const std::string same = "GOTO/1,0,0\nENDIF\n";
+  CHECK(places("IF/(SUBSTR('Ä€x',2,2) .EQ. '€')\n" + same) == std::vector<double>{1});
+  CHECK(places("IF/(UPC('äσςß') .EQ. 'ÄΣΣß')\n" + same) == std::vector<double>{1});
+  CHECK(places("IF/(LWC('ÄΣŸДЖΜ') .EQ. 'äσÿджμ')\n" + same) == std::vector<double>{1});
+  CHECK(places("DECL/CHAR,2,T\nT=ASSIGN/'Ä€x'\nIF/(T .EQ. 'Ä€')\n" + same) == std::vector<double>{1});
+}
