@@ -192,7 +192,7 @@ class Compiler {
     const Span last{end > 0 ? end - 1 : 0, end};
     if (lowering_.measuring) {
       const OpenMeasure& block = *lowering_.measuring;
-      lowering_.sink.add(diagnostic_at(lowering_.source, block.span, Code::E0205, "this MEAS has no ENDMES",
+      lowering_.sink.add(diagnostic_at(lowering_.source, block.place, Code::E0205, "this MEAS has no ENDMES",
                                        "end the measurement with ENDMES"));
     }
     if (lowering_.external_files)

@@ -175,7 +175,7 @@ void Flow::check_same_meaning(const State& passed) {
   differs(passed.symbols.datums, lowering_.symbols.datums, "DAT", id);
   differs(passed.symbols.sensors, lowering_.symbols.sensors, "S", id);
   differs(passed.symbols.tolerances, lowering_.symbols.tolerances, "T",
-          [](const ToleranceSymbol& t) { return t.span.begin; });
+          [](const ToleranceSymbol& t) { return t.instances; });
 }
 
 }  // namespace abbe::lang

@@ -36,7 +36,7 @@ void merge_symbols(Symbols& into, const Symbols& other) {
   merge_labels(into.datums, other.datums, "DAT", into, id);
   merge_labels(into.frames, other.frames, "D", into, id);
   merge_labels(into.sensors, other.sensors, "S", into, id);
-  merge_labels(into.tolerances, other.tolerances, "T", into, [](const ToleranceSymbol& t) { return t.span.begin; });
+  merge_labels(into.tolerances, other.tolerances, "T", into, [](const ToleranceSymbol& t) { return t.instances; });
   const Symbols::Labels<std::string> spoilt = into.spoilt;
   spoilt.differences(other.spoilt, [&](const std::string& name, const std::string* mine, const std::string& reason) {
     if (!mine) into.spoilt.set(name, reason);

@@ -44,6 +44,7 @@ void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_
     OpenMeasure block;  // its PTMEAS and ENDMES are no mistakes of their own
     block.line = raw.line;
     block.span = raw.span;
+    block.place = lowering.here().first;
     block.spoilt = reason;
     block.first_operation = lowering.out.plan.operations.size();
     lowering.measuring = block;
@@ -92,10 +93,10 @@ void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view wor
   if (selects) lowering.sensor_doubt = reason;
   if (is_setting(word)) lowering.setting_doubts.emplace(setting_of(raw, word), reason);
   if (decides(word) && lowering.flow_doubt.empty()) lowering.flow_doubt = reason;
+  const int line = lowering.here().second;
   if (one_of(word, {"OUTPUT", "EVAL"}) &&
-      std::none_of(lowering.out.lost.begin(), lowering.out.lost.end(),
-                   [&](const Lost& l) { return l.line == raw.line; })) {
-    lowering.out.lost.push_back({raw.line, label_argument(lowering, raw, "FA", "F").value_or(""), lowering.failure});
+      std::none_of(lowering.out.lost.begin(), lowering.out.lost.end(), [&](const Lost& l) { return l.line == line; })) {
+    lowering.out.lost.push_back({line, label_argument(lowering, raw, "FA", "F").value_or(""), lowering.failure});
   }
 }
 

@@ -252,7 +252,7 @@ void Lowering::sensor_of_machine_file(const LabelRef& label) {
   plan::SensorDef def;
   def.label = label.name;
   def.from_machine_file = true;
-  def.span = label.span;
+  def.span = place ? place->first : label.span;
   symbols.sensors.set(key, {static_cast<int>(out.plan.sensors.size())});
   out.plan.sensors.push_back(std::move(def));
 }
@@ -261,8 +261,10 @@ const ToleranceSymbol* Lowering::tolerance(const LabelRef& label) {
   return find(symbols.tolerances, "tolerance", label, "define it with T(name)=TOL/... before this line");
 }
 
+std::pair<Span, int> Lowering::here() const { return place.value_or(std::pair{statement->span, statement->line}); }
+
 void Lowering::emit(plan::Action action) {
-  const auto [span, line] = place.value_or(std::pair{statement->span, statement->line});
+  const auto [span, line] = here();
   out.plan.operations.push_back({std::move(action), span, line});
 }
 
@@ -271,7 +273,7 @@ plan::FrameId Lowering::new_frame(const RawStatement& raw) {
   const plan::FrameId* known = symbols.frames.find(key);
   if (parted > 0 && known) return *known;
   const plan::FrameId id{static_cast<int>(out.plan.frames.size())};
-  out.plan.frames.push_back({raw.label->name, raw.span});
+  out.plan.frames.push_back({raw.label->name});
   symbols.frames.set(key, id);
   return id;
 }

@@ -52,9 +52,10 @@ std::vector<FormItem> written_form(const RawStatement&, const Match&);
 struct ToleranceSymbol {
   const ToleranceKind* kind = nullptr;
   Match match;
-  Span span;
+  int line = 0;  ///< of the program
   std::string label;
-  /// By the features that its labels meant. All paths share them: the same meaning is the same tolerance.
+  /// By the features that its labels meant. All paths share them: the same meaning is the same tolerance. A
+  /// definition that changes the meaning of the label has its own, so they also say which tolerance this is.
   std::shared_ptr<std::map<std::vector<int>, plan::ToleranceId>> instances;
   std::vector<FormItem> form;
 };
@@ -71,6 +72,7 @@ struct OpenMeasure {
   int declared = 0, touches = 0;
   std::size_t first_operation = 0;
   Span span, count_span;
+  Span place;  ///< in the program (Lowering::here)
   int line = 0;
   std::string spoilt;                        ///< why the measurement is of no use; empty while it is
   bool varies = false;                       ///< how many touches it has depends on what is measured
@@ -165,6 +167,8 @@ class Lowering : public State {
   void sensor_of_machine_file(const LabelRef&);
 
   // ---- the plan
+  /// The current statement, or the call of the module that it stands in: a place of the program, as plans have them.
+  std::pair<Span, int> here() const;
   void emit(plan::Action);
   /// A new coordinate system under the label of the statement.
   plan::FrameId new_frame(const RawStatement&);
@@ -192,7 +196,7 @@ class Lowering : public State {
 
   const SourceFile* file;  ///< that the current statement stands in: the program, or a module
   std::string call;        ///< where a macro or module was called, for messages; empty in the program itself
-  std::optional<std::pair<Span, int>> place;  ///< of the call in the program, for operations of a module
+  std::optional<std::pair<Span, int>> place;  ///< of the call in the program, while a module is lowered
   Texts texts;
   std::vector<std::string> scopes;                    ///< prefixes of local variables, of the macros that are being run
   std::map<int, std::vector<FormItem>> forms;         ///< by FeatureId

@@ -52,7 +52,6 @@ struct FeatureDef {
   const FeatureKind* kind = nullptr;
   Element nominal;     ///< in the frame current at the FEAT statement
   bool inner = false;  ///< INNER: the material is outside the radius
-  Span span;
   /// Where some of the nominal is known only while the program runs: what it is made of, and the columns. Else empty.
   Arguments arguments = {};
   std::vector<VaryingNumber> varying = {};
@@ -69,19 +68,17 @@ struct SensorDef {
   bool has_mount = false;     ///< an SNSMNT statement was in force
   Vec3 mount_offset_mm;       ///< SNSMNT MNTLEN: from the ram's mounting point to the head's centre
   double mount_turn_rad = 0;  ///< SNSMNT XVEC: turn of the head about the ram axis
-  Span span;
+  Span span;                  ///< in the program: of what defines or names it, or of the call of the module that does
 };
 
 struct FrameDef {
   std::string label;
-  Span span;
 };
 
 struct ToleranceDef {
   std::string label;
   const ToleranceKind* kind = nullptr;
   Arguments arguments;  ///< features and datums as FeatureId values
-  Span span;
   std::vector<VaryingNumber> varying = {};
 };
 
@@ -96,7 +93,6 @@ struct MaterialCondition {
 struct CharacteristicDef {
   std::vector<FeatureId> features;
   ToleranceId tolerance;
-  Span span;
   int line = 0;
   std::vector<MaterialCondition> widening;  ///< of its zone, machine by machine
 };

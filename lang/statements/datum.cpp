@@ -121,7 +121,7 @@ void recall(Lowering& lowering, const RawStatement&, const Match& match) {
   if (key == "MCS" && !lowering.symbols.frames.has(key)) {
     const plan::FrameId machine{static_cast<int>(lowering.out.plan.frames.size())};
     lowering.symbols.frames.set(key, machine);
-    lowering.out.plan.frames.push_back({label.name, label.span});
+    lowering.out.plan.frames.push_back({label.name});
     lowering.emit(plan::SetMachineFrame{machine});
   } else if (const auto frame = lowering.frame(label)) {
     lowering.emit(plan::RecallFrame{*frame});

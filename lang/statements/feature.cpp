@@ -26,7 +26,7 @@ void define_feature(Lowering& lowering, const RawStatement& raw, const Match& ma
     return lowering.error(Code::E0208, raw.span, fmt::format("this {} cannot be: {}", kind->word, nominal.failure),
                           fmt::format("a correct one: {}", kind->example));
   lowering.define(raw,
-                  {raw.label->name, kind, nominal.value, arguments->text("side") == "INNER", raw.span,
+                  {raw.label->name, kind, nominal.value, arguments->text("side") == "INNER",
                    varying.empty() ? Arguments{} : *arguments, std::move(varying)},
                   *rest);
 }

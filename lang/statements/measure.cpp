@@ -56,6 +56,7 @@ void open_block(Lowering& lowering, const RawStatement& raw, const Match& match)
   }
   OpenMeasure block;
   block.span = raw.span;
+  block.place = lowering.here().first;
   block.line = raw.line;
   block.declared = static_cast<int>(match.number("count"));
   block.count_span = match.find("count")->span;

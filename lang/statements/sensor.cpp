@@ -78,7 +78,7 @@ void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& mat
     return lowering.fail(chain("what SNSMNT sets is in doubt", doubt->second));
   plan::SensorDef def;
   def.label = raw.label->name;
-  def.span = raw.span;
+  def.span = lowering.here().first;
   def.indexed = match.text("carrier") == "INDEX";
   const std::string form = match.text("form");
   if (!def.indexed) {

@@ -22,19 +22,17 @@ std::vector<std::string_view> tolerance_words() {
 bool same_arguments(const Match& a, const Match& b) {
   return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
                     [](const MatchedValue& x, const MatchedValue& y) {
-                      return x.name == y.name && x.number == y.number && upper(x.text) == upper(y.text);
+                      return x.name == y.name && x.number == y.number && x.column == y.column &&
+                          upper(x.text) == upper(y.text);
                     });
 }
 
 /// Production programs define T(1) hundreds of times. That is legal, so it is said once for each
 /// label, and only when the meaning changes.
-void note_redefinition(Lowering& lowering, const RawStatement& raw, const ToleranceKind& kind, const Match& match) {
-  const ToleranceSymbol* known = lowering.symbols.tolerances.find(upper(raw.label->name));
-  if (!known || (known->kind == &kind && same_arguments(known->match, match))) return;
+void note_redefinition(Lowering& lowering, const RawStatement& raw, const ToleranceSymbol& known) {
   if (!lowering.reported_words.insert("T:" + upper(raw.label->name)).second) return;
   lowering.warn(Code::N0611, raw.label->span,
-                fmt::format("T({}) was another tolerance in line {}", raw.label->name,
-                            lowering.source.place(known->span.begin).line),
+                fmt::format("T({}) was another tolerance in line {}", raw.label->name, known.line),
                 "each OUTPUT uses the definition above it");
 }
 
@@ -48,10 +46,13 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   if (const MatchedValue* unit = rest->find("unit_zone"))
     lowering.warn(Code::W0122, unit->span, "the zone per unit of area is not evaluated",
                   "the value and its uncertainty are of the flatness of the whole surface");
-  note_redefinition(lowering, raw, *kind, *rest);
-  auto instances = std::make_shared<std::map<std::vector<int>, plan::ToleranceId>>();
+  const ToleranceSymbol* known = lowering.symbols.tolerances.find(upper(raw.label->name));
+  const bool same = known && known->kind == kind && same_arguments(known->match, *rest);
+  if (known && !same) note_redefinition(lowering, raw, *known);
+  auto instances = same ? known->instances : std::make_shared<std::map<std::vector<int>, plan::ToleranceId>>();
   lowering.symbols.tolerances.set(
-      upper(raw.label->name), {kind, *rest, raw.span, raw.label->name, std::move(instances), written_form(raw, *rest)});
+      upper(raw.label->name),
+      {kind, *rest, lowering.here().second, raw.label->name, std::move(instances), written_form(raw, *rest)});
 }
 
 /// The features and datums that the labels of the tolerance mean now; -1 for one that cannot be
@@ -77,7 +78,7 @@ std::optional<plan::ToleranceId> instance(Lowering& lowering, const ToleranceSym
   const auto [known, is_new] = symbol.instances->emplace(ids, id);
   if (!is_new) return known->second;
   lowering.out.plan.tolerances.push_back(
-      {symbol.label, symbol.kind, *lowering.arguments(symbol.match), symbol.span, Lowering::varying(symbol.match)});
+      {symbol.label, symbol.kind, *lowering.arguments(symbol.match), Lowering::varying(symbol.match)});
   return id;
 }
 
@@ -102,7 +103,7 @@ void evaluate(Lowering& lowering, const RawStatement& raw, const std::vector<pla
                           fmt::format("`abbe explain {}` says what it applies to", kind.word));
   const plan::CharacteristicId id{static_cast<int>(lowering.out.plan.characteristics.size())};
   lowering.out.plan.characteristics.push_back(
-      {features, *tolerance, raw.span, raw.line, material_conditions(lowering, *symbol, features.front(), use)});
+      {features, *tolerance, lowering.here().second, material_conditions(lowering, *symbol, features.front(), use)});
   lowering.emit(plan::Evaluate{id});
 }
 
@@ -176,13 +177,13 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
     lowering.failure = features_failure;
     if (!features_failed) evaluate(lowering, raw, features, *use);
     if (!lowering.failed) continue;
-    lowering.out.lost.push_back(
-        {raw.line, feature, fmt::format("{}({}): {}", use->label.kind, use->label.name, lowering.failure)});
+    lowering.out.lost.push_back({lowering.here().second, feature,
+                                 fmt::format("{}({}): {}", use->label.kind, use->label.name, lowering.failure)});
     if (!any_failed) first_failure = lowering.failure;
     any_failed = true;
   }
   if (raw.word == "OUTPUT" && !features_failed) emit_output(lowering, features, first_characteristic, match);
-  if (tolerances.empty() && any_failed) lowering.out.lost.push_back({raw.line, feature, first_failure});
+  if (tolerances.empty() && any_failed) lowering.out.lost.push_back({lowering.here().second, feature, first_failure});
   lowering.failed = any_failed;
   lowering.failure = first_failure;
 }

@@ -31,8 +31,8 @@ inline plan::Plan length_and_angle() {
   plan.tolerances[0].kind = &kDistance;
   plan.tolerances[1].label = "ANG";
   plan.tolerances[1].kind = &kAngle;
-  plan.characteristics = {{{plan::FeatureId{0}, plan::FeatureId{1}}, plan::ToleranceId{0}, {}, 41, {}},
-                          {{plan::FeatureId{0}}, plan::ToleranceId{1}, {}, 42, {}}};
+  plan.characteristics = {{{plan::FeatureId{0}, plan::FeatureId{1}}, plan::ToleranceId{0}, 41, {}},
+                          {{plan::FeatureId{0}}, plan::ToleranceId{1}, 42, {}}};
   return plan;
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("default points stay with the system in which their feature was define
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
   const auto circle = b.feature(Shape::circle, {.point = kPart, .direction = {0, 0, 1}, .size = 20});
-  b.plan.frames.push_back({"MOVED", {}});
+  b.plan.frames.push_back({"MOVED"});
   b.append(plan::TranslateFrame{{0}, {{Axis::x, {}, {50, {}}}}});
   b.append(plan::BeginMeasure{circle});
   for (int k = 0; k < 4; ++k) {
@@ -169,7 +169,7 @@ TEST_CASE("the uncertainty of a 3-2-1 alignment is that of the closed form") {
   const auto edge = measured(b, Shape::line, {.point = {0, 0, depth}, .direction = {1, 0, 0}},
                              {{{0, 0, depth}, front}, {{L, 0, depth}, front}});
   const auto stop = measured(b, Shape::point, {.point = {0, yc, depth}, .direction = left}, {{{0, yc, depth}, left}});
-  b.plan.frames.push_back({"PART", {}});
+  b.plan.frames.push_back({"PART"});
   plan::SetDatumFrame set{{0}, {}};
   set.datums.push_back({face, true, {Axis::z, 1}, {false, false, true}});
   set.datums.push_back({edge, true, {Axis::x, 1}, {false, true, false}});
@@ -205,7 +205,7 @@ TEST_CASE("the uncertainty of a 3-2-1 alignment is that of the closed form") {
 TEST_CASE("a coordinate system recalled is the one that was made") {
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
-  b.plan.frames = {{"A", {}}, {"B", {}}, {"C", {}}, {"D", {}}};
+  b.plan.frames = {{"A"}, {"B"}, {"C"}, {"D"}};
   b.append(plan::SetMachineFrame{{0}});
   b.append(plan::TranslateFrame{{1}, {{Axis::x, {}, {700, {}}}, {Axis::y, {}, {400, {}}}, {Axis::z, {}, {-500, {}}}}});
   plan::RotateFrame turn{};

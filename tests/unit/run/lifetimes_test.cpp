@@ -59,8 +59,8 @@ TEST_CASE("a feature lives as long as anything names it") {
   axis.feature = first;
   PlanBuilder b = points(2);
   b.plan.tolerances.push_back({"D", find_tolerance_kind("CORTOL"), datum, {}});
-  b.plan.characteristics.push_back({{second}, {2}, {}, 0, {}});
-  b.plan.characteristics.push_back({{second}, {1}, {}, 0, {{first, {0}, Condition::maximum_material}}});
+  b.plan.characteristics.push_back({{second}, {2}, 0, {}});
+  b.plan.characteristics.push_back({{second}, {1}, 0, {{first, {0}, Condition::maximum_material}}});
   const Action uses[] = {BeginMeasure{first},
                          EndMeasure{first},
                          Construct{second, nullptr, {first}, {}},

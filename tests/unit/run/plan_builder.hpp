@@ -63,7 +63,7 @@ struct PlanBuilder {
   plan::CharacteristicId evaluate(std::vector<plan::FeatureId> features, std::string_view word, Arguments arguments) {
     plan.tolerances.push_back(
         {"T" + std::to_string(plan.tolerances.size()), find_tolerance_kind(word), std::move(arguments), {}});
-    plan.characteristics.push_back({std::move(features), {static_cast<int>(plan.tolerances.size()) - 1}, {}, 0, {}});
+    plan.characteristics.push_back({std::move(features), {static_cast<int>(plan.tolerances.size()) - 1}, 0, {}});
     const plan::CharacteristicId id{static_cast<int>(plan.characteristics.size()) - 1};
     append(plan::Evaluate{id});
     return id;
