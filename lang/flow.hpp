@@ -15,6 +15,8 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <type_traits>
+#include <utility>
 
 #include "lang/routine.hpp"
 
@@ -37,6 +39,22 @@ inline constexpr int kMaximumCalls = 32;
 inline constexpr int kMaximumDepth = 256;
 /// A DO with more turns than this is a loop of the plan: its labels cannot be computed then.
 inline constexpr int kMaximumTurns = 1000;
+
+/// Gives a variable another value and, however the block ends, its own one back. What Flow leaves in Lowering outlives
+/// it and the modules that it has read.
+template <class T>
+class Changed {
+ public:
+  Changed(T& variable, std::type_identity_t<T> value)
+      : variable_(variable), before_(std::exchange(variable, std::move(value))) {}
+  ~Changed() { variable_ = std::move(before_); }
+  Changed(const Changed&) = delete;
+  Changed& operator=(const Changed&) = delete;
+
+ private:
+  T& variable_;
+  T before_;
+};
 
 class Flow {
  public:
@@ -127,7 +145,8 @@ class Flow {
   void module(int at);
   void run_module(const RawArgument& name, bool only_macros);
   Module* load(const RawArgument& name);
-  void inside(Routine&, std::string where, std::string scope);
+  Routine read_routine(const SourceFile&, std::vector<LogicalLine>, const std::string& where);
+  void inside(Routine&, const std::string& where, const std::string& scope);
   VariableNames assigned(int begin, int end) const;
   void add_assigned(const RawStatement&, VariableNames&, std::set<std::string>& macros) const;
 

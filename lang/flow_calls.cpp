@@ -106,41 +106,35 @@ void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actual
   }
   const std::string outer = lowering_.call.empty() ? "" : ", " + lowering_.call.substr(1, lowering_.call.size() - 2);
   const std::string where = fmt::format("(in M({}), called in line {}{})", macro.name, raw.line, outer);
-  const SourceFile* caller = lowering_.file;
-  std::string call = std::exchange(lowering_.call, where);
-  lowering_.file = macro.file;
-  Routine body = make_routine(*macro.file, expand(macro, actuals), lowering_);
-  lowering_.call = std::move(call);
-  lowering_.file = caller;
-  lowering_.statement = &raw;
+  Routine body = read_routine(*macro.file, expand(macro, actuals), where);
   inside(body, where, fmt::format("#{}/", ++calls_));
 }
 
+/// The lines of another routine; what is wrong with them is said of its file.
+Routine Flow::read_routine(const SourceFile& file, std::vector<LogicalLine> lines, const std::string& where) {
+  const Changed statement(lowering_.statement, lowering_.statement);
+  const Changed there(lowering_.file, &file);
+  const Changed call(lowering_.call, where);
+  return make_routine(file, std::move(lines), lowering_);
+}
+
 /// Lowers another routine and comes back.
-void Flow::inside(Routine& routine, std::string where, std::string scope) {
-  const RawStatement* statement = lowering_.statement;
-  const auto saved_place = lowering_.place;
-  const SourceFile* saved_file = std::exchange(lowering_.file, routine.file);
-  Routine* saved_routine = std::exchange(routine_, &routine);
-  std::map<int, Target> saved_targets = std::exchange(targets_, {});
-  std::string saved_call = std::exchange(lowering_.call, std::move(where));
-  if (routine.file != &lowering_.source && !lowering_.place)
-    lowering_.place = std::pair{statement->span, statement->line};
-  if (routine.file == &lowering_.source) lowering_.place.reset();
-  if (!scope.empty()) lowering_.scopes.push_back(scope);
-  ++depth_;
+void Flow::inside(Routine& routine, const std::string& where, const std::string& scope) {
+  std::optional<std::pair<Span, int>> program_place;
+  if (routine.file != &lowering_.source) program_place = lowering_.here();
+  std::vector<std::string> scopes = lowering_.scopes;
+  if (!scope.empty()) scopes.push_back(scope);
+  const Changed statement(lowering_.statement, lowering_.statement);
+  const Changed place(lowering_.place, program_place);
+  const Changed file(lowering_.file, routine.file);
+  const Changed call(lowering_.call, where);
+  const Changed around(lowering_.scopes, std::move(scopes));
+  const Changed here(routine_, &routine);
+  const Changed targets(targets_, {});
+  const Changed depth(depth_, depth_ + 1);
   range(0, routine.size(), -1);
-  --depth_;
-  if (!scope.empty()) {
-    lowering_.scopes.pop_back();
+  if (!scope.empty())
     std::erase_if(lowering_.variables, [&](const auto& entry) { return entry.first.starts_with(scope); });
-  }
-  lowering_.call = std::move(saved_call);
-  targets_ = std::move(saved_targets);
-  routine_ = saved_routine;
-  lowering_.file = saved_file;
-  lowering_.place = saved_place;
-  lowering_.statement = statement;
 }
 
 void Flow::module(int at) {
@@ -160,18 +154,18 @@ void Flow::run_module(const RawArgument& name, bool only_macros) {
   Module* found = load(name);
   if (!found) return failed_control();
   const std::string where = fmt::format("(read in line {} of '{}')", raw.line, lowering_.file->name());
-  const SourceFile* caller = std::exchange(lowering_.file, found->file.get());
-  std::string call = std::exchange(lowering_.call, where);
-  for (const LogicalLine& line : found->lines) refuse_directives(line, lowering_);
-  Routine body = make_routine(*found->file, found->lines, lowering_);
-  lowering_.call = std::move(call);
-  lowering_.file = caller;
-  lowering_.statement = &raw;
-  Routine* here = std::exchange(routine_, &body);
-  for (int k = 0; k < body.size(); ++k)
-    if (body[k].control == Control::macro && !body[k].skipped) define_macro(k);
-  routine_ = here;
-  lowering_.statement = &raw;
+  for (const LogicalLine& line : found->lines) {
+    const Changed there(lowering_.file, found->file.get());
+    const Changed call(lowering_.call, where);
+    refuse_directives(line, lowering_);
+  }
+  Routine body = read_routine(*found->file, found->lines, where);
+  {
+    const Changed statement(lowering_.statement, lowering_.statement);
+    const Changed here(routine_, &body);
+    for (int k = 0; k < body.size(); ++k)
+      if (body[k].control == Control::macro && !body[k].skipped) define_macro(k);
+  }
   if (!only_macros) inside(body, where, "");
 }
 
