@@ -165,4 +165,7 @@ class Flow {
 /// Where two paths meet: what holds on either of them, and what cannot be told any more.
 void merge(State& into, const State& other);
 
+/// At the top of a loop that is lowered once: the settings are those of the way in.
+void carry_settings(State&);
+
 }  // namespace abbe::lang

@@ -140,6 +140,7 @@ void Flow::rolled(int at, const std::string& variable, const Match& match) {
   const plan::ColumnId start = lowering_.evaluated(from.parts[0]), turn = lowering_.evaluated(fixed_number(0));
   store(lowering_, names);
   forget(lowering_, names);
+  carry_settings(lowering_);
   const State before = lowering_;
   const int top = new_label(), out = new_label();
   place(top);

@@ -152,11 +152,13 @@ void Flow::arrive(int at, const VariableNames& names, const State& before) {
   }
   if (!lowering_.reachable) static_cast<State&>(lowering_) = before;  // only jumps from below lead here
   forget(lowering_, names);
+  carry_settings(lowering_);
   place(target.label);
   target.passed = lowering_;
 }
 
-/// What labels meant when a loop was entered they must still mean on its next turn, because the loop is lowered once.
+/// What labels meant and settings were when a loop was entered they must still be on its next turn, because the loop is
+/// lowered once.
 void Flow::check_same_meaning(const State& passed) {
   const auto differs = [&](const auto& then, const auto& now, std::string_view kind, const auto& meaning) {
     now.differences(then, [&](const std::string& name, const auto* is, const auto& was) {
@@ -170,6 +172,19 @@ void Flow::check_same_meaning(const State& passed) {
       failed_control();
     });
   };
+  const auto changed = [&](const auto& then, const auto& now, const std::string& what) {
+    if (now.relied_on == then.relied_on || (!now.varies && now.value == then.value)) return;
+    lowering_.failed = false;
+    lowering_.error(
+        Code::E0238, lowering_.statement->span,
+        fmt::format("{} was another on the turn before, and machines take different numbers of turns here", what),
+        fmt::format("write {} before it is used on each turn", what));
+    failed_control();
+  };
+  changed(passed.mount, lowering_.mount, "SNSMNT");
+  changed(passed.machine_chooses, lowering_.machine_chooses, "MODE");
+  for (const auto& [shape, criterion] : passed.criteria)
+    changed(criterion, lowering_.criteria[shape], fmt::format("GEOALG/{}", feature_kind(shape).word));
   const auto id = [](const auto& v) { return v.value; };
   differs(passed.symbols.features, lowering_.symbols.features, "F", id);
   differs(passed.symbols.datums, lowering_.symbols.datums, "DAT", id);

@@ -1,6 +1,7 @@
 // What holds where two paths meet.
 #include <algorithm>
 
+#include "engine/features/feature.hpp"
 #include "lang/flow.hpp"
 
 namespace abbe::lang {
@@ -44,6 +45,21 @@ void merge_symbols(Symbols& into, const Symbols& other) {
   into.ambiguous.insert(other.ambiguous.begin(), other.ambiguous.end());
 }
 
+template <class T>
+void merge_setting(Setting<T>& into, const Setting<T>& other) {
+  into.varies |= other.varies || into.value != other.value;
+  into.carried |= other.carried;
+  into.relied_on = std::max(into.relied_on, other.relied_on);
+}
+
+/// A tolerance of size that was evaluated last on one path only is not that of all machines.
+void merge_sizes(SharedMap<int, plan::ToleranceId>& into, const SharedMap<int, plan::ToleranceId>& other) {
+  const SharedMap<int, plan::ToleranceId> ours = into;
+  other.differences(ours, [&](int feature, const plan::ToleranceId* theirs, const plan::ToleranceId& mine) {
+    if (!theirs || theirs->value != mine.value) into.erase(feature);
+  });
+}
+
 }  // namespace
 
 void merge(State& into, const State& other) {
@@ -58,6 +74,14 @@ void merge(State& into, const State& other) {
     if (into.measuring->spoilt.empty()) into.measuring->spoilt = other.measuring->spoilt;
     into.measuring->touches = std::max(into.measuring->touches, other.measuring->touches);
   }
+  merge_sizes(into.size_of, other.size_of);
+  merge_setting(into.mount, other.mount);
+  merge_setting(into.machine_chooses, other.machine_chooses);
+  for (const FeatureKind* kind : feature_kinds()) {
+    const auto theirs = other.criteria.find(kind->shape);
+    merge_setting(into.criteria[kind->shape],
+                  theirs == other.criteria.end() ? Setting<FitCriterion>{} : theirs->second);
+  }
   into.sensor_selected |= other.sensor_selected;
   into.home_known |= other.home_known;
   for (const auto doubt : {&State::frame_doubt, &State::unit_doubt, &State::sensor_doubt, &State::flow_doubt})
@@ -69,6 +93,11 @@ void merge(State& into, const State& other) {
                                if (!theirs || *theirs != ours) into.settings.erase(word);
                              });
   merge(into.variables, other.variables);
+}
+
+void carry_settings(State& state) {
+  state.mount.carried = state.machine_chooses.carried = true;
+  for (const FeatureKind* kind : feature_kinds()) state.criteria[kind->shape].carried = true;
 }
 
 }  // namespace abbe::lang

@@ -321,6 +321,11 @@ ActualState Lowering::actual(plan::FeatureId id) const {
   return state ? *state : ActualState{};
 }
 
+void Lowering::refuse_varying(std::string_view setting, Span at) {
+  error(Code::E0238, at, fmt::format("which {} holds here depends on a measured value", setting),
+        fmt::format("write {} again before this, or use it on each path before they meet", setting));
+}
+
 plan::ColumnId Lowering::evaluated(const plan::Expression& value) {
   const plan::ColumnId column{out.plan.columns++};
   emit(plan::Assign{column, value});

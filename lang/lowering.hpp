@@ -84,6 +84,24 @@ struct OpenMeasure {
 struct Mount {
   Vec3 offset_mm;
   double turn_rad = 0;
+
+  bool operator==(const Mount&) const = default;
+};
+
+/// What one statement sets for others that come after it. Where paths meet that differ in it, which one holds depends on
+/// what is measured, and nothing may use it until it is set again. What a loop of the plan uses before it sets it must
+/// be on every turn what it was on the first, because the loop is lowered once.
+template <class T>
+struct Setting {
+  T value{};
+  bool varies = false;   ///< depends on what is measured
+  bool carried = false;  ///< into a loop: on later turns it is what the loop leaves
+  int relied_on = 0;     ///< how often it was used while it was carried
+
+  void set(T now) {
+    value = std::move(now);
+    varies = carried = false;
+  }
 };
 
 /// Labels, folded to upper case. `spoilt` holds "F:NAME" and the reason why the label cannot be used;
@@ -104,14 +122,14 @@ struct Symbols {
 struct State {
   Units units;
   Symbols symbols;
-  SharedMap<int, ActualState> actuals;        ///< by FeatureId
-  SharedMap<int, plan::ToleranceId> size_of;  ///< by FeatureId: the tolerance of size evaluated of it last
-  std::map<Shape, FitCriterion> criteria;     ///< GEOALG; a shape without an entry: least squares
+  SharedMap<int, ActualState> actuals;              ///< by FeatureId
+  SharedMap<int, plan::ToleranceId> size_of;        ///< by FeatureId: the tolerance of size evaluated of it last
+  std::map<Shape, Setting<FitCriterion>> criteria;  ///< GEOALG; a shape without an entry: least squares
   std::optional<OpenMeasure> measuring;
   bool sensor_selected = false;
   bool home_known = false;  ///< FROM on some path
-  std::optional<Mount> mount;
-  std::vector<std::string> modes;                     ///< MODE, in order of preference
+  Setting<std::optional<Mount>> mount;
+  Setting<bool> machine_chooses{true};                ///< MODE: touches of a block without PTMEAS
   std::string frame_doubt, unit_doubt, sensor_doubt;  ///< reason; empty when there is no doubt
   std::map<std::string, std::string> setting_doubts;  ///< reasons, by the setting: PRCOMP, GEOALG/CIRCLE
   std::string flow_doubt;  ///< an error in a statement of control: which statements run is unknown from there on
@@ -155,6 +173,14 @@ class Lowering : public State {
   std::optional<Value> value(const RawArgument&);
   /// Reports why an expression of the current statement has no value.
   void mistake(const Mistake&);
+
+  /// The value of a setting for the statement at this place; nullptr after an error. `what` names it: MODE.
+  template <class T>
+  const T* use(Setting<T>& setting, std::string_view what, Span at) {
+    if (setting.carried) ++setting.relied_on;
+    if (setting.varies) refuse_varying(what, at);
+    return setting.varies ? nullptr : &setting.value;
+  }
 
   // ---- labels: nothing after an error or when spoilt
   std::optional<plan::FeatureId> defined_feature(const LabelRef&);
@@ -229,6 +255,7 @@ class Lowering : public State {
   std::string blame() const;
 
  private:
+  void refuse_varying(std::string_view setting, Span);
   void warn_of_lengths(const Match&);
   template <class Meaning>
   const Meaning* find(const Symbols::Labels<Meaning>&, std::string_view kind, const LabelRef& label,

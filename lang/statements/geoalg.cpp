@@ -23,7 +23,7 @@ void choose_criterion(Lowering& lowering, const RawStatement& raw, const Match& 
   const FitCriterion criterion = criterion_of(method.text);
   if (word.text == "ALL") {  // every kind that can be fitted so
     for (const FeatureKind* kind : feature_kinds())
-      if (!criterion_refusal(kind->shape, criterion)) lowering.criteria[kind->shape] = criterion;
+      if (!criterion_refusal(kind->shape, criterion)) lowering.criteria[kind->shape].set(criterion);
     return;
   }
   const FeatureKind* kind = find_feature_kind(word.text);
@@ -32,7 +32,7 @@ void choose_criterion(Lowering& lowering, const RawStatement& raw, const Match& 
     return lowering.error(Code::E0250, method.span,
                           fmt::format("a {} cannot be fitted by {}: {}", kind->word, method.text, reason),
                           fmt::format("write GEOALG/{},LSTSQR", kind->word), "LSTSQR");
-  lowering.criteria[kind->shape] = criterion;
+  lowering.criteria[kind->shape].set(criterion);
 }
 
 }  // namespace

@@ -29,12 +29,16 @@ void doubt_what_is_measured(Lowering& lowering) {
 /// The block ends here, whether by ENDMES or because the program forgot it.
 void close_block(Lowering& lowering) {
   doubt_what_is_measured(lowering);
-  const OpenMeasure block = *std::exchange(lowering.measuring, std::nullopt);
+  OpenMeasure block = *std::exchange(lowering.measuring, std::nullopt);
   auto& operations = lowering.out.plan.operations;
+  const FitCriterion* criterion = nullptr;
   if (block.spoilt.empty()) {
-    const auto criterion = lowering.criteria.find(lowering.out.plan[block.feature].kind->shape);
-    lowering.emit(plan::EndMeasure{
-        block.feature, criterion == lowering.criteria.end() ? FitCriterion::least_squares : criterion->second});
+    const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
+    criterion = lowering.use(lowering.criteria[kind.shape], fmt::format("GEOALG/{}", kind.word), block.span);
+    if (!criterion) block.spoilt = lowering.blame();
+  }
+  if (criterion) {
+    lowering.emit(plan::EndMeasure{block.feature, *criterion});
     lowering.actuals.set(block.feature.value, {true, ""});
     return;
   }
@@ -155,8 +159,9 @@ void touch(Lowering& lowering, const RawStatement& raw, const Match& match) {
 /// A block without PTMEAS: the machine chooses the points (engine/features/pattern.hpp).
 void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
   const FeatureKind& kind = *lowering.out.plan[block.feature].kind;
-  const auto& modes = lowering.modes;
-  if (!modes.empty() && std::find(modes.begin(), modes.end(), "AUTO") == modes.end())
+  const bool* machine_chooses = lowering.use(lowering.machine_chooses, "MODE", block.span);
+  if (!machine_chooses) return;
+  if (!*machine_chooses)
     return lowering.error(Code::E0203, block.span, "this MEAS has no PTMEAS, and MODE does not let the machine choose",
                           "give the points with PTMEAS, or write MODE/AUTO,PROG,MAN before it");
   if (pattern_help(kind.shape).empty())

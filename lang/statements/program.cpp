@@ -1,6 +1,8 @@
 // What is around a program: DMISMN, ENDFIL, UNITS, MODE, DMESW.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lang/statement.hpp"
 
 namespace abbe::lang {
@@ -36,8 +38,8 @@ void set_units(Lowering& lowering, const RawStatement& raw, const Match& match) 
 }
 
 void set_mode(Lowering& lowering, const RawStatement&, const Match& match) {
-  lowering.modes.clear();
-  for (const MatchedValue& v : match.values) lowering.modes.push_back(v.text);
+  lowering.machine_chooses.set(
+      std::any_of(match.values.begin(), match.values.end(), [](const MatchedValue& v) { return v.text == "AUTO"; }));
 }
 
 void switch_software(Lowering& lowering, const RawStatement&, const Match& match) {

@@ -26,7 +26,7 @@ void set_mount(Lowering& lowering, const RawStatement&, const Match& match) {
                           "write ZVEC,0,0,-1 and an XVEC in the plane of x and y");
   Vec3 offset = vector_of(match, "dx");
   offset.z = -std::fabs(offset.z);
-  lowering.mount = Mount{offset, std::atan2(x->y, x->x)};
+  lowering.mount.set(Mount{offset, std::atan2(x->y, x->x)});
 }
 
 /// Where the stylus points with head angles A, B: Rz(B) Ry(-A) (0, 0, -1), as
@@ -92,11 +92,12 @@ void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& mat
   if (def.radius_mm <= 0)
     lowering.error(Code::E0210, match.find("diam")->span, "the diameter of the tip must be greater than zero",
                    "give the diameter of the ball");
+  const std::optional<Mount>* mount = lowering.use(lowering.mount, "SNSMNT", raw.span);
   if (lowering.failed) return;
-  if (lowering.mount) {
+  if (*mount) {
     def.has_mount = true;
-    def.mount_offset_mm = lowering.mount->offset_mm;
-    def.mount_turn_rad = lowering.mount->turn_rad;
+    def.mount_offset_mm = (*mount)->offset_mm;
+    def.mount_turn_rad = (*mount)->turn_rad;
   }
   lowering.symbols.sensors.set(upper(def.label), {static_cast<int>(lowering.out.plan.sensors.size())});
   lowering.sensor_forms[static_cast<int>(lowering.out.plan.sensors.size())] = written_form(raw, match);
