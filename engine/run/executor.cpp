@@ -42,6 +42,14 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
     site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
 }
 
+void Executor::find_curved(const CurvedFeatures& curved) {
+  curved_.clear();
+  for (const plan::FeatureDef& def : plan_.features) {
+    const std::string key = upper(def.label);
+    curved_.push_back(curved.touched(key) ? curved.has(key) : !is_flat(def.kind->shape));
+  }
+}
+
 void Executor::find_recorded_points() {
   std::multimap<std::string, int> features;
   for (std::size_t f = 0; f < plan_.features.size(); ++f)

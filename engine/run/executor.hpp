@@ -12,6 +12,7 @@
 #include "engine/plan/lifetimes.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/block.hpp"
+#include "engine/run/curved_features.hpp"
 #include "engine/run/part_frame.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/touch.hpp"
@@ -51,6 +52,7 @@ class Executor {
     std::vector<OutputRecord> outputs;  ///< of lane 0, which is the reference when there are no machines
     std::vector<Stop> stops;            ///< of the reference: where the program asks the machine to go
     FrameCount frames;                  ///< of the reference: in which it touches
+    CurvedFeatures curved;              ///< by what the reference touches
     std::vector<RecordingRow> rows;     ///< of lane 0: what it reported; coordinates of the program's machine system
     std::vector<TouchAim> aims;         ///< by row
     std::set<double> approaches_mm, retracts_mm;  ///< of these touches: what SNSET said
@@ -60,6 +62,9 @@ class Executor {
   void know(std::vector<KnownFit> fits);
   /// The part's own coordinates (part_frame.hpp), which the effects see: before any block with machines runs.
   void place_part(const Rigid& X_WP) { X_PW_ = inverse(X_WP); }
+  /// Which features are curved, for the effects: before any block with machines runs. What the reference does not touch
+  /// is so by its kind.
+  void find_curved(const CurvedFeatures&);
   /// Runs a block as run() does and keeps what is observed.
   Observed observe(Block&) const;
 
@@ -84,6 +89,7 @@ class Executor {
   EffectSet effects_;
   Part part_;
   Rigid X_PW_;
+  std::vector<char> curved_;                              ///< by FeatureId
   std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< tip centres by feature and touch, W; of options_.recorded
   std::vector<char> aligns_;                              ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves

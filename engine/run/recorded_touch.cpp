@@ -7,11 +7,11 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 #include <variant>
 
 #include "engine/base/letter_case.hpp"
 #include "engine/machine/geometry.hpp"
+#include "engine/run/curved_features.hpp"
 #include "engine/run/motion.hpp"
 #include "engine/run/part_frame.hpp"
 #include "engine/run/scene_terms.hpp"
@@ -303,16 +303,10 @@ void require_target(const RecordingRow& row, const std::string& file) {
                              "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
 }
 
-/// A feature is curved when its touches have normals that are neither parallel nor opposite.
-void find_curved(std::vector<RecordedTouch>& touches) {
-  constexpr double kParallel = 0.1;
-  std::map<int, Vec3> first;
-  std::set<int> curved;
-  for (const RecordedTouch& t : touches) {
-    const Vec3 n = first.emplace(t.scene.feature, t.scene.normal_on_part).first->second;
-    if (norm(cross(n, t.scene.normal_on_part)) > kParallel) curved.insert(t.scene.feature);
-  }
-  for (RecordedTouch& t : touches) t.scene.curved = curved.count(t.scene.feature) > 0;
+void find_curved(RecordedTouches& out) {
+  CurvedFeatures curved;
+  for (const RecordedTouch& t : out.touches) curved.add(out.features[t.scene.feature], t.scene.normal_on_part);
+  for (RecordedTouch& t : out.touches) t.scene.curved = curved.has(out.features[t.scene.feature]);
 }
 
 }  // namespace
@@ -384,7 +378,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   }
   for (RecordedTouch& t : out.touches) t.scene.stylus.name = *out.names.insert(sensor_of[t.row]->name).first;
   follow_sequence(recording, out.touches);
-  find_curved(out.touches);
+  find_curved(out);
   return out;
 }
 

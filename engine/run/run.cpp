@@ -157,6 +157,7 @@ ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Mac
   check_travel(observed.stops, plan, machine, source);
   executor.know(std::move(observed.fits));
   executor.place_part(observed.frames.most_used());
+  executor.find_curved(observed.curved);
   return {std::move(lane), std::move(observed.outputs)};
 }
 

@@ -1,6 +1,7 @@
 // From the state of an error-free twin to the scene that the effects see, and the effects of a touch.
 #include <map>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/run/block_run.hpp"
 #include "engine/run/scene_terms.hpp"
 
@@ -52,7 +53,7 @@ TouchScene BlockRun::scene_of(const plan::Touch& touch, int slot) const {
   }
   scene.touch = static_cast<int>(executor.site_[operation]);
   scene.feature = touch.feature.value;
-  scene.curved = !is_flat(executor.plan_[touch.feature].kind->shape);
+  scene.curved = executor.curved_[touch.feature.value] != 0;
   scene.visit = static_cast<int>(twin.indexings);
   set_structure(executor.machine_, scene);
   return scene;
@@ -119,6 +120,7 @@ void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   if (lane == block.reference()) {
     observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
     observed->frames.add(block.lanes[lane].X_WD);
+    observed->curved.add(upper(executor.plan_[touch.feature].label), touch_batch.surface_normal.get(slot));
   }
   if (lane != 0 || block.machines == 0) return;
   observed->rows.push_back(recording_row(touch, slot));

@@ -1,12 +1,13 @@
 // Form error of the part or of the artefact (catalogue W3).
 //
 //   curved features:  r = sum_k a_k h_k(n_part)
-//   faces:            r = a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength)
+//   faces, points:    r = a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength)
 //
 // h_k are real harmonics of the normal in the part's frame, with a largest value of 1: the five of
 // degree 2 and the two sectoral ones of degree 3. On a sphere they are its form, on a cylinder
 // along the part's z ovality and three lobes. A face has one normal: its form is over the position p
-// along an axis of the part, a wave. r > 0 is material too much. The form is there in every
+// along an axis of the part, a wave. Which it is, is told by the touches: a feature is curved when their
+// normals are neither parallel nor opposite. r > 0 is material too much. The form is there in every
 // repeat and moves with the part. Sizes: reference spheres 0.05 to 0.1 um, machined parts
 // micrometres.
 // Source: real solid harmonics on the unit sphere; ISO 12181 (lobes), ISO 12780 (waviness).

@@ -20,12 +20,16 @@ plan::Plan rich_program() {
     b.append(plan::SelectSensor{sensors[s]});
     b.append(plan::SetMotion{plan::MotionSetting::measuring_speed, s % 2 ? 3.0 : 8.0, false});
     for (int ball = 0; ball < 3; ++ball) {
+      constexpr double kRadius = 12.5;
       const Vec3 centre{500.0 + 300 * ball, 300.0 + 150 * ball, -600.0 + 120 * ball};
+      const plan::FeatureId sphere = b.feature(Shape::sphere, {.point = centre, .size = kRadius});
+      b.append(plan::BeginMeasure{sphere});
       for (int k = 0; k < 12; ++k) {
         const double z = 1 - (k + 0.5) / 8, r = std::sqrt(1 - z * z), a = 2.4 * k;
         const Vec3 n{r * std::cos(a), r * std::sin(a), z};
-        b.point(centre + 12.5 * n, n);
+        b.append(plan::Touch{sphere, constant(centre + kRadius * n), constant(n), true});
       }
+      b.append(plan::EndMeasure{sphere});
     }
   }
   return b.plan;

@@ -1,0 +1,41 @@
+// The form of the part as the effects see it while a program runs.
+#include "engine/run/curved_features.hpp"
+#include "tests/unit/whole/programs.hpp"
+
+using namespace abbe;
+using namespace abbe::test;
+using doctest::Approx;
+
+namespace {
+
+/// By how much the only virtual machine finds a point too high, whose surface is wavy and has lobes.
+double wave_at_point_um(const std::string& kind) {
+  const SourceFile source("test.dmi",
+                          kStart + measured("P", kind + ",CART,25,0,0,0,0,1", {"25,0,0,0,0,1"}) +
+                              "T(Z)=TOL/CORTOL,ZAXIS,-1,1\nOUTPUT/FA(P),TA(Z)\nENDFIL\n");
+  Sink sink;
+  const plan::Plan plan = lang::compile(source, sink).plan;
+  REQUIRE_FALSE(sink.has_errors());
+  Machine machine = read_machine("coord3-mc16");
+  machine.effects = {{"part.form", {{"wave_um", {10, 0, ""}}, {"egg_um", {100, 0, ""}}}}};
+  RunOptions options;
+  options.contributors.geometry = options.contributors.head = options.contributors.probe = false;
+  const RunResult r = run_plan(plan, machine, screened_machines(machine, 1, 1, 1), options, source);
+  return 1000 * (r.samples.at(0).value.at(0) - r.samples.at(0).reference.value());
+}
+
+}  // namespace
+
+TEST_CASE("a point has one normal, as a face has: its form is the wave, as it is for a recording") {
+  CHECK(wave_at_point_um("POINT") == Approx(10));  // a quarter of 100 mm from the origin of the part
+}
+
+TEST_CASE("features are curved by the normals of their touches") {
+  CurvedFeatures curved;
+  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0.9987, 0.05, 0}}) curved.add("SLOT", normal);
+  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) curved.add("BLOCK", normal);
+  CHECK_FALSE(curved.has("SLOT"));
+  CHECK(curved.has("BLOCK"));
+  CHECK(curved.touched("SLOT"));
+  CHECK_FALSE(curved.touched("BORE"));
+}
