@@ -132,6 +132,8 @@ struct Effect {
   std::string_view help;      ///< what it is and what it does to measurements, for people
   std::string_view source;    ///< standard, paper, data sheet
   std::string_view separate;  ///< the measurement that tells it from what it is confused with
+  std::string_view influence =
+      "";  ///< the one that it models, of those that reports declare (engine/influences); "": none
   Stage stage{};
   unsigned needs = 0;  ///< Covariates
   std::span<const EffectParameter> parameters;

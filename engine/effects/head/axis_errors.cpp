@@ -78,6 +78,7 @@ constinit const Effect kHeadAxisErrors{
     .separate =
         "return to each orientation several times, out of order, on a fixed sphere; a second "
         "stylus length splits translations from rotations",
+    .influence = "head geometry and qualification",
     .stage = Stage::head,
     .needs = 0u | Covariate::head,
     .parameters = kHeadAxisErrorsParameters,

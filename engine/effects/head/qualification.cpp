@@ -63,6 +63,7 @@ constinit const Effect kHeadQualification{
         "qualification removes it.",
     .source = "thermal expansion of head and stylus; ISO 10360-5 location test",
     .separate = "qualify again and compare; the fixed sphere in all orientations at two temperatures",
+    .influence = "head geometry and qualification",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::air_temperature | Covariate::qualification,
     .parameters = kHeadQualificationParameters,

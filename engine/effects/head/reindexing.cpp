@@ -41,6 +41,7 @@ constinit const Effect kHeadReindexing{
     .separate =
         "several visits to one orientation on a fixed sphere, with the visit recorded; a second "
         "stylus length",
+    .influence = "head indexing",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::visit,
     .parameters = kHeadReindexingParameters,

@@ -61,6 +61,7 @@ constinit const Effect kHeadSag{
     .separate =
         "A = 0 against A = +90 and A = -90 on a fixed sphere; two lengths or masses of the "
         "extension",
+    .influence = "head geometry and qualification",
     .stage = Stage::head,
     .needs = Covariate::head | Covariate::sensor,
     .parameters = kHeadSagParameters,

@@ -51,6 +51,7 @@ constinit const Effect kBacklash{
     .separate =
         "touch the same face with the other axes arriving from either side; reverse the moves "
         "before the approach",
+    .influence = "dynamics and backlash",
     .stage = Stage::scale,
     .needs = 0u | Covariate::direction,
     .parameters = kBacklashParameters,

@@ -74,6 +74,7 @@ constinit const Effect kDynamics{
         "Pereira & Hocken, Precision Engineering 31 (2007); damped oscillator released from its "
         "static deflection",
     .separate = "a second acceleration, or a longer approach at constant speed",
+    .influence = "dynamics and backlash",
     .stage = Stage::dynamics,
     .needs = Covariate::position | Covariate::direction | Covariate::acceleration,
     .parameters = kDynamicsParameters,

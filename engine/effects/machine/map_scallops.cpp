@@ -55,6 +55,7 @@ constinit const Effect kMapScallops{
         "node. It repeats with the spacing of the nodes.",
     .source = "error of linear interpolation, e'' h^2/8",
     .separate = "positions at the nodes against positions half-way; a grid shifted by half the spacing",
+    .influence = "geometry",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kMapScallopsParameters,

@@ -66,6 +66,7 @@ constinit const Effect kRamDroop{
     .separate =
         "the same artefact at several extensions of the ram, with tilted placements; another "
         "probing force",
+    .influence = "geometry",
     .stage = Stage::structure,
     .needs = Covariate::position | Covariate::normal,
     .parameters = kRamDroopParameters,

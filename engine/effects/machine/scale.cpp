@@ -50,6 +50,7 @@ constinit const Effect kMachineScale{
     .separate =
         "the same artefact along each axis and over the whole volume; two temperatures tell it "
         "from the part's expansion",
+    .influence = "geometry",
     .stage = Stage::scale,
     .needs = 0u | Covariate::position,
     .parameters = kMachineScaleParameters,

@@ -73,6 +73,7 @@ constinit const Effect kScaleInterpolation{
         "encoder data sheets: TONiC 0.03 um, RGH25F 0.05 um, LIDA 4xx 0.2 um at 20 um, LIDA 2xx 2 "
         "um at 200 um",
     .separate = "step along the axis by an eighth of the period; full-resolution scale readings",
+    .influence = "scale interpolation",
     .stage = Stage::scale,
     .needs = 0u | Covariate::raw_reading,
     .parameters = kScaleInterpolationParameters,

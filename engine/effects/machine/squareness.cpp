@@ -51,6 +51,7 @@ constinit const Effect kMachineSquareness{
     .separate =
         "a ball bar or gauge in both diagonals, or a reversal square; on a single small sphere it "
         "looks like the tip's form",
+    .influence = "geometry",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kMachineSquarenessParameters,

@@ -63,6 +63,7 @@ constinit const Effect kMachineStep{
     .separate =
         "return to a fixed reference sphere; approach the place from both sides; another stylus "
         "tells it from a slipped joint",
+    .influence = "geometry",
     .stage = Stage::structure,
     .needs = 0u | Covariate::time,
     .parameters = kMachineStepParameters,

@@ -88,6 +88,7 @@ constinit const Effect kStraightnessAngleCoupling{
         "Bryan, Precision Engineering 1 (1979), the Abbe principle revisited; Hu et al., Machines "
         "9, 33 (2021)",
     .separate = "the same line measured with two Abbe offsets (stylus lengths or heights) on one axis",
+    .influence = "geometry",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kStraightnessAngleCouplingParameters,

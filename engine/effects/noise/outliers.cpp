@@ -50,6 +50,7 @@ constinit const Effect kOutliers{
         "decide a form error, a maximum or a small alignment feature.",
     .source = "Huber, Ann. Math. Statist. 35 (1964): contaminated normal; one-sided",
     .separate = "clean the part and repeat the suspect touches",
+    .influence = "vibration and outliers",
     .stage = Stage::noise,
     .needs = 0u | Covariate::normal,
     .parameters = kOutliersParameters,

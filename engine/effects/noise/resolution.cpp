@@ -39,6 +39,7 @@ constinit const Effect kResolution{
         "of 0.29 steps.",
     .source = "JCGM 100:2008 F.2.2.1; Widrow & Kollar, Quantization Noise (2008)",
     .separate = "look at the digits: the readings fall on a grid; write more digits",
+    .influence = "vibration and outliers",
     .stage = Stage::noise,
     .needs = 0u | Covariate::normal,
     .parameters = kResolutionParameters,

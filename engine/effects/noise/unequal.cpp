@@ -80,6 +80,7 @@ constinit const Effect kUnequalNoise{
         "and hides the good ones.",
     .source = "JCGM 100:2008 5.1.2; probe data sheets (scatter against stylus length and speed)",
     .separate = "repeat one touch many times in each group",
+    .influence = "vibration and outliers",
     .stage = Stage::noise,
     .needs = Covariate::normal | Covariate::sensor,
     .parameters = kUnequalNoiseParameters,

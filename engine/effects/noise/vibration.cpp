@@ -52,6 +52,7 @@ constinit const Effect kVibration{
     .separate =
         "repeat one touch many times along each axis; the same with neighbouring machines "
         "switched off",
+    .influence = "vibration and outliers",
     .stage = Stage::noise,
     .needs = 0u | Covariate::normal,
     .parameters = kVibrationParameters,

@@ -80,6 +80,7 @@ constinit const Effect kClamping{
     .separate =
         "unclamp and clamp again; turn the clamped part to another place; release the clamps and "
         "measure",
+    .influence = "fixturing",
     .stage = Stage::part,
     .needs = Covariate::normal | Covariate::part_frame,
     .parameters = kClampingParameters,

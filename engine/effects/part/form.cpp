@@ -74,6 +74,7 @@ constinit const Effect kPartForm{
         "perfect it is.",
     .source = "real harmonics of degree 2 and 3; ISO 12181 roundness, ISO 12780 straightness",
     .separate = "turn the part against the probe (multi-step reversal); measure it with another probe",
+    .influence = "form error of the part",
     .stage = Stage::part,
     .needs = Covariate::normal | Covariate::part_frame,
     .parameters = kPartFormParameters,

@@ -64,6 +64,7 @@ constinit const Effect kLoadBending{
         "grow with the height. In proportion to the mass.",
     .source = "elastic plate under a central load; ISO 10360-2 under the rated load",
     .separate = "the same artefact with and without dead weight on the table",
+    .influence = "fixturing",
     .stage = Stage::structure,
     .needs = Covariate::position | Covariate::load,
     .parameters = kLoadBendingParameters,

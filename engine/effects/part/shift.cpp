@@ -53,6 +53,7 @@ constinit const Effect kPartShift{
     .separate =
         "return to the features of the alignment at the end; a reference sphere fixed on the "
         "table tells the part from the machine",
+    .influence = "fixturing",
     .stage = Stage::part,
     .needs = 0u | Covariate::time,
     .parameters = kPartShiftParameters,

@@ -102,6 +102,7 @@ constinit const Effect kContactFlattening{
     .separate =
         "the same feature in another material; another force (it grows with F^(2/3)); two tip "
         "radii",
+    .influence = "contact deformation",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::sensor,
     .parameters = kContactFlatteningParameters,

@@ -44,6 +44,7 @@ constinit const Effect kCosineError{
         "in, four times larger at twice the angle, proportional to the tip radius.",
     .source = "geometry of the contact; ISO 10360-5 and probing guides ask for approach along the normal",
     .separate = "probe the same point under several angles; several tip radii",
+    .influence = "number and place of the points",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::direction | Covariate::sensor,
     .parameters = kCosineErrorParameters,

@@ -149,6 +149,7 @@ constinit const Effect kPretravelLobing{
     .separate =
         "turn the head by B = 60 degrees: the lobes turn with it and those of the part stay; two "
         "stylus lengths; turn the reference sphere; a ring and a sphere",
+    .influence = "probe pretravel lobing",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::head | Covariate::sensor,
     .parameters = kPretravelLobingParameters,

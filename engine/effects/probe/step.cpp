@@ -69,6 +69,7 @@ constinit const Effect kProbeStep{
         "same vector of the probe body; other styli do not.",
     .source = "change of the qualified tip offset (ISO 10360-5 location tests)",
     .separate = "the reference sphere before and after, with this stylus and with another",
+    .influence = "probe repeatability",
     .stage = Stage::probe,
     .needs = Covariate::time | Covariate::head | Covariate::sensor,
     .parameters = kProbeStepParameters,

@@ -67,6 +67,7 @@ constinit const Effect kStylusBending{
     .separate =
         "another trigger force (module or level); two styli of the same length with different "
         "shafts",
+    .influence = "stylus bending and length",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::sensor,
     .parameters = kStylusBendingParameters,

@@ -41,6 +41,7 @@ constinit const Effect kStylusLength{
         "with a single orientation the whole part merely seems to be shifted.",
     .source = "geometry of the head (Van Gestel, Bleys & Kruth, eq. 25)",
     .separate = "three or more orientations of the head, one at 45 degrees, on a fixed sphere",
+    .influence = "stylus bending and length",
     .stage = Stage::probe,
     .needs = 0u | Covariate::head,
     .parameters = kStylusLengthParameters,

@@ -93,6 +93,7 @@ constinit const Effect kTipForm{
     .separate =
         "unscrew the stylus a little in the probe: the ball's form moves with the stylus, the "
         "lobing stays with the probe; two stylus lengths",
+    .influence = "tip size and form",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::head,
     .parameters = kTipFormParameters,

@@ -46,6 +46,7 @@ constinit const Effect kTipRadius{
         "a second probing speed (tells it from the trigger's delay); an inner and an outer length, "
         "or a length between opposite faces (tells it from a scale); the certificate of the ball "
         "(tells the radius from the mean pretravel)",
+    .influence = "tip size and form",
     .stage = Stage::probe,
     .needs = 0u | Covariate::normal,
     .parameters = kTipRadiusParameters,

@@ -42,6 +42,7 @@ constinit const Effect kTriggerDelay{
         "Ling & Wilkin, NIST IR (1999): error proportional to feed; touch-trigger probe user "
         "guides: qualify at the gauging speed",
     .separate = "repeat at a second probing speed",
+    .influence = "trigger delay",
     .stage = Stage::probe,
     .needs = Covariate::normal | Covariate::speed,
     .parameters = kTriggerDelayParameters,

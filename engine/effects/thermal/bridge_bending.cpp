@@ -108,6 +108,7 @@ constinit const Effect kBridgeBending{
         "Timoshenko, J. Opt. Soc. Am. 11 (1925) 233: curvature = cte dT / height; roll = cte H "
         "dT / W",
     .separate = "repeat at another time of day with sensors on beam and legs; a reversal square",
+    .influence = "temperature gradients in the machine",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kBridgeBendingParameters,

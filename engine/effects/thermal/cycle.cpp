@@ -56,6 +56,7 @@ constinit const Effect kThermalCycle{
     .separate =
         "log the air temperature; random order of the features, so that the sequence cannot "
         "repeat with the period",
+    .influence = "thermal drift",
     .stage = Stage::thermal,
     .needs = 0u | Covariate::time,
     .parameters = kThermalCycleParameters,

@@ -68,6 +68,7 @@ constinit const Effect kThermalDrift{
     .separate =
         "return to a fixed reference sphere every ten minutes; random order of the features; "
         "measure longer than two time constants",
+    .influence = "thermal drift",
     .stage = Stage::thermal,
     .needs = 0u | Covariate::time,
     .parameters = kThermalDriftParameters,

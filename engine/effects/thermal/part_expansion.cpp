@@ -63,6 +63,7 @@ constinit const Effect kPartExpansion{
         "two temperatures: the slope of the scale factor is the coefficient, what remains at 20 "
         "degrees C the sensor or the artefact; a turned part; a second artefact of another "
         "material",
+    .influence = "part temperature",
     .stage = Stage::thermal,
     .needs = Covariate::normal | Covariate::part_frame | Covariate::part_temperature,
     .parameters = kPartExpansionParameters,

@@ -57,6 +57,7 @@ constinit const Effect kPartSoak{
         "drift.",
     .source = "linear expansion with Newton's law of cooling",
     .separate = "repeat the first length at the end; wait; a sensor on the part",
+    .influence = "part temperature",
     .stage = Stage::thermal,
     .needs = Covariate::normal | Covariate::part_frame | Covariate::time,
     .parameters = kPartSoakParameters,

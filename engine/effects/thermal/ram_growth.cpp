@@ -62,6 +62,7 @@ constinit const Effect kRamGrowth{
         "and all surfaces read too high; the more, the further the ram is out.",
     .source = "linear expansion of the free length of the ram; aluminium 23.1 ppm/K",
     .separate = "the same artefact at several heights; a second head orientation; a sensor on the ram",
+    .influence = "thermal drift",
     .stage = Stage::thermal,
     .needs = Covariate::position | Covariate::time,
     .parameters = kRamGrowthParameters,

@@ -77,6 +77,7 @@ constinit const Effect kScaleExpansion{
     .separate =
         "the same artefact along each axis at two temperatures; an artefact of nearly no "
         "expansion",
+    .influence = "scale temperature",
     .stage = Stage::thermal,
     .needs = Covariate::position | Covariate::scale_temperature,
     .parameters = kScaleExpansionParameters,

@@ -49,6 +49,7 @@ constinit const Effect kStylusGrowth{
         "length and the material of the stylus: long steel styli grow, carbon fibre does not.",
     .source = "linear expansion: 100 mm of steel 1.2 um/K, of tungsten carbide 0.5 um/K",
     .separate = "two head orientations; two stylus lengths or materials; a new qualification",
+    .influence = "thermal drift",
     .stage = Stage::probe,
     .needs = Covariate::time | Covariate::head | Covariate::sensor,
     .parameters = kStylusGrowthParameters,

@@ -72,6 +72,7 @@ constinit const Effect kTableBending{
     .separate =
         "the same artefact at two heights; logged temperatures of the table's top and underside; "
         "loading and unloading",
+    .influence = "temperature gradients in the machine",
     .stage = Stage::structure,
     .needs = 0u | Covariate::position,
     .parameters = kTableBendingParameters,
