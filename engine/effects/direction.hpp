@@ -4,8 +4,6 @@
 // which is how a diagnosis finds length and direction together.
 #pragma once
 
-#include <iterator>
-
 #include "engine/effects/terms.hpp"
 
 namespace abbe {
@@ -17,7 +15,8 @@ inline constexpr EffectParameter kDirectionParameter{
     .unit = "code",
     .help = "along which axis of the machine: 0 x, 1 y, 2 z; 3 oblique: as azimuth and elevation say",
     .high = 3,
-    .choices = kDirectionChoices};
+    .choices = kDirectionChoices,
+    .sought = Sought::direction};
 
 inline constexpr EffectParameter kAzimuthParameter{
     .name = "azimuth_deg",
@@ -33,10 +32,7 @@ inline constexpr EffectParameter kElevationParameter{.name = "elevation_deg",
                                                      .high = 90};
 
 /// Whether a parameter is such a direction, and not a choice of axes only.
-constexpr bool is_direction(const EffectParameter& p) {
-  return p.name == kDirectionParameter.name && p.choices.size() == std::size(kDirectionChoices) &&
-      p.choices.back() == kDirectionChoices[3];
-}
+constexpr bool is_direction(const EffectParameter& p) { return p.sought == Sought::direction; }
 
 /// The unit vector that the three parameters at `theta` name.
 inline Vec3 chosen_direction(const double* theta) {

@@ -105,6 +105,23 @@ struct TouchScene {
 /// Where in the chain of a touch an effect acts. Within a stage displacements add.
 enum class Stage { part, thermal, structure, dynamics, head, probe, scale, noise };
 
+/// How a diagnosis seeks the value of a parameter in which the displacement is not linear. Linear ones are solved for,
+/// and choices are tried one by one.
+enum class Sought {
+  not_at_all,     ///< it stays at its standard value
+  listed,         ///< one of `tried`
+  around_listed,  ///< `tried`, and what lies between
+  signal_period,  ///< those of `tried` that the readings of a recording resolve, um
+  moment,         ///< between two touches
+  period,         ///< whole half cycles in the duration of the recording
+  time_constant,  ///< shares of that duration
+  reading,        ///< of a scale, within what was touched
+  phase,          ///< 0 and 90 degrees together span every phase
+  direction,      ///< the three axes together span every direction (direction.hpp)
+  stylus,         ///< the ordinals of the styli, 0 for all
+  tip,            ///< the ordinals of the tips, a stylus in one orientation each; 0 for all
+};
+
 struct EffectParameter {
   std::string_view name;  ///< carries the unit: "amplitude_um"
   std::string_view unit;
@@ -116,6 +133,8 @@ struct EffectParameter {
   bool linear = false;  ///< the displacement is linear in all linear parameters jointly
   /// names of the codes low, low + 1, ... of a parameter that is a choice
   std::span<const std::string_view> choices = {};
+  Sought sought = Sought::not_at_all;
+  std::span<const double> tried = {};
   /// Whether it is a choice or an ordinal: a whole number, and certain.
   constexpr bool is_code() const { return unit == "code"; }
 };

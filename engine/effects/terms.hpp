@@ -40,6 +40,7 @@ inline constexpr EffectParameter kSensorParameter{
     .name = "sensor",
     .unit = "code",
     .help = "which stylus system, counted 1, 2, ... in the order of first use; 0: every one",
-    .high = 1000};
+    .high = 1000,
+    .sought = Sought::stylus};
 
 }  // namespace abbe

@@ -223,7 +223,7 @@ std::vector<Search> searches(const Effect& effect, const RecordedTouches& t, dou
   std::vector<Search> list;
   for (const EffectParameter& p : effect.parameters) {
     list.push_back(search_of(p, t));
-    if (p.name == "period_um")
+    if (p.sought == Sought::signal_period)
       std::erase_if(list.back().values, [&](double period_um) { return period_um < least_period_um; });
   }
   return list;
@@ -268,7 +268,7 @@ std::string_view name(Factor f) {
 
 std::optional<std::size_t> moment_of(const Effect& effect) {
   for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-    if (effect.parameters[p].name == "t0_s") return p;
+    if (effect.parameters[p].sought == Sought::moment) return p;
   return std::nullopt;
 }
 

@@ -137,7 +137,7 @@ std::vector<Block> parts_of(const Block& whole, const Effect& effect, const Reco
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
     const std::vector<Part> parts = cell.high <= cell.low ? std::vector<Part>{{cell, whole.theta[p]}}
-        : effect.parameters[p].name == "t0_s"             ? thirds_of_touches(cell, t)
+        : effect.parameters[p].sought == Sought::moment   ? thirds_of_touches(cell, t)
                                                           : thirds(cell);
     std::vector<Block> longer;
     for (const Block& prefix : list) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "engine/effects/direction.hpp"
@@ -53,41 +52,40 @@ std::vector<double> places(const RecordedTouches& t) {
   return list;
 }
 
-std::vector<double> choices(const EffectParameter& p, const RecordedTouches& t) {
-  double high = p.high;
-  if (p.name == "sensor") high = t.styli.size() > 1 ? double(t.styli.size()) : 0;
-  if (p.name == "tip") high = t.tips > int(t.styli.size()) ? t.tips : 0;
-  std::vector<double> list;
-  for (double v = p.low; v <= high; ++v) list.push_back(v);
+/// Ordinals of what there may be several of; 0 stands for all of them.
+std::vector<double> ordinals(std::size_t count) {
+  std::vector<double> list{0};
+  for (std::size_t k = 1; count > 1 && k <= count; ++k) list.push_back(double(k));
   return list;
 }
+
+std::vector<double> codes(const EffectParameter& p) {
+  std::vector<double> list;
+  for (double v = p.low; v <= p.high; ++v) list.push_back(v);
+  return list;
+}
+
+std::vector<double> listed(const EffectParameter& p) { return {p.tried.begin(), p.tried.end()}; }
 
 }  // namespace
 
 Search search_of(const EffectParameter& p, const RecordedTouches& t) {
   using Kind = Search::Kind;
-  static const std::map<std::string_view, std::vector<double>> tried = {
-      {"period_um", {4, 8, 10, 16, 20, 32, 40, 50, 100, 128, 200}},
-      {"spacing_mm", {20, 25, 40, 50, 100}},
-      {"node_mm", {0, 5, 10, 12.5, 25, 37.5}},
-      {"memory_mm", {0}},
-      {"frequency_Hz", {20}},
-      {"wavelength_mm", {50, 100, 200, 400}},
-      {"bearing_base_mm", {200, 300, 500}},
-      {"half_size_mm", {250}},
-      {"cross_share", {0, 1}},
-  };
-  if (is_direction(p)) return {Kind::direction, {0, 1, 2}};
-  if (!p.choices.empty() || p.name == "sensor" || p.name == "tip") return {Kind::tried, choices(p, t)};
-  if (p.name == "t0_s") return {Kind::tried, moments(t), true};
-  if (p.name == "period_s") return {Kind::tried, periods(t), true};
-  if (p.name == "tau_s") return {Kind::tried, time_constants(t), true};
-  if (p.name == "position_mm") return {Kind::tried, places(t), true};
-  if (p.name == "second_phase_deg" || (p.name == "phase_deg" && p.low < -180)) return {Kind::phase, {0, 90}};
-  // a tripod: 120 degrees are all
-  if (p.name == "phase_deg") return {Kind::tried, {-45, -30, -15, 0, 15, 30, 45, 60}, true};
-  const auto found = tried.find(p.name);
-  if (found != tried.end()) return {Kind::tried, found->second};
+  switch (p.sought) {
+    case Sought::listed:
+    case Sought::signal_period: return {Kind::tried, listed(p)};
+    case Sought::around_listed: return {Kind::tried, listed(p), true};
+    case Sought::moment: return {Kind::tried, moments(t), true};
+    case Sought::period: return {Kind::tried, periods(t), true};
+    case Sought::time_constant: return {Kind::tried, time_constants(t), true};
+    case Sought::reading: return {Kind::tried, places(t), true};
+    case Sought::phase: return {Kind::phase, {0, 90}};
+    case Sought::direction: return {Kind::direction, {0, 1, 2}};
+    case Sought::stylus: return {Kind::tried, ordinals(t.styli.size())};
+    case Sought::tip: return {Kind::tried, ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0)};
+    case Sought::not_at_all: break;
+  }
+  if (!p.choices.empty()) return {Kind::tried, codes(p)};
   return {Kind::fixed, {p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))}};
 }
 

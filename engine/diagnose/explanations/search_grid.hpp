@@ -1,7 +1,5 @@
-// Which values a diagnosis tries for the parameters of an effect in which its displacement is not linear. By
-// name, because a name means the same in every effect (interfaces, section 5): moments within the recording,
-// periods and time constants in proportion to its length, the common signal periods of scales, choices one by
-// one. A parameter that is not named here stays at its standard value.
+// Which values a diagnosis tries for the parameters of an effect in which its displacement is not linear: each
+// parameter says how it is sought (effects/effect.hpp); what lies within a recording is taken from it here.
 #pragma once
 
 #include <vector>

@@ -180,8 +180,8 @@ class Estimator {
 
   /// The stylus of that number, or the tip in its orientation; "" of any other number.
   std::string called(const EffectParameter& parameter, int number) const {
-    const bool tip = parameter.name == "tip";
-    if (!tip && parameter.name != "sensor") return "";
+    const bool tip = parameter.sought == Sought::tip;
+    if (!tip && parameter.sought != Sought::stylus) return "";
     for (const RecordedTouch& touch : touches_.touches) {
       const StylusScene& s = touch.scene.stylus;
       if (tip && s.tip_ordinal == number)

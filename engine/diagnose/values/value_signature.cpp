@@ -96,12 +96,11 @@ std::vector<std::vector<double>> settings_of(const Effect& effect) {
   std::vector<std::vector<double>> list{{}};
   for (const EffectParameter& p : effect.parameters) {
     std::vector<double> values{p.linear ? 0.0 : p.standard != 0 ? p.standard : p.typical};
-    if (!p.choices.empty() && p.name != "sensor") {
+    if (!p.choices.empty()) {
       values.clear();
       for (std::size_t k = 0; k < p.choices.size(); ++k)
         if (p.choices[k] != "oblique") values.push_back(p.low + double(k));  // a direction is spanned by the axes
     }
-    if (p.name == "sensor") values = {0};
     std::vector<std::vector<double>> longer;
     for (const std::vector<double>& prefix : list)
       for (const double v : values) longer.push_back(prefix), longer.back().push_back(v);

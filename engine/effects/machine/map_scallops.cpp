@@ -14,6 +14,8 @@
 namespace abbe {
 namespace {
 
+constexpr double kSpacings_mm[] = {20, 25, 40, 50, 100}, kNodes_mm[] = {0, 5, 10, 12.5, 25, 37.5};
+
 constexpr EffectParameter kMapScallopsParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
@@ -28,8 +30,17 @@ constexpr EffectParameter kMapScallopsParameters[] = {
      .typical = 50,
      .low = 1,
      .high = 1000,
-     .standard = 50},
-    {.name = "node_mm", .unit = "mm", .help = "reading at one of the nodes", .typical = 0, .low = -5000, .high = 5000},
+     .standard = 50,
+     .sought = Sought::listed,
+     .tried = kSpacings_mm},
+    {.name = "node_mm",
+     .unit = "mm",
+     .help = "reading at one of the nodes",
+     .typical = 0,
+     .low = -5000,
+     .high = 5000,
+     .sought = Sought::listed,
+     .tried = kNodes_mm},
     axis_parameter("the axis along which the map is interpolated: 0 x, 1 y, 2 z"),
     {.name = "direction",
      .unit = "code",

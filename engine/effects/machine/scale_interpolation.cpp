@@ -14,6 +14,8 @@
 namespace abbe {
 namespace {
 
+constexpr double kSignalPeriods_um[] = {4, 8, 10, 16, 20, 32, 40, 50, 100, 128, 200};
+
 constexpr EffectParameter kScaleInterpolationParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
@@ -35,20 +37,24 @@ constexpr EffectParameter kScaleInterpolationParameters[] = {
      .typical = 20,
      .low = 0.1,
      .high = 2000,
-     .standard = 20},
+     .standard = 20,
+     .sought = Sought::signal_period,
+     .tried = kSignalPeriods_um},
     axis_parameter("the scale: 0 x, 1 y, 2 z"),
     {.name = "phase_deg",
      .unit = "deg",
      .help = "phase of the first harmonic at reading zero",
      .typical = 0,
      .low = -360,
-     .high = 360},
+     .high = 360,
+     .sought = Sought::phase},
     {.name = "second_phase_deg",
      .unit = "deg",
      .help = "phase of the second harmonic at reading zero",
      .typical = 0,
      .low = -360,
-     .high = 360},
+     .high = 360,
+     .sought = Sought::phase},
 };
 
 Vec3 scale_interpolation(const TouchScene& scene, const double* theta, const double*) {

@@ -27,7 +27,8 @@ constexpr EffectParameter kMachineStepParameters[] = {
      .help = "when, since the start of the program (along = time)",
      .typical = 600,
      .low = 0,
-     .high = 1e7},
+     .high = 1e7,
+     .sought = Sought::moment},
     kDirectionParameter,
     kAzimuthParameter,
     kElevationParameter,
@@ -41,7 +42,8 @@ constexpr EffectParameter kMachineStepParameters[] = {
      .help = "reading from which the jump is there (along = x, y, z)",
      .typical = 0,
      .low = -5000,
-     .high = 5000},
+     .high = 5000,
+     .sought = Sought::reading},
 };
 
 Vec3 machine_step(const TouchScene& scene, const double* theta, const double*) {

@@ -20,6 +20,8 @@ namespace {
 
 constexpr int kHarmonics = 7;
 
+constexpr double kBearingBases_mm[] = {200, 300, 500};
+
 constexpr EffectParameter kStraightnessAngleCouplingParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
@@ -34,7 +36,9 @@ constexpr EffectParameter kStraightnessAngleCouplingParameters[] = {
      .typical = 300,
      .low = 20,
      .high = 2000,
-     .standard = 300},
+     .standard = 300,
+     .sought = Sought::listed,
+     .tried = kBearingBases_mm},
     axis_parameter("the moving carriage: 0 x, 1 y, 2 z"),
 };
 

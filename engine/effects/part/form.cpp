@@ -29,6 +29,8 @@ constexpr EffectParameter lobe(std::string_view name, std::string_view help) {
           .linear = true};
 }
 
+constexpr double kWavelengths_mm[] = {50, 100, 200, 400};
+
 constexpr EffectParameter kPartFormParameters[] = {
     lobe("oval_um", "two lobes about the part's z: proud along x, low along y"),
     lobe("oval_45_um", "two lobes about the part's z: proud at 45 degrees between x and y"),
@@ -45,7 +47,9 @@ constexpr EffectParameter kPartFormParameters[] = {
      .typical = 100,
      .low = 0.1,
      .high = 10000,
-     .standard = 100},
+     .standard = 100,
+     .sought = Sought::listed,
+     .tried = kWavelengths_mm},
     axis_parameter("axis of the part along which the wave runs: 0 x, 1 y, 2 z"),
 };
 

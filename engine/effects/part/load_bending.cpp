@@ -23,6 +23,8 @@ namespace {
 
 constexpr double kRatedLoad_kg = 500;
 
+constexpr double kRailsOrBowl[] = {0, 1};
+
 constexpr EffectParameter kLoadBendingParameters[] = {
     {.name = "sag_um_per_500kg",
      .unit = "um",
@@ -43,7 +45,9 @@ constexpr EffectParameter kLoadBendingParameters[] = {
      .typical = 1,
      .low = 0,
      .high = 2,
-     .standard = 1},
+     .standard = 1,
+     .sought = Sought::listed,
+     .tried = kRailsOrBowl},
 };
 
 Vec3 load_bending(const TouchScene& scene, const double* theta, const double*) {

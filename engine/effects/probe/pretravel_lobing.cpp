@@ -27,6 +27,9 @@
 namespace abbe {
 namespace {
 
+/// The three seats repeat after 120 degrees.
+constexpr double kPhases_deg[] = {-45, -30, -15, 0, 15, 30, 45, 60};
+
 constexpr EffectParameter kPretravelLobingParameters[] = {
     {.name = "amplitude_um",
      .unit = "um",
@@ -41,7 +44,9 @@ constexpr EffectParameter kPretravelLobingParameters[] = {
              "the body's axis from x of the head's last link; repeats after 120 degrees",
      .typical = 0,
      .low = -180,
-     .high = 180},
+     .high = 180,
+     .sought = Sought::around_listed,
+     .tried = kPhases_deg},
     {.name = "at_length_mm",
      .unit = "mm",
      .help = "stylus length for which amplitude_um is given",

@@ -25,13 +25,15 @@ constexpr EffectParameter kProbeStepParameters[] = {
      .help = "when, since the start of the program",
      .typical = 600,
      .low = 0,
-     .high = 1e7},
+     .high = 1e7,
+     .sought = Sought::moment},
     {.name = "direction",
      .unit = "code",
      .help = "along which axis of the head's last link: 0 x, 1 y, 2 z (along the body, towards the "
              "head); 3 oblique: as azimuth and elevation say",
      .high = 3,
-     .choices = kDirectionChoices},
+     .choices = kDirectionChoices,
+     .sought = Sought::direction},
     {.name = "azimuth_deg",
      .unit = "deg",
      .help = "of an oblique direction: from x of the last link towards its y",
@@ -48,7 +50,8 @@ constexpr EffectParameter kProbeStepParameters[] = {
      .help = "which qualified tip: 0 the stylus in every orientation of the head; 1, 2, ...: only in "
              "the one whose sensor comes first, second, ... (an arm of a star, an orientation "
              "qualified anew)",
-     .high = 1000},
+     .high = 1000,
+     .sought = Sought::tip},
 };
 
 Vec3 probe_step(const TouchScene& scene, const double* theta, const double*) {

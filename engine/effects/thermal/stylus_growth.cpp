@@ -29,7 +29,8 @@ constexpr EffectParameter kStylusGrowthParameters[] = {
      .typical = 600,
      .low = 0,
      .high = 1e6,
-     .standard = 600},
+     .standard = 600,
+     .sought = Sought::time_constant},
 };
 
 Vec3 stylus_growth(const TouchScene& scene, const double* theta, const double*) {
