@@ -33,14 +33,10 @@ void spoil_actual(Lowering& lowering, const std::optional<std::string>& label, c
     lowering.actuals.set(feature->value, {false, reason});
 }
 
-bool one_of(std::string_view word, std::initializer_list<std::string_view> list) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
-
-void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_view word, const std::string& reason) {
+void spoil_measurement(Lowering& lowering, const RawStatement& raw, Doubt doubt, const std::string& reason) {
   if (lowering.measuring) {
     if (lowering.measuring->spoilt.empty()) lowering.measuring->spoilt = reason;
-  } else if (one_of(word, {"MEAS", "RMEAS", "CALIB"})) {
+  } else if (doubt == Doubt::measurement) {
     OpenMeasure block;  // its PTMEAS and ENDMES are no mistakes of their own
     block.line = raw.line;
     block.span = raw.span;
@@ -52,51 +48,59 @@ void spoil_measurement(Lowering& lowering, const RawStatement& raw, std::string_
   }
 }
 
-/// Words that say how touches are made, compensated and fitted; the first argument of some says what of
-/// several things they set.
-bool is_setting(std::string_view word) {
-  return one_of(word, {"PRCOMP", "TECOMP", "FLY", "MODE", "SNSMNT", "SNSET", "FEDRAT", "ACLRAT", "GEOALG"});
-}
-std::string setting_of(const RawStatement& raw, std::string_view word) {
-  const bool several = one_of(word, {"SNSET", "FEDRAT", "ACLRAT", "GEOALG"}) && !raw.arguments.empty();
-  return several ? fmt::format("{}/{}", word, upper(raw.arguments.front().text)) : std::string(word);
+void lose_characteristic(Lowering& lowering, const RawStatement& raw) {
+  const int line = lowering.here().second;
+  std::vector<Lost>& lost = lowering.out.lost;
+  if (std::any_of(lost.begin(), lost.end(), [&](const Lost& l) { return l.line == line; })) return;
+  lost.push_back({line, label_argument(lowering, raw, "FA", "F").value_or(""), lowering.failure});
 }
 
-/// Words that decide which statements run: without this one, what follows may not be run, or something else before it.
-bool decides(std::string_view word) {
-  const Statement* statement = find_statement(word);
-  return word == "DMESW" || (statement && statement->control != Control::none);
+std::string setting_of(const RawStatement& raw, const Statement& statement) {
+  const bool several = statement.doubt == Doubt::one_setting && !raw.arguments.empty();
+  return several ? fmt::format("{}/{}", statement.word, upper(raw.arguments.front().text))
+                 : std::string(statement.word);
 }
 
 }  // namespace
 
 void settle(Lowering& lowering, const RawStatement& raw) {
-  const std::string setting = setting_of(raw, raw.word);
-  const bool all = setting == "GEOALG/ALL";
+  const Statement* statement = find_statement(raw.word);
+  if (!statement) return;
+  const std::string setting = setting_of(raw, *statement);
+  const std::string all_of_them = setting.ends_with("/ALL") ? setting.substr(0, setting.size() - 3) : setting;
   std::erase_if(lowering.setting_doubts, [&](const auto& doubt) {
-    return doubt.first == setting || (all && doubt.first.starts_with("GEOALG"));
+    return doubt.first == setting || (all_of_them != setting && doubt.first.starts_with(all_of_them));
   });
 }
 
 void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view word) {
   const std::string reason = lowering.blame();
   if (raw.label) lowering.symbols.spoilt.set(spoilt_key(raw.label->kind, raw.label->name), reason);
-  spoil_measurement(lowering, raw, word, reason);
-  if (word == "CONST") spoil_actual(lowering, label_argument(lowering, raw, "F", "F"), reason);
-  if (word == "DATDEF")
-    if (const auto datum = label_argument(lowering, raw, "DAT", "DAT"))
-      lowering.symbols.spoilt.set(spoilt_key("DAT", *datum), reason);
-  const bool recalls_frame = word == "RECALL" && label_argument(lowering, raw, "D", "DA");
-  if (one_of(word, {"DATSET", "TRANS", "ROTATE"}) || recalls_frame) lowering.frame_doubt = reason;
-  if (word == "UNITS") lowering.unit_doubt = reason;
-  const bool selects = word == "SNSLCT" || (word == "CALIB" && label_argument(lowering, raw, "S", "SA"));
-  if (selects) lowering.sensor_doubt = reason;
-  if (is_setting(word)) lowering.setting_doubts.emplace(setting_of(raw, word), reason);
-  if (decides(word) && lowering.flow_doubt.empty()) lowering.flow_doubt = reason;
-  const int line = lowering.here().second;
-  if (one_of(word, {"OUTPUT", "EVAL"}) &&
-      std::none_of(lowering.out.lost.begin(), lowering.out.lost.end(), [&](const Lost& l) { return l.line == line; })) {
-    lowering.out.lost.push_back({line, label_argument(lowering, raw, "FA", "F").value_or(""), lowering.failure});
+  const Statement* statement = find_statement(word);
+  const Doubt doubt = statement ? statement->doubt : Doubt::none;
+  spoil_measurement(lowering, raw, doubt, reason);
+  const bool decides = doubt == Doubt::course || (statement && statement->control != Control::none);
+  if (decides && lowering.flow_doubt.empty()) lowering.flow_doubt = reason;
+  switch (doubt) {
+    case Doubt::none:
+    case Doubt::course: break;
+    case Doubt::measurement:
+      if (label_argument(lowering, raw, "S", "SA")) lowering.sensor_doubt = reason;
+      break;
+    case Doubt::construction: spoil_actual(lowering, label_argument(lowering, raw, "F", "F"), reason); break;
+    case Doubt::datum:
+      if (const auto datum = label_argument(lowering, raw, "DAT", "DAT"))
+        lowering.symbols.spoilt.set(spoilt_key("DAT", *datum), reason);
+      break;
+    case Doubt::recall:
+      if (label_argument(lowering, raw, "D", "DA")) lowering.frame_doubt = reason;
+      break;
+    case Doubt::frame: lowering.frame_doubt = reason; break;
+    case Doubt::units: lowering.unit_doubt = reason; break;
+    case Doubt::sensor: lowering.sensor_doubt = reason; break;
+    case Doubt::setting:
+    case Doubt::one_setting: lowering.setting_doubts.emplace(setting_of(raw, *statement), reason); break;
+    case Doubt::characteristic: lose_characteristic(lowering, raw); break;
   }
 }
 

@@ -33,17 +33,35 @@ enum class Control {
   lost,           ///< one of these that opens or closes nothing, already reported
 };
 
+/// What an error in a statement takes away besides its label (follow_up.hpp).
+enum class Doubt {
+  none,
+  measurement,     ///< the feature that it begins to measure, or the sensor that it calibrates
+  construction,    ///< the feature that it constructs
+  datum,           ///< the one that it defines
+  frame,           ///< the current coordinate system
+  recall,          ///< that too, where a frame is recalled
+  units,           ///< of all that follows
+  sensor,          ///< the one in use
+  setting,         ///< how touches are made, compensated and fitted
+  one_setting,     ///< of several: the one that its first argument names
+  characteristic,  ///< the one that it evaluates
+  course,          ///< which statements run; so does every word of control
+};
+
 struct Statement {
-  std::string_view word;   ///< upper case
-  std::string_view label;  ///< kind of label before the `=`: "F"; "=" for a variable; "" for none; "*" for any or none
-  std::string_view signature;  ///< notation: engine/base/arguments.hpp and lang/signature.hpp
-  std::string_view help;       ///< what it does, in a line or two
-  std::string_view example;    ///< a complete statement
-  std::string_view source;     ///< standard, or where else the form was read
+  std::string_view word;  ///< upper case
+  std::string_view label =
+      {};  ///< kind of label before the `=`: "F"; "=" for a variable; "" for none; "*" for any or none
+  std::string_view signature = {};  ///< notation: engine/base/arguments.hpp and lang/signature.hpp
+  std::string_view help;            ///< what it does, in a line or two
+  std::string_view example;         ///< a complete statement
+  std::string_view source;          ///< standard, or where else the form was read
   /// nullptr for a word of control
-  void (*lower)(Lowering&, const RawStatement&, const Match&);
+  void (*lower)(Lowering&, const RawStatement&, const Match&) = nullptr;
   Varying varying = Varying::refused;  ///< whether its numbers may depend on what is measured
   Control control = Control::none;
+  Doubt doubt = Doubt::none;
 };
 
 /// `lower` of a statement that means nothing to a virtual machine: understood, and skipped without a message.

@@ -133,59 +133,77 @@ void recall(Lowering& lowering, const RawStatement&, const Match& match) {
 
 extern const Statement kDatdef, kDatset, kTrans, kRotate, kSave, kRecall;
 
-const Statement kDatdef = {"DATDEF",
-                           "",
-                           "feature:feature, datum:datum",
-                           "Makes a measured or constructed feature a datum.",
-                           "DATDEF/FA(TOP),DAT(A)",
-                           "ISO 22093, DATDEF",
-                           bind_datum};
+const Statement kDatdef = {
+    .word = "DATDEF",
+    .signature = "feature:feature, datum:datum",
+    .help = "Makes a measured or constructed feature a datum.",
+    .example = "DATDEF/FA(TOP),DAT(A)",
+    .source = "ISO 22093, DATDEF",
+    .lower = bind_datum,
+    .doubt = Doubt::datum,
+};
 const Statement kDatset = {
-    "DATSET",
-    "D",
-    "( MCS ; TRMATX, xi:number, xj:number, xk:number, yi:number, yj:number, yk:number, zi:number, "
-    "zj:number, zk:number, tx:length, ty:length, tz:length ; datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG, "
-    "{ ( datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ; "
-    "use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ) } )",
-    "Sets the coordinate system: from datums, each with the axis that it directs and the origins "
-    "that it fixes; from a matrix (its rows are the axes) and an origin; or the machine's own (MCS).",
-    "D(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG",
-    "ISO 22093, DATSET",
-    set_frame};
-const Statement kTrans = {"TRANS",
-                          "D",
-                          "at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ), "
-                          "{ at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ) }",
-                          "Moves the origin of the current coordinate system, to a feature or by a length.",
-                          "D(PART)=TRANS/XORIG,FA(CORNER),ZORIG,-30",
-                          "ISO 22093, TRANS",
-                          translate,
-                          Varying::taken};
-const Statement kRotate = {"ROTATE",
-                           "D",
-                           "axis:XAXIS|YAXIS|ZAXIS, ( angle:angle ; ( to:feature ; to:datum ), "
-                           "toward:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR )",
-                           "Turns the current coordinate system about one of its axes, by an angle "
-                           "or until a feature points along a direction.",
-                           "D(PART)=ROTATE/ZAXIS,FA(EDGE),XDIR",
-                           "ISO 22093, ROTATE",
-                           rotate,
-                           Varying::taken};
+    .word = "DATSET",
+    .label = "D",
+    .signature =
+        "( MCS ; TRMATX, xi:number, xj:number, xk:number, yi:number, yj:number, yk:number, zi:number, "
+        "zj:number, zk:number, tx:length, ty:length, tz:length ; datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG, "
+        "{ ( datum:datum, use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ; "
+        "use:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR|XORIG|YORIG|ZORIG ) } )",
+    .help =
+        "Sets the coordinate system: from datums, each with the axis that it directs and the origins "
+        "that it fixes; from a matrix (its rows are the axes) and an origin; or the machine's own (MCS).",
+    .example = "D(PART)=DATSET/DAT(A),ZDIR,ZORIG,DAT(B),XDIR,YORIG",
+    .source = "ISO 22093, DATSET",
+    .lower = set_frame,
+    .doubt = Doubt::frame,
+};
+const Statement kTrans = {
+    .word = "TRANS",
+    .label = "D",
+    .signature =
+        "at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ), "
+        "{ at:XORIG|YORIG|ZORIG, ( by:length ; from:feature ; from:datum ) }",
+    .help = "Moves the origin of the current coordinate system, to a feature or by a length.",
+    .example = "D(PART)=TRANS/XORIG,FA(CORNER),ZORIG,-30",
+    .source = "ISO 22093, TRANS",
+    .lower = translate,
+    .varying = Varying::taken,
+    .doubt = Doubt::frame,
+};
+const Statement kRotate = {
+    .word = "ROTATE",
+    .label = "D",
+    .signature =
+        "axis:XAXIS|YAXIS|ZAXIS, ( angle:angle ; ( to:feature ; to:datum ), "
+        "toward:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR )",
+    .help =
+        "Turns the current coordinate system about one of its axes, by an angle "
+        "or until a feature points along a direction.",
+    .example = "D(PART)=ROTATE/ZAXIS,FA(EDGE),XDIR",
+    .source = "ISO 22093, ROTATE",
+    .lower = rotate,
+    .varying = Varying::taken,
+    .doubt = Doubt::frame,
+};
 const Statement kSave = {
-    "SAVE",
-    "",
-    "( frame:frame ; sensor:sensor ; feature:feature ), ...",
-    "Keeps a coordinate system, sensor or feature. All are kept here anyway; the label is checked.",
-    "SAVE/DA(PART)",
-    "ISO 22093, SAVE",
-    save};
-const Statement kRecall = {"RECALL",
-                           "",
-                           "( frame:frame ; sensor:sensor ), ...",
-                           "Makes a coordinate system current again, D(MCS) the machine's own; or "
-                           "announces a sensor of the machine file.",
-                           "RECALL/DA(PART)",
-                           "ISO 22093, RECALL",
-                           recall};
+    .word = "SAVE",
+    .signature = "( frame:frame ; sensor:sensor ; feature:feature ), ...",
+    .help = "Keeps a coordinate system, sensor or feature. All are kept here anyway; the label is checked.",
+    .example = "SAVE/DA(PART)",
+    .source = "ISO 22093, SAVE",
+    .lower = save,
+};
+const Statement kRecall = {
+    .word = "RECALL",
+    .signature = "( frame:frame ; sensor:sensor ), ...",
+    .help =
+        "Makes a coordinate system current again, D(MCS) the machine's own; or "
+        "announces a sensor of the machine file.",
+    .example = "RECALL/DA(PART)",
+    .source = "ISO 22093, RECALL",
+    .lower = recall,
+    .doubt = Doubt::recall,
+};
 
 }  // namespace abbe::lang

@@ -73,19 +73,23 @@ void construct(Lowering& lowering, const RawStatement& raw, const Match& match) 
 
 extern const Statement kFeat, kConst;
 
-const Statement kFeat = {"FEAT",
-                         "F",
-                         "kind:word, ...",
-                         "Defines the nominal of a feature in the current coordinate system.",
-                         "F(BORE)=FEAT/CIRCLE,INNER,CART,50,50,40,0,0,1,50",
-                         "ISO 22093, FEAT",
-                         define_feature};
-const Statement kConst = {"CONST",
-                          "",
-                          "kind:word, feature:feature, method:word, ...",
-                          "Constructs the feature F(l), defined before, from other features.",
-                          "CONST/LINE,F(EDGE),INTOF,FA(TOP),FA(FRONT)",
-                          "ISO 22093, CONST",
-                          construct};
+const Statement kFeat = {
+    .word = "FEAT",
+    .label = "F",
+    .signature = "kind:word, ...",
+    .help = "Defines the nominal of a feature in the current coordinate system.",
+    .example = "F(BORE)=FEAT/CIRCLE,INNER,CART,50,50,40,0,0,1,50",
+    .source = "ISO 22093, FEAT",
+    .lower = define_feature,
+};
+const Statement kConst = {
+    .word = "CONST",
+    .signature = "kind:word, feature:feature, method:word, ...",
+    .help = "Constructs the feature F(l), defined before, from other features.",
+    .example = "CONST/LINE,F(EDGE),INTOF,FA(TOP),FA(FRONT)",
+    .source = "ISO 22093, CONST",
+    .lower = construct,
+    .doubt = Doubt::construction,
+};
 
 }  // namespace abbe::lang

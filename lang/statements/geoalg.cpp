@@ -40,14 +40,16 @@ void choose_criterion(Lowering& lowering, const RawStatement& raw, const Match& 
 extern const Statement kGeoalg;
 
 const Statement kGeoalg = {
-    "GEOALG",
-    "",
-    "kind:word, method:LSTSQR|MINMAX|MAXINS|MINCIR|DEFALT",
-    "How features of a kind, or ALL that can be, are fitted from here on: least squares (also DEFALT), "
-    "minimum zone (MINMAX), maximum inscribed (MAXINS), minimum circumscribed (MINCIR). Form "
-    "tolerances are taken about that element.",
-    "GEOALG/CIRCLE,MAXINS",
-    "ISO 22093, GEOALG; ISO 12181-1, ISO 14405-1",
-    choose_criterion};
+    .word = "GEOALG",
+    .signature = "kind:word, method:LSTSQR|MINMAX|MAXINS|MINCIR|DEFALT",
+    .help =
+        "How features of a kind, or ALL that can be, are fitted from here on: least squares (also DEFALT), "
+        "minimum zone (MINMAX), maximum inscribed (MAXINS), minimum circumscribed (MINCIR). Form "
+        "tolerances are taken about that element.",
+    .example = "GEOALG/CIRCLE,MAXINS",
+    .source = "ISO 22093, GEOALG; ISO 12181-1, ISO 14405-1",
+    .lower = choose_criterion,
+    .doubt = Doubt::one_setting,
+};
 
 }  // namespace abbe::lang

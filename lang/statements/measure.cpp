@@ -223,50 +223,65 @@ void end_measure(Lowering& lowering, const RawStatement& raw, const Match&) {
 
 extern const Statement kMeas, kRmeas, kCalib, kPtmeas, kEndmes;
 
-const Statement kMeas = {"MEAS",
-                         "",
-                         "kind:word, feature:feature, count:integer",
-                         "Begins the measurement of a feature with this many touches; PTMEAS and "
-                         "GOTO follow, up to ENDMES. Without PTMEAS the machine touches it at its "
-                         "default points.",
-                         "MEAS/CIRCLE,F(BORE),4",
-                         "ISO 22093, MEAS",
-                         begin_measure};
+const Statement kMeas = {
+    .word = "MEAS",
+    .signature = "kind:word, feature:feature, count:integer",
+    .help =
+        "Begins the measurement of a feature with this many touches; PTMEAS and "
+        "GOTO follow, up to ENDMES. Without PTMEAS the machine touches it at its "
+        "default points.",
+    .example = "MEAS/CIRCLE,F(BORE),4",
+    .source = "ISO 22093, MEAS",
+    .lower = begin_measure,
+    .doubt = Doubt::measurement,
+};
 const Statement kRmeas = {
-    "RMEAS",
-    "",
-    "kind:word, feature:feature, count:integer, ( VECBLD, radius:length, touches:integer ; "
-    "reference:feature, [ axis:XAXIS|YAXIS|ZAXIS ] )",
-    "Begins a measurement as MEAS does, relative to a feature measured before: every touch is "
-    "displaced by what FA(reference) lies beside its nominal, or by the part of that along an axis. "
-    "VECBLD, which looks for the direction of the surface first, measures along the vectors of "
-    "PTMEAS, with a warning.",
-    "RMEAS/CIRCLE,F(BORE),4,FA(FACE)",
-    "ISO 22093, RMEAS",
-    begin_relative};
+    .word = "RMEAS",
+    .signature =
+        "kind:word, feature:feature, count:integer, ( VECBLD, radius:length, touches:integer ; "
+        "reference:feature, [ axis:XAXIS|YAXIS|ZAXIS ] )",
+    .help =
+        "Begins a measurement as MEAS does, relative to a feature measured before: every touch is "
+        "displaced by what FA(reference) lies beside its nominal, or by the part of that along an axis. "
+        "VECBLD, which looks for the direction of the surface first, measures along the vectors of "
+        "PTMEAS, with a warning.",
+    .example = "RMEAS/CIRCLE,F(BORE),4,FA(FACE)",
+    .source = "ISO 22093, RMEAS",
+    .lower = begin_relative,
+    .doubt = Doubt::measurement,
+};
 const Statement kCalib = {
-    "CALIB",
-    "",
-    "( SENS, sensor:sensor, feature:feature, count:integer ; MASTER, feature:feature, count:integer )",
-    "Qualifies a sensor on a sphere; PTMEAS follow, up to ENDMES. The touches are made and FA(sphere) "
-    "is measured. The sensor stays as the machine file describes it: what a qualification leaves of "
-    "errors is part of the machine, by the effects of its head and probe.",
-    "CALIB/SENS,S(P1),F(BALL),25",
-    "ISO 22093, CALIB",
-    begin_calibration};
-const Statement kPtmeas = {"PTMEAS",
-                           "",
-                           "( CART, x:length, y:length, z:length ; POL, r:length, a:angle, "
-                           "h:length ), [ i:number, j:number, k:number ]",
-                           "Touches the surface at a point; i,j,k points out of the material and "
-                           "the machine travels against it. Without a "
-                           "vector the nominal feature supplies it.",
-                           "PTMEAS/CART,10,20,0,0,0,1",
-                           "ISO 22093, PTMEAS",
-                           touch,
-                           Varying::taken};
+    .word = "CALIB",
+    .signature = "( SENS, sensor:sensor, feature:feature, count:integer ; MASTER, feature:feature, count:integer )",
+    .help =
+        "Qualifies a sensor on a sphere; PTMEAS follow, up to ENDMES. The touches are made and FA(sphere) "
+        "is measured. The sensor stays as the machine file describes it: what a qualification leaves of "
+        "errors is part of the machine, by the effects of its head and probe.",
+    .example = "CALIB/SENS,S(P1),F(BALL),25",
+    .source = "ISO 22093, CALIB",
+    .lower = begin_calibration,
+    .doubt = Doubt::measurement,
+};
+const Statement kPtmeas = {
+    .word = "PTMEAS",
+    .signature =
+        "( CART, x:length, y:length, z:length ; POL, r:length, a:angle, "
+        "h:length ), [ i:number, j:number, k:number ]",
+    .help =
+        "Touches the surface at a point; i,j,k points out of the material and "
+        "the machine travels against it. Without a "
+        "vector the nominal feature supplies it.",
+    .example = "PTMEAS/CART,10,20,0,0,0,1",
+    .source = "ISO 22093, PTMEAS",
+    .lower = touch,
+    .varying = Varying::taken,
+};
 const Statement kEndmes = {
-    "ENDMES",   "", "", "Ends a measurement and fits the feature to its touches.", "ENDMES", "ISO 22093, ENDMES",
-    end_measure};
+    .word = "ENDMES",
+    .help = "Ends a measurement and fits the feature to its touches.",
+    .example = "ENDMES",
+    .source = "ISO 22093, ENDMES",
+    .lower = end_measure,
+};
 
 }  // namespace abbe::lang

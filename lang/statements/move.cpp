@@ -58,27 +58,35 @@ void go_home(Lowering& lowering, const RawStatement& raw, const Match&) {
 
 extern const Statement kGoto, kFrom, kGohome;
 
-const Statement kGoto = {"GOTO",
-                         "",
-                         "( POL, r:length, a:angle, h:length ; INCR, distance:length, i:number, j:number, k:number ; "
-                         "[ CART ], x:length, y:length, z:length ), [ turn:HEADCS|PROBCS|DATUMCS|SNSLCT|WRIST ], ...",
-                         "Moves the centre of the tip to a point of the current coordinate system; POL: radius, angle, "
-                         "height; INCR: by a distance along a vector. The head is turned by SNSLCT; a GOTO that "
-                         "would turn it is refused (E0256).",
-                         "GOTO/10,20,30",
-                         "ISO 22093, GOTO",
-                         go,
-                         Varying::taken};
+const Statement kGoto = {
+    .word = "GOTO",
+    .signature =
+        "( POL, r:length, a:angle, h:length ; INCR, distance:length, i:number, j:number, k:number ; "
+        "[ CART ], x:length, y:length, z:length ), [ turn:HEADCS|PROBCS|DATUMCS|SNSLCT|WRIST ], ...",
+    .help =
+        "Moves the centre of the tip to a point of the current coordinate system; POL: radius, angle, "
+        "height; INCR: by a distance along a vector. The head is turned by SNSLCT; a GOTO that "
+        "would turn it is refused (E0256).",
+    .example = "GOTO/10,20,30",
+    .source = "ISO 22093, GOTO",
+    .lower = go,
+    .varying = Varying::taken,
+};
 const Statement kFrom = {
-    "FROM",
-    "",
-    "( POL, r:length, a:angle, h:length ; [ CART ], x:length, y:length, z:length )",
-    "Says where the tip is at home: a point of the coordinate system current here. GOHOME moves there.",
-    "FROM/0,0,200",
-    "ISO 22093, FROM",
-    set_home,
-    Varying::taken};
+    .word = "FROM",
+    .signature = "( POL, r:length, a:angle, h:length ; [ CART ], x:length, y:length, z:length )",
+    .help = "Says where the tip is at home: a point of the coordinate system current here. GOHOME moves there.",
+    .example = "FROM/0,0,200",
+    .source = "ISO 22093, FROM",
+    .lower = set_home,
+    .varying = Varying::taken,
+};
 const Statement kGohome = {
-    "GOHOME", "", "", "Moves the centre of the tip to where FROM says.", "GOHOME", "ISO 22093, GOHOME", go_home};
+    .word = "GOHOME",
+    .help = "Moves the centre of the tip to where FROM says.",
+    .example = "GOHOME",
+    .source = "ISO 22093, GOHOME",
+    .lower = go_home,
+};
 
 }  // namespace abbe::lang

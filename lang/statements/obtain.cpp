@@ -248,13 +248,15 @@ void obtain(Lowering& lowering, const RawStatement& raw, const Match& match) {
 
 extern const Statement kObtain;
 const Statement kObtain = {
-    "OBTAIN",
-    "=",
-    "( feature:feature ; tolerance:tolerance ; sensor:sensor ), index:integer",
-    "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as measured, in the current "
-    "coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
-    "X=OBTAIN/FA(BORE),5",
-    "ISO 22093, OBTAIN",
-    obtain};
+    .word = "OBTAIN",
+    .label = "=",
+    .signature = "( feature:feature ; tolerance:tolerance ; sensor:sensor ), index:integer",
+    .help =
+        "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as measured, in the current "
+        "coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
+    .example = "X=OBTAIN/FA(BORE),5",
+    .source = "ISO 22093, OBTAIN",
+    .lower = obtain,
+};
 
 }  // namespace abbe::lang

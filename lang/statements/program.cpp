@@ -50,48 +50,64 @@ void switch_software(Lowering& lowering, const RawStatement&, const Match& match
 
 extern const Statement kDmismn, kEndfil, kUnits, kMode, kDmesw, kDmeswv;
 
-const Statement kDmismn = {"DMISMN",
-                           "",
-                           "name:text, [ version:number, ... ]",
-                           "Begins a program and names it. One program per file.",
-                           "DMISMN/'gauge block',5.2",
-                           "ISO 22093, DMISMN",
-                           begin_program};
-const Statement kEndfil = {"ENDFIL", "", "", "Ends the program.", "ENDFIL", "ISO 22093, ENDFIL", end_program};
-const Statement kUnits = {"UNITS",
-                          "",
-                          "unit:MM|CM|M|INCH|FEET, angle:ANGDEC|ANGDMS|ANGRAD, [ temperature:TEMPC|TEMPF ]",
-                          "Units of all lengths and angles that follow. ANGDMS also takes degrees:minutes:seconds. "
-                          "Without it: mm, degrees.",
-                          "UNITS/MM,ANGDEC",
-                          "ISO 22093, UNITS",
-                          set_units};
+const Statement kDmismn = {
+    .word = "DMISMN",
+    .signature = "name:text, [ version:number, ... ]",
+    .help = "Begins a program and names it. One program per file.",
+    .example = "DMISMN/'gauge block',5.2",
+    .source = "ISO 22093, DMISMN",
+    .lower = begin_program,
+};
+const Statement kEndfil = {
+    .word = "ENDFIL",
+    .help = "Ends the program.",
+    .example = "ENDFIL",
+    .source = "ISO 22093, ENDFIL",
+    .lower = end_program,
+};
+const Statement kUnits = {
+    .word = "UNITS",
+    .signature = "unit:MM|CM|M|INCH|FEET, angle:ANGDEC|ANGDMS|ANGRAD, [ temperature:TEMPC|TEMPF ]",
+    .help =
+        "Units of all lengths and angles that follow. ANGDMS also takes degrees:minutes:seconds. "
+        "Without it: mm, degrees.",
+    .example = "UNITS/MM,ANGDEC",
+    .source = "ISO 22093, UNITS",
+    .lower = set_units,
+    .doubt = Doubt::units,
+};
 const Statement kMode = {
-    "MODE",
-    "",
-    "mode:AUTO|PROG|MAN, { mode:AUTO|PROG|MAN }",
-    "Who chooses the touches, in order of preference: the machine (AUTO), the program (PROG), the "
-    "operator (MAN). "
-    "A block is measured at its PTMEAS points; one without them at the default points of its feature, "
-    "unless MODE leaves AUTO out.",
-    "MODE/PROG,MAN",
-    "ISO 22093, MODE",
-    set_mode};
-const Statement kDmesw = {"DMESW",
-                          "",
-                          "( state:ON|OFF ; ... )",
-                          "OFF: the statements up to DMESW/ON are for another program and are "
-                          "skipped. Other forms speak to the "
-                          "software of a real machine and are skipped themselves.",
-                          "DMESW/OFF",
-                          "ISO 22093, DMESW; the region as written by production software",
-                          switch_software};
-const Statement kDmeswv = {"DMESWV",
-                           "",
-                           "...",
-                           "Names the version of the software of a real machine. Skipped.",
-                           "DMESWV/'4.0'",
-                           "ISO 22093, DMESWV",
-                           skip};
+    .word = "MODE",
+    .signature = "mode:AUTO|PROG|MAN, { mode:AUTO|PROG|MAN }",
+    .help =
+        "Who chooses the touches, in order of preference: the machine (AUTO), the program (PROG), the "
+        "operator (MAN). "
+        "A block is measured at its PTMEAS points; one without them at the default points of its feature, "
+        "unless MODE leaves AUTO out.",
+    .example = "MODE/PROG,MAN",
+    .source = "ISO 22093, MODE",
+    .lower = set_mode,
+    .doubt = Doubt::setting,
+};
+const Statement kDmesw = {
+    .word = "DMESW",
+    .signature = "( state:ON|OFF ; ... )",
+    .help =
+        "OFF: the statements up to DMESW/ON are for another program and are "
+        "skipped. Other forms speak to the "
+        "software of a real machine and are skipped themselves.",
+    .example = "DMESW/OFF",
+    .source = "ISO 22093, DMESW; the region as written by production software",
+    .lower = switch_software,
+    .doubt = Doubt::course,
+};
+const Statement kDmeswv = {
+    .word = "DMESWV",
+    .signature = "...",
+    .help = "Names the version of the software of a real machine. Skipped.",
+    .example = "DMESWV/'4.0'",
+    .source = "ISO 22093, DMESWV",
+    .lower = skip,
+};
 
 }  // namespace abbe::lang

@@ -119,38 +119,48 @@ void select_sensor(Lowering& lowering, const RawStatement&, const Match& match) 
 extern const Statement kSnsmnt, kSnsdef, kSnslct;
 
 const Statement kSnsmnt = {
-    "SNSMNT",
-    "",
-    "XVEC, xi:number, xj:number, xk:number, ZVEC, zi:number, zj:number, zk:number, "
-    "MNTLEN, dx:length, dy:length, dz:length",
-    "How the head or probe hangs on the ram, for the sensors defined after it: XVEC turns it about "
-    "the ram, MNTLEN "
-    "leads from the ram to the head's centre. It hangs down whatever the sign of dz.",
-    "SNSMNT/XVEC,1,0,0,ZVEC,0,0,-1,MNTLEN,0,0,-175",
-    "ISO 22093, SNSMNT",
-    set_mount};
+    .word = "SNSMNT",
+    .signature =
+        "XVEC, xi:number, xj:number, xk:number, ZVEC, zi:number, zj:number, zk:number, "
+        "MNTLEN, dx:length, dy:length, dz:length",
+    .help =
+        "How the head or probe hangs on the ram, for the sensors defined after it: XVEC turns it about "
+        "the ram, MNTLEN "
+        "leads from the ram to the head's centre. It hangs down whatever the sign of dz.",
+    .example = "SNSMNT/XVEC,1,0,0,ZVEC,0,0,-1,MNTLEN,0,0,-175",
+    .source = "ISO 22093, SNSMNT",
+    .lower = set_mount,
+    .doubt = Doubt::setting,
+};
 const Statement kSnsdef = {
-    "SNSDEF",
-    "S",
-    "PROBE, ( carrier:FIXED, form:CART, dx:length, dy:length, dz:length, i:number, j:number, "
-    "k:number, diam:length ; "
-    "carrier:FIXED, form:VEC, i:number, j:number, k:number, len:length, diam:length ; "
-    "carrier:INDEX, form:POL, a:angle, b:angle, i:number, j:number, k:number, len:length, "
-    "diam:length ; "
-    "carrier:INDEX, form:CART, dx:length, dy:length, dz:length, i:number, j:number, k:number, "
-    "diam:length ; "
-    "carrier:INDEX, form:VEC, i:number, j:number, k:number, len:length, diam:length )",
-    "A touch probe. FIXED: the tip's offset from the mount. INDEX: on the articulating head at "
-    "angles A (from straight "
-    "down) and B (about the ram), from the head's centre to the ball `len`. A stylus hangs down in "
-    "either sign of its vector.",
-    "S(P1)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4",
-    "ISO 22093, SNSDEF",
-    define_sensor};
+    .word = "SNSDEF",
+    .label = "S",
+    .signature =
+        "PROBE, ( carrier:FIXED, form:CART, dx:length, dy:length, dz:length, i:number, j:number, "
+        "k:number, diam:length ; "
+        "carrier:FIXED, form:VEC, i:number, j:number, k:number, len:length, diam:length ; "
+        "carrier:INDEX, form:POL, a:angle, b:angle, i:number, j:number, k:number, len:length, "
+        "diam:length ; "
+        "carrier:INDEX, form:CART, dx:length, dy:length, dz:length, i:number, j:number, k:number, "
+        "diam:length ; "
+        "carrier:INDEX, form:VEC, i:number, j:number, k:number, len:length, diam:length )",
+    .help =
+        "A touch probe. FIXED: the tip's offset from the mount. INDEX: on the articulating head at "
+        "angles A (from straight "
+        "down) and B (about the ram), from the head's centre to the ball `len`. A stylus hangs down in "
+        "either sign of its vector.",
+    .example = "S(P1)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4",
+    .source = "ISO 22093, SNSDEF",
+    .lower = define_sensor,
+};
 const Statement kSnslct = {
-    "SNSLCT",        "",
-    "sensor:sensor", "Puts a sensor to use. SA(name) not defined in the program comes from the machine file.",
-    "SNSLCT/S(P1)",  "ISO 22093, SNSLCT",
-    select_sensor};
+    .word = "SNSLCT",
+    .signature = "sensor:sensor",
+    .help = "Puts a sensor to use. SA(name) not defined in the program comes from the machine file.",
+    .example = "SNSLCT/S(P1)",
+    .source = "ISO 22093, SNSLCT",
+    .lower = select_sensor,
+    .doubt = Doubt::sensor,
+};
 
 }  // namespace abbe::lang

@@ -84,43 +84,59 @@ void set_compensation(Lowering& lowering, const RawStatement&, const Match& matc
 extern const Statement kSnset, kFedrat, kAclrat, kFly, kPrcomp;
 
 const Statement kSnset = {
-    "SNSET",
-    "",
-    "( setting:APPRCH|SEARCH|RETRCT|CLRSRF|DEPTH, distance:length ; setting:CLRSRF|DEPTH, OFF ; "
-    "setting:CLRSRF|DEPTH, surface:feature, [ distance:length ] )",
-    "Distances of a touch: from where it starts (APPRCH), how far it searches (SEARCH), how far it "
-    "retracts (RETRCT). CLRSRF and DEPTH, which keep clear of surfaces, are skipped.",
-    "SNSET/APPRCH,5.0",
-    "ISO 22093, SNSET",
-    set_sensor_path};
+    .word = "SNSET",
+    .signature =
+        "( setting:APPRCH|SEARCH|RETRCT|CLRSRF|DEPTH, distance:length ; setting:CLRSRF|DEPTH, OFF ; "
+        "setting:CLRSRF|DEPTH, surface:feature, [ distance:length ] )",
+    .help =
+        "Distances of a touch: from where it starts (APPRCH), how far it searches (SEARCH), how far it "
+        "retracts (RETRCT). CLRSRF and DEPTH, which keep clear of surfaces, are skipped.",
+    .example = "SNSET/APPRCH,5.0",
+    .source = "ISO 22093, SNSET",
+    .lower = set_sensor_path,
+    .doubt = Doubt::one_setting,
+};
 const Statement kFedrat = {
-    "FEDRAT",
-    "",
-    "( speed:POSVEL|MESVEL|SCNVEL, ( unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; level:DEFALT|HIGH|LOW ) ; ROTVEL, ... )",
-    "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed; "
-    "DEFALT: that speed. "
-    "ROTVEL, of a rotary table, is skipped.",
-    "FEDRAT/POSVEL,MPM,1.8",
-    "ISO 22093, FEDRAT",
-    set_speed};
+    .word = "FEDRAT",
+    .signature =
+        "( speed:POSVEL|MESVEL|SCNVEL, ( unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; level:DEFALT|HIGH|LOW ) ; ROTVEL, ... )",
+    .help =
+        "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed; "
+        "DEFALT: that speed. "
+        "ROTVEL, of a rotary table, is skipped.",
+    .example = "FEDRAT/POSVEL,MPM,1.8",
+    .source = "ISO 22093, FEDRAT",
+    .lower = set_speed,
+    .doubt = Doubt::one_setting,
+};
 const Statement kAclrat = {
-    "ACLRAT",
-    "",
-    "acceleration:POSACL|MESACL, ( unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number ; level:DEFALT|HIGH|LOW )",
-    "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2, per cent or the machine's own (DEFALT).",
-    "ACLRAT/MESACL,MMPSS,100",
-    "ISO 22093, ACLRAT",
-    set_acceleration};
-const Statement kFly = {"FLY",
-                        "",
-                        "( radius:length ; OFF )",
-                        "Passes intermediate positions within this radius instead of stopping there.",
-                        "FLY/5.0",
-                        "ISO 22093, FLY",
-                        set_fly};
-const Statement kPrcomp = {"PRCOMP",        "",
-                           "state:ON|OFF",  "ON: a touch yields the point of the surface. OFF: the centre of the tip.",
-                           "PRCOMP/ON",     "ISO 22093, PRCOMP",
-                           set_compensation};
+    .word = "ACLRAT",
+    .signature =
+        "acceleration:POSACL|MESACL, ( unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number ; level:DEFALT|HIGH|LOW )",
+    .help =
+        "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2, per cent or the machine's own (DEFALT).",
+    .example = "ACLRAT/MESACL,MMPSS,100",
+    .source = "ISO 22093, ACLRAT",
+    .lower = set_acceleration,
+    .doubt = Doubt::one_setting,
+};
+const Statement kFly = {
+    .word = "FLY",
+    .signature = "( radius:length ; OFF )",
+    .help = "Passes intermediate positions within this radius instead of stopping there.",
+    .example = "FLY/5.0",
+    .source = "ISO 22093, FLY",
+    .lower = set_fly,
+    .doubt = Doubt::setting,
+};
+const Statement kPrcomp = {
+    .word = "PRCOMP",
+    .signature = "state:ON|OFF",
+    .help = "ON: a touch yields the point of the surface. OFF: the centre of the tip.",
+    .example = "PRCOMP/ON",
+    .source = "ISO 22093, PRCOMP",
+    .lower = set_compensation,
+    .doubt = Doubt::setting,
+};
 
 }  // namespace abbe::lang

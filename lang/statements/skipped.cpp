@@ -35,76 +35,112 @@ void write_file(Lowering& lowering, const RawStatement& raw, const Match&) {
 extern const Statement kFilnam, kDisply, kText, kDevice, kOpen, kClose, kVform, kDecpl, kFinpos, kWkplan, kPause, kRead,
     kWrite;
 
-const Statement kFilnam = {"FILNAM",
-                           "",
-                           "name:text, [ version:number ]",
-                           "Names the result file: what --dmo writes begins with it.",
-                           "FILNAM/'results',5.2",
-                           "ISO 22093, FILNAM",
-                           name_result};
+const Statement kFilnam = {
+    .word = "FILNAM",
+    .signature = "name:text, [ version:number ]",
+    .help = "Names the result file: what --dmo writes begins with it.",
+    .example = "FILNAM/'results',5.2",
+    .source = "ISO 22093, FILNAM",
+    .lower = name_result,
+};
 const Statement kDisply = {
-    "DISPLY", "", "...", "Where results are shown. Skipped.", "DISPLY/TERM,DMIS", "ISO 22093, DISPLY", skip};
-const Statement kText = {"TEXT",
-                         "",
-                         "to:OPER|MAN|OUTFIL|QUERY, ...",
-                         "Text for the operator or the result file. Skipped.",
-                         "TEXT/OUTFIL,'bore'",
-                         "ISO 22093, TEXT",
-                         skip};
-const Statement kDevice = {"DEVICE",
-                           "*",
-                           "kind:word, ...",
-                           "Names a device. Skipped.",
-                           "DID(OUT)=DEVICE/STOR,'results.dmo'",
-                           "ISO 22093, DEVICE",
-                           skip};
+    .word = "DISPLY",
+    .signature = "...",
+    .help = "Where results are shown. Skipped.",
+    .example = "DISPLY/TERM,DMIS",
+    .source = "ISO 22093, DISPLY",
+    .lower = skip,
+};
+const Statement kText = {
+    .word = "TEXT",
+    .signature = "to:OPER|MAN|OUTFIL|QUERY, ...",
+    .help = "Text for the operator or the result file. Skipped.",
+    .example = "TEXT/OUTFIL,'bore'",
+    .source = "ISO 22093, TEXT",
+    .lower = skip,
+};
+const Statement kDevice = {
+    .word = "DEVICE",
+    .label = "*",
+    .signature = "kind:word, ...",
+    .help = "Names a device. Skipped.",
+    .example = "DID(OUT)=DEVICE/STOR,'results.dmo'",
+    .source = "ISO 22093, DEVICE",
+    .lower = skip,
+};
 const Statement kOpen = {
-    "OPEN", "", "device:label, ...", "Opens a device. Skipped.", "OPEN/DID(OUT),FDATA,DMIS,OUTPUT", "ISO 22093, OPEN",
-    skip};
+    .word = "OPEN",
+    .signature = "device:label, ...",
+    .help = "Opens a device. Skipped.",
+    .example = "OPEN/DID(OUT),FDATA,DMIS,OUTPUT",
+    .source = "ISO 22093, OPEN",
+    .lower = skip,
+};
 const Statement kClose = {
-    "CLOSE", "", "device:label, ...", "Closes a device. Skipped.", "CLOSE/DID(OUT)", "ISO 22093, CLOSE", skip};
-const Statement kVform = {"VFORM", "*", "...", "Form of a report. Skipped.", "V(R)=VFORM/ALL", "ISO 22093, VFORM",
-                          skip};
-const Statement kDecpl = {"DECPL",
-                          "*",
-                          "...",
-                          "Decimal places of results. Skipped: reports show what the uncertainty allows.",
-                          "DECPL/ALL,DV(3)",
-                          "ISO 22093, DECPL",
-                          skip};
-const Statement kFinpos = {"FINPOS",
-                           "",
-                           "state:ON|OFF",
-                           "Fine positioning. Skipped: it is part of the machine's specification.",
-                           "FINPOS/ON",
-                           "ISO 22093, FINPOS",
-                           skip};
+    .word = "CLOSE",
+    .signature = "device:label, ...",
+    .help = "Closes a device. Skipped.",
+    .example = "CLOSE/DID(OUT)",
+    .source = "ISO 22093, CLOSE",
+    .lower = skip,
+};
+const Statement kVform = {
+    .word = "VFORM",
+    .label = "*",
+    .signature = "...",
+    .help = "Form of a report. Skipped.",
+    .example = "V(R)=VFORM/ALL",
+    .source = "ISO 22093, VFORM",
+    .lower = skip,
+};
+const Statement kDecpl = {
+    .word = "DECPL",
+    .label = "*",
+    .signature = "...",
+    .help = "Decimal places of results. Skipped: reports show what the uncertainty allows.",
+    .example = "DECPL/ALL,DV(3)",
+    .source = "ISO 22093, DECPL",
+    .lower = skip,
+};
+const Statement kFinpos = {
+    .word = "FINPOS",
+    .signature = "state:ON|OFF",
+    .help = "Fine positioning. Skipped: it is part of the machine's specification.",
+    .example = "FINPOS/ON",
+    .source = "ISO 22093, FINPOS",
+    .lower = skip,
+};
 const Statement kWkplan = {
-    "WKPLAN",
-    "",
-    "plane:XYPLAN|YZPLAN|ZXPLAN",
-    "Working plane. Every feature here carries its own vector, so nothing depends on it. Skipped.",
-    "WKPLAN/XYPLAN",
-    "ISO 22093, WKPLAN",
-    skip};
+    .word = "WKPLAN",
+    .signature = "plane:XYPLAN|YZPLAN|ZXPLAN",
+    .help = "Working plane. Every feature here carries its own vector, so nothing depends on it. Skipped.",
+    .example = "WKPLAN/XYPLAN",
+    .source = "ISO 22093, WKPLAN",
+    .lower = skip,
+};
 const Statement kPause = {
-    "PAUSE",  "",
-    "...",    "Waits for the operator (not in the standard). Accepted with a warning: it has no effect.",
-    "PAUSE",  "production programs",
-    no_effect};
-const Statement kRead = {"READ",
-                         "",
-                         "device:label, ...",
-                         "Reads values from a file. An error: give them with ASSIGN or PROMPT instead.",
-                         "READ/DID(IN),X,Y",
-                         "ISO 22093, READ",
-                         read_file};
-const Statement kWrite = {"WRITE",
-                          "",
-                          "device:label, ...",
-                          "Writes to a file. Skipped, with one warning: no file is written.",
-                          "WRITE/DID(OUT),'bore ',X",
-                          "ISO 22093, WRITE",
-                          write_file};
+    .word = "PAUSE",
+    .signature = "...",
+    .help = "Waits for the operator (not in the standard). Accepted with a warning: it has no effect.",
+    .example = "PAUSE",
+    .source = "production programs",
+    .lower = no_effect,
+};
+const Statement kRead = {
+    .word = "READ",
+    .signature = "device:label, ...",
+    .help = "Reads values from a file. An error: give them with ASSIGN or PROMPT instead.",
+    .example = "READ/DID(IN),X,Y",
+    .source = "ISO 22093, READ",
+    .lower = read_file,
+};
+const Statement kWrite = {
+    .word = "WRITE",
+    .signature = "device:label, ...",
+    .help = "Writes to a file. Skipped, with one warning: no file is written.",
+    .example = "WRITE/DID(OUT),'bore ',X",
+    .source = "ISO 22093, WRITE",
+    .lower = write_file,
+};
 
 }  // namespace abbe::lang

@@ -17,13 +17,16 @@ void tecomp(Lowering& lowering, const RawStatement& raw, const Match& match) {
 
 extern const Statement kTecomp;
 const Statement kTecomp = {
-    "TECOMP",
-    "*",
-    "[ scope:MACH|PART ], state:ON|OFF, ...",
-    "Switches temperature compensation. It acts when a workpiece file says how warm part and scales are; the coefficients that it "
-    "reckons with stand there.",
-    "TECOMP/ON",
-    "ISO 22093, TECOMP",
-    tecomp};
+    .word = "TECOMP",
+    .label = "*",
+    .signature = "[ scope:MACH|PART ], state:ON|OFF, ...",
+    .help =
+        "Switches temperature compensation. It acts when a workpiece file says how warm part and scales are; the coefficients that it "
+        "reckons with stand there.",
+    .example = "TECOMP/ON",
+    .source = "ISO 22093, TECOMP",
+    .lower = tecomp,
+    .doubt = Doubt::setting,
+};
 
 }  // namespace abbe::lang

@@ -192,29 +192,36 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
 
 extern const Statement kTol, kOutput, kEval;
 
-const Statement kTol = {"TOL",
-                        "T",
-                        "kind:word, ...",
-                        "Defines a tolerance. Its datums may be bound later, before OUTPUT or EVAL.",
-                        "T(ROUND)=TOL/CIRLTY,0.01",
-                        "ISO 22093, TOL",
-                        define_tolerance};
+const Statement kTol = {
+    .word = "TOL",
+    .label = "T",
+    .signature = "kind:word, ...",
+    .help = "Defines a tolerance. Its datums may be bound later, before OUTPUT or EVAL.",
+    .example = "T(ROUND)=TOL/CIRLTY,0.01",
+    .source = "ISO 22093, TOL",
+    .lower = define_tolerance,
+};
 const Statement kOutput = {
-    "OUTPUT",
-    "",
-    "( feature:feature, { feature:feature }, { tolerance:tolerance } ; frame:frame ; sensor:sensor "
-    "; report:label ), { report:label }",
-    "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty. What "
-    "identifies the part or the report, P(1) of PARTID, is only repeated in the result file, as a sensor is.",
-    "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
-    "ISO 22093, OUTPUT",
-    output};
-const Statement kEval = {"EVAL",
-                         "",
-                         "feature:feature, { feature:feature }, tolerance:tolerance, { tolerance:tolerance }",
-                         "Evaluates tolerances without putting out the features.",
-                         "EVAL/FA(BORE),T(ROUND)",
-                         "ISO 22093, EVAL",
-                         output};
+    .word = "OUTPUT",
+    .signature =
+        "( feature:feature, { feature:feature }, { tolerance:tolerance } ; frame:frame ; sensor:sensor "
+        "; report:label ), { report:label }",
+    .help =
+        "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty. What "
+        "identifies the part or the report, P(1) of PARTID, is only repeated in the result file, as a sensor is.",
+    .example = "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
+    .source = "ISO 22093, OUTPUT",
+    .lower = output,
+    .doubt = Doubt::characteristic,
+};
+const Statement kEval = {
+    .word = "EVAL",
+    .signature = "feature:feature, { feature:feature }, tolerance:tolerance, { tolerance:tolerance }",
+    .help = "Evaluates tolerances without putting out the features.",
+    .example = "EVAL/FA(BORE),T(ROUND)",
+    .source = "ISO 22093, EVAL",
+    .lower = output,
+    .doubt = Doubt::characteristic,
+};
 
 }  // namespace abbe::lang

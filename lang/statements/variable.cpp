@@ -156,38 +156,45 @@ void setting(Lowering& lowering, const RawStatement& raw, const Match& match) {
 extern const Statement kDecl, kAssign, kPrompt, kValue;
 
 const Statement kDecl = {
-    "DECL",
-    "",
-    "[ scope:GLOBAL|COMMON|LOCAL ], ( type:CHAR, length:integer ; type:BOOL|INTGR|LONG|REAL|DOUBLE|CHAR|VECTOR ), ...",
-    "Declares variables, or arrays: X[10]. In a macro they are local to the call, unless GLOBAL or COMMON.",
-    "DECL/REAL,X,Y,DEV[10]",
-    "ISO 22093, DECL",
-    declare_all};
+    .word = "DECL",
+    .signature =
+        "[ scope:GLOBAL|COMMON|LOCAL ], ( type:CHAR, length:integer ; type:BOOL|INTGR|LONG|REAL|DOUBLE|CHAR|VECTOR ), ...",
+    .help = "Declares variables, or arrays: X[10]. In a macro they are local to the call, unless GLOBAL or COMMON.",
+    .example = "DECL/REAL,X,Y,DEV[10]",
+    .source = "ISO 22093, DECL",
+    .lower = declare_all,
+};
 const Statement kAssign = {
-    "ASSIGN",
-    "=",
-    "value:value",
-    "Gives a variable a value. INTGR cuts fractions off. What depends on a measured value differs from machine to machine.",
-    "X=ASSIGN/2*SQRT(Y)+1",
-    "ISO 22093, ASSIGN",
-    assign_value,
-    Varying::taken};
+    .word = "ASSIGN",
+    .label = "=",
+    .signature = "value:value",
+    .help =
+        "Gives a variable a value. INTGR cuts fractions off. What depends on a measured value differs from machine to machine.",
+    .example = "X=ASSIGN/2*SQRT(Y)+1",
+    .source = "ISO 22093, ASSIGN",
+    .lower = assign_value,
+    .varying = Varying::taken,
+};
 const Statement kPrompt = {
-    "PROMPT",
-    "=",
-    "question:text, ...",
-    "Asks the operator. Here the answer comes from the command line, --answer X=VALUE, or from a directive: $$! answer X=VALUE.",
-    "X=PROMPT/'serial number'",
-    "ISO 22093, PROMPT",
-    prompt};
+    .word = "PROMPT",
+    .label = "=",
+    .signature = "question:text, ...",
+    .help =
+        "Asks the operator. Here the answer comes from the command line, --answer X=VALUE, or from a directive: $$! answer X=VALUE.",
+    .example = "X=PROMPT/'serial number'",
+    .source = "ISO 22093, PROMPT",
+    .lower = prompt,
+};
 const Statement kValue = {
-    "VALUE",
-    "=",
-    "word:word, [ which:word ]",
-    "A setting in force: the first argument of the last statement of that word (VALUE/UNITS), or the last argument of the last one that began with a "
-    "second word (VALUE/SNSET,APPRCH).",
-    "X=VALUE/SNSET,APPRCH",
-    "ISO 22093, VALUE",
-    setting};
+    .word = "VALUE",
+    .label = "=",
+    .signature = "word:word, [ which:word ]",
+    .help =
+        "A setting in force: the first argument of the last statement of that word (VALUE/UNITS), or the last argument of the last one that began with a "
+        "second word (VALUE/SNSET,APPRCH).",
+    .example = "X=VALUE/SNSET,APPRCH",
+    .source = "ISO 22093, VALUE",
+    .lower = setting,
+};
 
 }  // namespace abbe::lang
