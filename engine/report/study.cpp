@@ -41,8 +41,7 @@ struct NamedContributors {
 
 std::vector<NamedContributors> each_alone(const Machine& machine, bool workpiece) {
   const auto only = [](bool geometry, bool head, bool probe, bool effects) {
-    Contributors c;
-    c.part = false;
+    Contributors c = Contributors::none();
     c.geometry = geometry, c.head = head, c.probe = probe, c.effects = effects;
     return c;
   };

@@ -27,6 +27,13 @@ struct Contributors {
   bool effects = true;
   std::optional<int> only_effect;  ///< of the effects, that one alone: index into the machine's list
   ErroneousTouches touches = ErroneousTouches::all;
+
+  /// An error-free machine and a part as nominal.
+  static Contributors none() {
+    Contributors c;
+    c.geometry = c.head = c.probe = c.part = c.effects = false;
+    return c;
+  }
 };
 
 struct RunOptions {

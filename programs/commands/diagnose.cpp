@@ -24,13 +24,7 @@ namespace {
 /// What an error-free machine would record of the program: targets, normals, sensors.
 MachineRecord nominal_record(const CompiledProgram& program, const Machine& machine) {
   RunOptions run;
-  run.contributors = {.geometry = false,
-                      .head = false,
-                      .probe = false,
-                      .only_component = {},
-                      .part = false,
-                      .effects = false,
-                      .only_effect = {}};
+  run.contributors = Contributors::none();
   const plan::Plan& plan = program.compilation.plan;
   run.placement_mm = program.compilation.directives.place_mm ? *program.compilation.directives.place_mm
                                                              : find_placement(plan, machine, program.source).shift_mm;

@@ -50,13 +50,8 @@ class Plantation {
     Vector out = Vector::Constant(static_cast<Eigen::Index>(values_.size()), std::nan(""));
     for (std::size_t p = 0; p < programs_.size(); ++p) {
       RunOptions run;
-      run.contributors = {.geometry = false,
-                          .head = false,
-                          .probe = false,
-                          .only_component = {},
-                          .part = false,
-                          .effects = true,
-                          .only_effect = {}};
+      run.contributors = Contributors::none();
+      run.contributors.effects = true;
       run.placement_mm = programs_[p].placement_mm;
       run.workpiece = options_.workpiece;
       const RunResult result = run_plan(*programs_[p].plan, planted, one_, run, *programs_[p].source);
