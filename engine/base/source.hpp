@@ -49,8 +49,7 @@ SourceFile read_source(const std::string& path);
 class Sink;
 
 /// Reads a file of text that people or other programs wrote. What is not UTF-8 is taken as Windows-1252, of
-/// which Latin-1 is a part, and the sink says so (N0617).
-/// Throws UserError as read_source.
+/// which Latin-1 is a part, and the sink says so (N0617). Throws UserError as read_source does.
 SourceFile read_text(const std::string& path, Sink&);
 
 }  // namespace abbe

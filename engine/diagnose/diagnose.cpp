@@ -105,14 +105,20 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   return b;
 }
 
+/// How probable a member of a finding's set is, up to a factor that all members share.
+double weight(const Case& c, const Finding& f, int member) {
+  const std::vector<double>& bayes = f.evidence.log_bayes;
+  return c.explanations.list[static_cast<std::size_t>(member)].prior *
+      std::exp(bayes[static_cast<std::size_t>(member)] - bayes[static_cast<std::size_t>(f.explanation)]);
+}
+
 /// Whether what was named could be judged from this recording.
 bool judged(const Case& c, const Finding& f) {
   double open = 0, total = 0;
-  const std::vector<double>& bayes = f.evidence.log_bayes;
   for (const int k : f.set) {
-    const double p = c.explanations.list[k].prior * std::exp(bayes[k] - bayes[f.explanation]);
+    const double p = weight(c, f, k);
     total += p;
-    if (c.explanations.list[k].missing) open += p;
+    if (c.explanations.list[static_cast<std::size_t>(k)].missing) open += p;
   }
   constexpr double kMostly = 0.8;
   return open < kMostly * total;
@@ -157,22 +163,17 @@ RunChange change_of(const Block& variant, const Block& found) {
 /// A member that would need a size which no such effect has explains nothing, where another of its set does
 /// with a possible one. What was believed of it is believed of no other.
 void drop_impossible_members(const Case& c, SearchResult& result) {
-  const auto weight = [&](const Finding& f, int member) {
-    return c.explanations.list[static_cast<std::size_t>(member)].prior *
-        std::exp(f.evidence.log_bayes[static_cast<std::size_t>(member)] -
-                 f.evidence.log_bayes[static_cast<std::size_t>(f.explanation)]);
-  };
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding as_found = result.findings[k];
     double all = 0, dropped = 0;
-    for (const int member : as_found.set) all += weight(as_found, member);
+    for (const int member : as_found.set) all += weight(c, as_found, member);
     Finding& f = result.findings[k];
     while (!plausible(estimate_size(c, result, k).parameters)) {
       if (f.set.size() == 1) {
         f = as_found;
         break;
       }
-      dropped += weight(as_found, f.set.front());
+      dropped += weight(c, as_found, f.set.front());
       f.set.erase(f.set.begin());
       f.explanation = f.set.front();
       f.block = best_block(c.explanations.list[static_cast<std::size_t>(f.explanation)], f.evidence);

@@ -89,7 +89,7 @@ struct TouchScene {
   double load_kg = 0;
   int touch = 0;       ///< ordinal in the program or recording
   int feature = 0;     ///< ordinal of the feature measured
-  bool curved = true;  ///< its normals differ (a ball, a bore), other than on a face, a slot or a line
+  bool curved = true;  ///< its touches have normals that are neither parallel nor opposite: a ball, a bore
   int setup = 0, run = 0, visit = 0, qualification = 0;
   Vec3 travel_length_mm{1000, 1000, 1000};  ///< of the machine's axes
   /// From the origin of each carriage's frame (x, y, z) to the tip, W: the arm on which a rotation of that

@@ -16,7 +16,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// But for how the part was placed, which is known without the single touch.
+/// Touches of one setup that aim at one reading of a scale get the mean of theirs, but for how the part was placed:
+/// that is known without the single touch.
 void share_places(Case& c) {
   constexpr double kPlacesPerMm = 1000;
   const Vector placed_mm = (c.model.y - without_placement(c.model)) / kUmPerMm;
