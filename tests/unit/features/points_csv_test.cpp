@@ -55,6 +55,7 @@ TEST_CASE("every mistake has its place") {
   CHECK(refusal("x,y,z\n1,2,3\n\n4,5,6\n") == "E0502 3:1\n");
   CHECK(refusal("x,y,z\n1, two,3\n1,2,3mm\n1,,3\n") == "E0503 2:4\nE0503 3:5\nE0503 4:3\n");
   CHECK(refusal("x,y,z\n1,2,1e999\n") == "E0503 2:5\n");
+  CHECK(refusal("x,y,z\n1,2,+-3\n") == "E0503 2:5\n");
 }
 
 TEST_CASE("a broken file does not flood the screen") {
