@@ -24,15 +24,13 @@ namespace {
 
 /// What the file says of the surfaces.
 std::optional<Surfaces> stated_surfaces(const Recording& r, const std::string& file) {
-  for (const auto& [key, value] : r.metadata) {
-    if (key != "surfaces") continue;
-    if (value == "calibrated") return Surfaces::calibrated;
-    if (value == "unknown_size") return Surfaces::unknown_size;
-    if (value == "unknown") return Surfaces::unknown;
-    throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, value),
-                               "write calibrated, unknown_size or unknown"));
-  }
-  return std::nullopt;
+  const std::optional<std::string> value = said(r.metadata, "surfaces");
+  if (!value) return std::nullopt;
+  if (*value == "calibrated") return Surfaces::calibrated;
+  if (*value == "unknown_size") return Surfaces::unknown_size;
+  if (*value == "unknown") return Surfaces::unknown;
+  throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, *value),
+                             "write calibrated, unknown_size or unknown"));
 }
 
 /// How far from their targets that share of the touches lies at most.
@@ -60,9 +58,7 @@ Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::st
 /// given elsewhere.
 double most_out_mm(const Recording& r, const Machine& machine, const DiagnoseOptions& options) {
   constexpr double kBeyondPretravel_mm = 0.05, kBeyondSizes_mm = 0.25;
-  const bool unknown = std::any_of(r.metadata.begin(), r.metadata.end(), [](const auto& line) {
-    return line.first == "surfaces" && line.second.starts_with("unknown");
-  });
+  const bool unknown = said(r.metadata, "surfaces").value_or("").starts_with("unknown");
   return unknown || options.workpiece || !machine.effects.empty() ? kBeyondSizes_mm : kBeyondPretravel_mm;
 }
 

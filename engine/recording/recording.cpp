@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 
@@ -84,6 +85,13 @@ std::vector<WrittenColumn> writable_columns() {
 }
 
 }  // namespace
+
+std::optional<std::string> said(const Metadata& metadata, std::string_view key) {
+  const auto found =
+      std::find_if(metadata.begin(), metadata.end(), [&](const auto& line) { return line.first == key; });
+  if (found == metadata.end()) return std::nullopt;
+  return found->second;
+}
 
 std::string to_csv(const Recording& recording) {
   std::vector<WrittenColumn> columns = writable_columns();

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,9 +35,15 @@ struct RecordingRow {
 
 enum class RecordedPoint { tip_centre, surface };
 
+/// The lines `# key: value` of a recording.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+/// What the first line of that key says.
+std::optional<std::string> said(const Metadata&, std::string_view key);
+
 struct Recording {
-  std::vector<std::pair<std::string, std::string>> metadata;  ///< `# key: value` lines beyond the next two
-  bool in_part_frame = false;                                 ///< `frame: part`, else machine coordinates
+  Metadata metadata;           ///< beyond the next two
+  bool in_part_frame = false;  ///< `frame: part`, else machine coordinates
   RecordedPoint point = RecordedPoint::tip_centre;
   std::vector<RecordingRow> rows;
 };

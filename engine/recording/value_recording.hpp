@@ -5,10 +5,10 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "engine/base/source.hpp"
+#include "engine/recording/recording.hpp"
 
 namespace abbe {
 
@@ -27,7 +27,7 @@ struct ValueRow {
 
 struct ValueRecording {
   SourceFile source{"", ""};
-  std::vector<std::pair<std::string, std::string>> metadata;
+  Metadata metadata;
   std::vector<ValueRow> rows;
 };
 

@@ -50,15 +50,12 @@ namespace {
 
 /// Whether the targets of the recording are those of this very part.
 bool targets_are_true(const Workpiece& w, const Recording& recording, const std::string& file) {
-  for (const auto& [key, value] : recording.metadata) {
-    if (key != "workpiece") continue;
-    if (value == w.name) return true;
-    throw UserError(diagnostic(
-        Code::E0548,
-        fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, value, w.name),
-        "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
-  }
-  return false;
+  const std::optional<std::string> name = said(recording.metadata, "workpiece");
+  if (!name || *name == w.name) return name.has_value();
+  throw UserError(diagnostic(
+      Code::E0548,
+      fmt::format("{}: the targets are those of workpiece '{}', the file given describes '{}'", file, *name, w.name),
+      "give the workpiece file that the recording was made with, or remove the line '# workpiece:' when the targets are nominal"));
 }
 
 /// No part deviates by such a share of a diameter from its drawing.

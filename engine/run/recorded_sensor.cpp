@@ -101,6 +101,13 @@ bool same_geometry(const NamedSensor& a, const NamedSensor& b) {
       std::abs(a.head_a_rad - b.head_a_rad) < kWritten_rad && std::abs(a.head_b_rad - b.head_b_rad) < kWritten_rad;
 }
 
+/// As far as a new qualification may move a stylus.
+bool same_stylus(const NamedSensor& a, const NamedSensor& b) {
+  constexpr double kQualified_mm = 1, kQualified_rad = 1 * kDegree;
+  return norm(a.tip_in_r_mm - b.tip_in_r_mm) < kQualified_mm && std::abs(a.radius_mm - b.radius_mm) < kQualified_mm &&
+      std::abs(a.head_a_rad - b.head_a_rad) < kQualified_rad && std::abs(a.head_b_rad - b.head_b_rad) < kQualified_rad;
+}
+
 std::string place_of(const NamedSensor& s) {
   const Vec3& t = s.tip_in_r_mm;
   return fmt::format("{:g} {:g} {:g} mm with head angles {:g} {:g} and a ball of {:g} mm", t.x, t.y, t.z,
@@ -122,10 +129,19 @@ std::pair<std::string, std::string> sensor_line(const Sensor& s, const Machine& 
 
 void add_recorded_sensors(const Recording& recording, Machine& machine, const std::string& file,
                           std::vector<Diagnostic>& messages) {
+  std::map<std::string, NamedSensor> described;
   for (const auto& [key, value] : recording.metadata) {
     if (!key.starts_with(kKey)) continue;
     const std::string name = key.substr(kKey.size());
     const NamedSensor recorded = sensor_of(SensorLine(key, value, file));
+    const auto [first, is_first] = described.emplace(name, recorded);
+    if (!is_first && !same_stylus(first->second, recorded))
+      throw UserError(
+          diagnostic(Code::E0707,
+                     fmt::format("{}: '{}' is the name of two styli: the tip of one is at {}, of the other at {}", file,
+                                 name, place_of(first->second), place_of(recorded)),
+                     "give each stylus a name of its own, in the rows and in the lines '# sensor'"));
+    if (!is_first) continue;
     if (const auto known = machine.sensors.find(name);
         known != machine.sensors.end() && !same_geometry(known->second, recorded))
       messages.push_back(diagnostic(

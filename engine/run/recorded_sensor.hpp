@@ -19,8 +19,8 @@ namespace abbe {
 std::pair<std::string, std::string> sensor_line(const Sensor&, const Machine&);
 
 /// Gives a machine the sensors that a recording describes. Of one name the recording's counts, which says
-/// what was mounted then; a note says where the machine file has another. Throws UserError for a line that
-/// cannot be read.
+/// what was mounted then; a note says where the machine file has another. Of two descriptions of one stylus, qualified
+/// twice, the first counts. Throws UserError for a line that cannot be read and for one name of two styli (E0707).
 void add_recorded_sensors(const Recording&, Machine&, const std::string& file, std::vector<Diagnostic>& messages);
 
 }  // namespace abbe

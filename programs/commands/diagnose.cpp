@@ -81,12 +81,6 @@ void continue_runs(const Recording& before, Recording& next, const std::string& 
       "give every repeat its own number in the column 'run'")});
 }
 
-std::string machine_in(const Recording& recording) {
-  for (const auto& [key, value] : recording.metadata)
-    if (key == "machine") return value;
-  return "";
-}
-
 /// A file given twice is no repeat: nothing was measured again.
 void refuse_copy(const Recording& before, const std::string& name, const Recording& next, const std::string& copy) {
   const auto same = [](const RecordingRow& a, const RecordingRow& b) {
@@ -102,11 +96,11 @@ void refuse_copy(const Recording& before, const std::string& name, const Recordi
 
 /// Recordings of one machine belong together.
 void doubt_machine(const Recording& first, const std::string& name, const Recording& next, const std::string& file) {
-  const std::string one = machine_in(first), other = machine_in(next);
-  if (!one.empty() && !other.empty() && one != other)
+  const auto one = said(first.metadata, "machine"), other = said(next.metadata, "machine");
+  if (one && other && *one != *other)
     print_messages({diagnostic(
         Code::W0714,
-        fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, one, file, other),
+        fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, *one, file, *other),
         "judge each machine by its own recordings")});
 }
 
@@ -124,6 +118,12 @@ Recording joined(const std::vector<SourceFile>& files) {
       throw UserError(diagnostic(Code::E0707,
                                  fmt::format("'{}' and '{}' have different frames or points", files[0].name(), name),
                                  "the lines '# frame:' and '# point:' must say the same in all files"));
+    const auto surfaces = said(all.metadata, "surfaces"), others = said(one.metadata, "surfaces");
+    if (surfaces && others && *surfaces != *others)
+      throw UserError(diagnostic(
+          Code::E0707,
+          fmt::format("'# surfaces:' says {} in '{}' and {} in '{}'", *surfaces, files[0].name(), *others, name),
+          "judge them one by one, or say of both what holds for both"));
     refuse_copy(all, files[0].name(), one, name);
     doubt_machine(all, files[0].name(), one, name);
     continue_clock(all, one, name);
@@ -175,8 +175,8 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
 Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
   Recording recording = joined(read.recordings);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  const std::string name =
-      machine_of(options, [&] { return recorded_machine(machine_in(recording), options.recordings); });
+  const std::string name = machine_of(
+      options, [&] { return recorded_machine(said(recording.metadata, "machine").value_or(""), options.recordings); });
   const std::optional<CompiledProgram> program =
       options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);

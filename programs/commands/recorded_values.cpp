@@ -97,8 +97,8 @@ std::vector<std::string> RecordedValues::files() const {
 }
 
 std::string RecordedValues::machine() const {
-  for (const auto& [key, value] : recording_.metadata)
-    if (key == "machine") return recorded_machine(value, {recording_.source.name()});
+  if (const auto name = said(recording_.metadata, "machine"))
+    return recorded_machine(*name, {recording_.source.name()});
   return programs_.front().compilation.directives.machine ? machine_name(programs_.front(), std::nullopt) : "";
 }
 

@@ -240,6 +240,18 @@ class Diagnose(harness.Case):
         one = self.record()
         other = self.write("other.csv", one.read_text().replace("# point: tip_centre", "# point: surface"))
         self.refused("E0707", "diagnose", one, other, "--machine", MACHINE)
+        for surfaces in ("calibrated", "unknown_size"):
+            self.write(f"{surfaces}.csv", f"# surfaces: {surfaces}\n" + one.read_text())
+        said = self.refused("E0707", "diagnose", "calibrated.csv", "unknown_size.csv", "--machine", MACHINE)
+        self.assertIn("'# surfaces:' says calibrated in 'calibrated.csv' and unknown_size in 'unknown_size.csv'", said)
+
+    def test_one_name_of_two_styli_is_refused(self):
+        one = self.record("--seed", 1)
+        again = self.record("--seed", 1, "--run", 2, name="again.csv").read_text()
+        requalified = self.write("requalified.csv", again.replace("# sensor H1: head_deg 0 0 tip_in_r_mm 0.0", "# sensor H1: head_deg 0 0 tip_in_r_mm 0.1"))
+        other = self.write("other.csv", again.replace("# sensor H1: head_deg 0 0 ", "# sensor H1: head_deg 15 0 "))
+        self.abbe("diagnose", one, requalified, "--machine", MACHINE, "--design-only")
+        self.refused("E0707", "diagnose", one, other, "--machine", MACHINE)
 
     def test_what_a_recording_does_not_say_is_assumed_aloud(self):
         def nameless(row):

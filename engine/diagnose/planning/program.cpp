@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "engine/base/numbers.hpp"
 #include "engine/diagnose/planning/alignment.hpp"
 #include "engine/diagnose/planning/path.hpp"
 #include "engine/diagnose/planning/shape.hpp"
@@ -20,15 +21,9 @@ namespace abbe::diagnose {
 
 namespace {
 
-std::optional<std::string> said(const Recording& r, std::string_view key) {
-  for (const auto& [name, value] : r.metadata)
-    if (name == key) return value;
-  return std::nullopt;
-}
-
 double distance_said(const Recording& r, std::string_view key, double usual) {
-  const std::optional<std::string> text = said(r, key);
-  return text ? std::strtod(text->c_str(), nullptr) : usual;
+  const std::optional<std::string> text = said(r.metadata, key);
+  return text ? finite_number(*text).value_or(usual) : usual;
 }
 
 class Writer {
@@ -91,7 +86,7 @@ class Writer {
           "ATTENTION: the travel of the machine ends {:.0f} mm too early for that. Where the head turns, and how a stylus comes out, must be looked at.",
           path_.missing_mm));
     say(recording_sentence(longer_));
-    if (const auto part = said(longer_.recording, "workpiece"))
+    if (const auto part = said(longer_.recording.metadata, "workpiece"))
       say(fmt::format("Its points are those of the true part '{}', not those of the drawing.", *part));
     if (change_.instruction.empty()) return;
     say("Before it: " + change_.instruction);
@@ -123,7 +118,7 @@ class Writer {
     approach_mm_ = distance_said(r, "approach_mm", usual.approach_mm),
     retract_mm_ = distance_said(r, "retract_mm", usual.retract_mm);
     out_ += "PRCOMP/ON\n";
-    const std::optional<std::string> compensation = said(r, "temperature_compensation");
+    const std::optional<std::string> compensation = said(r.metadata, "temperature_compensation");
     const bool by_file = case_.options.workpiece && case_.options.workpiece->compensated;
     if (compensation == "on" || by_file)
       out_ += "TECOMP/ON\n";
@@ -131,7 +126,7 @@ class Writer {
       out_ += "TECOMP/OFF\n";
     else
       say("The recording does not tell whether temperatures were compensated: set TECOMP as it was then.");
-    if (!said(r, "approach_mm"))
+    if (!said(r.metadata, "approach_mm"))
       say("The recording does not tell how far from the surface a touch begins: SNSET is a usual one.");
     if (!row(longer_.first).speed_mm_s)
       say("The recording does not tell how fast it was touched: set FEDRAT/MESVEL as it was then.");
