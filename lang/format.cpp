@@ -105,7 +105,8 @@ class Formatter {
     const std::vector<std::string> parts = pieces(raw);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const std::size_t mark = i + 1 < parts.size() ? 1 : 0;  // room for the `$`
-      if (!fresh && current.size() + parts[i].size() + mark > kFormattedColumns) {
+      const bool fits = current.size() + parts[i].size() + mark <= kFormattedColumns;
+      if (!fresh && !fits && !parts[i].empty()) {  // behind a last comma there is nothing: a blank line would end it
         out_.push_back(current + "$");
         current.assign(indent() + kContinuationIndent, ' ');
       }

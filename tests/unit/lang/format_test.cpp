@@ -69,6 +69,17 @@ TEST_CASE("lines are joined, and cut only where they are too long") {
   CHECK(formatted(text) == fmt::format("TEXT/OPER,$\n    '{}'\n", std::string(100, 'x')));
 }
 
+TEST_CASE("behind a last comma no line is begun, however long the statement") {
+  for (int digits = 20; digits < 100; ++digits) {
+    CAPTURE(digits);
+    const std::string text = "F(A)=FEAT/POINT,CART," + std::string(digits, '1') + ",2,3,$\n \nGOTO/1,2,3\n";
+    const std::string once = formatted(text);
+    CHECK(once.ends_with("3,\nGOTO/1,2,3\n"));
+    CHECK(formatted(once) == once);
+    CHECK(meaning(once) == meaning(text));
+  }
+}
+
 TEST_CASE("what is no statement, comments over lines, line ends and marks stay") {
   for (const std::string text : {"Please  do not touch\n", "TEXT/OPER,'not closed  \n", "  GOTO/(1,2\n",
                                  "$$ goes on $\n   here\n", "$$$$ a rule $$$$\n", "\xEF\xBB\xBFGOTO/1,2,3\r\n",
