@@ -32,27 +32,35 @@ struct Draft {
   std::map<std::string, PartialVector> vectors;  ///< by the names of their columns: "x,y,z"
 };
 
-/// Puts a field into a draft; false when it is not what the column holds.
-using Setter = std::function<bool(const CsvField&, Draft&)>;
+/// Puts a field into a draft. Returns what the column holds when the field is not that, else "".
+using Setter = std::function<std::string(const CsvField&, Draft&)>;
+
+/// From `low` to `high`: beyond is no measurement but a slip, or the mark of a missing value.
+template <class Member>
+Setter real(Member member, double low, double high) {
+  return [=](const CsvField& f, Draft& d) -> std::string {
+    const std::optional<double> v = finite_number(f.text);
+    if (!v || *v < low || *v > high) return fmt::format("a number from {:g} to {:g}", low, high);
+    d.row.*member = *v;
+    return "";
+  };
+}
 
 template <class Member>
-Setter real(Member member) {
-  return [=](const CsvField& f, Draft& d) {
-    const std::optional<double> v = finite_number(f.text);
-    if (v) d.row.*member = *v;
-    return v.has_value();
-  };
+Setter temperature(Member member) {
+  return real(member, -50, 150);
 }
 
 constexpr int kMostCount = 1'000'000'000;
 
 template <class Member>
 Setter integer(Member member, int least = -kMostCount) {
-  return [=](const CsvField& f, Draft& d) {
+  return [=](const CsvField& f, Draft& d) -> std::string {
     const std::optional<double> v = finite_number(f.text);
-    if (!v || *v != std::floor(*v) || *v < least || *v > kMostCount) return false;
+    if (!v || *v != std::floor(*v) || *v < least || *v > kMostCount)
+      return least == 1 ? "a whole number from 1" : "a whole number";
     d.row.*member = static_cast<int>(*v);
-    return true;
+    return "";
   };
 }
 
@@ -60,7 +68,7 @@ template <class Member>
 Setter text(Member member) {
   return [=](const CsvField& f, Draft& d) {
     d.row.*member = f.text;
-    return true;
+    return "";
   };
 }
 
@@ -68,9 +76,9 @@ Setter coordinate(std::string vector, int axis) {
   return [=](const CsvField& f, Draft& d) {
     constexpr double kNoMachine_mm = 1e9;  // not even in micrometres
     const std::optional<double> v = finite_number(f.text);
-    if (!v || std::abs(*v) > kNoMachine_mm) return false;
+    if (!v || std::abs(*v) > kNoMachine_mm) return "a number that a machine can reach";
     d.vectors[vector].coordinate[axis] = *v;
-    return true;
+    return "";
   };
 }
 
@@ -85,16 +93,26 @@ constexpr VectorColumns kVectors[] = {{{"x", "y", "z"}, "x,y,z"},
                                       {{"enc_x", "enc_y", "enc_z"}, "enc_x,enc_y,enc_z"}};
 
 std::map<std::string, Setter> setters() {
+  constexpr double kTurn_deg = 360, kEpoch_s = 1e11, kFastest_mm_s = 1e5, kHardest_mm_s2 = 1e7, kHeaviest_kg = 1e6;
   std::map<std::string, Setter> s = {
-      {"feature", text(&RecordingRow::feature)},         {"touch", integer(&RecordingRow::touch, 1)},
-      {"setup", integer(&RecordingRow::setup, 1)},       {"run", integer(&RecordingRow::run, 1)},
-      {"sensor", text(&RecordingRow::sensor)},           {"head_A_deg", real(&RecordingRow::head_a_deg)},
-      {"head_B_deg", real(&RecordingRow::head_b_deg)},   {"qualification", integer(&RecordingRow::qualification)},
-      {"visit", integer(&RecordingRow::visit)},          {"time_s", real(&RecordingRow::time_s)},
-      {"speed_mm_s", real(&RecordingRow::speed_mm_s)},   {"accel_mm_s2", real(&RecordingRow::accel_mm_s2)},
-      {"temp_part_C", real(&RecordingRow::temp_part_C)}, {"temp_x_C", real(&RecordingRow::temp_x_C)},
-      {"temp_y_C", real(&RecordingRow::temp_y_C)},       {"temp_z_C", real(&RecordingRow::temp_z_C)},
-      {"temp_air_C", real(&RecordingRow::temp_air_C)},   {"load_kg", real(&RecordingRow::load_kg)},
+      {"feature", text(&RecordingRow::feature)},
+      {"touch", integer(&RecordingRow::touch, 1)},
+      {"setup", integer(&RecordingRow::setup, 1)},
+      {"run", integer(&RecordingRow::run, 1)},
+      {"sensor", text(&RecordingRow::sensor)},
+      {"head_A_deg", real(&RecordingRow::head_a_deg, -kTurn_deg, kTurn_deg)},
+      {"head_B_deg", real(&RecordingRow::head_b_deg, -kTurn_deg, kTurn_deg)},
+      {"qualification", integer(&RecordingRow::qualification)},
+      {"visit", integer(&RecordingRow::visit)},
+      {"time_s", real(&RecordingRow::time_s, -kEpoch_s, kEpoch_s)},
+      {"speed_mm_s", real(&RecordingRow::speed_mm_s, 0, kFastest_mm_s)},
+      {"accel_mm_s2", real(&RecordingRow::accel_mm_s2, -kHardest_mm_s2, kHardest_mm_s2)},
+      {"temp_part_C", temperature(&RecordingRow::temp_part_C)},
+      {"temp_x_C", temperature(&RecordingRow::temp_x_C)},
+      {"temp_y_C", temperature(&RecordingRow::temp_y_C)},
+      {"temp_z_C", temperature(&RecordingRow::temp_z_C)},
+      {"temp_air_C", temperature(&RecordingRow::temp_air_C)},
+      {"load_kg", real(&RecordingRow::load_kg, 0, kHeaviest_kg)},
   };
   for (const VectorColumns& v : kVectors)
     for (int axis = 0; axis < 3; ++axis) s[v.names[axis]] = coordinate(v.key, axis);
@@ -111,10 +129,11 @@ bool says(const CsvRemark& line, std::string_view yes, std::string_view no, cons
 
 void check_distance(const CsvRemark& line, const SourceFile& file) {
   const std::optional<double> distance = finite_number(line.value);
-  if (!distance || *distance < 0)
+  constexpr double kFarthest_mm = 1e4;
+  if (!distance || *distance < 0 || *distance > kFarthest_mm)
     throw UserError(diagnostic_at(file, line.span, Code::E0525,
                                   fmt::format("'{}: {}' is no distance", line.key, line.value),
-                                  "give millimetres, 0 or more: 3.5"));
+                                  "give millimetres, 0 to 10000: 3.5"));
 }
 
 Recording with_metadata(const CsvTable& table, const SourceFile& file) {
@@ -201,11 +220,12 @@ Recording read_recording(const SourceFile& file) {
     Draft draft;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CsvField& field = row.fields[k];
-      if (field.text.empty() || columns[k](field, draft)) continue;
+      const std::string holds = field.text.empty() ? "" : columns[k](field, draft);
+      if (holds.empty()) continue;
       sink.add(diagnostic_at(
           file, field.span, Code::E0530,
           fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
-          "numbers have a decimal point and no unit: 12.5; counts are whole; touch, setup and run count from 1"));
+          fmt::format("it holds {}, with a decimal point and no unit, or nothing where it is not known", holds)));
     }
     complete_vectors(file, row, draft, sink);
     draft.row.line = row.line;

@@ -43,10 +43,16 @@ std::vector<std::vector<double>*> columns_of(const std::vector<CsvField>& header
   return columns;
 }
 
-double number(const SourceFile& file, const CsvField& field) {
+constexpr double kLongest_s = 1e11, kColdest_C = -50, kHottest_C = 150;
+
+double number(const SourceFile& file, const CsvField& field, double low, double high) {
   const std::optional<double> value = finite_number(field.text);
   if (!value)
     refuse(file, field, fmt::format("'{}' is not a number", field.text), "numbers have a decimal point: 20.15");
+  if (*value < low || *value > high)
+    refuse(
+        file, field, fmt::format("{} is not between {:g} and {:g}", field.text, low, high),
+        "times are in seconds, temperatures in degrees Celsius; leave out lines of which a temperature is not known");
   return *value;
 }
 
@@ -66,7 +72,9 @@ TemperatureLog read_temperature_log(const SourceFile& file) {
   TemperatureLog log;
   const std::vector<std::vector<double>*> columns = columns_of(table.header, file, log);
   for (const CsvRow& row : table.rows) {
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k]->push_back(number(file, row.fields[k]));
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      columns[k]->push_back(columns[k] == &log.time_s ? number(file, row.fields[k], -kLongest_s, kLongest_s)
+                                                      : number(file, row.fields[k], kColdest_C, kHottest_C));
     const std::size_t n = log.time_s.size();
     if (n > 1 && log.time_s[n - 1] <= log.time_s[n - 2])
       refuse(file, row.fields.front(),

@@ -67,8 +67,8 @@ TEST_CASE("lines before the table and counts say something possible, or are refu
     FAIL(remark << row << " was read");
     return Diagnostic{};
   };
-  for (const char* remark : {"# approach_mm: -3\n", "# retract_mm: three\n", "# temperature_compensation: maybe\n",
-                             "# frame: free text\n", "# point: tip\n"}) {
+  for (const char* remark : {"# approach_mm: -3\n", "# retract_mm: three\n", "# retract_mm: 1e300\n",
+                             "# temperature_compensation: maybe\n", "# frame: free text\n", "# point: tip\n"}) {
     CAPTURE(remark);
     const Diagnostic d = refused(remark, "feature,touch,x,y,z", "A,1,0,0,0");
     CHECK(d.code == Code::E0525);
@@ -77,7 +77,12 @@ TEST_CASE("lines before the table and counts say something possible, or are refu
   }
   for (const auto& [columns, row] : {std::pair{"feature,touch,x,y,z", "A,0,0,0,0"},
                                      {"feature,touch,setup,x,y,z", "A,1,0,0,0,0"},
-                                     {"feature,touch,run,x,y,z", "A,1,-1,0,0,0"}}) {
+                                     {"feature,touch,run,x,y,z", "A,1,-1,0,0,0"},
+                                     {"feature,touch,x,y,z,head_A_deg", "A,1,0,0,0,1e308"},
+                                     {"feature,touch,x,y,z,time_s", "A,1,0,0,0,-1e300"},
+                                     {"feature,touch,x,y,z,speed_mm_s", "A,1,0,0,0,-5"},
+                                     {"feature,touch,x,y,z,temp_part_C", "A,1,0,0,0,-999"},
+                                     {"feature,touch,x,y,z,load_kg", "A,1,0,0,0,1e12"}}) {
     CAPTURE(row);
     const Diagnostic d = refused("", columns, row);
     CHECK(d.code == Code::E0530);
