@@ -124,6 +124,22 @@ class EnsembleRuns {
                           "value, reference and U are in millimetres or degrees"));
   }
 
+  /// A difference that no error of measurement makes: another part, another place, a slip of the pen.
+  void refuse_stranger(const ValueRow& row, double reference, bool angle) const {
+    constexpr double kMost = 10;  // mm or degrees
+    const double off = std::abs(row.value - reference);
+    if (off <= kMost && row.expanded_uncertainty <= kMost) return;
+    const std::string unit = angle ? "degrees" : "mm";
+    throw UserError(diagnostic_at(
+        recording_.source, row.span, Code::E0701,
+        off > kMost
+            ? fmt::format("'{}' is {:.6g} {unit} here and {:.6g} {unit} {}: no error of measurement is so large",
+                          row.characteristic, row.value, reference,
+                          row.reference ? "by its reference" : "on an error-free machine", fmt::arg("unit", unit))
+            : fmt::format("an uncertainty U of {:.6g} {} calibrates nothing", row.expanded_uncertainty, unit),
+        "check value, reference, U and program of this line: they are of one characteristic, in millimetres or degrees"));
+  }
+
   void add_row(int r, const OneRun& run, const ValueProgram& program, const RunResult& result) {
     const ValueRow& row = recording_.rows[static_cast<std::size_t>(r)];
     const Samples& s = sample_of(recording_, row, *program.plan, result);
@@ -137,6 +153,7 @@ class EnsembleRuns {
     if (!angle) refuse_unit(row, *s.reference);
     RecordedValue v{r, run.program, run.repeat, s.characteristic, s.occurrence, angle};
     v.reference = row.reference.value_or(*s.reference * engine_scale(angle) * v.reported());
+    refuse_stranger(row, v.reference, angle);
     v.deviation = (row.value - v.reference) / v.reported();
     v.calibration = row.expanded_uncertainty / 2 / v.reported();
     const std::string artefact = !row.artefact.empty()
