@@ -35,8 +35,8 @@ fuzz: setup       ## five minutes of libFuzzer on programs and five on machine f
 	@cmake -S . -B $(BUILD)-fuzz -G Ninja -DCMAKE_CXX_COMPILER=$(CLANG) -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DABBE_FUZZ=ON >/dev/null
 	@cmake --build $(BUILD)-fuzz -j $(JOBS) --target fuzz_program fuzz_json
 	@mkdir -p $(BUILD)-fuzz/programs $(BUILD)-fuzz/files
-	@$(BUILD)-fuzz/fuzz_program -max_total_time=$(SECONDS_EACH) -timeout=30 $(BUILD)-fuzz/programs tests/lang/ok
-	@$(BUILD)-fuzz/fuzz_json -max_total_time=$(SECONDS_EACH) $(BUILD)-fuzz/files examples/machines
+	@$(BUILD)-fuzz/fuzz_program -max_total_time=$(SECONDS_EACH) -timeout=30 -artifact_prefix=$(BUILD)-fuzz/ $(BUILD)-fuzz/programs tests/lang/ok
+	@$(BUILD)-fuzz/fuzz_json -max_total_time=$(SECONDS_EACH) -artifact_prefix=$(BUILD)-fuzz/ $(BUILD)-fuzz/files examples/machines
 
 figures: build    ## draws the figures of docs/ anew; the only thing here that needs Node
 	@command -v npm >/dev/null || { echo "figures need Node 18 or later and npm: apt-get install nodejs npm"; exit 1; }
