@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "engine/base/utf8.hpp"
 #include "lang/directives.hpp"
@@ -170,10 +171,16 @@ class Compiler {
                                     : "results are those of a program without it");
   }
 
+  /// The word that was probably meant, or "". A loop may hold the slip in each of its turns: it is looked up once.
+  const std::string& meant_by(const std::string& word) {
+    const auto [found, is_new] = meant_by_.try_emplace(word);
+    if (is_new) found->second = nearest_word(word, {standard_words().begin(), standard_words().end()});
+    return found->second;
+  }
+
   /// Reports the word; the word that was probably meant, or "".
   std::string unknown(const RawStatement& raw) {
-    std::vector<std::string_view> words(standard_words().begin(), standard_words().end());
-    const std::string near = nearest_word(raw.word, words);
+    const std::string& near = meant_by(raw.word);
     if (raw.missing_slash && (near.empty() || raw.word.size() < kShortestSlip)) {
       lowering_.error(Code::E0101, raw.span, fmt::format("'{}' is not a statement", lowering_.file->text(raw.span)),
                       "a statement is WORD/argument,argument; a comment begins with $$");
@@ -207,6 +214,7 @@ class Compiler {
 
   Lowering lowering_;
   std::string meant_;
+  std::map<std::string, std::string> meant_by_;
   bool after_end_reported_ = false;
 };
 
