@@ -77,6 +77,9 @@ class Blocks {
       if (opens(line.control)) open_.push_back(at);
     }
     for (const int at : open_) unclosed(at);
+    // What stands behind a word that opens nothing stands in the block around it.
+    for (Line& l : routine_.lines)
+      if (l.parent >= 0 && line(l.parent).control == Control::lost) l.parent = line(l.parent).parent;
   }
 
  private:
