@@ -52,19 +52,24 @@ const InfluenceBound* bound_on(std::string_view name, const Machine& machine, co
 
 }  // namespace
 
+std::string_view name(InfluenceStatus status) {
+  constexpr std::string_view names[] = {"not modelled", "modelled", "bounded"};
+  return names[static_cast<int>(status)];
+}
+
 Declaration declare_influences(const Machine& machine, const std::vector<char>& acted, const Workpiece* workpiece) {
   Declaration out;
   for (const InfluenceQuantity& quantity : influence_quantities()) {
-    Influence influence{std::string(quantity.name), "not modelled"};
+    Influence influence{std::string(quantity.name)};
     const InfluenceBound* bound = bound_on(quantity.name, machine, workpiece);
     if (modelled(quantity, machine, acted, workpiece)) {
-      influence.status = "modelled";
+      influence.status = InfluenceStatus::modelled;
       if (bound)
         out.messages.push_back(diagnostic(
             Code::W0434, fmt::format("the bound on \"{}\" is not shown: that influence is modelled", quantity.name),
             "remove the bound from the file, or the effect that models the influence"));
     } else if (bound) {
-      influence = {influence.name, "bounded", kUmPerMm * bound->at_most_mm, bound->source};
+      influence = {influence.name, InfluenceStatus::bounded, kUmPerMm * bound->at_most_mm, bound->source};
     }
     out.influences.push_back(std::move(influence));
   }

@@ -67,10 +67,16 @@ struct CharacteristicReport {
   int elsewhere = 0;                        ///< machines that a condition on measured values sent past it
 };
 
+/// What the figures of a report hold of an influence (engine/influences).
+enum class InfluenceStatus { not_modelled, modelled, bounded };
+/// "not modelled", "modelled", "bounded"
+std::string_view name(InfluenceStatus);
+
 struct Influence {
-  std::string name, status;  ///< "modelled", "bounded", "not modelled" (engine/influences)
-  double at_most_um = 0;     ///< of a bounded one: the greatest error of a touch along the normal
-  std::string source = {};   ///< who says so
+  std::string name;
+  InfluenceStatus status = InfluenceStatus::not_modelled;
+  double at_most_um = 0;    ///< of a bounded one: the greatest error of a touch along the normal
+  std::string source = {};  ///< who says so
 };
 
 struct LostCharacteristic {

@@ -111,9 +111,9 @@ std::string influences(const RunReport& r) {
   std::string rows = html_row({"influence", "status"}, "th");
   for (const Influence& i : r.influences)
     rows += html_row({i.name,
-                      i.status == "bounded"
+                      i.status == InfluenceStatus::bounded
                           ? fmt::format("bounded, not in u: at most {:g} um at a touch ({})", i.at_most_um, i.source)
-                          : i.status});
+                          : std::string(name(i.status))});
   return "<h2>Influences</h2>\n" + html_table(rows);
 }
 

@@ -79,8 +79,8 @@ Json message(const Diagnostic& d) {
 }
 
 Json influence(const Influence& i) {
-  Json out = {{"name", i.name}, {"status", i.status}};
-  if (i.status == "bounded") out.update({{"at_most_um", number(i.at_most_um)}, {"source", i.source}});
+  Json out = {{"name", i.name}, {"status", name(i.status)}};
+  if (i.status == InfluenceStatus::bounded) out.update({{"at_most_um", number(i.at_most_um)}, {"source", i.source}});
   return out;
 }
 

@@ -37,7 +37,7 @@ std::string general_messages(const RunReport& r) {
 std::string not_modelled(const RunReport& r) {
   std::vector<std::string> names;
   for (const Influence& influence : r.influences)
-    if (influence.status == "not modelled") names.push_back(influence.name);
+    if (influence.status == InfluenceStatus::not_modelled) names.push_back(influence.name);
   return names.empty() ? "" : "Not modelled: " + joined(names) + ".\n";
 }
 
@@ -45,7 +45,7 @@ std::string not_modelled(const RunReport& r) {
 std::string bounded(const RunReport& r) {
   std::string out;
   for (const Influence& i : r.influences)
-    if (i.status == "bounded")
+    if (i.status == InfluenceStatus::bounded)
       out += fmt::format("Bounded, not in u: {}, at most {:g} um at a touch ({}).\n", i.name, i.at_most_um, i.source);
   return out;
 }

@@ -176,9 +176,9 @@ TEST_CASE("the same labels again in the same line are further occurrences") {
 
 TEST_CASE("influences are declared; an effect that acts makes its influence modelled") {
   std::vector<char> acted;
-  const auto status = [&](const Machine& machine, const std::string& name) {
+  const auto status = [&](const Machine& machine, const std::string& influence_name) {
     for (const Influence& influence : declare_influences(machine, acted).influences)
-      if (influence.name == name) return influence.status;
+      if (influence.name == influence_name) return std::string(name(influence.status));
     return std::string("missing");
   };
   Machine machine;
@@ -219,18 +219,18 @@ TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpi
       if (influence.name == name) return influence;
     return Influence{};
   };
-  CHECK(find("thermal drift").status == "bounded");
+  CHECK(find("thermal drift").status == InfluenceStatus::bounded);
   CHECK(find("thermal drift").at_most_um == doctest::Approx(0.3));
   CHECK(find("thermal drift").source == "drift test");
   CHECK(find("fixturing").at_most_um == doctest::Approx(1));
   CHECK(find("fixturing").source == "task");
-  CHECK(find("operator").status == "not modelled");
+  CHECK(find("operator").status == InfluenceStatus::not_modelled);
   CHECK(declare_influences(machine, acted, &workpiece).messages.empty());
   machine.effects = {{"thermal.cycle", {}}};
   acted = {0};
-  CHECK(find("thermal drift").status == "bounded");
+  CHECK(find("thermal drift").status == InfluenceStatus::bounded);
   acted = {1};
-  CHECK(find("thermal drift").status == "modelled");
+  CHECK(find("thermal drift").status == InfluenceStatus::modelled);
   const auto messages = declare_influences(machine, acted, &workpiece).messages;
   REQUIRE(messages.size() == 1);
   CHECK(messages[0].code == Code::W0434);
@@ -245,7 +245,7 @@ TEST_CASE("every effect models one influence") {
     for (const Influence& influence : declare_influences(machine, {1}).influences) {
       if (influence.name != effect->influence) continue;
       ++found;
-      CHECK(influence.status == "modelled");
+      CHECK(influence.status == InfluenceStatus::modelled);
     }
     CHECK(found == 1);
   }

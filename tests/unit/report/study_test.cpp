@@ -173,9 +173,9 @@ TEST_CASE("an effect that moves no touch is told, and no influence counts as mod
       if (d.code == Code::W0615) told.push_back(d.message.substr(0, d.message.find(':')));
     return told;
   };
-  const auto status = [&](std::string_view name) {
+  const auto status = [&](std::string_view influence_name) {
     for (const Influence& i : run_study(length_plan(), with, options, length_source()).report.influences)
-      if (i.name == name) return i.status;
+      if (i.name == influence_name) return std::string(name(i.status));
     return std::string("missing");
   };
   CHECK(idle() == std::vector<std::string>{"thermal.part_expansion", "machine.scale"});

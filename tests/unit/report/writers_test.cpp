@@ -40,7 +40,7 @@ RunReport report() {
   r.cycle_time_s = 191.6;
   r.machines = {2711, 1640, 71, 1000};
   r.characteristics = {length()};
-  r.influences = {{"geometry", "modelled"}, {"part temperature", "not modelled"}, {"operator", "not modelled"}};
+  r.influences = {{"geometry", InfluenceStatus::modelled}, {"part temperature"}, {"operator"}};
   r.lost = {{77, "BORE", "the statement has errors"}};
   r.traps = {{3, 10, 84, "no points"}, {8, 10, 84, "no points"}, {9, 4, 12, "endless loop"}};
   r.messages = {diagnostic(Code::W0416, "only 36.9 % pass", "see `abbe machine screen`"),
@@ -185,7 +185,7 @@ TEST_CASE("the text report reads at a glance") {
 
 TEST_CASE("a bounded influence shows its bound and who stated it") {
   RunReport r = report();
-  r.influences[1] = {"part temperature", "bounded", 0.35, "climate log"};
+  r.influences[1] = {"part temperature", InfluenceStatus::bounded, 0.35, "climate log"};
   const Json influences = Json::parse(written("json", r))["influences"];
   CHECK(influences[1] ==
         Json{{"name", "part temperature"}, {"status", "bounded"}, {"at_most_um", 0.35}, {"source", "climate log"}});
