@@ -77,7 +77,7 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   report.unit = unit;
   report.line = definition.line;
   report.characteristic = samples.characteristic;
-  report.visit = samples.occurrence;
+  report.evaluation = samples.occurrence;
   report.nominal = samples.nominal * factor;
   report.reference = scaled(samples.reference, factor);
   std::vector<double> values = samples.value;

@@ -28,7 +28,7 @@ struct CharacteristicReport {
   int line = 0;
   int occurrence = 1;  ///< among the evaluations of these labels that this line makes
   plan::CharacteristicId characteristic;
-  int visit = 1;  ///< Samples::occurrence
+  int evaluation = 1;  ///< which of the characteristic's in the course of the program: Samples::occurrence
   double nominal = 0;
   std::optional<double> reference;  ///< none where a condition sends the error-free machine elsewhere
   Summary summary;                  ///< of the values
