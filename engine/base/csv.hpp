@@ -38,4 +38,7 @@ struct CsvTable {
 /// length than the header.
 CsvTable read_csv(const SourceFile&);
 
+/// A text as a field: in quotes where it needs them.
+std::string csv_field(const std::string& text);
+
 }  // namespace abbe

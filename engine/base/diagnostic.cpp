@@ -41,11 +41,11 @@ Diagnostic diagnostic(Code code, std::string message, std::string help) {
   return d;
 }
 
-namespace {
-
-std::string_view word_for(Severity severity) {
+std::string_view name(Severity severity) {
   return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
+
+namespace {
 
 /// A blank for each character before a byte of the line, with tabs kept so that the caret stands under the text.
 std::string indent_like(std::string_view line, std::size_t bytes) {
@@ -68,7 +68,7 @@ std::string carets(const Diagnostic& d) {
 std::string render(const Diagnostic& d) {
   std::string out;
   if (!d.file.empty()) out += d.span ? fmt::format("{}:{}:{}: ", d.file, d.place.line, d.place.column) : d.file + ": ";
-  out += fmt::format("{} {}: {}\n", word_for(d.severity()), info(d.code).name, d.message);
+  out += fmt::format("{} {}: {}\n", name(d.severity()), info(d.code).name, d.message);
   if (d.span) {
     out += fmt::format("  {}\n  {}\n", d.source_line, carets(d));
   }

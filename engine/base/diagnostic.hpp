@@ -17,6 +17,7 @@ enum class Severity {
   warning,  ///< understood, but without effect here, or suspect
   note,     ///< worth knowing
 };
+std::string_view name(Severity);
 
 /// One constant per line of diagnostic_codes.def, for example Code::E0101.
 enum class Code {

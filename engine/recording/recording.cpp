@@ -6,6 +6,8 @@
 #include <array>
 #include <functional>
 
+#include "engine/base/csv.hpp"
+
 namespace abbe {
 
 namespace {
@@ -15,16 +17,6 @@ struct WrittenColumn {
   std::string name;
   std::function<std::optional<std::string>(const RecordingRow&)> text;
 };
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 /// Fixed decimals without a negative zero.
 std::string decimals(double value, int digits) {
@@ -57,15 +49,16 @@ std::vector<WrittenColumn> writable_columns() {
                    return v ? std::optional(std::to_string(*v)) : std::nullopt;
                  }});
   };
-  c.push_back({"feature", [](const RecordingRow& row) { return std::optional(quoted(row.feature)); }});
+  c.push_back({"feature", [](const RecordingRow& row) { return std::optional(csv_field(row.feature)); }});
   integer("touch", &RecordingRow::touch);
   add_vector(c, {"x", "y", "z"}, 7, [](const RecordingRow& row) { return std::optional(row.position_mm); });
   add_vector(c, {"tx", "ty", "tz"}, 7, [](const RecordingRow& row) { return row.target_mm; });
   add_vector(c, {"nx", "ny", "nz"}, 9, [](const RecordingRow& row) { return row.normal; });
   integer("setup", &RecordingRow::setup);
   integer("run", &RecordingRow::run);
-  c.push_back({"sensor",
-               [](const RecordingRow& row) { return row.sensor ? std::optional(quoted(*row.sensor)) : std::nullopt; }});
+  c.push_back({"sensor", [](const RecordingRow& row) {
+                 return row.sensor ? std::optional(csv_field(*row.sensor)) : std::nullopt;
+               }});
   c.push_back(number("head_A_deg", 4, [](const RecordingRow& row) { return row.head_a_deg; }));
   c.push_back(number("head_B_deg", 4, [](const RecordingRow& row) { return row.head_b_deg; }));
   integer("qualification", &RecordingRow::qualification);

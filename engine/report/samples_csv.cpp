@@ -1,18 +1,12 @@
 #include <fmt/format.h>
 
+#include "engine/base/csv.hpp"
 #include "engine/report/report_unit.hpp"
 #include "engine/report/study.hpp"
 
 namespace abbe {
 
 namespace {
-
-/// RFC 4180: a field in quotes, quotes inside doubled.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 
 std::string characteristic_name(const plan::Plan& plan, const plan::CharacteristicDef& definition) {
   std::string name;
@@ -31,7 +25,7 @@ std::string samples_csv(const plan::Plan& plan, const Study& study) {
     const ReportUnit unit = report_unit(plan, samples.characteristic);
     const std::string reference = samples.reference ? fmt::format("{}", *samples.reference * unit.factor) : "";
     const std::string middle =
-        fmt::format("{},{},{},{}", quoted(characteristic_name(plan, definition)), numbers[s], unit.name, reference);
+        fmt::format("{},{},{},{}", csv_field(characteristic_name(plan, definition)), numbers[s], unit.name, reference);
     for (std::size_t i = 0; i < samples.value.size(); ++i) {
       const std::uint32_t machine = samples.machine[i];
       out += fmt::format("{},{},{},{}\r\n", machine, study.candidates[machine], middle, samples.value[i] * unit.factor);

@@ -72,18 +72,9 @@ Checked check(const std::string& path, const std::map<std::string, std::string>&
   return {sink.list(), std::move(program.compilation.plan)};
 }
 
-std::string_view severity_name(Severity severity) {
-  return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
-
 nlohmann::ordered_json to_json(const Diagnostic& d) {
-  return {{"code", info(d.code).name},
-          {"severity", severity_name(d.severity())},
-          {"file", d.file},
-          {"line", d.place.line},
-          {"column", d.place.column},
-          {"message", d.message},
-          {"help", d.help}};
+  return {{"code", info(d.code).name}, {"severity", name(d.severity())}, {"file", d.file}, {"line", d.place.line},
+          {"column", d.place.column},  {"message", d.message},           {"help", d.help}};
 }
 
 /// Names and labels keep the bytes of the file, which need not be UTF-8; JSON must be.

@@ -69,9 +69,8 @@ Json characteristic(const CharacteristicReport& c) {
 }
 
 Json message(const Diagnostic& d) {
-  static constexpr const char* kSeverity[] = {"error", "warning", "note"};
   return {{"code", info(d.code).name},
-          {"severity", kSeverity[static_cast<int>(d.severity())]},
+          {"severity", name(d.severity())},
           {"line", d.span ? Json(d.place.line) : Json()},
           {"column", d.span ? Json(d.place.column) : Json()},
           {"message", d.message},
