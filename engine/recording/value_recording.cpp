@@ -99,7 +99,6 @@ ValueRecording read_value_recording(const SourceFile& file) {
   for (const CsvRemark& line : table.remarks) out.metadata.emplace_back(line.key, line.value);
   for (const CsvRow& row : table.rows) {
     ValueRow r;
-    r.line = row.line;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CsvField& field = row.fields[k];
       if (field.text.empty() && !columns[k]->required) continue;

@@ -22,7 +22,6 @@ struct ValueRow {
   std::string artefact;  ///< what was measured: rows of one artefact share the error of its calibration
   std::string program;   ///< path as seen from the recording; empty: the program that the command line names
   Span span;             ///< of the characteristic, in the file
-  int line = 0;
 };
 
 struct ValueRecording {

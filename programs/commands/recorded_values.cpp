@@ -37,7 +37,6 @@ ValueRecording from_result(const SourceFile& file) {
     row.value = is_angle(v) ? v.value * 180 / std::numbers::pi : v.value;
     row.ordinal = ++met[v.label];
     row.span = {file.line_begin(v.line), file.line_begin(v.line) + 1};
-    row.line = v.line;
     out.rows.push_back(std::move(row));
   }
   if (out.rows.empty())

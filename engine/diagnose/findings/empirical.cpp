@@ -114,7 +114,7 @@ struct Fit {
 };
 
 /// Ridge estimate; the prior size is the one of greatest evidence.
-Fit fitted(const EvidenceSearch::Information& info) {
+Fit fitted(const Information& info) {
   const Matrix one = Matrix::Identity(info.g.rows(), info.g.cols());
   double best = -std::numeric_limits<double>::infinity(), size = 1;
   for (const double s : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}) {

@@ -58,7 +58,7 @@ DiagnosedParameter told(const EffectParameter& parameter, const Estimate& e) {
 }
 
 /// The standard deviation of draws: what their likelihood says of it, beside what the machine file lets them do anyway.
-std::vector<MixtureTerm> spread_estimate(const EvidenceSearch::Information& info, double unit) {
+std::vector<MixtureTerm> spread_estimate(const Information& info, double unit) {
   constexpr double kLeast = 0.01, kMost = 100, kStep = 1.03;
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(info.g);
   const Vector d = solver.eigenvalues().cwiseMax(0), t = (solver.eigenvectors().transpose() * info.u).array().square();
@@ -131,7 +131,7 @@ class Estimator {
     double weight;
     Block block;
     std::optional<VariantEstimate> estimate;
-    EvidenceSearch::Information info;
+    Information info;
   };
 
   static double largest(const Vector& shift_um) { return shift_um.cwiseAbs().maxCoeff(); }

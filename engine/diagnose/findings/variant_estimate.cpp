@@ -40,7 +40,7 @@ std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
 
 }  // namespace
 
-VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const EvidenceSearch::Information& info)
+VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const Information& info)
     : effect_(effect),
       block_(block),
       mean_(Vector::Zero(info.u.size())),

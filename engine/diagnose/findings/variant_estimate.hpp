@@ -30,7 +30,7 @@ struct SpannedDirection {
 /// component is positive where there is a phase to take its sign; the size is positive.
 class VariantEstimate {
  public:
-  VariantEstimate(const Effect&, const Block&, const EvidenceSearch::Information&);
+  VariantEstimate(const Effect&, const Block&, const Information&);
 
   /// Of a parameter in which displacements are linear; nothing where no column tells it.
   std::optional<Estimate> size(int parameter) const;

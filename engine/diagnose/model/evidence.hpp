@@ -20,6 +20,13 @@ struct Evidence {
   double log_null = 0;  ///< log likelihood of the baseline, but for what recordings of as many rows share
 };
 
+/// What the data say of the sizes of a block with signature H, where P is the precision of the baseline: G = H' P H and
+/// u = H' P y.
+struct Information {
+  Matrix g;
+  Vector u;
+};
+
 class EvidenceSearch {
  public:
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
@@ -38,10 +45,6 @@ class EvidenceSearch {
   std::vector<Evidence> bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const;
 
   /// G and u of a block at the level of the recording, which is that with the likeliest explanation.
-  struct Information {
-    Matrix g;
-    Vector u;
-  };
   Information information(int block) const {
     return {between(block, block), likely().with_data(with_.level, block, y_)};
   }

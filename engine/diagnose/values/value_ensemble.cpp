@@ -151,7 +151,7 @@ class EnsembleRuns {
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
     if (!angle) refuse_unit(row, *s.reference);
-    RecordedValue v{r, run.program, run.repeat, s.characteristic, s.occurrence, angle};
+    RecordedValue v{run.program, run.repeat, s.characteristic, s.occurrence, angle};
     v.reference = row.reference.value_or(*s.reference * engine_scale(angle) * v.reported());
     refuse_stranger(row, v.reference, angle);
     v.deviation = (row.value - v.reference) / v.reported();

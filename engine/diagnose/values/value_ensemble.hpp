@@ -9,7 +9,6 @@ namespace abbe::diagnose {
 
 /// One row of the recording, found in its program.
 struct RecordedValue {
-  int row = 0;                  ///< of the recording
   int program = 0, repeat = 0;  ///< index into the programs; which repeat of all (RunOptions::repeat)
   plan::CharacteristicId characteristic;
   int occurrence = 1;

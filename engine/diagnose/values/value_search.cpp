@@ -27,7 +27,7 @@ Matrix ValueSearch::whitened(const Matrix& columns) const {
 
 Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
 
-ValueSearch::Information ValueSearch::information(int block, const Vector& deviation) const {
+Information ValueSearch::information(int block, const Vector& deviation) const {
   const Matrix& h = white_[static_cast<std::size_t>(block)];
   return {h.transpose() * h, h.transpose() * white(deviation)};
 }

@@ -16,10 +16,6 @@ class ValueSearch {
   ValueSearch(Vector mean, const Matrix& covariance, Explanations, const Matrix& free = {});
 
   Evidence evidence(const Vector& deviation) const;
-  struct Information {
-    Matrix g;
-    Vector u;
-  };
   Information information(int block, const Vector& deviation) const;
   /// H_a' V^-1 H_b.
   Matrix between(int a, int b) const {

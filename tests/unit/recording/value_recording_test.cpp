@@ -27,7 +27,7 @@ TEST_CASE("columns that are left out have their usual values") {
   CHECK_FALSE(r.rows[0].reference);
   CHECK(r.rows[0].expanded_uncertainty == 0);
   CHECK(r.rows[0].run == 1);
-  CHECK(r.rows[0].line == 3);
+  CHECK(r.source.place(r.rows[0].span.begin).line == 3);
   CHECK(r.metadata.at(0).second == "M");
 }
 
