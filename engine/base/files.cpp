@@ -87,6 +87,18 @@ void refuse_read_only(const std::string& path) {
     fail(path, "replacing it");
 }
 
+/// A command with several outputs finds out before the first is written that another has no place.
+void refuse_without_folder(const std::string& path) {
+  if (path.empty())
+    throw UserError(
+        diagnostic(Code::E0602, "the name of an output is empty", "give a file; is a shell variable unset?"));
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  struct stat there {};
+  if (folder.empty() || (::stat(folder.c_str(), &there) == 0 && S_ISDIR(there.st_mode))) return;
+  errno = ENOENT;
+  fail(path, "finding its folder");
+}
+
 /// Who may read and write the file: as before; of a new one as the umask says.
 mode_t mode_of(const std::string& path) {
   constexpr mode_t kPermissions = 0777, kNewFile = 0666;
@@ -144,6 +156,7 @@ void refuse_overwriting(const std::vector<std::string>& inputs, const std::vecto
   for (const std::string& input : inputs) taken.emplace(where(followed(input)), "which it reads");
   for (const std::string& output : outputs) {
     if (takes_content(output)) continue;
+    refuse_without_folder(output);
     refuse_read_only(output);
     const auto [at, fresh] = taken.emplace(where(followed(output)), "which it writes too");
     if (!fresh)

@@ -348,6 +348,9 @@ class Refusals(harness.Case):
         self.write("length.dmi", LENGTH)
         self.refused("E0601", "run", "missing.dmi")
         self.refused("E0602", "run", "length.dmi", "--machines", 20, "--csv", "no/such/folder/samples.csv")
+        self.refused("E0602", "run", "length.dmi", "--machines", 20, "--csv", "")
+        self.refused("E0602", "run", "length.dmi", "--machines", 20, "--csv", "whole.csv", "--report", "no/such/folder/report.html")
+        self.assertFalse((self.folder / "whole.csv").exists())
         self.assertIn("coord3-mc16", self.refused("E0411", "run", "length.dmi", "--machine", "coord3-mc61"))
         with open("/dev/full", "w") as full:
             self.assertIn("E0602", self.abbe("run", "length.dmi", "--machines", 20, code=2, stdout=full).stderr)
