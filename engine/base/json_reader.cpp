@@ -64,10 +64,17 @@ const JsonNode* JsonObject::require(std::string_view key, Kind kind) {
 }
 
 double JsonObject::checked(const JsonNode& node, std::string_view key, const NumberRange& range) {
+  // Squares of such numbers, and their quotients, stay finite.
+  constexpr double kLargest = 1e12, kSmallest = 1e-12;
+  const bool meant = std::abs(node.number) <= kLargest && (node.number >= kSmallest || range.holds(0));
   if (!range.holds(node.number))
     reader_->report(
         node.span, Code::E0406,
         fmt::format("\"{}\" is {}, but must be {}", path_to(key), reader_->source_.text(node.span), range.words));
+  else if (!meant)
+    reader_->report(node.span, Code::E0406,
+                    fmt::format("\"{}\" is {}, but must be between {:g} and {:g} in size", path_to(key),
+                                reader_->source_.text(node.span), kSmallest, kLargest));
   return node.number;
 }
 

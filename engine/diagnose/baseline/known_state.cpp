@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "engine/machine/geometry.hpp"
@@ -25,6 +26,8 @@ Vector vector_of(const Machine& machine, const nlohmann::json& list, Eigen::Inde
   for (Eigen::Index k = 0; k < size; ++k) {
     if (!list[static_cast<std::size_t>(k)].is_number()) refuse(machine, "a list holds something that is no number");
     v(k) = list[static_cast<std::size_t>(k)].get<double>();
+    constexpr double kMost = 1e6;  // standard deviations of the specification
+    if (!(std::abs(v(k)) < kMost)) refuse(machine, fmt::format("{:g} is no coefficient of an error function", v(k)));
   }
   return v;
 }

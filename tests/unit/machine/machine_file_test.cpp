@@ -152,6 +152,8 @@ TEST_CASE("values are converted to mm and rad") {
 
 TEST_CASE("impossible machines are refused at the place of the mistake") {
   check_fault(replaced(small_file(), "500", "-500"), Code::E0406, "axes.x.travel_mm");
+  check_fault(replaced(small_file(), "500", "1e300"), Code::E0406, "axes.x.travel_mm");
+  check_fault(replaced(small_file(), "500", "1e-200"), Code::E0406, "axes.x.travel_mm");
   check_fault(replaced(small_file(), "-1", "0"), Code::E0406, "direction");
   check_fault(replaced(small_file(), "-1", "2"), Code::E0406, "direction");
   check_fault(replaced(small_file(), "\"travel_mm\": 500", "\"travel\": 500, \"travel_mm\": 500"), Code::E0402,
