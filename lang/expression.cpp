@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "lang/intrinsics.hpp"
+#include "lang/parser.hpp"
 
 namespace abbe::lang {
 
@@ -316,8 +317,11 @@ class Reader {
     }
     double v = 0;
     const auto result = std::from_chars(text_.data() + begin, text_.data() + at_, v);
+    const std::string_view written = text_.substr(begin, std::max(at_, begin + 1) - begin);
+    if (result.ec == std::errc{} && v > kLargestNumber)
+      fail(begin, at_, fmt::format("'{}' is larger than anything that is measured", written));
     if (result.ec != std::errc{} || result.ptr != text_.data() + at_)
-      fail(begin, at_, fmt::format("'{}' is not a number", text_.substr(begin, std::max(at_, begin + 1) - begin)));
+      fail(begin, at_, fmt::format("'{}' is not a number", written));
     return whole ? integer(v) : number(v);
   }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <tao/pegtl.hpp>
 
 namespace abbe::lang {
@@ -334,12 +335,13 @@ class LineParser {
     return out;
   }
 
-  /// A number too large for a double stays an expression, which no signature takes.
+  /// A number too large for a double, or for anything that is measured, stays an expression, which no signature takes.
   static void read_number(RawArgument& out) {
     std::string_view digits = out.text;
     if (digits.starts_with('+')) digits.remove_prefix(1);
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), out.number);
-    out.kind = result.ec == std::errc{} ? RawArgument::Kind::number : RawArgument::Kind::expression;
+    const bool meant = result.ec == std::errc{} && std::abs(out.number) <= kLargestNumber;
+    out.kind = meant ? RawArgument::Kind::number : RawArgument::Kind::expression;
   }
 
   const LogicalLine& line_;

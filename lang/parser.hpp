@@ -62,6 +62,8 @@ struct RawStatement {
   bool usable = true;                 ///< false: something is wrong, the arguments are not to be looked at
 };
 
+/// Numbers beyond are refused: times and squares of what is computed from them stay finite.
+inline constexpr double kLargestNumber = 1e20;
 /// Parentheses deeper than this are refused, so that no input can exhaust the stack.
 inline constexpr int kMaximumNesting = 64;
 
