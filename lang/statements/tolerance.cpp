@@ -46,6 +46,10 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   if (const MatchedValue* unit = rest->find("unit_zone"))
     lowering.warn(Code::W0122, unit->span, "the zone per unit of area is not evaluated",
                   "the value and its uncertainty are of the flatness of the whole surface");
+  const MatchedValue *low = rest->find("lower"), *high = rest->find("upper");
+  if (low && high && !low->column.valid() && !high->column.valid() && low->number > high->number)
+    lowering.warn(Code::W0262, low->span, "the lower limit is above the upper one: no value conforms",
+                  "the lower deviation stands first, with its sign: -0.01,0.02");
   const ToleranceSymbol* known = lowering.symbols.tolerances.find(upper(raw.label->name));
   const bool same = known && known->kind == kind && same_arguments(known->match, *rest);
   if (known && !same) note_redefinition(lowering, raw, *known);
