@@ -51,7 +51,7 @@ Setter temperature(Member member) {
   return real(member, -50, 150);
 }
 
-constexpr int kMostCount = 1'000'000'000;
+constexpr int kMostCount = 100'000'000;
 
 template <class Member>
 Setter integer(Member member, int least = -kMostCount) {
@@ -68,7 +68,7 @@ template <class Member>
 Setter text(Member member) {
   return [=](const CsvField& f, Draft& d) {
     d.row.*member = f.text;
-    return "";
+    return f.text.empty() ? "a label" : "";
   };
 }
 
@@ -220,7 +220,8 @@ Recording read_recording(const SourceFile& file) {
     Draft draft;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CsvField& field = row.fields[k];
-      const std::string holds = field.text.empty() ? "" : columns[k](field, draft);
+      const bool required = table.header[k].text == "feature" || table.header[k].text == "touch";
+      const std::string holds = field.text.empty() && !required ? "" : columns[k](field, draft);
       if (holds.empty()) continue;
       sink.add(diagnostic_at(
           file, field.span, Code::E0530,
