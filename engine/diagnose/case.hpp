@@ -21,6 +21,8 @@ struct Case {
   DiagnoseOptions options;
   RecordedTouches touches;
   Baseline baseline;
+  double step_um = 0;        ///< of which all positions of the file are multiples
+  double rounding_um = 0;    ///< standard uncertainty by that, where it counts beside the probe's
   std::vector<char> masked;  ///< by touch: a gross outlier
   Vector off_um;             ///< by touch: how far a masked one lies from what the others predict
   std::vector<int> rows;     ///< touches that take part
@@ -117,9 +119,6 @@ struct NoiseFinding {
   std::vector<std::pair<std::string, std::string>> where = {};
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
-/// The step of which all recorded positions are multiples: the greatest common divisor of what the file says,
-/// down to 1 nm.
-double recorded_step_um(const Case&);
 void show_improvement(const Case&, const SearchResult&, Diagnosis&);
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
 std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult*, const std::vector<Detectable>&);

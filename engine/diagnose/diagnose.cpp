@@ -356,11 +356,24 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   return c;
 }
 
-/// `out`: what has been said of the recording so far.
-Diagnosis diagnosed(const Recording& recording, const Machine& machine, const DiagnoseOptions& options,
+/// Rounding is noise too: without it, what is rounded coarsely would lie on its steps without any.
+void add_rounding(double step_um, Case& c) {
+  constexpr double kLeastOfNoise = 0.3;
+  c.step_um = step_um;
+  const double rounding_um = step_um / std::sqrt(12.0);
+  Vector& noise_um = c.baseline.model.noise_um;
+  if (rounding_um < kLeastOfNoise * noise_um.mean()) return;
+  c.rounding_um = rounding_um;
+  noise_um = (noise_um.array().square() + rounding_um * rounding_um).sqrt();
+  c.baseline.model.quietest = std::max(c.baseline.model.quietest, rounding_um / noise_um.mean());
+}
+
+/// `step_um`: of which the positions were multiples as they were read. `out`: what has been said of the recording so far.
+Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& machine, const DiagnoseOptions& options,
                     std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
   const Diagnosis before = out;
   Case c = on_the_bench(recording, machine, options, surfaces, file, out);
+  add_rounding(step_um, c);
   // What holds no error at all says no more than its plan.
   const bool as_planned = !options.design_only && holds_targets_only(recording);
   if (as_planned) out.messages.push_back(nothing_but_targets(file));
@@ -378,7 +391,7 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
   EvidenceSearch first(c.model, c.hyper, c.explanations);
   const std::size_t without_readings = c.explanations.blocks.size();
   if (!plan) free_readings_of_noise(c, first);
-  add_explanations_of_readings(c.touches, c.rows, recorded_step_um(c), c.explanations);
+  add_explanations_of_readings(c.touches, c.rows, c.step_um, c.explanations);
   first.extend(c.explanations, without_readings);
   out.cannot_judge = cannot_judge(c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
@@ -403,7 +416,7 @@ Diagnosis diagnosed(const Recording& recording, const Machine& machine, const Di
   if (!surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out)) {
     Diagnosis again = before;
     again.messages.push_back(not_its_targets(c.touches, kNineTenths, file));
-    return diagnosed(recording, machine, options, Surfaces::unknown, file, std::move(again));
+    return diagnosed(recording, step_um, machine, options, Surfaces::unknown, file, std::move(again));
   }
   if (!result.findings.empty()) out.adequacy_p = result.adequacy;
   if (result.other) tell_unexplained(c, result, out);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "engine/base/csv.hpp"
 
@@ -84,6 +86,14 @@ std::optional<std::string> said(const Metadata& metadata, std::string_view key) 
       std::find_if(metadata.begin(), metadata.end(), [&](const auto& line) { return line.first == key; });
   if (found == metadata.end()) return std::nullopt;
   return found->second;
+}
+
+double common_step_mm(const Recording& recording) {
+  constexpr double kLastDigitsPerMm = 1e6;
+  long long step = 0;
+  for (const RecordingRow& row : recording.rows)
+    for (int k = 0; k < 3; ++k) step = std::gcd(step, std::llround(kLastDigitsPerMm * row.position_mm[k]));
+  return double(step) / kLastDigitsPerMm;
 }
 
 std::string to_csv(const Recording& recording) {

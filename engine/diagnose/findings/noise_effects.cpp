@@ -160,13 +160,32 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
 }
 
 std::optional<NoiseFinding> resolution(const Case& c) {
-  constexpr double kLeastOfNoise = 0.3, kStored_um = 1e-4;
-  const double step_um = recorded_step_um(c);
-  if (step_um / std::sqrt(12.0) < kLeastOfNoise * c.model.noise_um.mean()) return std::nullopt;
+  constexpr double kStored_um = 1e-4;
+  if (c.rounding_um == 0) return std::nullopt;
   // That every one of so many numbers has this divisor by chance is out of the question.
-  NoiseFinding f{find_effect("noise.resolution"), 1e-12, {figure("resolution_um", "um", step_um, kStored_um)}, {}};
-  f.sentence = fmt::format("All recorded positions are multiples of {:g} um: the readings were rounded.", step_um);
+  NoiseFinding f{find_effect("noise.resolution"), 1e-12, {figure("resolution_um", "um", c.step_um, kStored_um)}, {}};
+  f.sentence = fmt::format("All recorded positions are multiples of {:g} um: the readings were rounded.", c.step_um);
   return f;
+}
+
+/// Whether touches along one axis scatter much as those along another do.
+bool alike_along_all_axes(const Case& c, const Residuals& r) {
+  constexpr double kAlong = 0.8, kAlike = 1.6;
+  constexpr int kEnough = 8;
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double square = 0;
+    int count = 0;
+    for (std::size_t k = 0; k < c.rows.size(); ++k) {
+      const TouchScene& s = c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene;
+      if (std::abs(s.normal[axis]) < kAlong) continue;
+      square += std::pow(r.standardised(static_cast<Eigen::Index>(k)), 2), ++count;
+    }
+    if (count < kEnough) continue;
+    const double rms = std::sqrt(square / count);
+    least = std::min(least, rms), most = std::max(most, rms);
+  }
+  return most <= kAlike * least;
 }
 
 /// Scatter that depends on the direction of the normal, or that is far above the machine's in touches that do
@@ -243,17 +262,6 @@ std::optional<NoiseFinding> outliers(const Case& c) {
 }
 
 }  // namespace
-
-double recorded_step_um(const Case& c) {
-  constexpr double kLastDigitsPerMm = 1e6;
-  long long step = 0;
-  for (const int i : c.rows) {
-    const Vec3& p =
-        c.recording->rows[static_cast<std::size_t>(c.touches.touches[static_cast<std::size_t>(i)].row)].position_mm;
-    for (int k = 0; k < 3; ++k) step = std::gcd(step, std::llround(kLastDigitsPerMm * p[k]));
-  }
-  return 1e3 * double(step) / kLastDigitsPerMm;
-}
 
 std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result) {
   std::vector<std::optional<NoiseFinding>> judged{resolution(c), outliers(c)};

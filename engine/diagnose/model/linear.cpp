@@ -62,6 +62,7 @@ class Likelihood {
 
   /// Logarithm of the restricted likelihood times the priors; constants left out.
   double at(const Hyperparameters& h) const {
+    if (h.noise.minCoeff() < model_.quietest) return -std::numeric_limits<double>::infinity();
     Matrix m = Matrix::Zero(q_, q_);
     Vector b = Vector::Zero(q_);
     double squares = 0, log_noise = 0, prior = 0;
@@ -265,6 +266,7 @@ LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped)
   for (const Matrix& function : m.uneven) out.uneven.push_back(function(kept, Eigen::all));
   out.random_group = m.random_group;
   out.scale_spread = m.scale_spread;
+  out.quietest = m.quietest;
   out.largest_scale = m.largest_scale;
   out.noise_um = m.noise_um(kept);
   out.noise_groups = m.noise_groups;

@@ -43,6 +43,8 @@ struct LinearModel {
   double largest_scale = 3;
   /// of the logarithm of the scale of group 0: how far a machine's errors may be from the specification's
   double scale_spread = 0.7;
+  /// least factor on noise_um: no probe is so much better than its specification
+  double quietest = 0.05;
   std::vector<char> follows;  ///< by row: measured right after the row before, with the same stylus
 };
 

@@ -1,0 +1,75 @@
+"""abbe diagnose where columns say less than they seem to: few digits, clocks with another beginning, gaps, a dirty touch."""
+import json
+
+import harness
+
+PROGRAM = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"   # one sphere, five orientations of the head, 125 touches
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+
+class Columns(harness.Case):
+    def record(self, *options, name="whole.csv", program=PROGRAM):
+        self.abbe("record", program, "--machine", MACHINE, "-o", name, *options)
+        return self.folder / name
+
+    def diagnosis(self, *args):
+        return json.loads(self.abbe("diagnose", *args, "--machine", MACHINE, "--format", "json").stdout)
+
+    def codes(self, said):
+        return [m["code"] for m in said["messages"]]
+
+    def test_positions_of_two_decimals_are_rounded_and_nothing_else(self):
+        for seed in (4, 7):
+            rounded = self.changed(self.record("--seed", seed), lambda row: row | {a: f"{float(row[a]):.2f}" for a in "xyz"} | {f"enc_{a}": "" for a in "xyz"})
+            said = self.diagnosis(rounded)
+            self.assertEqual([e["members"] for e in said["effects"]], [["noise.resolution"]])
+            self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], 10)
+            self.assertEqual(said["baseline"]["outliers"], [])
+
+    def test_a_part_off_its_targets_hides_no_rounding(self):
+        def moved(row):
+            return row | {a: f"{round(2e2 * (float(row[a]) + by)) / 2e2:.3f}" for a, by in (("x", 0.2), ("y", -0.3), ("z", 0.1))} | {f"enc_{a}": "" for a in "xyz"}
+        said = self.diagnosis(self.changed(self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi"), moved))
+        self.assertEqual([e["members"] for e in said["effects"]], [["noise.resolution"]])
+        self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], 5)
+
+    def test_a_clock_may_begin_anywhere(self):
+        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=12,t0_s=130,direction=x")
+        said = self.diagnosis(whole)
+        late = self.diagnosis(self.changed(whole, lambda row: row | {"time_s": f"{float(row['time_s']) + 1.7e9:.3f}"}))
+        self.assertIn("N0721", self.codes(late))
+        self.assertEqual(late["effects"][0]["members"], said["effects"][0]["members"])
+        begin = 10.0   # of the clock at the first touch
+        moment, later = (d["effects"][0]["parameters"]["t0_s"]["value"] for d in (said, late))
+        self.assertLess(abs(moment - begin - later), 30)
+
+    def test_what_is_logged_in_part_is_left_out(self):
+        whole = self.record("--seed", 4)
+        gap = self.changed(whole, lambda row: row | ({"time_s": ""} if row["feature"] == "P2_13" else {"time_s": f"{float(row['time_s']) + 1.7e9:.3f}"}))
+        said = self.diagnosis(gap)
+        self.assertIn("W0722", self.codes(said))
+        self.assertEqual(said["verdict"], "no_mismatch")
+        without = self.diagnosis(self.changed(whole, lambda row: {k: v for k, v in row.items() if k != "time_s"}))
+        self.assertEqual(said["p_value"], without["p_value"])
+
+    def test_one_dirty_touch_is_no_failed_acceptance_test(self):
+        whole = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/e0.dmi")
+        first = []
+
+        def dirty(row):
+            first.append(row)
+            return row | ({"x": repr(float(row["x"]) - 0.04 * float(row["nx"]))} if len(first) == 1 else {})
+        said = self.diagnosis(self.changed(whole, dirty))
+        self.assertNotIn("W0716", self.codes(said))
+        self.assertEqual(len(said["baseline"]["outliers"]), 1)
+
+    def test_an_unknown_part_may_move(self):
+        whole = self.record("--seed", 4)
+        again = self.record("--seed", 4, "--run", 2, "--setup", 2, name="again.csv")
+        moved = self.changed(again, lambda row: row | {a: repr(float(row[a]) + 50) for a in ("x", "tx", "enc_x")}, "moved.csv")
+        both = [self.write(f"unknown_{path.name}", "# surfaces: unknown\n" + path.read_text()) for path in (whole, moved)]
+        self.assertNotIn("W0710", self.codes(self.diagnosis(*both)))
+
+
+if __name__ == "__main__":
+    harness.main()
