@@ -1,0 +1,59 @@
+// Columns of a recording that say less than they seem to: a clock with another beginning, gaps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// Takes a column out where some rows have it and some do not.
+template <class Value>
+void leave_out(std::optional<Value> RecordingRow::*column, const char* name, Recording& recording,
+               const std::string& file, std::vector<Diagnostic>& messages) {
+  const auto& rows = recording.rows;
+  const auto missing = std::find_if(rows.begin(), rows.end(), [&](const RecordingRow& r) { return !(r.*column); });
+  const auto logged = std::count_if(rows.begin(), rows.end(), [&](const RecordingRow& r) { return bool(r.*column); });
+  if (missing == rows.end() || logged == 0) return;
+  messages.push_back(diagnostic(
+      Code::W0722,
+      fmt::format("{}: {} is empty in {} of {} rows, first for '{}' touch {}: it is not used", file, name,
+                  rows.size() - static_cast<std::size_t>(logged), rows.size(), missing->feature, missing->touch),
+      "fill it in, or leave those rows out"));
+  for (RecordingRow& row : recording.rows) (row.*column).reset();
+}
+
+}  // namespace
+
+void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  const auto out = [&](auto column, const char* name) { leave_out(column, name, recording, file, messages); };
+  out(&RecordingRow::time_s, "time_s");
+  out(&RecordingRow::speed_mm_s, "speed_mm_s");
+  out(&RecordingRow::accel_mm_s2, "accel_mm_s2");
+  out(&RecordingRow::travel, "ax,ay,az");
+  out(&RecordingRow::temp_part_C, "temp_part_C");
+  out(&RecordingRow::temp_x_C, "temp_x_C");
+  out(&RecordingRow::temp_y_C, "temp_y_C");
+  out(&RecordingRow::temp_z_C, "temp_z_C");
+  out(&RecordingRow::temp_air_C, "temp_air_C");
+  out(&RecordingRow::load_kg, "load_kg");
+  out(&RecordingRow::reading_mm, "enc_x,enc_y,enc_z");
+}
+
+void count_from_first_touch(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kLate_s = 3600;  // a program that is so long before its first touch has another clock
+  std::optional<double> first;
+  for (const RecordingRow& row : recording.rows)
+    if (row.time_s) first = std::min(first.value_or(*row.time_s), *row.time_s);
+  if (!first || *first < kLate_s) return;
+  for (RecordingRow& row : recording.rows)
+    if (row.time_s) *row.time_s -= *first;
+  messages.push_back(diagnostic(
+      Code::N0721, fmt::format("{}: its clock stands at {:.0f} s at the first touch", file, *first),
+      "times are counted from that touch; what changes since a start, warm-up or drift, is taken to start there"));
+}
+
+}  // namespace abbe::diagnose
