@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 namespace abbe::diagnose {
@@ -26,7 +27,11 @@ Vector without_placement(const LinearModel& m) { return m.y - m.free * m.free.co
 LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, const Specification& specification) {
   constexpr std::size_t kCount = 3;
   constexpr double kLeast_mm = 1;
-  std::vector<LengthError> worst;
+  struct Length {
+    LengthError error;
+    std::size_t from, to;
+  };
+  std::vector<Length> beyond;
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const TouchScene &a = t.touches[i].scene, &b = t.touches[j].scene;
@@ -38,13 +43,20 @@ LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, c
       const LengthError e{
           length, (along_a * residuals_um(Eigen::Index(i)) - along_b * residuals_um(Eigen::Index(j))) / kUmPerMm,
           specification.mpe.at(length)};
-      worst.insert(
-          std::find_if(worst.begin(), worst.end(), [&](const LengthError& other) { return share(other) < share(e); }),
-          e);
-      if (worst.size() > kCount) worst.pop_back();
+      beyond.push_back({e, i, j});
     }
   }
-  return worst.size() < kCount ? LengthError{} : worst.back();
+  std::stable_sort(beyond.begin(), beyond.end(),
+                   [](const Length& a, const Length& b) { return share(a.error) > share(b.error); });
+  // Each touch once: a dirty one is in as many lengths as it has partners.
+  std::set<std::size_t> used;
+  std::size_t count = 0;
+  for (const Length& l : beyond) {
+    if (used.count(l.from) || used.count(l.to)) continue;
+    if (++count == kCount) return l.error;
+    used.insert(l.from), used.insert(l.to);
+  }
+  return {};
 }
 
 std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Vector& residuals_um,
