@@ -206,6 +206,19 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   return out;
 }
 
+namespace {
+
+/// The first of them, by name.
+std::string listed(const Explanations& all, const std::vector<int>& set) {
+  constexpr std::size_t kShown = 3;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < std::min(kShown, set.size()); ++k)
+    names.push_back(all.list[static_cast<std::size_t>(set[k])].name);
+  return fmt::format("{}{}", fmt::join(names, " or "), set.size() > kShown ? ", or another," : "");
+}
+
+}  // namespace
+
 Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
   const Finding& f = *result.other;
   const EvidenceSearch search(with_free(c.model, signatures_of(c, result.findings)), result.hyper, c.explanations);
@@ -221,8 +234,12 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
   u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
   u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
   u.sentence =
-      fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording that no effect of the catalogue makes.",
-                  u.factor, u.shape, u.amplitude_um);
+      fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording", u.factor, u.shape, u.amplitude_um);
+  const Finding name = finding_of(c.explanations, f.evidence, true);
+  const bool as_good = kNamed * name.probability >= f.probability;
+  u.sentence += !as_good ? " that no effect of the catalogue makes."
+                         : fmt::format(". {} would explain it as well as what the catalogue does not have.",
+                                       listed(c.explanations, name.set));
   if (result.nearest) {
     u.sentence += fmt::format(" {} comes nearest, but leaves more than chance does (p = {:.1f} %).",
                               c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name,

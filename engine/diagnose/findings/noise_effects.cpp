@@ -221,8 +221,8 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
   const double sd = spec * std::sqrt(excess * excess - 1), u_sd = spec * excess * u / std::sqrt(excess * excess - 1);
   NoiseFinding f{find_effect("noise.vibration"), p, {figure("sd_um", "um", sd, u_sd)}, {}};
   f.certain = other_each_time(c, r, quiet, 1 - 1 / (excess * excess));
-  f.sentence = fmt::format(
-      "Touches scatter {:.1f} times as much as the probe's specification says, in every direction.", excess);
+  f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says{}.", excess,
+                           alike_along_all_axes(c, r) ? ", in every direction" : ", not alike in all directions");
   return f;
 }
 

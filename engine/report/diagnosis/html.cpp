@@ -23,7 +23,7 @@ std::string_view title(const Diagnosis& d) {
                            : "No mismatch found";
     case Verdict::named: return "A mismatch, and what makes it";
     case Verdict::one_of: return "A mismatch, and what may make it";
-    case Verdict::unexplained: return "A mismatch that no effect of the catalogue explains";
+    case Verdict::unexplained: return "A mismatch without a name";
     case Verdict::cannot_judge: return "A mismatch that cannot be judged from what was logged";
   }
   return "";
