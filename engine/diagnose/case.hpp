@@ -42,8 +42,8 @@ Explanations only(const Explanations&, const std::vector<int>& kept);
 /// Rows of every signature.
 Explanations rows_of(const Explanations&, const std::vector<Eigen::Index>& rows);
 
-/// The likeliest variant of an explanation.
-int best_block(const Explanation&, const Evidence&);
+/// The likeliest variant of an explanation, given the data and what was believed of it before.
+int best_block(const Explanations&, int explanation, const Evidence&);
 
 /// One mismatch that the search has found.
 struct Finding {
@@ -61,7 +61,8 @@ struct SearchResult {
   std::vector<Finding> findings;   ///< of the catalogue
   std::optional<Finding> other;    ///< what the catalogue does not explain
   std::optional<Finding> nearest;  ///< the name that was doubted in favour of `other`
-  Evidence first;                  ///< before any finding
+  Evidence first;                  ///< before any finding, with the finer variants of what was found
+  Evidence on_grid;                ///< that of the grid alone, as `null` is
   std::vector<Evidence> null;      ///< simulated, before any finding
   /// of the recording beside all that was found: a mismatch passes for noise and for larger errors
   Hyperparameters hyper;

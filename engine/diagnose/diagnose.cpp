@@ -136,7 +136,9 @@ bool stays_in_its_setup(const Case& c) {
 std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters,
                               Diagnosis& out) {
   EffectSetting setting = setting_of(std::string(effect.name), parameters);
-  const std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
+  std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
+  const auto& taken = out.superseded;
+  if (before && std::find(taken.begin(), taken.end(), before->index) != taken.end()) before.reset();
   if (before) setting = before->now;
   setting = nearest_possible(effect, setting);
   const bool gone = before && before->gone;
@@ -174,7 +176,7 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
       dropped += weight(c, as_found, f.set.front());
       f.set.erase(f.set.begin());
       f.explanation = f.set.front();
-      f.block = best_block(c.explanations.list[static_cast<std::size_t>(f.explanation)], f.evidence);
+      f.block = best_block(c.explanations, f.explanation, f.evidence);
       // of all that were in question before, those outside the set too
       const double impossible = as_found.probability * dropped / all;
       f.probability = (as_found.probability - impossible) / (1 - impossible);
@@ -190,7 +192,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     for (const int m : f.set) {
       const Explanation& member = c.explanations.list[m];
       e.members.push_back(member.name);
-      const int likeliest = m == f.explanation ? f.block : best_block(member, result.first);
+      const int likeliest = m == f.explanation ? f.block : best_block(c.explanations, m, f.evidence);
       e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(likeliest)],
                                    c.explanations.blocks[static_cast<std::size_t>(f.block)]));
     }
@@ -448,7 +450,8 @@ Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, 
   out.judged = !options.design_only;
   const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
   out.touches = static_cast<int>(recording.rows.size());
-  return diagnosed(recording, machine, options, stated_surfaces(recording, file), file, std::move(out));
+  return diagnosed(recording, options.design_only ? 0 : kUmPerMm * common_step_mm(recorded), machine, options,
+                   stated_surfaces(recording, file), file, std::move(out));
 }
 
 }  // namespace abbe

@@ -1,8 +1,9 @@
 // Whether the named model predicts data that it has not seen better than the baseline does: grouped leave-one-out.
 //
 // log p(y_g | rest, model) - log p(y_g | rest, baseline) = log B(all) - log B(all but g), B the Bayes factor
-// of the explanation with all its variants and sizes: so nothing of a held-out group enters the choice of a
-// variant or of a size, and terms of improper priors cancel. Model and baseline have each their own noise and
+// of the explanation with all its variants and sizes: so a held-out group enters neither the choice among the
+// variants nor of a size, and terms of improper priors cancel. Which variants are in question (those within 12 nats
+// of the best, search.cpp), and the other findings, are those of the whole recording. Model and baseline have each their own noise and
 // size of the machine's errors: those of the whole recording with what was found and without. The scheme is
 // the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time. The
 // residuals that are shown are those of the same predictions: of each group from the others, by the machine
@@ -83,7 +84,7 @@ struct HeldOut {
 
 /// The likeliest variant of the one explanation of a search at its likeliest size, over all rows.
 Matrix likeliest(const EvidenceSearch& search, const Explanations& on_all_rows) {
-  const int block = best_block(on_all_rows.list.front(), search.evidence());
+  const int block = best_block(on_all_rows, 0, search.evidence());
   const auto info = search.information(block);
   double most = -std::numeric_limits<double>::infinity(), factor = 1;
   for (const Size& s : search.sizes(block)) {
@@ -233,7 +234,8 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   }
   if (second < 0) return;
   const Explanation& e = c.explanations.list[static_cast<std::size_t>(second)];
-  const Matrix& signature = c.explanations.blocks[static_cast<std::size_t>(best_block(e, result.first))].signature;
+  const int block = best_block(c.explanations, second, result.first);
+  const Matrix& signature = c.explanations.blocks[static_cast<std::size_t>(block)].signature;
   const HeldOut h = held_out(c, scheme, second, c.model, estimate(with_free(c.model, {&signature})));
   out.runner_up = RunnerUp{{e.name}, sum(h.gain) + sum(h.null) - sum(baseline)};
 }

@@ -160,7 +160,8 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
   std::map<Factor, Located> out;
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
-    const bool changes = all.blocks[static_cast<std::size_t>(best_block(e, evidence))].change.run > 0;
+    const int block = best_block(all, static_cast<int>(k), evidence);
+    const bool changes = all.blocks[static_cast<std::size_t>(block)].change.run > 0;
     out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k],
                                                     evidence);
   }
@@ -187,10 +188,10 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   };
   std::vector<Entry> entries;
   for (const auto& [factor, located] : by_factor(c, result.first)) {
-    const int block = best_block(all.list[located.best], result.first);
+    const int block = best_block(all, located.best, result.first);
     const Pattern pattern = pattern_of(search, all.blocks[block], block);
     entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
-                        tail_probability(result.first.log_bayes[located.best], simulated)},
+                        tail_probability(result.on_grid.log_bayes[located.best], simulated)},
                        log_sum_exp(located.log_belief),
                        pattern.energy});
   }

@@ -126,6 +126,7 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     Round r = round(c, here, number);
     if (number == 0) {
       result.p_value = r.p;
+      result.on_grid = r.evidence;
       result.null = std::move(r.null);
     } else {
       result.adequacy = r.p;
@@ -185,7 +186,6 @@ void drop_needless(const Case& c, SearchResult& result) {
 /// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is
 /// enough, but an effect and its change from one run to the next are two.
 void name_again(const Case& c, SearchResult& result) {
-  if (result.findings.size() < 2) return;
   const std::vector<Finding> before = std::exchange(result.findings, {});
   for (std::size_t k = 0; k < before.size(); ++k) {
     auto [f, pattern] = renamed(c, before, k, result.other);
@@ -199,6 +199,8 @@ void name_again(const Case& c, SearchResult& result) {
       result.findings.push_back(std::move(f));
     else if (pattern && !result.other)
       result.other = std::move(f);
+    else if (pattern)
+      result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
   }
 }
 
@@ -211,8 +213,11 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   first.extend(c.explanations, grid);
   result.first = first.evidence();
   drop_names_beside_a_pattern(c, result);
+  const std::size_t found = result.findings.size();
   drop_needless(c, result);
-  name_again(c, result);
+  if (found > 1) name_again(c, result);
+  if (result.findings.size() < found && !result.findings.empty())
+    result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
   result.hyper =
       result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
   return result;
@@ -232,12 +237,12 @@ Finding finding_of(const Explanations& all, const Evidence& evidence, bool catal
   f.evidence = evidence;
   if (order.empty()) return f;
   for (const int k : order) {
-    if (f.probability >= kCredible * total) break;
+    if (!f.set.empty() && f.probability >= kCredible * total) break;
     f.set.push_back(k);
     f.probability += p[k];
   }
   f.explanation = order.front();
-  f.block = best_block(all.list[f.explanation], evidence);
+  f.block = best_block(all, f.explanation, evidence);
   return f;
 }
 
@@ -259,9 +264,13 @@ std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& resu
   return list;
 }
 
-int best_block(const Explanation& e, const Evidence& evidence) {
-  return *std::max_element(e.blocks.begin(), e.blocks.end(),
-                           [&](int a, int b) { return evidence.block_log_bayes[a] < evidence.block_log_bayes[b]; });
+int best_block(const Explanations& all, int explanation, const Evidence& evidence) {
+  const std::vector<int>& blocks = all.list[static_cast<std::size_t>(explanation)].blocks;
+  const auto belief = [&](int b) {
+    return evidence.block_log_bayes[static_cast<std::size_t>(b)] +
+        std::log(all.blocks[static_cast<std::size_t>(b)].weight);
+  };
+  return *std::max_element(blocks.begin(), blocks.end(), [&](int a, int b) { return belief(a) < belief(b); });
 }
 
 LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {

@@ -100,8 +100,6 @@ class Design {
     std::vector<double> left;               ///< by explanation: the share of the information that it cannot imitate
   };
 
-  static bool counts(const Explanation& e) { return !e.blocks.empty(); }
-
   /// The size that is told: of the column that shows most.
   int parameter_of(const Explanation& e) const {
     const auto most = [&](int b) { return diagonal_[static_cast<std::size_t>(b)].maxCoeff(); };
@@ -186,7 +184,7 @@ class Design {
     const double own = log_belief(truth, shift, snr), over_patterns = std::log(3.0);
     double against = 0;
     for (std::size_t j = 0; j < all_.list.size(); ++j) {
-      if (j == truth || !counts(all_.list[j])) continue;
+      if (j == truth) continue;
       const double odds = own - log_belief(j, shift, snr) - kPower * snr * std::sqrt(shift.left[j]);
       if (all_.list[j].effect)
         against += std::exp(-odds);
@@ -215,8 +213,7 @@ class Design {
     std::vector<double> out(all_.list.size(), 0.0);
     double sum = 0;
     for (std::size_t j = 0; j < out.size(); ++j)
-      if (all_.list[j].effect && counts(all_.list[j]))
-        sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr) - own));
+      if (all_.list[j].effect) sum += out[j] = std::exp(std::min(50.0, log_belief(j, shift, snr) - own));
     for (double& b : out) b /= sum;
     return out;
   }
