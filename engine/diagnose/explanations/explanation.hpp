@@ -19,7 +19,7 @@ namespace abbe::diagnose {
 inline constexpr double kDetects = 4.5, kNames = 5.5;
 /// Share of the information beyond which nothing is left to tell two effects apart.
 inline constexpr double kInseparable = 0.03;
-/// Share of the information that a rival takes from which on the two are called confounded.
+/// Correlation of two signatures, beside all unknowns, from which on they are called confounded.
 inline constexpr double kConfounded = 0.7;
 
 /// In what a mismatch lies (interfaces: "location").
