@@ -71,7 +71,9 @@ Flow::Step Flow::jump(int at) {
 /// target or back.
 std::vector<Flow::Interval> Flow::moving_intervals(int level) const {
   std::vector<Interval> intervals;
-  if (moving_.empty()) return intervals;
+  const auto at_this_level = [&](const auto& target) { return (*routine_)[target.second].parent == level; };
+  if (moving_.empty() || std::none_of(routine_->targets.begin(), routine_->targets.end(), at_this_level))
+    return intervals;
   for (const int k : routine_->jumps) {
     const Line& line = (*routine_)[k];
     if (!moving_.count({routine_->file->name(), line.raw.span.begin})) continue;
