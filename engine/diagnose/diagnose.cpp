@@ -72,9 +72,9 @@ bool holds_targets_only(const Recording& r) {
 Recording ready(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
                 const std::string& file, std::vector<Diagnostic>& messages) {
   Recording once = without_copies(recorded, file, messages);
+  check_data(once, machine, file);
   leave_out_partly_logged(once, file, messages);
   count_from_first_touch(once, file, messages);
-  check_data(once, machine, file);
   return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
 }
 
