@@ -3,7 +3,6 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <vector>
 
 namespace abbe::diagnose {
@@ -25,38 +24,32 @@ double share(const LengthError& e) { return std::abs(e.error_mm) / e.mpe_mm; }
 Vector without_placement(const LinearModel& m) { return m.y - m.free * m.free.colPivHouseholderQr().solve(m.y); }
 
 LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, const Specification& specification) {
-  constexpr std::size_t kCount = 3;
+  constexpr int kCount = 3;
   constexpr double kLeast_mm = 1;
-  struct Length {
-    LengthError error;
-    std::size_t from, to;
-  };
-  std::vector<Length> beyond;
-  for (std::size_t i = 0; i < t.touches.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const TouchScene &a = t.touches[i].scene, &b = t.touches[j].scene;
-      const Vec3 between = a.point - b.point;
-      const double length = norm(between);
-      if (length < kLeast_mm || !comparable(a, b)) continue;
-      const double along_a = dot(a.normal, between) / length, along_b = dot(b.normal, between) / length;
-      if (std::min(std::abs(along_a), std::abs(along_b)) < kAlong) continue;
-      const LengthError e{
-          length, (along_a * residuals_um(Eigen::Index(i)) - along_b * residuals_um(Eigen::Index(j))) / kUmPerMm,
-          specification.mpe.at(length)};
-      beyond.push_back({e, i, j});
-    }
-  }
-  std::stable_sort(beyond.begin(), beyond.end(),
-                   [](const Length& a, const Length& b) { return share(a.error) > share(b.error); });
+  LengthError worst;
   // Each touch once: a dirty one is in as many lengths as it has partners.
-  std::set<std::size_t> used;
-  std::size_t count = 0;
-  for (const Length& l : beyond) {
-    if (used.count(l.from) || used.count(l.to)) continue;
-    if (++count == kCount) return l.error;
-    used.insert(l.from), used.insert(l.to);
+  std::vector<char> used(t.touches.size(), 0);
+  for (int k = 0; k < kCount; ++k) {
+    worst = {};
+    std::size_t from = 0, to = 0;
+    for (std::size_t i = 0; i < t.touches.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const TouchScene &a = t.touches[i].scene, &b = t.touches[j].scene;
+        const Vec3 between = a.point - b.point;
+        const double length = norm(between);
+        if (used[i] || used[j] || length < kLeast_mm || !comparable(a, b)) continue;
+        const double along_a = dot(a.normal, between) / length, along_b = dot(b.normal, between) / length;
+        if (std::min(std::abs(along_a), std::abs(along_b)) < kAlong) continue;
+        const LengthError e{
+            length, (along_a * residuals_um(Eigen::Index(i)) - along_b * residuals_um(Eigen::Index(j))) / kUmPerMm,
+            specification.mpe.at(length)};
+        if (from == to || share(e) > share(worst)) worst = e, from = i, to = j;
+      }
+    }
+    if (from == to) return {};
+    used[from] = used[to] = 1;
   }
-  return {};
+  return worst;
 }
 
 std::optional<LengthError> beyond_specification(const RecordedTouches& t, const Vector& residuals_um,
