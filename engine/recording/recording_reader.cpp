@@ -40,7 +40,8 @@ template <class Member>
 Setter real(Member member, double low, double high) {
   return [=](const CsvField& f, Draft& d) -> std::string {
     const std::optional<double> v = finite_number(f.text);
-    if (!v || *v < low || *v > high) return fmt::format("a number from {:g} to {:g}", low, high);
+    if (!v || *v < low || *v > high)
+      return fmt::format("a number from {:g} to {:g}, with a decimal point and no unit", low, high);
     d.row.*member = *v;
     return "";
   };
@@ -76,7 +77,7 @@ Setter coordinate(std::string vector, int axis) {
   return [=](const CsvField& f, Draft& d) {
     constexpr double kNoMachine_mm = 1e9;  // not even in micrometres
     const std::optional<double> v = finite_number(f.text);
-    if (!v || std::abs(*v) > kNoMachine_mm) return "a number that a machine can reach";
+    if (!v || std::abs(*v) > kNoMachine_mm) return "a number in mm, with a decimal point and no unit";
     d.vectors[vector].coordinate[axis] = *v;
     return "";
   };
@@ -223,10 +224,10 @@ Recording read_recording(const SourceFile& file) {
       const bool required = table.header[k].text == "feature" || table.header[k].text == "touch";
       const std::string holds = field.text.empty() && !required ? "" : columns[k](field, draft);
       if (holds.empty()) continue;
-      sink.add(diagnostic_at(
-          file, field.span, Code::E0530,
-          fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
-          fmt::format("it holds {}, with a decimal point and no unit, or nothing where it is not known", holds)));
+      sink.add(
+          diagnostic_at(file, field.span, Code::E0530,
+                        fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
+                        fmt::format("it holds {}{}", holds, required ? "" : ", or nothing where it is not known")));
     }
     complete_vectors(file, row, draft, sink);
     draft.row.line = row.line;

@@ -78,6 +78,8 @@ TEST_CASE("lines before the table and counts say something possible, or are refu
   for (const auto& [columns, row] : {std::pair{"feature,touch,x,y,z", "A,0,0,0,0"},
                                      {"feature,touch,setup,x,y,z", "A,1,0,0,0,0"},
                                      {"feature,touch,run,x,y,z", "A,1,-1,0,0,0"},
+                                     {"feature,touch,x,y,z", ",1,0,0,0"},
+                                     {"feature,touch,x,y,z", "A,,0,0,0"},
                                      {"feature,touch,x,y,z,head_A_deg", "A,1,0,0,0,1e308"},
                                      {"feature,touch,x,y,z,time_s", "A,1,0,0,0,-1e300"},
                                      {"feature,touch,x,y,z,speed_mm_s", "A,1,0,0,0,-5"},
