@@ -30,6 +30,24 @@ class Unexplained(harness.Case):
     def diagnosis(self, *args):
         return json.loads(self.abbe("diagnose", *args, "--format", "json").stdout)
 
+    def test_a_name_that_explains_it_as_well_is_told(self):
+        """Five faces of a box: a scale that reads long is one face that is elsewhere."""
+        faces = [("TOP", (200, 150, 0), (0, 0, 1)), ("FRONT", (200, 0, -60), (0, -1, 0)), ("RIGHT", (400, 150, -60), (1, 0, 0)),
+                 ("BACK", (200, 300, -60), (0, 1, 0)), ("LEFT", (0, 150, -60), (-1, 0, 0))]
+        text = harness.LENGTH.split("S(P)=")[0] + ("S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,150.0,4.0\nSNSLCT/S(P)\n"
+                                                   "D(M)=DATSET/MCS\nD(R)=TRANS/XORIG,500,YORIG,300,ZORIG,-450\n")
+        for label, at, n in faces:
+            points = [(x, y, z) for x in ({at[0]} if n[0] else (30, 200, 370)) for y in ({at[1]} if n[1] else (30, 150, 270))
+                      for z in ({at[2]} if n[2] else (-20, -60, -100))]
+            above = [f"GOTO/{x + 40 * n[0]},{y + 40 * n[1]},60\nGOTO/{x + 40 * n[0]},{y + 40 * n[1]},{z + 20 * n[2]}\n"
+                     f"PTMEAS/CART,{x},{y},{z},{n[0]},{n[1]},{n[2]}\nGOTO/{x + 40 * n[0]},{y + 40 * n[1]},60\n" for x, y, z in points]
+            text += f"F({label})=FEAT/PLANE,CART,{at[0]},{at[1]},{at[2]},{n[0]},{n[1]},{n[2]}\nMEAS/PLANE,F({label}),9\n" + "".join(above) + "ENDMES\n"
+        self.abbe("record", self.write("box.dmi", text + "ENDFIL\n"), "--seed", 2, "--with", "machine.scale:scale_um_per_m=60,axis=x", "-o", "box.csv")
+        said = self.diagnosis("box.csv")
+        self.assertEqual(said["verdict"], "unexplained")
+        self.assertIn("machine.scale", said["unexplained"]["sentence"])
+        self.assertNotIn("no effect of the catalogue", said["unexplained"]["sentence"])
+
     def test_the_pattern_is_saved_and_explains(self):
         recording = self.recorded("dented.csv", lambda n, _: 0.012 * math.exp(-((n[0] - 0.5) ** 2 + (n[1] - 0.6) ** 2 + (n[2] - 0.62) ** 2) / 0.25))
         before = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
