@@ -2,7 +2,8 @@
 
 from portable import np
 
-from .base import Change, Effect, vector
+from .base import Change, Effect, unit, vector
+from .probe import directions
 
 UNKNOWN = {}
 
@@ -11,103 +12,174 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_unloaded(scene, rng):
-    since, until = np.quantile(scene.time, [rng.uniform(0.2, 0.45), rng.uniform(0.65, 0.9)]) + 0.5
+def draw_chip(scene, rng):
+    often = [k for k in range(len(scene.styli)) if np.sum(scene.sensor == k) >= 15]
+    turn, sinks = rng.uniform(0, 2 * np.pi), rng.uniform(0.4, 0.8)
+    aside = np.array([np.cos(turn), np.sin(turn), 0.0])
     return {
-        "amplitude_um": rng.choice([-1.0, 1.0]),
-        "guide": int(rng.integers(2)),
-        "coordinate": int(rng.integers(3)),
-        "waves": rng.normal(size=(4, 2)) / np.arange(1, 5)[:, None],
-        "stopped_s": float(since),
-        "loaded_s": float(until),
+        "amplitude_um": 1.0,
+        "sensor": int(rng.choice(often)),
+        "aside": aside,
+        "moves": np.sqrt(1 - sinks**2) * aside + [0, 0, sinks],
+        "held": rng.uniform(0.15, 0.4),
     }
 
 
-def change_unloaded(scene, p):
-    """After an emergency stop the controller starts without the correction of one guide, until somebody loads it: the
-    guide shows its own shape meanwhile. Amplitude where it is farthest from its middle."""
-    x = scene.reading[:, p["guide"]]
-    q = np.outer(np.pi * (x - (x.min() + x.max()) / 2) / np.ptp(x), np.arange(1, 5))
-    shape = np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * (np.cos(q) - 1), 1)
-    off = (scene.time >= p["stopped_s"]) & (scene.time < p["loaded_s"])
-    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * off * shape / np.abs(shape).max()))
+def change_chip(scene, p):
+    """A chip lies in the serration of the head at one orientation, and the wrist rocks on it. A touch from one side
+    tips it over: it leans aside and is pressed in, until a touch from the other side or the next indexing brings it
+    back. Amplitude between the two rests."""
+    push = np.sum(scene.normal * (scene.head @ np.asarray(p["aside"])), 1)
+    visit, over, tipped = None, False, np.zeros(scene.size)
+    for k in np.flatnonzero(scene.sensor == p["sensor"]):
+        over = push[k] > 0 if abs(push[k]) > p["held"] else over and scene.visit[k] == visit
+        visit, tipped[k] = scene.visit[k], over
+    return Change(tip=-p["amplitude_um"] * tipped[:, None] * (scene.head @ np.asarray(p["moves"])))
 
 
-def draw_lazy(scene, rng):
-    return {"amplitude_um": 1.0, "kept": rng.uniform(0, 0.4)}
-
-
-def change_lazy(scene, p):
-    """The seats of the probe are sticky: the stylus does not come home from the side that the touch before has pushed
-    it to. The long way to another feature shakes it home. Amplitude at the tip of the longest."""
-    left = np.zeros((scene.size, 3))
-    for k in range(1, scene.size):
-        if scene.block[k] == scene.block[k - 1]:
-            push, shank = scene.normal[k - 1], scene.shank[k - 1]
-            left[k] = p["kept"] * left[k - 1] + (1 - p["kept"]) * (push - shank * (push @ shank))
-    return Change(tip=-p["amplitude_um"] * left * (scene.length / scene.length.max())[:, None])
-
-
-def draw_snapped(scene, rng):
-    return {"amplitude_um": 1.0, "within_deg": rng.uniform(18, 28)}
-
-
-def change_snapped(scene, p):
-    """The software takes a normal that is near an axis of the part for this axis, and corrects the tip radius along
-    it: too little, the more the farther, and nothing beyond a limit. Amplitude of the largest tip at the limit."""
-    aside = np.arccos(np.clip(np.abs(scene.part_normal).max(1), 0, 1)) / np.radians(p["within_deg"])
-    return Change(along=p["amplitude_um"] * aside**2 * (aside < 1) * scene.tip_radius / scene.tip_radius.max())
-
-
-def draw_cleaned(scene, rng):
-    return {"amplitude_um": 1.0, "tau_s": rng.uniform(6, 12)}
-
-
-def change_cleaned(scene, p):
-    """Every ball is cleaned with alcohol right before it is measured: its post is cold and short, and is as warm as
-    the part again after some touches. Amplitude at the first."""
-    first = np.array([scene.time[scene.block == b].min() for b in scene.block])
-    cold = np.exp(-(scene.time - first) / p["tau_s"])
-    return Change(along=-p["amplitude_um"] * cold * scene.part_normal[:, 2])
-
-
-def draw_beam(scene, rng):
-    warm = scene.temperature[scene.machine.chain[1]]
+def draw_beating(scene, rng):
     return {
-        "amplitude_um": rng.choice([-1.0, 1.0]),
-        "straight_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
-        "held_at": rng.uniform(-0.5, 0.5),
+        "amplitude_um": 1.0,
+        "direction": unit(rng),
+        "period_s": rng.uniform(60, 240),
+        "phase": rng.uniform(0, np.pi),
     }
 
 
-def change_beam(scene, p):
-    """The rail on the side of the beam is of another metal: with every kelvin the beam is twisted about itself, from
-    where it is held, and the carriage with it. Amplitude at 500 mm below the end of the beam, for 1 K."""
-    axis = scene.machine.chain[1]
-    i = "xyz".index(axis)
-    x = scene.reading[:, i]
-    turn = np.zeros((scene.size, 3))
-    away = (x - (x.min() + x.max()) / 2) / np.ptp(x) * 2 - p["held_at"]
-    turn[:, i] = p["amplitude_um"] / 0.5 * (scene.temperature[axis] - p["straight_at_C"]) * away
-    return Change({axis: (np.zeros((scene.size, 3)), turn)})
+def change_beating(scene, p):
+    """Two compressors shake the machine, and their vibrations beat. Where they add up, the tip swings against the
+    surface and trips early, on either side. The qualification has taken the mean. Amplitude between silence and the
+    strongest, along the vibration."""
+    swell = np.abs(np.cos(np.pi * scene.time / p["period_s"] + p["phase"]))
+    return Change(along=p["amplitude_um"] * (swell - swell.mean()) * np.abs(scene.normal @ np.asarray(p["direction"])))
 
 
-def draw_wiper(scene, rng):
-    turn = rng.uniform(0, 2 * np.pi)
-    return {"amplitude_um": 1.0, "side": [np.cos(turn), np.sin(turn), 0.0], "bearing": rng.uniform(0.1, 0.4)}
+def draw_shadow(scene, rng):
+    size, middle = np.ptp(scene.target, axis=0), (scene.target.min(0) + scene.target.max(0)) / 2
+    corner = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.7, 1.1, 2)
+    return {
+        "amplitude_um": 1.0,
+        "receiver_mm": middle + np.append(corner * size[:2], rng.uniform(0.2, 0.6) * size[0]),
+        "lamp": rng.uniform(0, 2 * np.pi),
+        "shadowed": rng.uniform(0.25, 0.4),
+    }
 
 
-def change_wiper(scene, p):
-    """A wiper runs dry on one side of the ram: it brakes, with the speed, when the ram goes up or down, and turns the
-    ram in its bearing. Amplitude at 8 mm/s straight down, at the longest reach."""
-    out = np.abs(scene.reading[:, 2])
-    reach = (out / out.max() + p["bearing"]) / (1 + p["bearing"])
-    return Change(tip=vector(p["side"], -p["amplitude_um"] * scene.travel[:, 2] * scene.speed / 8 * reach))
+def change_shadow(scene, p):
+    """An optical probe sends its signal from a lamp on its side. Where this is turned away from the receiver, and far
+    from it, the signal is weak and detected late, and the machine goes on meanwhile. Amplitude in the dark, at
+    8 mm/s."""
+    sight = np.asarray(p["receiver_mm"]) - (scene.target - scene.arm)
+    far = np.linalg.norm(sight, axis=1)
+    facing = np.sum(sight * (scene.head @ [np.cos(p["lamp"]), np.sin(p["lamp"]), 0.0]), 1) / far
+    signal = (1.05 + facing) / far**2
+    weak = np.clip(1 - signal / np.quantile(signal, p["shadowed"]), 0, 1)
+    return Change(tip=scene.travel * (p["amplitude_um"] * weak * scene.speed / 8)[:, None])
 
 
-unknown("unloaded_map", draw_unloaded, change_unloaded, ["time", "position", "feature"])
-unknown("lazy_seats", draw_lazy, change_lazy, ["direction", "head", "sensor", "time"])
-unknown("snapped_vectors", draw_snapped, change_snapped, ["direction", "sensor", "setup"])
-unknown("cleaned_balls", draw_cleaned, change_cleaned, ["time", "feature", "direction"])
-unknown("twisting_beam", draw_beam, change_beam, ["temperature", "position", "feature", "setup"], "D")
-unknown("dry_wiper", draw_wiper, change_wiper, ["speed", "direction", "position"], "D")
+def draw_wheel(scene, rng):
+    axis, turn, around = int(rng.integers(2)), rng.uniform(0, 2 * np.pi), rng.uniform(55, 110)
+    way = float(np.abs(np.diff(scene.reading[:, axis])).sum())
+    return {
+        "amplitude_um": 1.0,
+        "axis": axis,
+        "direction": np.roll([0.0, np.cos(turn), np.sin(turn)], axis),
+        "circumference_mm": around,
+        "slip": rng.choice([-1.0, 1.0]) * rng.uniform(1.5, 4) * around / way,
+        "phase": rng.uniform(0, 2 * np.pi),
+    }
+
+
+def change_wheel(scene, p):
+    """The friction wheel that drives an axis is out of true: in every turn it pushes the carriage aside and back. It
+    slips on its bar in proportion to the way, so that the wave wanders along the guide in the course of the run."""
+    x = scene.reading[:, p["axis"]]
+    way = np.cumsum(np.abs(np.diff(x, prepend=x[0])))
+    turned = 2 * np.pi * (x + p["slip"] * way) / p["circumference_mm"] + p["phase"]
+    return Change(tip=vector(p["direction"], p["amplitude_um"] * np.sin(turned)))
+
+
+def draw_misread(scene, rng):
+    waves = rng.normal(size=(3, 2))
+    return {"amplitude_um": 1.0, "axis": int(rng.integers(2)), "waves": waves / np.sqrt(np.sum(waves**2) / 2)}
+
+
+def change_misread(scene, p):
+    """The software reads the correction of a scale at the place of the tip, not of the carriage: a stylus that lies
+    along this axis gets the correction of another place, by its length. Amplitude of the correction where its waves
+    add up."""
+    i = p["axis"]
+    x, span = scene.reading[:, i], np.ptp(scene.reading[:, i])
+
+    def correction(place):
+        q = np.outer(2 * np.pi * (place - x.min()) / span, np.arange(1, 4))
+        return np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * np.cos(q), 1)
+
+    error = correction(x + scene.arm[:, i]) - correction(x)
+    return Change(tip=vector(np.eye(3)[i], p["amplitude_um"] * error))
+
+
+def draw_braking(scene, rng):
+    return {"amplitude_um": rng.choice([-1.0, 1.0]), "spring": rng.uniform(0, np.pi)}
+
+
+def change_braking(scene, p):
+    """A measuring probe is read when the machine has braked, and takes its own deflection off. One of its springs has
+    a wrong gain: the point is off by a share of the braking distance. The tip radius has taken the mean. Amplitude
+    along this spring, from no distance to the longest."""
+    phi, beta = directions(scene)
+    brake = scene.speed**2 / scene.acceleration
+    share = (np.cos(phi - p["spring"]) * np.cos(beta)) ** 2
+    return Change(along=p["amplitude_um"] * share * (brake - brake.mean()) / brake.max())
+
+
+def draw_gap(scene, rng):
+    axis = int(rng.integers(2))
+    warm = scene.temperature["xy"[axis]]
+    return {
+        "amplitude_um": rng.choice([-1.0, 1.0]),
+        "axis": axis,
+        "aside": int(rng.choice([k for k in range(3) if k != axis])),
+        "set_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
+        "held": rng.uniform(0.05, 0.2),
+    }
+
+
+def change_gap(scene, p):
+    """A light carriage grips its rail, and its air gaps open in the heat. The drive pulls a little obliquely and
+    presses it to one side in one sense, to the other side in the other. The controller takes this off as it was on the
+    day it was set. Amplitude to either side, for 1 K."""
+    warmer = scene.temperature["xy"[p["axis"]]] - p["set_at_C"]
+    sense = np.clip(scene.travel[:, p["axis"]] / p["held"], -1, 1)
+    return Change(tip=vector(np.eye(3)[p["aside"]], p["amplitude_um"] * warmer * sense))
+
+
+def draw_vice(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "placement": int(rng.choice(np.unique(scene.setup))),
+        "across": int(rng.integers(2)),
+        "jaws_at": rng.uniform(-0.8, 0.8),
+        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+    }
+
+
+def change_vice(scene, p):
+    """In one placement the part is held in a narrow vice: between the jaws it is shorter, beside them it is not.
+    Amplitude at a jaw."""
+    i = p["across"]
+    u, v = scene.part_point[:, i] / p["half_size_mm"], scene.part_point[:, 1 - i] / p["half_size_mm"]
+    held = (scene.setup == p["placement"]) * np.exp(-0.5 * ((v - p["jaws_at"]) / 0.4) ** 2)
+    return Change(along=-p["amplitude_um"] * held * u * scene.part_normal[:, i])
+
+
+unknown("chipped_serration", draw_chip, change_chip, ["head", "sensor", "direction", "time"])
+unknown("beating_compressors", draw_beating, change_beating, ["time", "direction"])
+unknown("shadowed_lamp", draw_shadow, change_shadow, ["head", "sensor", "position", "feature", "speed"])
+unknown("slipping_wheel", draw_wheel, change_wheel, ["position", "time", "feature"])
+unknown("misread_table", draw_misread, change_misread, ["head", "sensor", "position", "feature"])
+unknown(
+    "braking_distance", draw_braking, change_braking, ["speed", "acceleration", "direction", "head", "sensor"], "D"
+)
+unknown("opening_gap", draw_gap, change_gap, ["temperature", "direction"], "D")
+unknown("narrow_vice", draw_vice, change_vice, ["setup", "feature", "position"], "D")
