@@ -70,11 +70,12 @@ struct SearchResult {
 /// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind; no
 /// explanation where there are none of it.
 Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
-/// A name must be so many times as likely as no name; but an effect whose shape is drawn by chance is no less
-/// flexible than a pattern. A name that leaves something of the mismatch must be far likelier: physics that
-/// the catalogue does not have looks like its nearest effect.
-inline constexpr double kNamed = 3, kNamedInDoubt = 100;
-bool likelier(const Explanations&, const Finding& name, const Finding& pattern, double times);
+/// A name must be so many times as likely as no name. One that leaves something of the mismatch must be far
+/// likelier: physics that the catalogue does not have looks like its nearest effect.
+inline constexpr double kNamed = 1, kNamedInDoubt = 100;
+bool likelier(const Finding& name, const Finding& pattern, double times);
+/// Up to so many times less likely, what was not chosen is told beside what was.
+inline constexpr double kAsWell = 3;
 /// The signatures of findings; of all that was found, a pattern without a name too.
 std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>&);
 std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);

@@ -184,6 +184,15 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
   }
 }
 
+/// A pattern without a name that explains a finding as well; else nothing.
+std::string pattern_beside(const Case& c, const Finding& f) {
+  const Finding pattern = finding_of(c.explanations, f.evidence, false);
+  if (pattern.explanation < 0 || kAsWell * pattern.probability < f.probability) return "";
+  const Explanation& e = c.explanations.list[static_cast<std::size_t>(pattern.explanation)];
+  return fmt::format(" A pattern over {} ({}) that no effect of the catalogue makes would explain it as well.",
+                     abbe::diagnose::name(e.factor), e.shape);
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -208,7 +217,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) + in_file;
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) +
+        pattern_beside(c, f) + in_file;
     if (change.run > 0 && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";

@@ -237,7 +237,7 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
   u.sentence =
       fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording", u.factor, u.shape, u.amplitude_um);
   const Finding name = finding_of(c.explanations, f.evidence, true);
-  const bool as_good = kNamed * name.probability >= f.probability;
+  const bool as_good = kAsWell * name.probability >= f.probability;
   u.sentence += !as_good ? " that no effect of the catalogue makes."
                          : fmt::format(". {} would explain it as well as what the catalogue does not have.",
                                        listed(c.explanations, name.set));

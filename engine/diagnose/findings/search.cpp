@@ -134,7 +134,7 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     auto [named, other] = named_on_finer_grid(c, here);
     result.findings.push_back(named);
-    if (!likelier(c.explanations, named, other, kNamed) &&
+    if (!likelier(named, other, kNamed) &&
         (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
       result.findings.pop_back();
       result.other = std::move(other);
@@ -142,7 +142,7 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     }
     instead = std::move(other);
   }
-  if (result.adequacy < kInadequate && !likelier(c.explanations, result.findings.back(), *instead, kNamedInDoubt)) {
+  if (result.adequacy < kInadequate && !likelier(result.findings.back(), *instead, kNamedInDoubt)) {
     result.nearest = std::move(result.findings.back());
     result.findings.pop_back();
     result.other = std::move(instead);
@@ -246,10 +246,8 @@ Finding finding_of(const Explanations& all, const Evidence& evidence, bool catal
   return f;
 }
 
-bool likelier(const Explanations& all, const Finding& name, const Finding& pattern, double times) {
-  if (name.explanation < 0) return false;
-  const bool drawn = all.list[static_cast<std::size_t>(name.explanation)].effect->draws > 0;
-  return name.probability >= (drawn ? times / kNamed : times) * pattern.probability;
+bool likelier(const Finding& name, const Finding& pattern, double times) {
+  return name.explanation >= 0 && name.probability >= times * pattern.probability;
 }
 
 std::vector<const Matrix*> signatures_of(const Case& c, const std::vector<Finding>& findings) {

@@ -304,7 +304,7 @@ Finding tell(const ValueCase& c, Diagnosis& out) {
   const Evidence evidence = c.search->evidence(c.deviation);
   const Finding name = finding_of(all, evidence, true), pattern = finding_of(all, evidence, false);
   const double adequacy = adequacy_of(c, name);
-  const bool named = likelier(all, name, pattern, adequacy < kInadequate ? kNamedInDoubt : kNamed);
+  const bool named = likelier(name, pattern, adequacy < kInadequate ? kNamedInDoubt : kNamed);
   if (named)
     tell_name(c, name, adequacy, out);
   else
