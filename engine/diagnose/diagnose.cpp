@@ -5,15 +5,23 @@
 #include <map>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
+#include "engine/diagnose/baseline/data_problems.hpp"
 #include "engine/diagnose/baseline/known_state.hpp"
 #include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
+#include "engine/diagnose/baseline/outliers.hpp"
+#include "engine/diagnose/baseline/own_noise.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
-#include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
+#include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
+#include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/findings/noise_effects.hpp"
+#include "engine/diagnose/findings/parameters.hpp"
 #include "engine/diagnose/median.hpp"
+#include "engine/diagnose/planning/design.hpp"
+#include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/words.hpp"
 
 namespace abbe {

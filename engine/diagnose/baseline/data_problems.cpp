@@ -1,5 +1,7 @@
 // Recordings that no physics explains: another unit, swapped axes, normals the wrong way, rows twice. Each is
 // recognised by what would mend it, and said instead of being diagnosed.
+#include "engine/diagnose/baseline/data_problems.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/diagnose/case.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/recording/units.hpp"
 

@@ -2,12 +2,13 @@
 // They are left out, or they would spoil the fit. Dirt strikes single touches by chance, though: touches next
 // to each other, of one stylus one after the other, or of one place again and again, that are all off, are a
 // mismatch with a cause, and stay in.
+#include "engine/diagnose/baseline/outliers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
-#include "engine/diagnose/case.hpp"
 #include "engine/diagnose/median.hpp"
 
 namespace abbe::diagnose {

@@ -5,12 +5,13 @@
 //
 // Touches that aim at one place of a scale stop beside it by what is wrong with each. A steep period there would
 // explain any mismatch of a face by the mismatch itself: they get the place that they have in common.
+#include "engine/diagnose/baseline/own_noise.hpp"
+
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "engine/diagnose/baseline/length_errors.hpp"
-#include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 

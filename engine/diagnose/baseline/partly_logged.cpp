@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/baseline/data_problems.hpp"
 
 namespace abbe::diagnose {
 

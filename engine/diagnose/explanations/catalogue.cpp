@@ -361,4 +361,24 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
   return out;
 }
 
+Explanations only(const Explanations& all, const std::vector<int>& kept) {
+  Explanations out;
+  for (const int k : kept) {
+    Explanation e = all.list[k];
+    for (int& b : e.blocks) {
+      out.blocks.push_back(all.blocks[b]);
+      out.blocks.back().explanation = static_cast<int>(out.list.size());
+      b = static_cast<int>(out.blocks.size()) - 1;
+    }
+    out.list.push_back(std::move(e));
+  }
+  return out;
+}
+
+Explanations rows_of(const Explanations& all, const std::vector<Eigen::Index>& rows) {
+  Explanations out = all;
+  for (Block& b : out.blocks) b.signature = Matrix(b.signature(rows, Eigen::all));
+  return out;
+}
+
 }  // namespace abbe::diagnose

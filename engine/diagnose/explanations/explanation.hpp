@@ -125,6 +125,11 @@ Block variant_at(const Effect&, const std::vector<double>& theta, RunChange, con
 /// two are the same.
 void share_belief(const Explanation&, std::vector<Block>&);
 
+/// The explanations of one kind only; `kept` by index into the list.
+Explanations only(const Explanations&, const std::vector<int>& kept);
+/// Rows of every signature.
+Explanations rows_of(const Explanations&, const std::vector<Eigen::Index>& rows);
+
 /// The same space with as few orthogonal columns as its rank needs.
 Matrix compressed(const Matrix&);
 

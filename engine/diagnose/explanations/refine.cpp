@@ -2,10 +2,10 @@
 // more closely, and on the coarse grid would leave a remainder that no longer looks like it. Where the
 // recording speaks for an effect, the cells of its likeliest variants are therefore divided, and again, as in
 // adaptive quadrature: the sum of likelihood times cell is the evidence.
+#include "engine/diagnose/explanations/refine.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 

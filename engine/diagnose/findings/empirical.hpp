@@ -5,7 +5,7 @@
 // two factors have no such effect: the likeliest other one stands for them.
 #pragma once
 
-#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/findings/search.hpp"
 
 namespace abbe::diagnose {
 

@@ -8,13 +8,13 @@
 // the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time. The
 // residuals that are shown are those of the same predictions: of each group from the others, by the machine
 // as they show it, without and with what was found.
+#include "engine/diagnose/findings/improvement.hpp"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-
-#include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 

@@ -2,6 +2,8 @@
 // function, or in the run where it is new in one; OTHER in its own. A factor is believed as much as all its
 // explanations together, so a mismatch that has a name lies where that physics acts, and one that has none
 // where the best pattern of no physics lies.
+#include "engine/diagnose/findings/locate.hpp"
+
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -9,8 +11,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-
-#include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 

@@ -1,6 +1,8 @@
 // Effects that change no mean but the scatter: judged by the likelihood of a model of the variance, on
 // residuals that are each predicted from all other touches (so they are nearly independent, with a variance
 // of 1 when the noise is what was fitted).
+#include "engine/diagnose/findings/noise_effects.hpp"
+
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
@@ -8,7 +10,7 @@
 #include <map>
 #include <numeric>
 
-#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/baseline/outliers.hpp"
 #include "engine/effects/noise/noise.hpp"
 
 namespace abbe::diagnose {

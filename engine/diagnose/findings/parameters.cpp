@@ -1,5 +1,7 @@
 // Sizes of what was named, with uncertainties: a mixture over the variants of the effect, each a
 // linear-Gaussian posterior with a prior so wide that it does not pull.
+#include "engine/diagnose/findings/parameters.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <limits>
 #include <optional>
 
-#include "engine/diagnose/case.hpp"
 #include "engine/diagnose/explanations/search_grid.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"
 

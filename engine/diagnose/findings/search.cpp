@@ -1,12 +1,14 @@
 // Detect, name, remove, and look again: every round tests the whole catalogue and OTHER on what the findings
 // before leave unexplained.
+#include "engine/diagnose/findings/search.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
-#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/explanations/refine.hpp"
 
 namespace abbe::diagnose {
 
@@ -269,39 +271,6 @@ int best_block(const Explanations& all, int explanation, const Evidence& evidenc
         std::log(all.blocks[static_cast<std::size_t>(b)].weight);
   };
   return *std::max_element(blocks.begin(), blocks.end(), [&](int a, int b) { return belief(a) < belief(b); });
-}
-
-LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {
-  LinearModel out = m;
-  for (const Matrix* s : signatures) {
-    out.free.conservativeResize(Eigen::NoChange, out.free.cols() + s->cols());
-    out.free.rightCols(s->cols()) = *s;
-  }
-  return out;
-}
-
-LinearModel likelier_ensemble(const Case& c, const LinearModel& m) {
-  return c.rough && m.rough.cols() > 0 ? rougher(m) : m;
-}
-
-Explanations only(const Explanations& all, const std::vector<int>& kept) {
-  Explanations out;
-  for (const int k : kept) {
-    Explanation e = all.list[k];
-    for (int& b : e.blocks) {
-      out.blocks.push_back(all.blocks[b]);
-      out.blocks.back().explanation = static_cast<int>(out.list.size());
-      b = static_cast<int>(out.blocks.size()) - 1;
-    }
-    out.list.push_back(std::move(e));
-  }
-  return out;
-}
-
-Explanations rows_of(const Explanations& all, const std::vector<Eigen::Index>& rows) {
-  Explanations out = all;
-  for (Block& b : out.blocks) b.signature = Matrix(b.signature(rows, Eigen::all));
-  return out;
 }
 
 }  // namespace abbe::diagnose

@@ -403,4 +403,13 @@ Matrix Rotated::precision() const {
   return out;
 }
 
+LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {
+  LinearModel out = m;
+  for (const Matrix* s : signatures) {
+    out.free.conservativeResize(Eigen::NoChange, out.free.cols() + s->cols());
+    out.free.rightCols(s->cols()) = *s;
+  }
+  return out;
+}
+
 }  // namespace abbe::diagnose

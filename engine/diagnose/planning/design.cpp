@@ -7,6 +7,8 @@
 // does: with the complexity that a rival pays for, so that a simple effect is named although a richer one
 // could imitate it. What is told is the median form: half of them are seen, or named, from that size on, with
 // a power of 80 %; "never" where the median form is not named at any size.
+#include "engine/diagnose/planning/design.hpp"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -15,7 +17,6 @@
 #include <optional>
 
 #include "engine/base/on_threads.hpp"
-#include "engine/diagnose/case.hpp"
 
 namespace abbe::diagnose {
 

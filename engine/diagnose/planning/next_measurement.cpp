@@ -14,6 +14,7 @@
 
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/locate.hpp"
 
 namespace abbe::diagnose {
 

@@ -17,7 +17,7 @@
 #include <functional>
 #include <string>
 
-#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/findings/search.hpp"
 
 namespace abbe::diagnose {
 
@@ -58,5 +58,11 @@ double minutes_of(const Longer&);
 std::string recording_sentence(const Longer&);
 /// The new touches as a DMIS program.
 std::string dmis_program(const Case&, const Longer&, const Change&);
+
+/// The changes that would tell most per minute, the best of them as a program. `found`: what the recording holds;
+/// none of a plan.
+std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult* found, const std::vector<Detectable>&);
+/// What else to do where none of these helps; else empty.
+std::string otherwise(const Case&, const SearchResult&, const std::vector<NextMeasurement>&);
 
 }  // namespace abbe::diagnose

@@ -10,6 +10,7 @@
 
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/values/value_search.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/findings/search.hpp"
 
 namespace abbe::diagnose {
 

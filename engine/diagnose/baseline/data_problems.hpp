@@ -1,0 +1,25 @@
+// What is wrong with a file, and no physics: found before anything is judged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/diagnosis.hpp"
+#include "engine/run/recorded_touch.hpp"
+
+namespace abbe::diagnose {
+
+/// A recording without its exact copies of rows. Throws UserError: one touch with two values.
+Recording without_copies(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// A recording whose clock began long before its first touch, with times from that touch on (N0721).
+void count_from_first_touch(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// A recording without what was logged in some rows only: what is missing would be taken for its usual value, beside
+/// what was logged (W0722).
+void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Throws UserError: another unit, axes or normals.
+void check_data(const Recording&, const Machine&, const std::string& file);
+/// Throws UserError when many touches lie beside their targets; a few are warned of.
+void check_pairing(const Recording&, const RecordedTouches&, const std::string& file,
+                   std::vector<Diagnostic>& messages);
+
+}  // namespace abbe::diagnose

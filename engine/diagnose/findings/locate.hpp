@@ -1,0 +1,15 @@
+// Where a mismatch lies, and what the catalogue does not explain of it.
+#pragma once
+
+#include "engine/diagnose/findings/search.hpp"
+
+namespace abbe::diagnose {
+
+/// The factor in which an explanation shows in this recording: its own; or, where all touches are alike in
+/// that, what of it they do differ in: the place, where it acts on that, else the direction.
+Factor shown_in(const Case&, const Explanation&);
+/// Of what the search has found; nothing without.
+std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
+Unexplained describe_unexplained(const Case&, const SearchResult&);
+
+}  // namespace abbe::diagnose

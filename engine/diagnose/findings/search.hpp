@@ -1,0 +1,52 @@
+// What explains a mismatch: names of the catalogue, and patterns without one.
+#pragma once
+
+#include "engine/diagnose/case.hpp"
+#include "engine/diagnose/model/evidence.hpp"
+
+namespace abbe::diagnose {
+
+/// The likeliest variant of an explanation, given the data and what was believed of it before.
+int best_block(const Explanations&, int explanation, const Evidence&);
+
+/// One mismatch that the search has found.
+struct Finding {
+  int explanation = -1;       ///< the likeliest
+  int block = -1;             ///< its likeliest variant
+  std::vector<int> variants;  ///< blocks, those of its variants that count; empty: those of its explanation
+  std::vector<int> set;       ///< explanations that together reach kCredible, likeliest first
+  double probability = 0;     ///< of the set
+  Evidence evidence;          ///< given the findings before
+};
+
+struct SearchResult {
+  double p_value = 1;
+  double adequacy = 1;             ///< p-value of what the findings leave; 1 without any
+  std::vector<Finding> findings;   ///< of the catalogue
+  std::optional<Finding> other;    ///< what the catalogue does not explain
+  std::optional<Finding> nearest;  ///< the name that was doubted in favour of `other`
+  Evidence first;                  ///< before any finding, with the finer variants of what was found
+  Evidence on_grid;                ///< that of the grid alone, as `null` is
+  std::vector<Evidence> null;      ///< simulated, before any finding
+  /// of the recording beside all that was found: a mismatch passes for noise and for larger errors
+  Hyperparameters hyper;
+};
+
+/// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
+SearchResult search(Case&, EvidenceSearch& first);
+
+/// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind; no
+/// explanation where there are none of it.
+Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
+/// A name must be so many times as likely as no name. One that leaves something of the mismatch must be far
+/// likelier: physics that the catalogue does not have looks like its nearest effect.
+inline constexpr double kNamed = 1, kNamedInDoubt = 100;
+bool likelier(const Finding& name, const Finding& pattern, double times);
+/// Up to so many times less likely, what was not chosen is told beside what was.
+inline constexpr double kAsWell = 3;
+
+/// The signatures of findings; of all that was found, a pattern without a name too.
+std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>&);
+std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);
+
+}  // namespace abbe::diagnose
