@@ -3,22 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 
 #include "engine/base/csv.hpp"
+#include "engine/recording/columns.hpp"
 
 namespace abbe {
 
 namespace {
-
-/// One column: its name, and the text of a row's value or nothing.
-struct WrittenColumn {
-  std::string name;
-  std::function<std::optional<std::string>(const RecordingRow&)> text;
-};
 
 /// Fixed decimals without a negative zero.
 std::string decimals(double value, int digits) {
@@ -27,57 +20,24 @@ std::string decimals(double value, int digits) {
   return text;
 }
 
-WrittenColumn number(std::string name, int digits, std::function<std::optional<double>(const RecordingRow&)> value) {
-  return {std::move(name), [=](const RecordingRow& row) -> std::optional<std::string> {
-            const std::optional<double> v = value(row);
-            return v ? std::optional(decimals(*v, digits)) : std::nullopt;
-          }};
+std::string text(const std::string& label, int, int) { return csv_field(label); }
+std::string text(int value, int, int) { return std::to_string(value); }
+std::string text(double value, int digits, int) { return decimals(value, digits); }
+std::string text(const Vec3& v, int digits, int axis) { return decimals(v[axis], digits); }
+/// Nothing where it was not logged.
+template <class Value>
+std::string text(const std::optional<Value>& value, int digits, int axis) {
+  return value ? text(*value, digits, axis) : "";
 }
 
-void add_vector(std::vector<WrittenColumn>& columns, const std::array<const char*, 3>& names, int digits,
-                std::function<std::optional<Vec3>(const RecordingRow&)> value) {
-  for (int axis = 0; axis < 3; ++axis)
-    columns.push_back(number(names[axis], digits, [=](const RecordingRow& row) -> std::optional<double> {
-      const std::optional<Vec3> v = value(row);
-      return v ? std::optional((*v)[axis]) : std::nullopt;
-    }));
-}
-
-std::vector<WrittenColumn> writable_columns() {
-  std::vector<WrittenColumn> c;
-  const auto integer = [&](const char* name, auto member) {
-    c.push_back({name, [=](const RecordingRow& row) -> std::optional<std::string> {
-                   const std::optional<int> v = row.*member;
-                   return v ? std::optional(std::to_string(*v)) : std::nullopt;
-                 }});
-  };
-  c.push_back({"feature", [](const RecordingRow& row) { return std::optional(csv_field(row.feature)); }});
-  integer("touch", &RecordingRow::touch);
-  add_vector(c, {"x", "y", "z"}, 7, [](const RecordingRow& row) { return std::optional(row.position_mm); });
-  add_vector(c, {"tx", "ty", "tz"}, 7, [](const RecordingRow& row) { return row.target_mm; });
-  add_vector(c, {"nx", "ny", "nz"}, 9, [](const RecordingRow& row) { return row.normal; });
-  integer("setup", &RecordingRow::setup);
-  integer("run", &RecordingRow::run);
-  c.push_back({"sensor", [](const RecordingRow& row) {
-                 return row.sensor ? std::optional(csv_field(*row.sensor)) : std::nullopt;
-               }});
-  c.push_back(number("head_A_deg", 4, [](const RecordingRow& row) { return row.head_a_deg; }));
-  c.push_back(number("head_B_deg", 4, [](const RecordingRow& row) { return row.head_b_deg; }));
-  integer("qualification", &RecordingRow::qualification);
-  integer("visit", &RecordingRow::visit);
-  c.push_back(number("time_s", 3, [](const RecordingRow& row) { return row.time_s; }));
-  c.push_back(number("speed_mm_s", 4, [](const RecordingRow& row) { return row.speed_mm_s; }));
-  c.push_back(number("accel_mm_s2", 2, [](const RecordingRow& row) { return row.accel_mm_s2; }));
-  add_vector(c, {"ax", "ay", "az"}, 9, [](const RecordingRow& row) { return row.travel; });
-  c.push_back(number("temp_part_C", 3, [](const RecordingRow& row) { return row.temp_part_C; }));
-  c.push_back(number("temp_x_C", 3, [](const RecordingRow& row) { return row.temp_x_C; }));
-  c.push_back(number("temp_y_C", 3, [](const RecordingRow& row) { return row.temp_y_C; }));
-  c.push_back(number("temp_z_C", 3, [](const RecordingRow& row) { return row.temp_z_C; }));
-  c.push_back(number("temp_air_C", 3, [](const RecordingRow& row) { return row.temp_air_C; }));
-  c.push_back(number("load_kg", 3, [](const RecordingRow& row) { return row.load_kg; }));
-  add_vector(c, {"enc_x", "enc_y", "enc_z"}, 7, [](const RecordingRow& row) { return row.reading_mm; });
-  return c;
-}
+/// A column, of a vector one of three.
+struct WrittenColumn {
+  const RecordingColumn* column;
+  int axis;
+  std::string text(const RecordingRow& row) const {
+    return std::visit([&](auto member) { return abbe::text(row.*member, column->decimals, axis); }, column->member);
+  }
+};
 
 }  // namespace
 
@@ -97,20 +57,27 @@ double common_step_mm(const Recording& recording) {
 }
 
 std::string to_csv(const Recording& recording) {
-  std::vector<WrittenColumn> columns = writable_columns();
+  std::vector<WrittenColumn> columns;
+  for (const RecordingColumn& column : recording_columns())
+    for (int axis = 0; axis < 3 && !column.names[static_cast<std::size_t>(axis)].empty(); ++axis)
+      columns.push_back({&column, axis});
   std::erase_if(columns, [&](const WrittenColumn& column) {
-    for (const RecordingRow& row : recording.rows)
-      if (column.text(row)) return false;
-    return true;
+    return std::all_of(recording.rows.begin(), recording.rows.end(),
+                       [&](const RecordingRow& row) { return column.text(row).empty(); });
   });
   std::string out;
   for (const auto& [key, value] : recording.metadata) out += fmt::format("# {}: {}\n", key, value);
   out += fmt::format("# frame: {}\n# point: {}\n", recording.in_part_frame ? "part" : "mcs",
                      recording.point == RecordedPoint::surface ? "surface" : "tip_centre");
-  for (std::size_t k = 0; k < columns.size(); ++k) out += (k ? "," : "") + columns[k].name;
+  std::string separator;
+  for (const WrittenColumn& c : columns) {
+    out += separator;
+    out += c.column->names[static_cast<std::size_t>(c.axis)];
+    separator = ",";
+  }
   out += "\n";
   for (const RecordingRow& row : recording.rows) {
-    for (std::size_t k = 0; k < columns.size(); ++k) out += (k ? "," : "") + columns[k].text(row).value_or("");
+    for (std::size_t k = 0; k < columns.size(); ++k) out += (k ? "," : "") + columns[k].text(row);
     out += "\n";
   }
   return out;

@@ -3,122 +3,91 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
+#include <set>
+#include <variant>
 
 #include "engine/base/csv.hpp"
 #include "engine/base/numbers.hpp"
-#include "engine/recording/recording.hpp"
+#include "engine/recording/columns.hpp"
 
 namespace abbe {
 
 namespace {
 
-/// The coordinates of the vectors of a row, which come column by column.
-struct PartialVector {
-  std::array<std::optional<double>, 3> coordinate;
-  int given() const {
-    return static_cast<int>(
-        std::count_if(coordinate.begin(), coordinate.end(), [](const auto& c) { return c.has_value(); }));
-  }
-  std::optional<Vec3> complete() const {
-    return given() == 3 ? std::optional(Vec3{*coordinate[0], *coordinate[1], *coordinate[2]}) : std::nullopt;
-  }
-};
+/// The coordinates of a vector of a row, which come column by column.
+using PartialVector = std::array<std::optional<double>, 3>;
 
-/// A row as it is read.
+/// A row as it is read: what is not yet in it are vectors, by their place in the list of columns.
 struct Draft {
   RecordingRow row;
-  std::map<std::string, PartialVector> vectors;  ///< by the names of their columns: "x,y,z"
+  std::map<std::size_t, PartialVector> vectors;
 };
 
-/// Puts a field into a draft. Returns what the column holds when the field is not that, else "".
-using Setter = std::function<std::string(const CsvField&, Draft&)>;
-
-/// From `low` to `high`: beyond is no measurement but a slip, or the mark of a missing value.
-template <class Member>
-Setter real(Member member, double low, double high) {
-  return [=](const CsvField& f, Draft& d) -> std::string {
-    const std::optional<double> v = finite_number(f.text);
-    if (!v || *v < low || *v > high)
-      return fmt::format("a number from {:g} to {:g}, with a decimal point and no unit", low, high);
-    d.row.*member = *v;
-    return "";
-  };
-}
-
-template <class Member>
-Setter temperature(Member member) {
-  return real(member, -50, 150);
-}
-
-constexpr int kMostCount = 100'000'000;
-
-template <class Member>
-Setter integer(Member member, int least = -kMostCount) {
-  return [=](const CsvField& f, Draft& d) -> std::string {
-    const std::optional<double> v = finite_number(f.text);
-    if (!v || *v != std::floor(*v) || *v < least || *v > kMostCount)
-      return least == 1 ? "a whole number from 1" : "a whole number";
-    d.row.*member = static_cast<int>(*v);
-    return "";
-  };
-}
-
-template <class Member>
-Setter text(Member member) {
-  return [=](const CsvField& f, Draft& d) {
-    d.row.*member = f.text;
-    return f.text.empty() ? "a label" : "";
-  };
-}
-
-Setter coordinate(std::string vector, int axis) {
-  return [=](const CsvField& f, Draft& d) {
-    constexpr double kNoMachine_mm = 1e9;  // not even in micrometres
-    const std::optional<double> v = finite_number(f.text);
-    if (!v || std::abs(*v) > kNoMachine_mm) return "a number in mm, with a decimal point and no unit";
-    d.vectors[vector].coordinate[axis] = *v;
-    return "";
-  };
-}
-
-struct VectorColumns {
-  std::array<const char*, 3> names;
-  const char* key;
+/// A column of the file: which of the list it is, of a vector with which coordinate.
+struct FileColumn {
+  std::size_t place = 0;
+  int axis = 0;
 };
-constexpr VectorColumns kVectors[] = {{{"x", "y", "z"}, "x,y,z"},
-                                      {{"tx", "ty", "tz"}, "tx,ty,tz"},
-                                      {{"nx", "ny", "nz"}, "nx,ny,nz"},
-                                      {{"ax", "ay", "az"}, "ax,ay,az"},
-                                      {{"enc_x", "enc_y", "enc_z"}, "enc_x,enc_y,enc_z"}};
 
-std::map<std::string, Setter> setters() {
-  constexpr double kTurn_deg = 360, kEpoch_s = 1e11, kFastest_mm_s = 1e5, kHardest_mm_s2 = 1e7, kHeaviest_kg = 1e6;
-  std::map<std::string, Setter> s = {
-      {"feature", text(&RecordingRow::feature)},
-      {"touch", integer(&RecordingRow::touch, 1)},
-      {"setup", integer(&RecordingRow::setup, 1)},
-      {"run", integer(&RecordingRow::run, 1)},
-      {"sensor", text(&RecordingRow::sensor)},
-      {"head_A_deg", real(&RecordingRow::head_a_deg, -kTurn_deg, kTurn_deg)},
-      {"head_B_deg", real(&RecordingRow::head_b_deg, -kTurn_deg, kTurn_deg)},
-      {"qualification", integer(&RecordingRow::qualification)},
-      {"visit", integer(&RecordingRow::visit)},
-      {"time_s", real(&RecordingRow::time_s, -kEpoch_s, kEpoch_s)},
-      {"speed_mm_s", real(&RecordingRow::speed_mm_s, 0, kFastest_mm_s)},
-      {"accel_mm_s2", real(&RecordingRow::accel_mm_s2, -kHardest_mm_s2, kHardest_mm_s2)},
-      {"temp_part_C", temperature(&RecordingRow::temp_part_C)},
-      {"temp_x_C", temperature(&RecordingRow::temp_x_C)},
-      {"temp_y_C", temperature(&RecordingRow::temp_y_C)},
-      {"temp_z_C", temperature(&RecordingRow::temp_z_C)},
-      {"temp_air_C", temperature(&RecordingRow::temp_air_C)},
-      {"load_kg", real(&RecordingRow::load_kg, 0, kHeaviest_kg)},
-  };
-  for (const VectorColumns& v : kVectors)
-    for (int axis = 0; axis < 3; ++axis) s[v.names[axis]] = coordinate(v.key, axis);
-  return s;
+const RecordingColumn& described(const FileColumn& read) { return recording_columns()[read.place]; }
+
+std::map<std::string_view, FileColumn> columns_by_name() {
+  std::map<std::string_view, FileColumn> out;
+  for (std::size_t place = 0; place < recording_columns().size(); ++place)
+    for (int axis = 0; axis < 3; ++axis)
+      if (const std::string_view name = recording_columns()[place].names[static_cast<std::size_t>(axis)]; !name.empty())
+        out[name] = {place, axis};
+  return out;
 }
+
+/// The number that a field is, within the limits of its column.
+std::optional<double> number(const CsvField& f, const RecordingColumn& column) {
+  const std::optional<double> v = finite_number(f.text);
+  return v && column.low <= *v && *v <= column.high ? v : std::nullopt;
+}
+
+/// Puts a field into a draft, by the type of its member. Returns what the column holds when the field is not that, else "".
+struct Put {
+  const CsvField& field;
+  const FileColumn& read;
+  Draft& draft;
+
+  std::string operator()(std::string RecordingRow::*member) const { return label(member); }
+  std::string operator()(std::optional<std::string> RecordingRow::*member) const { return label(member); }
+  std::string operator()(int RecordingRow::*member) const { return integer(member); }
+  std::string operator()(std::optional<int> RecordingRow::*member) const { return integer(member); }
+  std::string operator()(std::optional<double> RecordingRow::*member) const {
+    const RecordingColumn& column = described(read);
+    draft.row.*member = number(field, column);
+    return draft.row.*member
+        ? ""
+        : fmt::format("a number from {:g} to {:g}, with a decimal point and no unit", column.low, column.high);
+  }
+  std::string operator()(Vec3 RecordingRow::*) const { return coordinate(); }
+  std::string operator()(std::optional<Vec3> RecordingRow::*) const { return coordinate(); }
+
+ private:
+  template <class Member>
+  std::string label(Member member) const {
+    draft.row.*member = field.text;
+    return field.text.empty() ? "a label" : "";
+  }
+  template <class Member>
+  std::string integer(Member member) const {
+    const std::optional<double> v = number(field, described(read));
+    if (!v || *v != std::floor(*v)) return described(read).low == 1 ? "a whole number from 1" : "a whole number";
+    draft.row.*member = static_cast<int>(*v);
+    return "";
+  }
+  std::string coordinate() const {
+    const std::optional<double> v = number(field, described(read));
+    draft.vectors[read.place][static_cast<std::size_t>(read.axis)] = v;
+    if (v) return "";
+    return described(read).unit_vector ? "a number, with a decimal point"
+                                       : "a number in mm, with a decimal point and no unit";
+  }
+};
 
 /// Whether a line says `yes`; the other thing that it may say is `no`.
 bool says(const CsvRemark& line, std::string_view yes, std::string_view no, const SourceFile& file) {
@@ -152,60 +121,63 @@ Recording with_metadata(const CsvTable& table, const SourceFile& file) {
   return recording;
 }
 
-/// The setter of each column. An unknown column is an error: a misspelt covariate would silently be lost.
-std::vector<Setter> setters_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
-  const std::map<std::string, Setter> known = setters();
+/// What each column of the file is. An unknown one is an error: a misspelt covariate would silently be lost.
+std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
+  const std::map<std::string_view, FileColumn> known = columns_by_name();
   std::vector<std::string_view> names;
-  for (const auto& [name, setter] : known) names.push_back(name);
-  std::vector<Setter> columns;
-  std::map<std::string, bool> present;
+  for (const auto& [name, column] : known) names.push_back(name);
+  std::vector<FileColumn> columns;
+  std::set<std::string_view> present;
   for (const CsvField& field : table.header) {
-    present[field.text] = true;
+    present.insert(field.text);
     const auto found = known.find(field.text);
-    columns.push_back(found == known.end() ? Setter{} : found->second);
-    if (columns.back()) continue;
+    columns.push_back(found == known.end() ? FileColumn{} : found->second);
+    if (found != known.end()) continue;
     const std::string near = nearest_word(field.text, names);
     sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording has no column '{}'", field.text),
                            near.empty() ? fmt::format("its columns are: {}", fmt::join(names, ", "))
                                         : fmt::format("did you mean '{}'?", near),
                            near));
   }
-  for (const char* name : {"feature", "touch", "x", "y", "z"})
-    if (!present[name])
-      sink.add(diagnostic_at(
-          file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
-          "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
+  for (const RecordingColumn& column : recording_columns())
+    for (const std::string_view name : column.names)
+      if (column.required && !name.empty() && !present.contains(name))
+        sink.add(diagnostic_at(
+            file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
+            "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
   return columns;
 }
 
+/// The vector of three coordinates; nothing where none is given.
+std::optional<Vec3> complete(const PartialVector& v, const RecordingColumn& column, const SourceFile& file,
+                             const CsvRow& row, Sink& sink) {
+  const auto given = std::count_if(v.begin(), v.end(), [](const auto& coordinate) { return coordinate.has_value(); });
+  const Span place = row.fields.front().span;
+  if (given == 1 || given == 2)
+    sink.add(diagnostic_at(file, place, Code::E0528,
+                           fmt::format("of {} only {} of three values are given", name(column), given),
+                           "give all three, or none"));
+  else if (given == 0 && column.required)
+    sink.add(
+        diagnostic_at(file, place, Code::E0528, "the recorded position is missing", "remove the row, or give x, y, z"));
+  if (given < 3) return std::nullopt;
+  const Vec3 all{*v[0], *v[1], *v[2]};
+  if (!column.unit_vector) return all;
+  const double length = norm(all);
+  if (std::abs(length - 1) > 1e-2)
+    sink.add(diagnostic_at(file, place, Code::E0529, fmt::format("a direction of length {:.4g} stands here", length),
+                           "nx,ny,nz and ax,ay,az are unit vectors"));
+  return all / length;
+}
+
 void complete_vectors(const SourceFile& file, const CsvRow& row, Draft& draft, Sink& sink) {
-  const auto take = [&](const VectorColumns& columns) -> std::optional<Vec3> {
-    const PartialVector& v = draft.vectors[columns.key];
-    if (v.given() == 1 || v.given() == 2)
-      sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528,
-                             fmt::format("of {} only {} of three values are given", columns.key, v.given()),
-                             "give all three, or none"));
-    return v.complete();
-  };
-  const std::optional<Vec3> position = take(kVectors[0]);
-  if (position)
-    draft.row.position_mm = *position;
-  else if (draft.vectors[kVectors[0].key].given() == 0)
-    sink.add(diagnostic_at(file, row.fields.front().span, Code::E0528, "the recorded position is missing",
-                           "remove the row, or give x, y, z"));
-  draft.row.target_mm = take(kVectors[1]);
-  draft.row.normal = take(kVectors[2]);
-  draft.row.travel = take(kVectors[3]);
-  draft.row.reading_mm = take(kVectors[4]);
-  for (std::optional<Vec3>* direction : {&draft.row.normal, &draft.row.travel}) {
-    if (!*direction) continue;
-    const double length = norm(**direction);
-    if (std::abs(length - 1) > 1e-2)
-      sink.add(diagnostic_at(file, row.fields.front().span, Code::E0529,
-                             fmt::format("a direction of length {:.4g} stands here", length),
-                             "nx,ny,nz and ax,ay,az are unit vectors"));
-    else
-      *direction = **direction / length;
+  for (std::size_t place = 0; place < recording_columns().size(); ++place) {
+    const RecordingColumn& column = recording_columns()[place];
+    const auto vector = [&] { return complete(draft.vectors[place], column, file, row, sink); };
+    if (const auto* given = std::get_if<Vec3 RecordingRow::*>(&column.member))
+      draft.row.*(*given) = vector().value_or(Vec3{});
+    else if (const auto* logged = std::get_if<std::optional<Vec3> RecordingRow::*>(&column.member))
+      draft.row.*(*logged) = vector();
   }
 }
 
@@ -215,14 +187,16 @@ Recording read_recording(const SourceFile& file) {
   const CsvTable table = read_csv(file);
   Recording recording = with_metadata(table, file);
   Sink sink;
-  const std::vector<Setter> columns = setters_of(table, file, sink);
+  const std::vector<FileColumn> columns = columns_of(table, file, sink);
   if (sink.has_errors()) throw UserError(sink.list());
   for (const CsvRow& row : table.rows) {
     Draft draft;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CsvField& field = row.fields[k];
-      const bool required = table.header[k].text == "feature" || table.header[k].text == "touch";
-      const std::string holds = field.text.empty() && !required ? "" : columns[k](field, draft);
+      const RecordingColumn& column = described(columns[k]);
+      const bool required = column.required && column.names[1].empty();  // what of a vector is missing is told with it
+      if (field.text.empty() && !required) continue;
+      const std::string holds = std::visit(Put{field, columns[k], draft}, column.member);
       if (holds.empty()) continue;
       sink.add(
           diagnostic_at(file, field.span, Code::E0530,

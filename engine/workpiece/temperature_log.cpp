@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/base/csv.hpp"
+#include "engine/base/limits.hpp"
 #include "engine/base/numbers.hpp"
 
 namespace abbe {
@@ -43,8 +44,6 @@ std::vector<std::vector<double>*> columns_of(const std::vector<CsvField>& header
   return columns;
 }
 
-constexpr double kLongest_s = 1e11, kColdest_C = -50, kHottest_C = 150;
-
 double number(const SourceFile& file, const CsvField& field, double low, double high) {
   const std::optional<double> value = finite_number(field.text);
   if (!value)
@@ -73,7 +72,7 @@ TemperatureLog read_temperature_log(const SourceFile& file) {
   const std::vector<std::vector<double>*> columns = columns_of(table.header, file, log);
   for (const CsvRow& row : table.rows) {
     for (std::size_t k = 0; k < columns.size(); ++k)
-      columns[k]->push_back(columns[k] == &log.time_s ? number(file, row.fields[k], -kLongest_s, kLongest_s)
+      columns[k]->push_back(columns[k] == &log.time_s ? number(file, row.fields[k], -kLatest_s, kLatest_s)
                                                       : number(file, row.fields[k], kColdest_C, kHottest_C));
     const std::size_t n = log.time_s.size();
     if (n > 1 && log.time_s[n - 1] <= log.time_s[n - 2])

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/base/letter_case.hpp"
+#include "engine/base/limits.hpp"
 #include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kMmPerUm = 1e-3, kPpm = 1e-6;
 constexpr int kMostUndulations = 500;
-constexpr NumberRange kTemperature{-50, 150, true, true, "between -50 and 150"};
+constexpr NumberRange kTemperature{kColdest_C, kHottest_C, true, true, "between -50 and 150"};
 constexpr NumberRange kExpansion{-30, 100, true, true, "between -30 and 100"};
 constexpr NumberRange kTurn{-360, 360, true, true, "between -360 and 360"};
 

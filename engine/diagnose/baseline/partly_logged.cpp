@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <variant>
 
 #include "engine/diagnose/baseline/data_problems.hpp"
+#include "engine/recording/columns.hpp"
 
 namespace abbe::diagnose {
 
@@ -12,7 +14,7 @@ namespace {
 
 /// Takes a column out where some rows have it and some do not.
 template <class Value>
-void leave_out(std::optional<Value> RecordingRow::*column, const char* name, Recording& recording,
+void leave_out(std::optional<Value> RecordingRow::*column, const std::string& name, Recording& recording,
                const std::string& file, std::vector<Diagnostic>& messages) {
   const auto& rows = recording.rows;
   const auto missing = std::find_if(rows.begin(), rows.end(), [&](const RecordingRow& r) { return !(r.*column); });
@@ -26,21 +28,16 @@ void leave_out(std::optional<Value> RecordingRow::*column, const char* name, Rec
   for (RecordingRow& row : recording.rows) (row.*column).reset();
 }
 
+/// What every row has is in none left out.
+template <class Value>
+void leave_out(Value RecordingRow::*, const std::string&, Recording&, const std::string&, std::vector<Diagnostic>&) {}
+
 }  // namespace
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
-  const auto out = [&](auto column, const char* name) { leave_out(column, name, recording, file, messages); };
-  out(&RecordingRow::time_s, "time_s");
-  out(&RecordingRow::speed_mm_s, "speed_mm_s");
-  out(&RecordingRow::accel_mm_s2, "accel_mm_s2");
-  out(&RecordingRow::travel, "ax,ay,az");
-  out(&RecordingRow::temp_part_C, "temp_part_C");
-  out(&RecordingRow::temp_x_C, "temp_x_C");
-  out(&RecordingRow::temp_y_C, "temp_y_C");
-  out(&RecordingRow::temp_z_C, "temp_z_C");
-  out(&RecordingRow::temp_air_C, "temp_air_C");
-  out(&RecordingRow::load_kg, "load_kg");
-  out(&RecordingRow::reading_mm, "enc_x,enc_y,enc_z");
+  for (const RecordingColumn& column : recording_columns())
+    if (column.changes)
+      std::visit([&](auto member) { leave_out(member, name(column), recording, file, messages); }, column.member);
 }
 
 void count_from_first_touch(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

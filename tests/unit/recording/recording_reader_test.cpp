@@ -1,6 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "engine/base/diagnostic.hpp"
+#include "engine/recording/columns.hpp"
 #include "engine/recording/recording.hpp"
 
 using namespace abbe;
@@ -35,6 +39,21 @@ TEST_CASE("what is written is read back") {
   CHECK(*back.rows[0].sensor == "S1");
   CHECK_FALSE(back.rows[1].time_s.has_value());
   CHECK(back.rows[0].line == 5);
+}
+
+TEST_CASE("every column is read and written, and docs/formats.md has it") {
+  std::ifstream stream(ABBE_SOURCE_DIR "/docs/formats.md");
+  const std::string docs{std::istreambuf_iterator<char>(stream), {}};
+  std::string header, row;
+  for (const RecordingColumn& column : recording_columns())
+    for (const std::string_view name : column.names) {
+      if (name.empty()) continue;
+      CHECK_MESSAGE(docs.find("`" + std::string(name) + "`") != std::string::npos, name);
+      header += (header.empty() ? "" : ",") + std::string(name);
+      row += (row.empty() ? "" : ",") + std::string(column.unit_vector && name != column.names[0] ? "0" : "1");
+    }
+  const std::string csv = to_csv(read_recording(SourceFile("r.csv", header + "\n" + row + "\n")));
+  CHECK_MESSAGE(csv.find("\n" + header + "\n1,1,1.0000000,") != std::string::npos, csv);
 }
 
 TEST_CASE("CRLF, byte order mark and blanks do not matter") {
