@@ -180,6 +180,8 @@ class Diagnose(harness.Case):
         self.assertEqual(said["verdict"], "cannot_judge")
         self.assertEqual(said["effects"][0]["probability"], 0.5)
         self.assertIn("Log time_s", said["otherwise"])
+        self.assertEqual(said["location"][0]["factor"], "time")
+        self.assertNotIn("time_s", said["location"][0]["where"], "nobody logged seconds")
 
     def test_targets_may_come_from_the_program(self):
         def bare(row):

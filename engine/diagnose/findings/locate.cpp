@@ -93,7 +93,7 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
       first = std::min(first, value(scene(static_cast<int>(k)))),
       last = std::max(last, value(scene(static_cast<int>(k))));
     if (high - low < kNearlyEverywhere * (last - first))
-      out.emplace_back(name, fmt::format("{:.0f} to {:.0f} {}", low, high, unit));
+      out.emplace_back(name, fmt::format("{:.0f} to {:.0f}{}", low, high, unit));
   };
   Places out;
   const auto label = [&](auto value) {
@@ -110,16 +110,20 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
   };
   switch (factor) {
     case Factor::time:
-      add_range(
-          out, "time_s", [](const TouchScene& s) { return s.time_s; }, "s");
+      if (c.recording->rows.front().time_s)
+        add_range(
+            out, "time_s", [](const TouchScene& s) { return s.time_s; }, " s");
+      else
+        add_range(
+            out, "touch", [](const TouchScene& s) { return s.touch + 1.0; }, "");
       break;
     case Factor::position:
       add_range(
-          out, "x", [](const TouchScene& s) { return s.point.x; }, "mm");
+          out, "x", [](const TouchScene& s) { return s.point.x; }, " mm");
       add_range(
-          out, "y", [](const TouchScene& s) { return s.point.y; }, "mm");
+          out, "y", [](const TouchScene& s) { return s.point.y; }, " mm");
       add_range(
-          out, "z", [](const TouchScene& s) { return s.point.z; }, "mm");
+          out, "z", [](const TouchScene& s) { return s.point.z; }, " mm");
       break;
     case Factor::direction: {
       const Vec3 n = scene(order.front().second).normal;
@@ -136,7 +140,7 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     case Factor::feature:
       return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
     case Factor::temperature:
-      for (const Thermometer& t : kThermometers) add_range(out, t.name, t.of, "C");
+      for (const Thermometer& t : kThermometers) add_range(out, t.name, t.of, " C");
       break;
     case Factor::speed:
       return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
