@@ -278,7 +278,7 @@ class Diagnose(harness.Case):
         good = {"schema": "abbe.known_state/1", "mean": [0] * 378, "factor": [[0] * 378]}
         for state in ({"schema": 1}, {"schema": None}, {}, [], "abbe.known_state/1", 7, good | {"schema": "abbe.known_state/2"},
                       good | {"mean": [1, 2]}, good | {"mean": None}, good | {"mean": ["0"] * 378}, good | {"factor": []}, good | {"factor": 1},
-                      good | {"factor": [1]}, good | {"factor": [[None] * 378]}, {k: v for k, v in good.items() if k != "factor"}):
+                      good | {"factor": [1]}, good | {"means": 1}, good | {"factor": [[None] * 378]}, {k: v for k, v in good.items() if k != "factor"}):
             machine["known_state"] = state
             self.refused("E0706", "diagnose", recording, "--known", self.write("known.json", json.dumps(machine)))
 

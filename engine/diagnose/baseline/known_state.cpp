@@ -46,6 +46,9 @@ std::optional<KnownGeometry> read_known_state(const Machine& machine) {
   const auto schema = state.find("schema");
   if (schema == state.end() || *schema != nlohmann::json(kSchema))
     refuse(machine, fmt::format("\"schema\": \"{}\" is missing", kSchema));
+  for (const auto& [key, value] : state.items())
+    if (key != "schema" && key != "geometry_scale" && key != "mean" && key != "factor")
+      refuse(machine, fmt::format("\"{}\" is no key of it", key));
   const Eigen::Index size = kComponents * basis_size(machine.harmonics);
   for (const char* key : {"mean", "factor"})
     if (!state.contains(key)) refuse(machine, fmt::format("\"{}\" is missing", key));
