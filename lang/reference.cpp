@@ -7,7 +7,6 @@
 
 #include "engine/features/construct.hpp"
 #include "engine/features/feature.hpp"
-#include "engine/features/pattern.hpp"
 #include "engine/tolerances/tolerance.hpp"
 #include "lang/directives.hpp"
 #include "lang/intrinsics.hpp"
@@ -137,7 +136,7 @@ std::string reference_markdown() {
   }
   out += "\n## Default points\n\n| kind | where a MEAS without PTMEAS touches it |\n|---|---|\n";
   for (const FeatureKind* k : feature_kinds())
-    if (!pattern_help(k->shape).empty()) out += fmt::format("| {} | {} |\n", k->word, pattern_help(k->shape));
+    if (k->pattern.touch) out += fmt::format("| {} | {} |\n", k->word, k->pattern.help);
   return out + "\n" + words_markdown();
 }
 

@@ -3,6 +3,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 
 namespace abbe {
 namespace {
@@ -34,6 +35,11 @@ void fit_arc(const PointColumns& columns, const Element* start, Element* result,
   for (int l = 0; l < columns.lanes; ++l) result[l].second = start[l].second, result[l].angle = start[l].angle;
 }
 
+Outcome<PatternTouch> touch_arc(const Element& e, bool, int k, int n) {
+  const Vec3 out = rotation(e.direction, e.angle * 0.5 * (spread_evenly(k, n) + 1)) * e.second;
+  return {{e.point + e.size * out, out}};
+}
+
 }  // namespace
 
 extern const FeatureKind arc_kind{
@@ -47,6 +53,7 @@ extern const FeatureKind arc_kind{
     .minimum_points = 3,
     .nominal = nominal_arc,
     .fit_lanes = fit_arc,
+    .pattern = {.help = "evenly from its start to its end", .touch = touch_arc},
 };
 
 }  // namespace abbe

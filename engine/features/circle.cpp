@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 
 namespace abbe {
 namespace {
@@ -11,6 +12,11 @@ Outcome<Element> nominal_circle(const Arguments& arguments) {
   const Outcome<double> size = radius(arguments, "diam");
   if (!size) return Outcome<Element>::failed(size.failure);
   return {{.point = location(arguments), .direction = along.value, .size = size.value}};
+}
+
+Outcome<PatternTouch> touch_circle(const Element& e, bool, int k, int n) {
+  const Vec3 out = Across(e.direction).at(2 * kPi * k / n);
+  return {{e.point + e.size * out, out}};
 }
 
 }  // namespace
@@ -25,6 +31,7 @@ extern const FeatureKind circle_kind{
     .minimum_points = 3,
     .nominal = nominal_circle,
     .fit_lanes = fit_lanes_of<CircleProfile>,
+    .pattern = {.help = "evenly round, the first in the direction of x", .touch = touch_circle},
 };
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 
 namespace abbe {
 namespace {
@@ -16,6 +17,17 @@ Outcome<Element> nominal_cylinder(const Arguments& arguments) {
   return {{.point = location(arguments), .direction = along.value, .size = size.value, .end = length}};
 }
 
+/// Sections at equal distances, two of fewer than 12 touches, else three; every other one turned by a quarter
+/// of a step.
+Outcome<PatternTouch> touch_cylinder(const Element& e, bool, int k, int n) {
+  const int sections = n < 12 ? 2 : 3, section = k % sections, in_section = (n - section + sections - 1) / sections;
+  const double low = e.end > e.begin ? e.begin : -kPatternReach_mm,
+               length = e.end > e.begin ? e.end - e.begin : 2 * kPatternReach_mm;
+  const double height = low + length * (0.1 + 0.8 * section / (sections - 1));
+  const Vec3 out = Across(e.direction).at(2 * kPi * (k / sections + 0.25 * (section % 2)) / in_section);
+  return {{e.point + height * e.direction + e.size * out, out}};
+}
+
 }  // namespace
 
 extern const FeatureKind cylinder_kind{
@@ -28,6 +40,12 @@ extern const FeatureKind cylinder_kind{
     .minimum_points = 5,
     .nominal = nominal_cylinder,
     .fit_lanes = fit_lanes_of<CylinderProfile>,
+    .pattern =
+        {.help =
+             "two sections, three from 12 touches on, evenly round, every other one turned by a quarter of a step; from 10 % to 90 % of the "
+             "length, or of 20 mm about the point",
+         .touch = touch_cylinder,
+         .minimum = 6},  // five points lie on several cylinders
 };
 
 }  // namespace abbe

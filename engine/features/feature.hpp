@@ -23,6 +23,20 @@ struct PointColumns {
   }
 };
 
+/// A touch on a nominal surface, in the frame of the nominal, mm.
+struct PatternTouch {
+  Vec3 point, normal;  ///< of the surface; a unit vector, out of the material
+};
+
+/// Where a machine touches features of a kind when the program gives no points (pattern.hpp).
+struct Pattern {
+  std::string_view help;  ///< one line for people: where the touches lie
+  /// Touch `index` (from 0) of `count`; its normal is that of an outer feature. Fails with a reason where the nominal
+  /// does not say enough. nullptr: the nominal never says where its surface begins and ends.
+  Outcome<PatternTouch> (*touch)(const Element& nominal, bool inner, int index, int count) = nullptr;
+  int minimum = 0;  ///< fewest touches that determine the feature, where they are more than the fit needs
+};
+
 struct FeatureKind {
   Shape shape;
   std::string_view word;       ///< DMIS minor word: "CYLNDR"
@@ -38,6 +52,7 @@ struct FeatureKind {
   /// the size of the feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr
   /// or the reason.
   void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
+  Pattern pattern{};
   /// Which of its values the points alone settle, so that they can be fitted without a nominal near them (fit.hpp).
   bool fitted_anywhere = true;
 };

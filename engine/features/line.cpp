@@ -2,6 +2,7 @@
 
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 #include "engine/features/straight_fit.hpp"
 
 namespace abbe {
@@ -33,6 +34,13 @@ Outcome<Element> nominal_line(const Arguments& arguments) {
   return {{.point = location(arguments), .direction = along.value, .second = surface_normal(arguments)}};
 }
 
+Outcome<PatternTouch> touch_line(const Element& e, bool, int k, int n) {
+  if (!(norm(e.second) > 0))
+    return Outcome<PatternTouch>::failed("the nominal line has no surface normal to touch along");
+  const double half = e.end > e.begin ? e.end : kPatternReach_mm;
+  return {{e.point + half * spread_evenly(k, n) * e.direction, e.second}};
+}
+
 }  // namespace
 
 extern const FeatureKind line_kind{
@@ -46,6 +54,7 @@ extern const FeatureKind line_kind{
     .minimum_points = 2,
     .nominal = nominal_line,
     .fit_lanes = fit_line_lanes,
+    .pattern = {.help = "evenly from end to end; unbounded: over 20 mm about the point", .touch = touch_line},
 };
 
 }  // namespace abbe

@@ -4,6 +4,7 @@
 
 #include "engine/features/nominal.hpp"
 #include "engine/features/outline.hpp"
+#include "engine/features/pattern.hpp"
 #include "engine/features/shape_traits.hpp"
 
 namespace abbe {
@@ -63,6 +64,28 @@ Outcome<Element> ellipse(const Arguments& arguments) {
   return outline(0.5 * (f1 + f2), vector_of(arguments, ""), unit(f2 - f1), 2 * a, 2 * b);
 }
 
+Outcome<PatternTouch> touch_ellipse(const Element& e, bool, int k, int n) {
+  const double angle = 2 * kPi * k / n, c = std::cos(angle), s = std::sin(angle);
+  const Vec3 across = cross(e.direction, e.second);
+  return {{e.point + e.size * c * e.second + e.minor_size * s * across,
+           unit(c / e.size * e.second + s / e.minor_size * across)}};
+}
+
+/// By turns on one long side, the other, one end, the other; evenly spaced within each.
+template <Shape shape>
+Outcome<PatternTouch> touch_sides(const Element& e, bool, int k, int n) {
+  const int side = k % 4, on_this = (n - side + 3) / 4;
+  const double along = 2.0 * (k / 4 + 1) / (on_this + 1) - 1, sign = side % 2 ? -1 : 1;
+  const Vec3 across = cross(e.direction, e.second);
+  const bool round = shape == Shape::slot && e.angle == 0;
+  const double straight = round ? e.size - e.minor_size : e.size;
+  if (side < 2) return {{e.point + along * straight * e.second + sign * e.minor_size * across, sign * across}};
+  if (!round) return {{e.point + sign * e.size * e.second + along * e.minor_size * across, sign * e.second}};
+  const double angle = along * kPi / 2;
+  const Vec3 out = sign * std::cos(angle) * e.second + std::sin(angle) * across;
+  return {{e.point + sign * straight * e.second + e.minor_size * out, out}};
+}
+
 }  // namespace
 
 extern const FeatureKind slot_kind{
@@ -76,6 +99,8 @@ extern const FeatureKind slot_kind{
     .minimum_points = 5,
     .nominal = slot,
     .fit_lanes = fit_outline_lanes<Shape::slot>,
+    .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
+                .touch = touch_sides<Shape::slot>},
     .fitted_anywhere = false,
 };
 
@@ -92,6 +117,8 @@ extern const FeatureKind rectangle_kind{
     .minimum_points = 5,
     .nominal = rectangle,
     .fit_lanes = fit_outline_lanes<Shape::rectangle>,
+    .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
+                .touch = touch_sides<Shape::rectangle>},
     .fitted_anywhere = false,
 };
 
@@ -106,6 +133,8 @@ extern const FeatureKind ellipse_kind{
     .minimum_points = 5,
     .nominal = ellipse,
     .fit_lanes = fit_outline_lanes<Shape::ellipse>,
+    .pattern = {.help = "round it at equal steps of its parameter, the first on the major axis",
+                .touch = touch_ellipse},
     .fitted_anywhere = false,
 };
 

@@ -8,28 +8,39 @@
 // faces; give PTMEAS for more. Collisions are not looked for.
 #pragma once
 
-#include <string_view>
-
-#include "engine/base/arguments.hpp"
-#include "engine/features/element.hpp"
+#include "engine/features/feature.hpp"
 
 namespace abbe {
 
 inline constexpr double kPatternReach_mm = 10;  ///< to every side of a nominal point without extent
 inline constexpr int kMostPatternTouches = 10'000;
 
-struct PatternTouch {
-  Vec3 point, normal;  ///< on the nominal surface, out of the material; frame of the nominal
+/// Touch `index` (from 0) of `count`. Fails where FeatureKind::pattern does, and for kinds without one.
+Outcome<PatternTouch> pattern_touch(const FeatureKind&, const Element& nominal, bool inner, int index, int count);
+
+/// The fewest touches with which a pattern determines its feature.
+int pattern_minimum(const FeatureKind&);
+
+/// Two directions across the unit vector n: that of x (of y when n runs along x), and the next.
+struct Across {
+  Vec3 a, b;
+  explicit Across(const Vec3& n);
+  Vec3 at(double angle_rad) const;
 };
 
-/// Touch `index` (from 0) of `count`. Fails for kinds without a pattern.
-Outcome<PatternTouch> pattern_touch(Shape, const Element& nominal, bool inner, int index, int count);
+/// Step k of n equal steps from -1 to 1; a single one is in the middle.
+double spread_evenly(int k, int n);
 
-/// The fewest touches with which a pattern determines its feature: those that the kind needs, but six for a
-/// cylinder, because five points lie on several cylinders.
-int pattern_minimum(Shape);
+/// Row by row over a square of as many columns as rows, or one more: mm from its middle.
+struct PatternGrid {
+  double a, b;
+  PatternGrid(int index, int count);
+};
 
-/// One line for people: where the touches lie. Empty when the kind has no pattern.
-std::string_view pattern_help(Shape);
+/// Of points.
+inline constexpr Pattern kAtThePoint{.help = "every touch at the point",
+                                     .touch = [](const Element& e, bool, int, int) -> Outcome<PatternTouch> {
+                                       return {{e.point, e.direction}};
+                                     }};
 
 }  // namespace abbe

@@ -1,5 +1,6 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 #include "engine/features/straight_fit.hpp"
 
 namespace abbe {
@@ -9,6 +10,12 @@ Outcome<Element> nominal_plane(const Arguments& arguments) {
   const Outcome<Vec3> along = direction(arguments);
   if (!along) return Outcome<Element>::failed(along.failure);
   return {{.point = location(arguments), .direction = along.value}};
+}
+
+Outcome<PatternTouch> touch_plane(const Element& e, bool, int k, int n) {
+  const Across across(e.direction);
+  const PatternGrid grid(k, n);
+  return {{e.point + grid.a * across.a + grid.b * across.b, e.direction}};
 }
 
 }  // namespace
@@ -23,6 +30,8 @@ extern const FeatureKind plane_kind{
     .minimum_points = 3,
     .nominal = nominal_plane,
     .fit_lanes = fit_plane_lanes,
+    .pattern = {.help = "rows over a square of 20 mm about the point, along x and y of the system",
+                .touch = touch_plane},
 };
 
 }  // namespace abbe

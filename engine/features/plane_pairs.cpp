@@ -6,6 +6,7 @@
 
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 #include "engine/features/shape_traits.hpp"
 #include "engine/features/solve.hpp"
 #include "engine/features/spread.hpp"
@@ -87,6 +88,18 @@ void fit_planes(const PointColumns& columns, const Element* start, Element* resu
   for (int l = 0; l < columns.lanes; ++l) failure[l] = fit_lane(columns, l, start[l], result[l]);
 }
 
+/// By turns on the two faces, on each as on a plane.
+Outcome<PatternTouch> touch_faces(const Element& e, bool, int k, int n) {
+  const double sign = k % 2 ? -1 : 1;
+  const PatternGrid grid(k / 2, (n + 1 - k % 2) / 2);
+  // Crosswise, so that two touches on each face settle the normal.
+  const Across across(e.direction);
+  const Vec3 there = k % 2 ? grid.b * across.a + grid.a * across.b : grid.a * across.a + grid.b * across.b;
+  return {{e.point + there + sign * e.size * e.direction, sign * e.direction}};
+}
+
+constexpr Pattern kFacesByTurns{.help = "by turns on the two faces, on each as on a plane", .touch = touch_faces};
+
 }  // namespace
 
 extern const FeatureKind parallel_planes_kind{
@@ -101,6 +114,7 @@ extern const FeatureKind parallel_planes_kind{
     .minimum_points = 4,
     .nominal = nominal_planes,
     .fit_lanes = fit_planes,
+    .pattern = kFacesByTurns,
     .fitted_anywhere = false,
 };
 
@@ -114,6 +128,7 @@ extern const FeatureKind symmetry_plane_kind{
     .minimum_points = 4,
     .nominal = nominal_planes,
     .fit_lanes = fit_planes,
+    .pattern = kFacesByTurns,
     .fitted_anywhere = false,
 };
 

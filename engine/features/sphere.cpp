@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 
 namespace abbe {
 namespace {
@@ -9,6 +10,18 @@ Outcome<Element> nominal_sphere(const Arguments& arguments) {
   const Outcome<double> size = radius(arguments, "diam");
   if (!size) return Outcome<Element>::failed(size.failure);
   return {{.point = location(arguments), .size = size.value}};
+}
+
+/// The pole on the side of z (of -z inside), the others by turns on the circles at 0 and 45 degrees.
+Outcome<PatternTouch> touch_sphere(const Element& e, bool inner, int k, int n) {
+  const double up = inner ? -1 : 1;
+  Vec3 out{0, 0, up};
+  if (k > 0) {
+    const int circles = n < 9 ? 1 : 2, circle = (k - 1) % circles, on_this = (n - 1 - circle + circles - 1) / circles;
+    const double angle = 2 * kPi * ((k - 1) / circles + 0.5 * circle) / on_this, rise = circle * kPi / 4;
+    out = {std::cos(rise) * std::cos(angle), std::cos(rise) * std::sin(angle), up * std::sin(rise)};
+  }
+  return {{e.point + e.size * out, out}};
 }
 
 }  // namespace
@@ -25,6 +38,10 @@ extern const FeatureKind sphere_kind{
     .minimum_points = 4,
     .nominal = nominal_sphere,
     .fit_lanes = fit_lanes_of<SphereProfile>,
+    .pattern =
+        {.help =
+             "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees",
+         .touch = touch_sphere},
 };
 
 }  // namespace abbe

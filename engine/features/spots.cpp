@@ -1,6 +1,7 @@
 // EDGEPT and GSURF: features whose touches are the result. Both are the mean of their touches.
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 
 namespace abbe {
 
@@ -35,6 +36,7 @@ extern const FeatureKind edge_point_kind{
     .minimum_points = 1,
     .nominal = edge_point,
     .fit_lanes = fit_mean,
+    .pattern = kAtThePoint,
     .fitted_anywhere = false,
 };
 

@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/pattern.hpp"
 
 namespace abbe {
 namespace {
@@ -12,6 +13,16 @@ Outcome<Element> nominal_torus(const Arguments& arguments) {
   if (!major) return Outcome<Element>::failed(major.failure);
   if (!minor) return Outcome<Element>::failed(minor.failure);
   return {{.point = location(arguments), .direction = along.value, .size = major.value, .minor_size = minor.value}};
+}
+
+/// By turns on three circles of the half of the tube that the axis points out of: its ridge, its outside and
+/// its inside. The inside is turned by half a step, so that seven touches, three of them on the ridge,
+/// determine the torus.
+Outcome<PatternTouch> touch_torus(const Element& e, bool, int k, int n) {
+  const int circle = k % 3, on_this = (n - circle + 2) / 3;
+  const Vec3 away = Across(e.direction).at(2 * kPi * (k / 3 + (circle == 2 ? 0.5 : 0)) / on_this);
+  const Vec3 out = circle == 0 ? e.direction : circle == 1 ? away : -away;
+  return {{e.point + e.size * away + e.minor_size * out, out}};
 }
 
 }  // namespace
@@ -26,6 +37,11 @@ extern const FeatureKind torus_kind{
     .minimum_points = 7,
     .nominal = nominal_torus,
     .fit_lanes = fit_lanes_of<TorusProfile>,
+    .pattern =
+        {.help =
+             "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside "
+             "turned by half a step",
+         .touch = touch_torus},
 };
 
 }  // namespace abbe

@@ -113,7 +113,7 @@ Outcome<Target> BlockRun::pattern_target(Lane& lane, const plan::Touch& touch) {
   const Rigid& X_WD = feature.defined_in;
   const Element nominal =
       feature.own_nominal ? inverse(X_WD) * feature.nominal : executor.plan_[feature.definition].nominal;
-  const auto made = pattern_touch(def.kind->shape, nominal, def.inner, touch.pattern_index, touch.pattern_count);
+  const auto made = pattern_touch(*def.kind, nominal, def.inner, touch.pattern_index, touch.pattern_count);
   if (!made) return Outcome<Target>::failed(made.failure);
   return {{X_WD * made.value.point + lane.X_WD.R * value(lane, touch.point), X_WD.R * made.value.normal}};
 }

@@ -164,14 +164,14 @@ void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
   if (!*machine_chooses)
     return lowering.error(Code::E0203, block.span, "this MEAS has no PTMEAS, and MODE does not let the machine choose",
                           "give the points with PTMEAS, or write MODE/AUTO,PROG,MAN before it");
-  if (pattern_help(kind.shape).empty())
+  if (!kind.pattern.touch)
     return lowering.error(Code::E0203, block.span,
                           fmt::format("this MEAS has no PTMEAS, and a {} has no default points", kind.word),
                           "give the points with PTMEAS between MEAS and ENDMES");
   if (!lowering.sensor_selected && lowering.sensor_doubt.empty())
     return lowering.error(Code::E0207, block.span, "missing sensor: no sensor is selected here",
                           "select one with SNSLCT/S(name) before measuring");
-  const int fewest = pattern_minimum(kind.shape);
+  const int fewest = pattern_minimum(kind);
   if (block.declared < fewest || block.declared > kMostPatternTouches)
     return lowering.error(block.declared < fewest ? Code::E0211 : Code::E0251, block.count_span,
                           fmt::format("{} default touches, but a {} takes {} to {}", block.declared, kind.word, fewest,

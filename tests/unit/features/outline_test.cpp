@@ -44,7 +44,7 @@ Fitted fit(Shape shape, const std::vector<Vec3>& points, const Element& start) {
 std::vector<Vec3> touches(Shape shape, const Element& e, int count, bool inner = false) {
   std::vector<Vec3> points;
   for (int k = 0; k < count; ++k) {
-    const auto touch = pattern_touch(shape, e, inner, k, count);
+    const auto touch = pattern_touch(feature_kind(shape), e, inner, k, count);
     REQUIRE(touch);
     points.push_back(touch.value.point);
   }
@@ -182,12 +182,12 @@ TEST_CASE("Patterns lie on the nominal surface and face away from the material")
     Element e = round;
     e.minor_size = 4;
     if (kind->shape == Shape::slot) e.angle = 0;
-    const auto any = pattern_touch(kind->shape, e, false, 0, 7);
-    CHECK(static_cast<bool>(any) == !pattern_help(kind->shape).empty());
+    const auto any = pattern_touch(*kind, e, false, 0, 7);
+    CHECK(static_cast<bool>(any) == !kind->pattern.help.empty());
     if (!any) continue;
     for (const bool inner : {false, true})
       for (int k = 0; k < 14; ++k) {
-        const PatternTouch touch = pattern_touch(kind->shape, e, inner, k, 14).value;
+        const PatternTouch touch = pattern_touch(*kind, e, inner, k, 14).value;
         CHECK(norm(touch.normal) == Approx(1));
         const auto normal = nominal_normal(kind->shape, e, inner, touch.point);
         if (kind->shape == Shape::symmetry_plane || kind->shape == Shape::parallel_planes || kind->minimum_points > 2 ||
@@ -197,15 +197,15 @@ TEST_CASE("Patterns lie on the nominal surface and face away from the material")
         }
       }
   }
-  const auto fourth = pattern_touch(Shape::circle, round, true, 1, 4).value;
+  const auto fourth = pattern_touch(feature_kind(Shape::circle), round, true, 1, 4).value;
   CHECK(norm(fourth.point - Vec3{1, 10, 3}) < 1e-12);
   CHECK(norm(fourth.normal - Vec3{0, -1, 0}) < 1e-12);
 }
 
 TEST_CASE("A pattern determines its feature") {
   for (const FeatureKind* kind : feature_kinds()) {
-    if (pattern_help(kind->shape).empty() || kind->shape == Shape::line) continue;
-    const int fewest = pattern_minimum(kind->shape);
+    if (!kind->pattern.touch || kind->shape == Shape::line) continue;
+    const int fewest = pattern_minimum(*kind);
     for (const int count : {fewest, fewest + 1, 9, 16}) {
       Element e{.point = {1, 2, 3},
                 .direction = {0, 0, 1},

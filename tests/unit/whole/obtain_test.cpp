@@ -1,7 +1,6 @@
 // OBTAIN of everything that can be read, and the uncertainty of alignments through the language.
 #include <cmath>
 
-#include "engine/features/pattern.hpp"
 #include "tests/unit/whole/programs.hpp"
 
 using namespace abbe;
@@ -43,7 +42,7 @@ TEST_CASE("what is measured of a feature without errors is what defines it, argu
       "F(X)=FEAT/PARPLN,INNER,CART,0,25,0,0,1,0,0,35,0,0,-1,0", "F(X)=FEAT/CIRCLE,OUTER,POL,50,30,4,0,0,1,20",
       "F(X)=FEAT/RCTNGL,OUTER,CART,0,0,0,1,0,0,60,0,-1,0,40,0,0,1,20"};
   for (const FeatureKind* kind : feature_kinds())
-    if (!pattern_help(kind->shape).empty()) forms.emplace_back(kind->example);
+    if (kind->pattern.touch) forms.emplace_back(kind->example);
   int numbers = 0;
   for (const std::string& form : forms) {
     CAPTURE(form);
