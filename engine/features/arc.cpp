@@ -3,6 +3,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 
 namespace abbe {
@@ -53,6 +54,7 @@ extern const FeatureKind arc_kind{
     .minimum_points = 3,
     .nominal = nominal_arc,
     .fit_lanes = fit_arc,
+    .normal = away_from_axis,
     .pattern = {.help = "evenly from its start to its end", .touch = touch_arc},
 };
 

@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 
 namespace abbe {
@@ -31,6 +32,7 @@ extern const FeatureKind circle_kind{
     .minimum_points = 3,
     .nominal = nominal_circle,
     .fit_lanes = fit_lanes_of<CircleProfile>,
+    .normal = away_from_axis,
     .pattern = {.help = "evenly round, the first in the direction of x", .touch = touch_circle},
 };
 

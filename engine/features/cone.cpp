@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 
 namespace abbe {
 namespace {
@@ -15,6 +16,11 @@ Outcome<Element> nominal_cone(const Arguments& arguments) {
   return {{.point = location(arguments), .direction = along.value, .angle = half_angle}};
 }
 
+Outcome<Vec3> cone_normal(const Element& e, const Vec3& point) {
+  const Outcome<Vec3> out = away_from_axis(e, point);
+  return out ? Outcome<Vec3>{std::cos(e.angle) * out.value - std::sin(e.angle) * e.direction} : out;
+}
+
 }  // namespace
 
 extern const FeatureKind cone_kind{
@@ -27,6 +33,7 @@ extern const FeatureKind cone_kind{
     .minimum_points = 6,
     .nominal = nominal_cone,
     .fit_lanes = fit_lanes_of<ConeProfile>,
+    .normal = cone_normal,
 };
 
 }  // namespace abbe

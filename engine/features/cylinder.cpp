@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 
 namespace abbe {
@@ -40,6 +41,7 @@ extern const FeatureKind cylinder_kind{
     .minimum_points = 5,
     .nominal = nominal_cylinder,
     .fit_lanes = fit_lanes_of<CylinderProfile>,
+    .normal = away_from_axis,
     .pattern =
         {.help =
              "two sections, three from 12 touches on, evenly round, every other one turned by a quarter of a step; from 10 % to 90 % of the "

@@ -52,6 +52,9 @@ struct FeatureKind {
   /// the size of the feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr
   /// or the reason.
   void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
+  /// The unit normal out of the nominal surface nearest to `point`, as that of an outer feature; same frame, mm. Fails
+  /// with a reason where the nominal leaves it open.
+  Outcome<Vec3> (*normal)(const Element& nominal, const Vec3& point);
   Pattern pattern{};
   /// Which of its values the points alone settle, so that they can be fitted without a nominal near them (fit.hpp).
   bool fitted_anywhere = true;

@@ -41,6 +41,11 @@ Outcome<PatternTouch> touch_line(const Element& e, bool, int k, int n) {
   return {{e.point + half * spread_evenly(k, n) * e.direction, e.second}};
 }
 
+Outcome<Vec3> line_normal(const Element& e, const Vec3&) {
+  if (norm(e.second) > 0) return {e.second};
+  return Outcome<Vec3>::failed("a touch on a line needs the vector of the surface in PTMEAS");
+}
+
 }  // namespace
 
 extern const FeatureKind line_kind{
@@ -54,6 +59,7 @@ extern const FeatureKind line_kind{
     .minimum_points = 2,
     .nominal = nominal_line,
     .fit_lanes = fit_line_lanes,
+    .normal = line_normal,
     .pattern = {.help = "evenly from end to end; unbounded: over 20 mm about the point", .touch = touch_line},
 };
 

@@ -86,6 +86,15 @@ Outcome<PatternTouch> touch_sides(const Element& e, bool, int k, int n) {
   return {{e.point + sign * straight * e.second + e.minor_size * out, out}};
 }
 
+/// Away from the outline, in its plane.
+template <Shape shape>
+Outcome<Vec3> outline_normal(const Element& e, const Vec3& point) {
+  const Vec3 across = cross(e.direction, e.second), w = point - e.point;
+  const OutlineDistance o =
+      outline_distance(shape, e.angle != 0, dot(w, e.second), dot(w, across), e.size, e.minor_size);
+  return {o.nu * e.second + o.nv * across};
+}
+
 }  // namespace
 
 extern const FeatureKind slot_kind{
@@ -99,6 +108,7 @@ extern const FeatureKind slot_kind{
     .minimum_points = 5,
     .nominal = slot,
     .fit_lanes = fit_outline_lanes<Shape::slot>,
+    .normal = outline_normal<Shape::slot>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
                 .touch = touch_sides<Shape::slot>},
     .fitted_anywhere = false,
@@ -117,6 +127,7 @@ extern const FeatureKind rectangle_kind{
     .minimum_points = 5,
     .nominal = rectangle,
     .fit_lanes = fit_outline_lanes<Shape::rectangle>,
+    .normal = outline_normal<Shape::rectangle>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
                 .touch = touch_sides<Shape::rectangle>},
     .fitted_anywhere = false,
@@ -133,6 +144,7 @@ extern const FeatureKind ellipse_kind{
     .minimum_points = 5,
     .nominal = ellipse,
     .fit_lanes = fit_outline_lanes<Shape::ellipse>,
+    .normal = outline_normal<Shape::ellipse>,
     .pattern = {.help = "round it at equal steps of its parameter, the first on the major axis",
                 .touch = touch_ellipse},
     .fitted_anywhere = false,

@@ -1,5 +1,6 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 #include "engine/features/straight_fit.hpp"
 
@@ -30,6 +31,7 @@ extern const FeatureKind plane_kind{
     .minimum_points = 3,
     .nominal = nominal_plane,
     .fit_lanes = fit_plane_lanes,
+    .normal = along_direction,
     .pattern = {.help = "rows over a square of 20 mm about the point, along x and y of the system",
                 .touch = touch_plane},
 };

@@ -100,6 +100,10 @@ Outcome<PatternTouch> touch_faces(const Element& e, bool, int k, int n) {
 
 constexpr Pattern kFacesByTurns{.help = "by turns on the two faces, on each as on a plane", .touch = touch_faces};
 
+Outcome<Vec3> nearer_face_normal(const Element& e, const Vec3& point) {
+  return {dot(point - e.point, e.direction) < 0 ? -e.direction : e.direction};
+}
+
 }  // namespace
 
 extern const FeatureKind parallel_planes_kind{
@@ -114,6 +118,7 @@ extern const FeatureKind parallel_planes_kind{
     .minimum_points = 4,
     .nominal = nominal_planes,
     .fit_lanes = fit_planes,
+    .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
     .fitted_anywhere = false,
 };
@@ -128,6 +133,7 @@ extern const FeatureKind symmetry_plane_kind{
     .minimum_points = 4,
     .nominal = nominal_planes,
     .fit_lanes = fit_planes,
+    .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
     .fitted_anywhere = false,
 };

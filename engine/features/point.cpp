@@ -3,6 +3,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_block.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 #include "engine/features/solve.hpp"
 
@@ -43,6 +44,7 @@ extern const FeatureKind point_kind{
     .minimum_points = 1,
     .nominal = nominal_point,
     .fit_lanes = fit_point_lanes,
+    .normal = along_direction,
     .pattern = kAtThePoint,
 };
 

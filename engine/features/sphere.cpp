@@ -1,6 +1,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 
 namespace abbe {
@@ -24,6 +25,8 @@ Outcome<PatternTouch> touch_sphere(const Element& e, bool inner, int k, int n) {
   return {{e.point + e.size * out, out}};
 }
 
+Outcome<Vec3> sphere_normal(const Element& e, const Vec3& point) { return away_along(point - e.point); }
+
 }  // namespace
 
 extern const FeatureKind sphere_kind{
@@ -38,6 +41,7 @@ extern const FeatureKind sphere_kind{
     .minimum_points = 4,
     .nominal = nominal_sphere,
     .fit_lanes = fit_lanes_of<SphereProfile>,
+    .normal = sphere_normal,
     .pattern =
         {.help =
              "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees",

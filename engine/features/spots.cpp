@@ -1,6 +1,7 @@
 // EDGEPT and GSURF: features whose touches are the result. Both are the mean of their touches.
 #include "engine/features/feature.hpp"
 #include "engine/features/nominal.hpp"
+#include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
 
 namespace abbe {
@@ -24,6 +25,10 @@ void fit_mean(const PointColumns& columns, const Element* start, Element* result
   for (int l = 0; l < columns.lanes; ++l) result[l].second = start[l].second;
 }
 
+Outcome<Vec3> unknown_normal(const Element&, const Vec3&) {
+  return Outcome<Vec3>::failed("a touch on a GSURF needs the vector of the surface in PTMEAS");
+}
+
 }  // namespace
 
 extern const FeatureKind edge_point_kind{
@@ -36,6 +41,7 @@ extern const FeatureKind edge_point_kind{
     .minimum_points = 1,
     .nominal = edge_point,
     .fit_lanes = fit_mean,
+    .normal = along_direction,
     .pattern = kAtThePoint,
     .fitted_anywhere = false,
 };
@@ -50,6 +56,7 @@ extern const FeatureKind surface_kind{
     .minimum_points = 1,
     .nominal = any_surface,
     .fit_lanes = fit_mean,
+    .normal = unknown_normal,
     .fitted_anywhere = false,
 };
 

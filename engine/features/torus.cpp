@@ -25,6 +25,16 @@ Outcome<PatternTouch> touch_torus(const Element& e, bool, int k, int n) {
   return {{e.point + e.size * away + e.minor_size * out, out}};
 }
 
+/// Away from the nearest point of the centre line of the tube.
+Outcome<Vec3> torus_normal(const Element& e, const Vec3& point) {
+  using Normal = Outcome<Vec3>;
+  const Vec3 across = perpendicular_part(point - e.point, e.direction);
+  if (norm(across) == 0) return Normal::failed("the point lies on the axis of the torus: give the vector in PTMEAS");
+  const Vec3 out = point - (e.point + e.size * unit(across));
+  if (norm(out) == 0) return Normal::failed("the point lies in the middle of the tube: give the vector in PTMEAS");
+  return {unit(out)};
+}
+
 }  // namespace
 
 extern const FeatureKind torus_kind{
@@ -37,6 +47,7 @@ extern const FeatureKind torus_kind{
     .minimum_points = 7,
     .nominal = nominal_torus,
     .fit_lanes = fit_lanes_of<TorusProfile>,
+    .normal = torus_normal,
     .pattern =
         {.help =
              "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside "

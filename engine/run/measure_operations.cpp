@@ -138,7 +138,7 @@ bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
       if (norm(normal_D) == 0) return trap(index, "the vector of the touch has no length"), false;
     } else {
       const plan::FeatureDef& def = executor.plan_[touch.feature];
-      const Outcome<Vec3> n = nominal_normal(def.kind->shape, state(twin, touch.feature).nominal, def.inner, surface);
+      const Outcome<Vec3> n = nominal_normal(*def.kind, state(twin, touch.feature).nominal, def.inner, surface);
       if (!n) return trap(index, n.failure), false;
       true_normal = n.value;
       normal_D = transpose(twin.X_WD.R) * n.value;

@@ -35,6 +35,7 @@ TEST_CASE("every shape has one kind, fully described") {
     CHECK(kind->minimum_points > 0);
     CHECK((kind->nominal != nullptr));
     CHECK((kind->fit_lanes != nullptr));
+    CHECK((kind->normal != nullptr));
   }
   CHECK(words.size() == 16);
   CHECK(find_feature_kind("GCURVE") == nullptr);
