@@ -41,6 +41,11 @@ Outcome<PatternTouch> touch_arc(const Element& e, bool, int k, int n) {
   return {{e.point + e.size * out, out}};
 }
 
+/// The start is written as its direction, with the start angle 0.
+FeatArguments written_arc(const Element& e) {
+  return {"CART", e.point, e.direction, e.size, 0.0, in_degrees(e.angle), e.second};
+}
+
 }  // namespace
 
 extern const FeatureKind arc_kind{
@@ -53,6 +58,7 @@ extern const FeatureKind arc_kind{
     .source = "ISO 22093:2011, FEAT/ARC; fitted as a circle",
     .minimum_points = 3,
     .nominal = nominal_arc,
+    .written = written_arc,
     .fit_lanes = fit_arc,
     .normal = away_from_axis,
     .pattern = {.help = "evenly from its start to its end", .touch = touch_arc},

@@ -20,6 +20,8 @@ Outcome<PatternTouch> touch_circle(const Element& e, bool, int k, int n) {
   return {{e.point + e.size * out, out}};
 }
 
+FeatArguments written_circle(const Element& e) { return {"CART", e.point, e.direction, 2 * e.size}; }
+
 }  // namespace
 
 extern const FeatureKind circle_kind{
@@ -31,6 +33,7 @@ extern const FeatureKind circle_kind{
     .source = "ISO 22093:2011, FEAT/CIRCLE; radial distances in the plane of the nominal normal",
     .minimum_points = 3,
     .nominal = nominal_circle,
+    .written = written_circle,
     .fit_lanes = fit_lanes_of<CircleProfile>,
     .normal = away_from_axis,
     .pattern = {.help = "evenly round, the first in the direction of x", .touch = touch_circle},

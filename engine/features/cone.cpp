@@ -2,6 +2,7 @@
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
+#include "engine/features/shape_traits.hpp"
 
 namespace abbe {
 namespace {
@@ -21,6 +22,8 @@ Outcome<Vec3> cone_normal(const Element& e, const Vec3& point) {
   return out ? Outcome<Vec3>{std::cos(e.angle) * out.value - std::sin(e.angle) * e.direction} : out;
 }
 
+FeatArguments written_cone(const Element& e) { return {"CART", apex(e), e.direction, in_degrees(2 * e.angle)}; }
+
 }  // namespace
 
 extern const FeatureKind cone_kind{
@@ -32,6 +35,7 @@ extern const FeatureKind cone_kind{
     .source = "ISO 22093:2011, FEAT/CONE; Forbes, NPL DITC 140/89",
     .minimum_points = 6,
     .nominal = nominal_cone,
+    .written = written_cone,
     .fit_lanes = fit_lanes_of<ConeProfile>,
     .normal = cone_normal,
 };

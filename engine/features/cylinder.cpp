@@ -29,6 +29,11 @@ Outcome<PatternTouch> touch_cylinder(const Element& e, bool, int k, int n) {
   return {{e.point + height * e.direction + e.size * out, out}};
 }
 
+FeatArguments written_cylinder(const Element& e) {
+  if (!(e.end > e.begin)) return {"CART", e.point, e.direction, 2 * e.size};
+  return {"CART", e.point + e.begin * e.direction, e.direction, 2 * e.size, e.end - e.begin};
+}
+
 }  // namespace
 
 extern const FeatureKind cylinder_kind{
@@ -40,6 +45,7 @@ extern const FeatureKind cylinder_kind{
     .source = "ISO 22093:2011, FEAT/CYLNDR; Forbes, NPL DITC 140/89",
     .minimum_points = 5,
     .nominal = nominal_cylinder,
+    .written = written_cylinder,
     .fit_lanes = fit_lanes_of<CylinderProfile>,
     .normal = away_from_axis,
     .pattern =

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "engine/base/arguments.hpp"
@@ -22,6 +23,9 @@ struct PointColumns {
     return {p[0], p[stride], p[2 * static_cast<std::size_t>(stride)]};
   }
 };
+
+/// Arguments of a FEAT statement in their order: words, numbers, and places and directions as three numbers.
+using FeatArguments = std::vector<std::variant<std::string_view, double, Vec3>>;
 
 /// A touch on a nominal surface, in the frame of the nominal, mm.
 struct PatternTouch {
@@ -48,6 +52,9 @@ struct FeatureKind {
   /// Builds the nominal element from matched arguments, in the frame current at the statement. Fails with a reason for
   /// impossible values (zero vector, negative diameter).
   Outcome<Element> (*nominal)(const Arguments&);
+  /// The other way round: the arguments after the side (where the signature begins with one) of the statement that
+  /// defines the element as measured, in its frame; mm and degrees.
+  FeatArguments (*written)(const Element&);
   /// Orthogonal least squares over lanes, Gauss-Newton from `start[lane]`, which must be within about 1 % of
   /// the size of the feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr
   /// or the reason.

@@ -46,6 +46,13 @@ Outcome<Vec3> line_normal(const Element& e, const Vec3&) {
   return Outcome<Vec3>::failed("a touch on a line needs the vector of the surface in PTMEAS");
 }
 
+FeatArguments written_line(const Element& e) {
+  FeatArguments out{"UNBND", "CART", e.point, e.direction};
+  if (e.begin != e.end) out = {"BND", "CART", e.point + e.begin * e.direction, e.point + e.end * e.direction};
+  if (norm(e.second) > 0) out.emplace_back(e.second);
+  return out;
+}
+
 }  // namespace
 
 extern const FeatureKind line_kind{
@@ -58,6 +65,7 @@ extern const FeatureKind line_kind{
     .source = "ISO 22093:2011, FEAT/LINE; total least squares (Pearson 1901)",
     .minimum_points = 2,
     .nominal = nominal_line,
+    .written = written_line,
     .fit_lanes = fit_line_lanes,
     .normal = line_normal,
     .pattern = {.help = "evenly from end to end; unbounded: over 20 mm about the point", .touch = touch_line},

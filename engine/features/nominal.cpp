@@ -2,6 +2,14 @@
 
 namespace abbe {
 
+Outcome<Element> located(const Arguments& arguments) {
+  const Outcome<Vec3> along = direction(arguments);
+  if (!along) return Outcome<Element>::failed(along.failure);
+  return {{.point = location(arguments), .direction = along.value}};
+}
+
+FeatArguments written_location(const Element& e) { return {"CART", e.point, e.direction}; }
+
 Vec3 location(const Arguments& arguments) {
   if (!arguments.has("r")) return {arguments.number("x"), arguments.number("y"), arguments.number("z")};
   const double r = arguments.number("r"), a = arguments.number("a");

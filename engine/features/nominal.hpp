@@ -2,8 +2,7 @@
 // direction, a diameter.
 #pragma once
 
-#include "engine/base/arguments.hpp"
-#include "engine/math/vec.hpp"
+#include "engine/features/feature.hpp"
 
 namespace abbe {
 
@@ -11,9 +10,14 @@ namespace abbe {
 #define ABBE_LOCATION "( CART,x:length,y:length,z:length ; POL,r:length,a:angle,h:length )"
 #define ABBE_DIRECTION "i:number,j:number,k:number"
 
+/// FeatureKind::nominal and FeatureKind::written of what has a location and a direction only: points and planes.
+Outcome<Element> located(const Arguments&);
+FeatArguments written_location(const Element&);
+
 Vec3 location(const Arguments&);
 /// The unit vector along (i, j, k); fails when its length is zero or not finite.
 Outcome<Vec3> direction(const Arguments&);
+constexpr double in_degrees(double angle_rad) { return angle_rad * 180 / kPi; }
 /// Half of the diameter under `name`, mm; fails unless it is positive.
 Outcome<double> radius(const Arguments&, const char* name);
 

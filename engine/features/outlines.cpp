@@ -1,5 +1,6 @@
 // CPARLN, RCTNGL and ELLIPS. A slot with flat ends keeps that in Element::angle, which is 1 for it and 0
 // for round ends.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/features/nominal.hpp"
@@ -95,6 +96,20 @@ Outcome<Vec3> outline_normal(const Element& e, const Vec3& point) {
   return {o.nu * e.second + o.nv * across};
 }
 
+FeatArguments written_slot(const Element& e) {
+  return {e.angle != 0 ? "FLAT" : "ROUND", "CART", e.point, e.direction, e.second, 2 * e.size, 2 * e.minor_size};
+}
+
+FeatArguments written_rectangle(const Element& e) {
+  const Vec3 across = cross(e.direction, e.second);
+  return {"CART", e.point, e.second, 2 * e.size, across, 2 * e.minor_size, e.direction, e.end - e.begin};
+}
+
+FeatArguments written_ellipse(const Element& e) {
+  const Vec3 focus = std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
+  return {"CART", e.point - focus, e.point + focus, "MAJOR", 2 * e.size, e.direction};
+}
+
 }  // namespace
 
 extern const FeatureKind slot_kind{
@@ -107,6 +122,7 @@ extern const FeatureKind slot_kind{
     .source = "ISO 22093:2011, FEAT/CPARLN; orthogonal least squares in the plane of the nominal normal",
     .minimum_points = 5,
     .nominal = slot,
+    .written = written_slot,
     .fit_lanes = fit_outline_lanes<Shape::slot>,
     .normal = outline_normal<Shape::slot>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
@@ -126,6 +142,7 @@ extern const FeatureKind rectangle_kind{
     .source = "ISO 22093:2011, FEAT/RCTNGL; least squares of the four sides across the third direction",
     .minimum_points = 5,
     .nominal = rectangle,
+    .written = written_rectangle,
     .fit_lanes = fit_outline_lanes<Shape::rectangle>,
     .normal = outline_normal<Shape::rectangle>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
@@ -143,6 +160,7 @@ extern const FeatureKind ellipse_kind{
     .source = "ISO 22093:2011, FEAT/ELLIPS; orthogonal least squares in the plane of the nominal normal",
     .minimum_points = 5,
     .nominal = ellipse,
+    .written = written_ellipse,
     .fit_lanes = fit_outline_lanes<Shape::ellipse>,
     .normal = outline_normal<Shape::ellipse>,
     .pattern = {.help = "round it at equal steps of its parameter, the first on the major axis",

@@ -7,12 +7,6 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal_plane(const Arguments& arguments) {
-  const Outcome<Vec3> along = direction(arguments);
-  if (!along) return Outcome<Element>::failed(along.failure);
-  return {{.point = location(arguments), .direction = along.value}};
-}
-
 Outcome<PatternTouch> touch_plane(const Element& e, bool, int k, int n) {
   const Across across(e.direction);
   const PatternGrid grid(k, n);
@@ -29,7 +23,8 @@ extern const FeatureKind plane_kind{
     .example = "F(PL1)=FEAT/PLANE,CART,0,0,0,0,0,1",
     .source = "ISO 22093:2011, FEAT/PLANE; total least squares (Pearson 1901)",
     .minimum_points = 3,
-    .nominal = nominal_plane,
+    .nominal = located,
+    .written = written_location,
     .fit_lanes = fit_plane_lanes,
     .normal = along_direction,
     .pattern = {.help = "rows over a square of 20 mm about the point, along x and y of the system",

@@ -104,6 +104,9 @@ Outcome<Vec3> nearer_face_normal(const Element& e, const Vec3& point) {
   return {dot(point - e.point, e.direction) < 0 ? -e.direction : e.direction};
 }
 
+FeatArguments written_parallel_planes(const Element& e) { return {"MIDPL", "CART", e.point, e.direction, 2 * e.size}; }
+FeatArguments written_symmetry_plane(const Element& e) { return {"CART", e.point, e.direction, 2 * e.size}; }
+
 }  // namespace
 
 extern const FeatureKind parallel_planes_kind{
@@ -117,6 +120,7 @@ extern const FeatureKind parallel_planes_kind{
     .source = "ISO 22093:2011, FEAT/PARPLN; least squares with a common normal",
     .minimum_points = 4,
     .nominal = nominal_planes,
+    .written = written_parallel_planes,
     .fit_lanes = fit_planes,
     .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
@@ -132,6 +136,7 @@ extern const FeatureKind symmetry_plane_kind{
     .source = "ISO 22093:2011, FEAT/SYMPLN; as PARPLN",
     .minimum_points = 4,
     .nominal = nominal_planes,
+    .written = written_symmetry_plane,
     .fit_lanes = fit_planes,
     .normal = nearer_face_normal,
     .pattern = kFacesByTurns,

@@ -10,12 +10,6 @@
 namespace abbe {
 namespace {
 
-Outcome<Element> nominal_point(const Arguments& arguments) {
-  const Outcome<Vec3> along = direction(arguments);
-  if (!along) return Outcome<Element>::failed(along.failure);
-  return {{.point = location(arguments), .direction = along.value}};
-}
-
 /// The mean of the touches; the direction stays that of the nominal.
 void fit_point_lanes(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
   for (int first = 0; first < columns.lanes; first += kBlockLanes) {
@@ -42,7 +36,8 @@ extern const FeatureKind point_kind{
     .example = "F(P1)=FEAT/POINT,CART,10,20,0,0,0,1",
     .source = "ISO 22093:2011, FEAT/POINT; the mean of the touches",
     .minimum_points = 1,
-    .nominal = nominal_point,
+    .nominal = located,
+    .written = written_location,
     .fit_lanes = fit_point_lanes,
     .normal = along_direction,
     .pattern = kAtThePoint,

@@ -27,6 +27,8 @@ Outcome<PatternTouch> touch_sphere(const Element& e, bool inner, int k, int n) {
 
 Outcome<Vec3> sphere_normal(const Element& e, const Vec3& point) { return away_along(point - e.point); }
 
+FeatArguments written_sphere(const Element& e) { return {"CART", e.point, 2 * e.size}; }
+
 }  // namespace
 
 extern const FeatureKind sphere_kind{
@@ -40,6 +42,7 @@ extern const FeatureKind sphere_kind{
     .source = "ISO 22093:2011, FEAT/SPHERE; Forbes, NPL DITC 140/89",
     .minimum_points = 4,
     .nominal = nominal_sphere,
+    .written = written_sphere,
     .fit_lanes = fit_lanes_of<SphereProfile>,
     .normal = sphere_normal,
     .pattern =

@@ -29,6 +29,10 @@ Outcome<Vec3> unknown_normal(const Element&, const Vec3&) {
   return Outcome<Vec3>::failed("a touch on a GSURF needs the vector of the surface in PTMEAS");
 }
 
+FeatArguments written_edge_point(const Element& e) { return {"CART", e.point, e.direction, e.second}; }
+
+FeatArguments written_surface(const Element&) { return {}; }
+
 }  // namespace
 
 extern const FeatureKind edge_point_kind{
@@ -40,6 +44,7 @@ extern const FeatureKind edge_point_kind{
     .source = "ISO 22093:2011, FEAT/EDGEPT; the mean of the touches",
     .minimum_points = 1,
     .nominal = edge_point,
+    .written = written_edge_point,
     .fit_lanes = fit_mean,
     .normal = along_direction,
     .pattern = kAtThePoint,
@@ -55,6 +60,7 @@ extern const FeatureKind surface_kind{
     .source = "ISO 22093:2011, FEAT/GSURF; the mean of the touches",
     .minimum_points = 1,
     .nominal = any_surface,
+    .written = written_surface,
     .fit_lanes = fit_mean,
     .normal = unknown_normal,
     .fitted_anywhere = false,

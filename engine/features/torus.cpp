@@ -35,6 +35,8 @@ Outcome<Vec3> torus_normal(const Element& e, const Vec3& point) {
   return {unit(out)};
 }
 
+FeatArguments written_torus(const Element& e) { return {"CART", e.point, e.direction, 2 * e.size, 2 * e.minor_size}; }
+
 }  // namespace
 
 extern const FeatureKind torus_kind{
@@ -46,6 +48,7 @@ extern const FeatureKind torus_kind{
     .source = "ISO 22093:2011, FEAT/TORUS; distance from the centre line of the tube",
     .minimum_points = 7,
     .nominal = nominal_torus,
+    .written = written_torus,
     .fit_lanes = fit_lanes_of<TorusProfile>,
     .normal = torus_normal,
     .pattern =

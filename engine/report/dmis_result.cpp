@@ -3,11 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-
-#include "engine/features/shape_traits.hpp"
 
 namespace abbe {
 
@@ -30,63 +26,17 @@ std::string dmis_text(const std::string& text) {
 
 double degrees(double rad) { return rad * 180 / kPi; }
 
-std::string line_arguments(const Element& e, const std::string& place) {
-  const std::string surface = norm(e.second) > 0 ? ", " + numbers(e.second) : "";
-  if (e.begin == e.end) return "UNBND, CART, " + place + surface;
-  return "BND, CART, " + numbers(e.point + e.begin * e.direction) + ", " + numbers(e.point + e.end * e.direction) +
-      surface;
-}
-
-std::string cylinder_arguments(const Element& e) {
-  const std::string length = e.end > e.begin ? ", " + decimal(e.end - e.begin) : "";
-  // with a length the point is one end of the axis
-  const Vec3 end = e.end > e.begin ? e.point + e.begin * e.direction : e.point;
-  return numbers(end) + ", " + numbers(e.direction) + ", " + decimal(2 * e.size) + length;
-}
-
-std::string rectangle_arguments(const Element& e) {
-  return numbers(e.point) + ", " + numbers(e.second) + ", " + decimal(2 * e.size) + ", " +
-      numbers(cross(e.direction, e.second)) + ", " + decimal(2 * e.minor_size) + ", " + numbers(e.direction) + ", " +
-      decimal(e.end - e.begin);
-}
-
-std::string ellipse_arguments(const Element& e) {
-  const Vec3 focus = std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
-  return numbers(e.point - focus) + ", " + numbers(e.point + focus) + ", MAJOR, " + decimal(2 * e.size) + ", " +
-      numbers(e.direction);
-}
-
-/// The start of the arc is written as its direction, with the start angle 0.
-std::string arc_arguments(const Element& e, const std::string& place) {
-  return place + ", " + decimal(e.size) + ", " + decimal(0) + ", " + decimal(degrees(e.angle)) + ", " +
-      numbers(e.second);
-}
+struct ArgumentText {
+  std::string operator()(std::string_view word) const { return std::string(word); }
+  std::string operator()(double number) const { return decimal(number); }
+  std::string operator()(const Vec3& v) const { return numbers(v); }
+};
 
 std::string feature_arguments(const plan::FeatureDef& def, const Element& e) {
-  const std::string in = def.inner ? "INNER, " : "OUTER, ", side = in + "CART, ";
-  const std::string place = numbers(e.point) + ", " + numbers(e.direction);
-  switch (def.kind->shape) {
-    case Shape::point:
-    case Shape::plane: return "CART, " + place;
-    case Shape::line: return line_arguments(e, place);
-    case Shape::circle: return side + place + ", " + decimal(2 * e.size);
-    case Shape::arc: return side + arc_arguments(e, place);
-    case Shape::cylinder: return side + cylinder_arguments(e);
-    case Shape::sphere: return side + numbers(e.point) + ", " + decimal(2 * e.size);
-    case Shape::cone:
-      return side + numbers(apex(e)) + ", " + numbers(e.direction) + ", " + decimal(degrees(2 * e.angle));
-    case Shape::torus: return side + place + ", " + decimal(2 * e.size) + ", " + decimal(2 * e.minor_size);
-    case Shape::edge_point: return "CART, " + place + ", " + numbers(e.second);
-    case Shape::surface: return "";
-    case Shape::slot:
-      return in + (e.angle != 0 ? "FLAT" : "ROUND") + ", CART, " + place + ", " + numbers(e.second) + ", " +
-          decimal(2 * e.size) + ", " + decimal(2 * e.minor_size);
-    case Shape::rectangle: return side + rectangle_arguments(e);
-    case Shape::ellipse: return side + ellipse_arguments(e);
-    case Shape::parallel_planes: return in + "MIDPL, CART, " + place + ", " + decimal(2 * e.size);
-    case Shape::symmetry_plane: return side + place + ", " + decimal(2 * e.size);
-  }
-  throw InternalError("a Shape without DMIS arguments");
+  std::string out;
+  if (def.kind->signature.starts_with("side:")) out = def.inner ? ", INNER" : ", OUTER";
+  for (const auto& argument : def.kind->written(e)) out += ", " + std::visit(ArgumentText{}, argument);
+  return out;
 }
 
 bool inside(double value, const ToleranceLimits& limits) {
@@ -132,9 +82,8 @@ class ResultText {
     text += fmt::format("OUTPUT/{}\n", fmt::join(echo, ", "));
     for (std::size_t k = 0; k < what.features.size(); ++k) {
       const plan::FeatureDef& def = plan_[what.features[k]];
-      const std::string arguments = feature_arguments(def, record.features[k]);
       text +=
-          fmt::format("FA({}) = FEAT/{}{}{}\n", def.label, def.kind->word, arguments.empty() ? "" : ", ", arguments);
+          fmt::format("FA({}) = FEAT/{}{}\n", def.label, def.kind->word, feature_arguments(def, record.features[k]));
     }
     for (const auto& v : record.values) {
       const plan::ToleranceDef& def = plan_[plan_[v.characteristic].tolerance];

@@ -34,6 +34,7 @@ TEST_CASE("every shape has one kind, fully described") {
     CHECK(kind->signature.empty() == (kind->shape == Shape::surface));  // a GSURF has no nominal
     CHECK(kind->minimum_points > 0);
     CHECK((kind->nominal != nullptr));
+    CHECK((kind->written != nullptr));
     CHECK((kind->fit_lanes != nullptr));
     CHECK((kind->normal != nullptr));
   }
