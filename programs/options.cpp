@@ -188,7 +188,10 @@ std::array<double, 3> parse_vector(const std::string& text) {
 void add_fit(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("fit", "fit an element to points by least squares");
   const auto o = chosen_by(command, chosen, fit_command);
-  command->add_option("ELEMENT", o->element, "line, plane, circle, sphere, cylinder, cone or torus")->required();
+  const std::vector<std::string_view> elements = fit_elements();
+  const std::string help =
+      fmt::format("{} or {}", fmt::join(elements.begin(), elements.end() - 1, ", "), elements.back());
+  command->add_option("ELEMENT", o->element, help)->required();
   command->add_option("POINTS", o->points, "CSV file with the header x,y,z")->required();
   command
       ->add_option_function<std::string>(

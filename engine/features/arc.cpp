@@ -62,6 +62,7 @@ extern const FeatureKind arc_kind{
     .fit_lanes = fit_arc,
     .normal = away_from_axis,
     .pattern = {.help = "evenly from its start to its end", .touch = touch_arc},
+    .spread = 2,
 };
 
 }  // namespace abbe

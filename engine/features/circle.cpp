@@ -37,6 +37,8 @@ extern const FeatureKind circle_kind{
     .fit_lanes = fit_lanes_of<CircleProfile>,
     .normal = away_from_axis,
     .pattern = {.help = "evenly round, the first in the direction of x", .touch = touch_circle},
+    .spread = 2,
+    .fit_names = {.element = "circle", .point = "center", .direction = "normal", .size = "radius"},
 };
 
 }  // namespace abbe

@@ -100,18 +100,15 @@ std::optional<FitError> refusal(const FitProblem& problem) {
 }
 
 std::optional<FitError> refusal(const FitProblem& problem, const Cloud& cloud) {
-  const Shape shape = problem.shape;
+  const int needed = feature_kind(problem.shape).spread;
   const auto& along = cloud.spread.along;
   const double negligible = cloud.negligible();
-  if (shape == Shape::point) return std::nullopt;
+  if (needed == 0) return std::nullopt;
   if (along[0] <= negligible) return fit_error("identical_points");
-  if (shape == Shape::line)
-    return along[0] - along[1] <= negligible ? std::optional(fit_error("not_unique")) : std::nullopt;
-  if (along[1] <= negligible) return fit_error("collinear_points");
-  const bool seeks_plane = shape == Shape::plane || (shape == Shape::circle && !problem.normal);
-  if (seeks_plane && along[1] - along[2] <= negligible) return fit_error("not_unique");
-  if (seeks_plane || shape == Shape::circle) return std::nullopt;
-  if (along[2] <= negligible) return fit_error("coplanar_points");
+  if (needed > 1 && along[1] <= negligible) return fit_error("collinear_points");
+  if (needed > 2 && along[2] <= negligible) return fit_error("coplanar_points");
+  // Of a line or a plane the last of these directions must also stand out from the next.
+  if (needed < 3 && !problem.normal && along[needed - 1] - along[needed] <= negligible) return fit_error("not_unique");
   return std::nullopt;
 }
 

@@ -38,6 +38,12 @@ extern const FeatureKind cone_kind{
     .written = written_cone,
     .fit_lanes = fit_lanes_of<ConeProfile>,
     .normal = cone_normal,
+    .fit_names = {.element = "cone",
+                  .point = "point",
+                  .direction = "axis",
+                  .size = "radius",
+                  .half_angle = "half_angle_deg",
+                  .apex = "apex"},
 };
 
 }  // namespace abbe

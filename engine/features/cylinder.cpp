@@ -54,6 +54,7 @@ extern const FeatureKind cylinder_kind{
              "length, or of 20 mm about the point",
          .touch = touch_cylinder,
          .minimum = 6},  // five points lie on several cylinders
+    .fit_names = {.element = "cylinder", .point = "point", .direction = "axis", .size = "radius"},
 };
 
 }  // namespace abbe

@@ -41,6 +41,12 @@ struct Pattern {
   int minimum = 0;  ///< fewest touches that determine the feature, where they are more than the fit needs
 };
 
+/// What `abbe fit` calls the element and the values of its fit (docs/formats.md); empty: not reported.
+struct FitNames {
+  std::string_view element{}, point{}, direction{}, size{}, minor_size{};
+  std::string_view half_angle{}, apex{};  ///< of a cone
+};
+
 struct FeatureKind {
   Shape shape;
   std::string_view word;       ///< DMIS minor word: "CYLNDR"
@@ -65,6 +71,9 @@ struct FeatureKind {
   Pattern pattern{};
   /// Which of its values the points alone settle, so that they can be fitted without a nominal near them (fit.hpp).
   bool fitted_anywhere = true;
+  /// In how many directions points must be spread to determine it so: 0 points, 1 lines, 2 plane ones, 3 all others.
+  int spread = 3;
+  FitNames fit_names{};  ///< of elements that `abbe fit` offers
 };
 
 /// Every kind of feature, in the order of the language reference.

@@ -69,6 +69,8 @@ extern const FeatureKind line_kind{
     .fit_lanes = fit_line_lanes,
     .normal = line_normal,
     .pattern = {.help = "evenly from end to end; unbounded: over 20 mm about the point", .touch = touch_line},
+    .spread = 1,
+    .fit_names = {.element = "line", .point = "point", .direction = "direction"},
 };
 
 }  // namespace abbe

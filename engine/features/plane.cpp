@@ -29,6 +29,8 @@ extern const FeatureKind plane_kind{
     .normal = along_direction,
     .pattern = {.help = "rows over a square of 20 mm about the point, along x and y of the system",
                 .touch = touch_plane},
+    .spread = 2,
+    .fit_names = {.element = "plane", .point = "point", .direction = "normal"},
 };
 
 }  // namespace abbe

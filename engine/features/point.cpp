@@ -41,6 +41,7 @@ extern const FeatureKind point_kind{
     .fit_lanes = fit_point_lanes,
     .normal = along_direction,
     .pattern = kAtThePoint,
+    .spread = 0,
 };
 
 }  // namespace abbe

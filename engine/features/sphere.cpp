@@ -49,6 +49,7 @@ extern const FeatureKind sphere_kind{
         {.help =
              "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees",
          .touch = touch_sphere},
+    .fit_names = {.element = "sphere", .point = "center", .size = "radius"},
 };
 
 }  // namespace abbe

@@ -56,6 +56,11 @@ extern const FeatureKind torus_kind{
              "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside "
              "turned by half a step",
          .touch = touch_torus},
+    .fit_names = {.element = "torus",
+                  .point = "center",
+                  .direction = "axis",
+                  .size = "major_radius",
+                  .minor_size = "minor_radius"},
 };
 
 }  // namespace abbe

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "programs/program_study.hpp"
@@ -51,6 +52,8 @@ struct FitOptions {
   std::string format = "text";  ///< text or json
 };
 int fit_command(const FitOptions&);
+/// The elements that it offers, those that need the fewest points first.
+std::vector<std::string_view> fit_elements();
 
 struct MachineOptions {
   std::string action;   ///< list, show, screen, init

@@ -19,50 +19,47 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The name of an element and the names of what its fit reports; an empty name: not reported.
-struct ElementNames {
-  std::string_view name;
-  Shape shape;
-  const char *point, *direction, *size;
-};
-constexpr ElementNames kElements[] = {
-    {"line", Shape::line, "point", "direction", ""},           {"plane", Shape::plane, "point", "normal", ""},
-    {"circle", Shape::circle, "center", "normal", "radius"},   {"sphere", Shape::sphere, "center", "", "radius"},
-    {"cylinder", Shape::cylinder, "point", "axis", "radius"},  {"cone", Shape::cone, "point", "axis", "radius"},
-    {"torus", Shape::torus, "center", "axis", "major_radius"},
-};
+/// Those that need the fewest points first.
+std::vector<const FeatureKind*> fitted_kinds() {
+  std::vector<const FeatureKind*> kinds;
+  for (const FeatureKind* kind : feature_kinds())
+    if (!kind->fit_names.element.empty()) kinds.push_back(kind);
+  std::stable_sort(kinds.begin(), kinds.end(),
+                   [](const FeatureKind* a, const FeatureKind* b) { return a->minimum_points < b->minimum_points; });
+  return kinds;
+}
 
-const ElementNames& element_named(std::string word) {
+const FeatureKind& element_named(std::string word) {
   std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
-  std::vector<std::string_view> names;
-  for (const ElementNames& e : kElements) {
-    if (e.name == word) return e;
-    names.push_back(e.name);
-  }
+  for (const FeatureKind* kind : fitted_kinds())
+    if (kind->fit_names.element == word) return *kind;
+  const std::vector<std::string_view> names = fit_elements();
   const std::string near = nearest_word(word, names);
   throw UserError(diagnostic(Code::E0504, fmt::format("'{}' is not an element that can be fitted", word),
                              near.empty() ? fmt::format("choose one of {}", fmt::join(names, ", "))
                                           : fmt::format("did you mean '{}'?", near)));
 }
 
-std::string needs(const ElementNames& names) {
-  const char* spread = names.shape == Shape::line                   ? ""
-      : names.shape == Shape::plane || names.shape == Shape::circle ? ", not all on one line"
-                                                                    : ", not all in one plane";
-  return fmt::format("a {} needs at least {} different points{}, and every coordinate a finite number", names.name,
-                     feature_kind(names.shape).minimum_points, spread);
+std::string needs(const FeatureKind& kind) {
+  constexpr const char* kSpread[] = {"", "", ", not all on one line", ", not all in one plane"};
+  return fmt::format("a {} needs at least {} different points{}, and every coordinate a finite number",
+                     kind.fit_names.element, kind.minimum_points, kSpread[kind.spread]);
 }
 
 Json components(const Vec3& v) { return {v.x, v.y, v.z}; }
 
-Json result_of(const ElementNames& names, const FitSolution& solution, std::size_t points) {
+Json result_of(const FitNames& names, const FitSolution& solution, std::size_t points) {
   const Element& e = solution.element;
-  Json j{{"schema", "abbe.fit/1"}, {"element", names.name}, {names.point, components(e.point)}};
-  if (*names.direction) j[names.direction] = components(e.direction);
-  if (names.shape == Shape::cone) j["half_angle_deg"] = e.angle * 180 / kPi;
-  if (*names.size) j[names.size] = e.size;
-  if (names.shape == Shape::torus) j["minor_radius"] = e.minor_size;
-  if (names.shape == Shape::cone) j["apex"] = components(solution.apex);
+  Json j{{"schema", "abbe.fit/1"}, {"element", names.element}};
+  const auto add = [&j](std::string_view key, const Json& value) {
+    if (!key.empty()) j[key] = value;
+  };
+  add(names.point, components(e.point));
+  add(names.direction, components(e.direction));
+  add(names.half_angle, e.angle * 180 / kPi);
+  add(names.size, e.size);
+  add(names.minor_size, e.minor_size);
+  add(names.apex, components(solution.apex));
   j["rms"] = solution.rms;
   j["form"] = solution.form;
   j["n"] = points;
@@ -88,12 +85,19 @@ std::string as_text(const Json& result) {
 
 }  // namespace
 
+std::vector<std::string_view> fit_elements() {
+  std::vector<std::string_view> names;
+  for (const FeatureKind* kind : fitted_kinds()) names.push_back(kind->fit_names.element);
+  return names;
+}
+
 int fit_command(const FitOptions& options) {
-  const ElementNames& names = element_named(options.element);
-  FitProblem problem{names.shape, points_from_csv(read_source(options.points)), {}};
+  const FeatureKind& kind = element_named(options.element);
+  const std::string_view name = kind.fit_names.element;
+  FitProblem problem{kind.shape, points_from_csv(read_source(options.points)), {}};
   if (options.normal) {
-    if (names.shape != Shape::circle)
-      throw UserError(diagnostic(Code::E0506, fmt::format("--normal has no meaning for a {}", names.name),
+    if (kind.shape != Shape::circle)
+      throw UserError(diagnostic(Code::E0506, fmt::format("--normal has no meaning for a {}", name),
                                  "leave it out; only the plane of a circle can be prescribed"));
     const auto& n = *options.normal;
     problem.normal = Vec3{n[0], n[1], n[2]};
@@ -101,13 +105,13 @@ int fit_command(const FitOptions& options) {
   const FitSolution solution = fit_points(problem);
   if (solution.error) {
     Diagnostic d = diagnostic(Code::E0505,
-                              fmt::format("no {} can be fitted to {} points: {} ({})", names.name,
-                                          problem.points.size(), solution.error->message, solution.error->code),
-                              needs(names));
+                              fmt::format("no {} can be fitted to {} points: {} ({})", name, problem.points.size(),
+                                          solution.error->message, solution.error->code),
+                              needs(kind));
     d.file = options.points;
     throw UserError(d);
   }
-  const Json result = result_of(names, solution, problem.points.size());
+  const Json result = result_of(kind.fit_names, solution, problem.points.size());
   const std::string text = options.format == "json" ? result.dump(2) + "\n" : as_text(result);
   print_result(text);
   return kDone;
