@@ -50,6 +50,7 @@ FeatArguments written_arc(const Element& e) {
 
 extern const FeatureKind arc_kind{
     .shape = Shape::arc,
+    .acts_as = Shape::circle,
     .word = "ARC",
     .signature = "side:INNER|OUTER," ABBE_LOCATION "," ABBE_DIRECTION
                  ",radius:length,start:angle,sweep:angle[,is:number,js:number,ks:number]",

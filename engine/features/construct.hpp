@@ -17,7 +17,7 @@ struct Construction {
   std::string_view example;
   std::string_view source;
   /// nullptr when an element of shape `result` can be made of features of these shapes, else why not. Shapes
-  /// as acts_as() has them.
+  /// as FeatureKind::acts_as has them.
   const char* (*applies)(Shape result, std::span<const Shape> shapes);
   /// Builds an element of shape `result` from the operands, all in the coordinate system current at the
   /// statement (MOVEPT moves along its axes); `nominal` settles what geometry leaves open (the sense of a

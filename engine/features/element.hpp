@@ -26,12 +26,6 @@ enum class Shape {
   symmetry_plane
 };
 
-/// Whether a feature is made of faces. All others are curved, or points of a surface of which no more is known.
-constexpr bool is_flat(Shape s) {
-  return s == Shape::line || s == Shape::plane || s == Shape::slot || s == Shape::rectangle ||
-      s == Shape::parallel_planes || s == Shape::symmetry_plane;
-}
-
 /// A geometric element, in whatever frame its holder says (mm; directions are unit vectors).
 ///
 /// - point: the point; direction the surface normal.

@@ -49,7 +49,11 @@ struct FitNames {
 
 struct FeatureKind {
   Shape shape;
-  std::string_view word;       ///< DMIS minor word: "CYLNDR"
+  /// The shape that it is treated as where only its point, direction and radius matter: in constructions, alignments
+  /// and tolerances of location. Pairs of planes are their median plane there.
+  Shape acts_as = shape;
+  bool flat = false;      ///< made of faces; all others are curved, or points of a surface of which no more is known
+  std::string_view word;  ///< DMIS minor word: "CYLNDR"
   std::string_view signature;  ///< arguments after the word, notation of base/arguments.hpp
   std::string_view help;       ///< one line for people
   std::string_view example;    ///< a complete FEAT statement

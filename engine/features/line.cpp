@@ -57,6 +57,7 @@ FeatArguments written_line(const Element& e) {
 
 extern const FeatureKind line_kind{
     .shape = Shape::line,
+    .flat = true,
     .word = "LINE",
     .signature = "( BND,CART,x1:length,y1:length,z1:length,x2:length,y2:length,z2:length ; UNBND," ABBE_LOCATION
                  "," ABBE_DIRECTION " ),ni:number,nj:number,nk:number",

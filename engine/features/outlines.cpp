@@ -114,6 +114,7 @@ FeatArguments written_ellipse(const Element& e) {
 
 extern const FeatureKind slot_kind{
     .shape = Shape::slot,
+    .flat = true,
     .word = "CPARLN",
     .signature = "side:INNER|OUTER,ends:ROUND|FLAT," ABBE_LOCATION "," ABBE_DIRECTION
                  ",i2:number,j2:number,k2:number,length:length,width:length",
@@ -132,6 +133,7 @@ extern const FeatureKind slot_kind{
 
 extern const FeatureKind rectangle_kind{
     .shape = Shape::rectangle,
+    .flat = true,
     .word = "RCTNGL",
     .signature =
         "side:INNER|OUTER," ABBE_LOCATION

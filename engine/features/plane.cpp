@@ -17,6 +17,7 @@ Outcome<PatternTouch> touch_plane(const Element& e, bool, int k, int n) {
 
 extern const FeatureKind plane_kind{
     .shape = Shape::plane,
+    .flat = true,
     .word = "PLANE",
     .signature = ABBE_LOCATION "," ABBE_DIRECTION,
     .help = "a plane: a point and the normal out of the material",

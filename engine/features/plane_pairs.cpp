@@ -111,6 +111,8 @@ FeatArguments written_symmetry_plane(const Element& e) { return {"CART", e.point
 
 extern const FeatureKind parallel_planes_kind{
     .shape = Shape::parallel_planes,
+    .acts_as = Shape::plane,
+    .flat = true,
     .word = "PARPLN",
     .signature =
         "side:INNER|OUTER,( CART,x1:length,y1:length,z1:length,i1:number,j1:number,k1:number,x2:length,y2:length,z2:length,"
@@ -129,6 +131,8 @@ extern const FeatureKind parallel_planes_kind{
 
 extern const FeatureKind symmetry_plane_kind{
     .shape = Shape::symmetry_plane,
+    .acts_as = Shape::plane,
+    .flat = true,
     .word = "SYMPLN",
     .signature = "side:INNER|OUTER," ABBE_LOCATION "," ABBE_DIRECTION ",width:length",
     .help = "the plane midway between two opposite faces: a point of it, its normal, the distance of the faces",

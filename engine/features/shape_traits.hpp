@@ -3,22 +3,11 @@
 
 #include <cmath>
 
-#include "engine/features/element.hpp"
+#include "engine/features/feature.hpp"
 
 namespace abbe {
 
-/// The shape that a feature is treated as where only its point, direction and radius matter: in
-/// constructions, alignments and tolerances of location. Pairs of planes are their median plane there.
-constexpr Shape acts_as(Shape s) {
-  switch (s) {
-    case Shape::arc: return Shape::circle;
-    case Shape::edge_point:
-    case Shape::surface: return Shape::point;
-    case Shape::parallel_planes:
-    case Shape::symmetry_plane: return Shape::plane;
-    default: return s;
-  }
-}
+inline Shape acts_as(Shape s) { return feature_kind(s).acts_as; }
 
 /// The sine up to which directions that are written with few decimals, or were measured, are meant as parallel or at
 /// right angles: 1 degree.

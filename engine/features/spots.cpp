@@ -37,6 +37,7 @@ FeatArguments written_surface(const Element&) { return {}; }
 
 extern const FeatureKind edge_point_kind{
     .shape = Shape::edge_point,
+    .acts_as = Shape::point,
     .word = "EDGEPT",
     .signature = ABBE_LOCATION "," ABBE_DIRECTION ",is:number,js:number,ks:number",
     .help = "a point of an edge: its place, the edge's vector out of the material, the normal of the surface beside it",
@@ -53,6 +54,7 @@ extern const FeatureKind edge_point_kind{
 
 extern const FeatureKind surface_kind{
     .shape = Shape::surface,
+    .acts_as = Shape::point,
     .word = "GSURF",
     .signature = "",
     .help = "a surface of any form; where it lies is said by PTMEAS and judged by PROFS",

@@ -32,9 +32,9 @@ std::vector<Vec3> faces_between(const FeatureState& a, const FeatureState& b) {
 }  // namespace
 
 void BlockRun::operator()(const plan::Construct& construct) {
-  const Shape shape = acts_as(executor.plan_[construct.result].kind->shape);
+  const Shape shape = executor.plan_[construct.result].kind->acts_as;
   std::vector<Shape> shapes;
-  for (const plan::FeatureId id : construct.from) shapes.push_back(acts_as(executor.plan_[id].kind->shape));
+  for (const plan::FeatureId id : construct.from) shapes.push_back(executor.plan_[id].kind->acts_as);
   std::vector<Element> from(shapes.size());
   for_active([&](int i) -> std::string {
     Lane& lane = block.lanes[i];
@@ -86,7 +86,7 @@ void BlockRun::operator()(const plan::SetDatumFrame& set) {
       const plan::DatumRef& datum = set.datums[k];
       const Element* element = actual(i, datum.feature);
       if (!element) return "";
-      uses[k] = {acts_as(executor.plan_[datum.feature].kind->shape),
+      uses[k] = {executor.plan_[datum.feature].kind->acts_as,
                  *element,
                  datum.gives_direction,
                  datum.direction,
@@ -160,9 +160,9 @@ std::vector<TouchedPoint> BlockRun::touches_of(Lane& lane, plan::FeatureId featu
 }
 
 std::vector<Vec3> BlockRun::faces_of(Lane& lane, plan::FeatureId feature) {
-  const Shape shape = executor.plan_[feature].kind->shape;
+  const FeatureKind& kind = *executor.plan_[feature].kind;
   const FeatureState& of = state(lane, feature);
-  std::vector<Vec3> faces = acts_as(shape) == Shape::plane && shape != Shape::plane ? of.touched : of.faces;
+  std::vector<Vec3> faces = kind.acts_as == Shape::plane && kind.shape != Shape::plane ? of.touched : of.faces;
   for (Vec3& p : faces) p = inverse(lane.X_WD) * p;
   return faces;
 }
@@ -176,7 +176,7 @@ std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::Characterist
     const Element* element = actual(i, m.feature);
     if (!element) return std::nullopt;
     const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * state(twin, m.feature).nominal;
-    const Shape shape = acts_as(plan[m.feature].kind->shape);
+    const Shape shape = plan[m.feature].kind->acts_as;
     const Arguments arguments = filled(lane, size.arguments, size.varying);
     const Outcome<double> value = size.kind->evaluate(arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});
     if (!value) return trap(i, value.failure), std::nullopt;
@@ -197,8 +197,8 @@ void BlockRun::operator()(const plan::Evaluate& evaluate) {
   for (const int id : tolerance.arguments.features("datum")) datums.push_back({id});
 
   std::vector<Shape> shapes, datum_shapes;
-  for (const auto id : features) shapes.push_back(acts_as(plan[id].kind->shape));
-  for (const auto id : datums) datum_shapes.push_back(acts_as(plan[id].kind->shape));
+  for (const auto id : features) shapes.push_back(plan[id].kind->acts_as);
+  for (const auto id : datums) datum_shapes.push_back(plan[id].kind->acts_as);
   std::vector<Element> actuals(features.size()), nominals(features.size()), datum_actuals(datums.size()),
       nominal_datums(datums.size());
 

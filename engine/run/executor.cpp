@@ -46,7 +46,7 @@ void Executor::find_curved(const CurvedFeatures& curved) {
   curved_.clear();
   for (const plan::FeatureDef& def : plan_.features) {
     const std::string key = upper(def.label);
-    curved_.push_back(curved.touched(key) ? curved.has(key) : !is_flat(def.kind->shape));
+    curved_.push_back(curved.touched(key) ? curved.has(key) : !def.kind->flat);
   }
 }
 

@@ -6,7 +6,6 @@
 #include "engine/features/fit.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
-#include "engine/features/shape_traits.hpp"
 #include "engine/features/solve.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/run/block_run.hpp"
@@ -278,7 +277,7 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
     } else if (const Element* known = executor.known_fit(operation, lane.points)) {
       result = *known;
     } else {
-      FitSolution solution = fit_error_free(acts_as(kind.shape), lane.points, nominal);
+      FitSolution solution = fit_error_free(kind.acts_as, lane.points, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
       if (kind.shape == Shape::arc) result.angle = nominal.angle;

@@ -4,7 +4,6 @@
 
 #include "engine/features/construct.hpp"
 #include "engine/features/feature.hpp"
-#include "engine/features/shape_traits.hpp"
 #include "lang/statement.hpp"
 #include "lang/statements/words.hpp"
 
@@ -40,7 +39,7 @@ std::vector<std::string_view> method_words() {
 /// Whether the method makes this kind of feature of those kinds; reports why not.
 bool can_be_made(Lowering& lowering, const RawStatement& raw, plan::FeatureId result, const Construction& method,
                  const Arguments& arguments) {
-  const auto shape = [&](plan::FeatureId id) { return acts_as(lowering.out.plan[id].kind->shape); };
+  const auto shape = [&](plan::FeatureId id) { return lowering.out.plan[id].kind->acts_as; };
   std::vector<Shape> from;
   for (const int id : arguments.features("from")) from.push_back(shape({id}));
   const char* reason = method.applies(shape(result), from);

@@ -40,15 +40,15 @@ std::optional<plan::MaterialCondition> condition_of(Lowering& lowering, const Mo
 const char* no_simple_shift(const plan::Plan& plan, const std::vector<Modified>& datums, const Modified& datum,
                             plan::FeatureId feature) {
   const plan::FeatureDef &def = plan[datum.feature], &part = plan[feature];
-  const Shape shape = acts_as(def.kind->shape);
+  const Shape shape = def.kind->acts_as;
   if (shape != Shape::cylinder && shape != Shape::circle) return "the datum is not a bore, a shaft or a circle";
   for (const Modified& other : datums) {
     if (&other == &datum) continue;
     const plan::FeatureDef& face = plan[other.feature];
-    if (acts_as(face.kind->shape) != Shape::plane || !along(face.nominal.direction, def.nominal.direction))
+    if (face.kind->acts_as != Shape::plane || !along(face.nominal.direction, def.nominal.direction))
       return "another datum than a face square to the axis holds the part";
   }
-  const Shape own = acts_as(part.kind->shape);
+  const Shape own = part.kind->acts_as;
   if ((own != Shape::cylinder && own != Shape::circle && own != Shape::line) ||
       !along(part.nominal.direction, def.nominal.direction))
     return "the feature has no axis along that of the datum";
