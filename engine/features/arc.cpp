@@ -2,6 +2,7 @@
 
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
@@ -46,6 +47,12 @@ FeatArguments written_arc(const Element& e) {
   return {"CART", e.point, e.direction, e.size, 0.0, in_degrees(e.angle), e.second};
 }
 
+void refit_arc(FitCriterion criterion, std::span<const Vec3> points, Element& arc) {
+  const double sweep = arc.angle;
+  refit_by<CircleProfile>(criterion, points, arc);
+  arc.angle = sweep;
+}
+
 }  // namespace
 
 extern const FeatureKind arc_kind{
@@ -61,6 +68,7 @@ extern const FeatureKind arc_kind{
     .nominal = nominal_arc,
     .written = written_arc,
     .fit_lanes = fit_arc,
+    .refit = refit_arc,
     .normal = away_from_axis,
     .pattern = {.help = "evenly from its start to its end", .touch = touch_arc},
     .spread = 2,

@@ -1,5 +1,6 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
@@ -35,6 +36,7 @@ extern const FeatureKind circle_kind{
     .nominal = nominal_circle,
     .written = written_circle,
     .fit_lanes = fit_lanes_of<CircleProfile>,
+    .refit = refit_by<CircleProfile>,
     .normal = away_from_axis,
     .pattern = {.help = "evenly round, the first in the direction of x", .touch = touch_circle},
     .spread = 2,

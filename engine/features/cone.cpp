@@ -1,5 +1,6 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/shape_traits.hpp"
@@ -37,6 +38,7 @@ extern const FeatureKind cone_kind{
     .nominal = nominal_cone,
     .written = written_cone,
     .fit_lanes = fit_lanes_of<ConeProfile>,
+    .refit = refit_by<ConeProfile>,
     .normal = cone_normal,
     .fit_names = {.element = "cone",
                   .point = "point",

@@ -1,209 +1,25 @@
 #include "engine/features/criterion.hpp"
 
-#include <limits>
-#include <vector>
-
 #include "engine/base/ids.hpp"
-#include "engine/features/revolution.hpp"
 #include "engine/features/shape_traits.hpp"
-#include "engine/math/minimax.hpp"
+#include "engine/features/solve.hpp"
 
 namespace abbe {
-namespace {
 
-/// A plane as a profile: the distance is the height. The size, of no influence, is held at 1.
-struct PlaneProfile {
-  static constexpr Shape kShape = Shape::plane;
-  static constexpr bool kAcross = false, kAlong = true, kTilt = true;
-  static constexpr int kSizes = 1;
-  static void prepare(const double*, double*) {}
-  static ProfileSlopes<double> slopes(double, double h, const double*) { return {h, 0, 1, {0, 0}}; }
-};
-
-template <class Profile>
-class MinimaxFit {
- public:
-  MinimaxFit(FitCriterion criterion, std::span<const Vec3> points, const Element& start)
-      : criterion_(criterion), start_(start) {
-    for (const Vec3& p : points) mean_ += p / static_cast<double>(points.size());
-    for (const Vec3& p : points) {
-      points_.push_back(p - mean_);
-      extent_ = std::max(extent_, norm(points_.back()));
-    }
-    surface_ = placed(Profile::kShape, start, mean_);
-    anchor_near<Profile>(surface_, kOrigin);
-  }
-
-  void run(Element& element) {
-    double worst = linearise(surface_);
-    double trust = std::max(4 * (start_.high - start_.low), kResolution * extent_);
-    for (int round = 0; round < kRounds && trust > kResolution * extent_; ++round) {
-      double step[N];
-      const double model = minimax_in_box<N>(scaled(worst, trust), step);
-      if (!(model < -kResolution * extent_)) break;
-      for (int k = 0; k < N; ++k) step[k] *= trust / reach(k);
-      const Placed<double> before = surface_;
-      move_by<Profile>(surface_, step);
-      if (one_sided()) surface_.size[0] = before.size[0];
-      anchor_near<Profile>(surface_, kOrigin);
-      const double reached = largest(surface_), gain = worst - reached;
-      if (gain < -0.25 * model) trust *= 0.25;
-      if (gain > -0.75 * model) trust *= 2;
-      if (gain > 0) {
-        worst = linearise(surface_);
-      } else {
-        surface_ = before;
-      }
-    }
-    report(element);
-  }
-
- private:
-  static constexpr int N = kUnknowns<Profile>;
-  static constexpr int kRounds = 200;
-  static constexpr double kResolution = 1e-14;
-  static constexpr double kOrigin[3] = {0, 0, 0};
-
-  bool one_sided() const { return criterion_ != FitCriterion::minimum_zone; }
-
-  /// Derivatives and value of the distance of point p.
-  void row_of(const Placed<double>& s, const Vec3& p, double (&row)[N + 1]) const {
-    const double w[3] = {p.x, p.y, p.z};
-    double q[3], ready[3] = {};
-    s.coordinates(w, q);
-    Profile::prepare(s.size, ready);
-    distance_row<Profile>(q[0], q[1], q[2], ready, row);
-  }
-
-  /// The functions whose largest value is to be made small, at `s`; returns that value.
-  double linearise(const Placed<double>& s) {
-    rows_.clear();
-    for (const Vec3& p : points_) {
-      double row[N + 1];
-      row_of(s, p, row);
-      const double sign = criterion_ == FitCriterion::maximum_inscribed ? -1 : 1;
-      if (one_sided()) row[N] += s.size[0], row[N - 1] = 0;  // the distance from the axis or centre
-      add(row, sign);
-      if (!one_sided()) add(row, -1);
-    }
-    return worst_of_rows();
-  }
-  double largest(const Placed<double>& s) {
-    std::vector<MinimaxRow<N>> kept;
-    kept.swap(rows_);
-    const double value = linearise(s);
-    rows_.swap(kept);
-    return value;
-  }
-  void add(const double (&row)[N + 1], double sign) {
-    MinimaxRow<N>& r = rows_.emplace_back();
-    r.f = sign * row[N];
-    for (int k = 0; k < N; ++k) r.g[k] = sign * row[k];
-  }
-  double worst_of_rows() const {
-    double worst = -std::numeric_limits<double>::infinity();
-    for (const auto& r : rows_) worst = std::max(worst, r.f);
-    return worst;
-  }
-
-  /// How far unit change of unknown k moves the surface at the points, mm: 1 for shifts and sizes, the
-  /// extent for angles.
-  double reach(int k) const {
-    constexpr int shifts = 2 * Profile::kAcross + Profile::kAlong, tilts = 2 * Profile::kTilt;
-    const bool angle = (k >= shifts && k < shifts + tilts) || (Profile::kShape == Shape::cone && k == N - 1);
-    return angle ? extent_ : 1;
-  }
-
-  /// The rows relative to `worst`, unknowns in units of the trust region.
-  std::span<const MinimaxRow<N>> scaled(double worst, double trust) {
-    model_ = rows_;
-    for (auto& r : model_) {
-      r.f -= worst;
-      for (int k = 0; k < N; ++k) r.g[k] *= trust / reach(k);
-    }
-    return model_;
-  }
-
-  void report(Element& element) {
-    if (one_sided()) {
-      linearise(surface_);
-      surface_.size[0] = std::fabs(worst_of_rows());
-    }
-    const double origin[3] = {mean_.x, mean_.y, mean_.z};
-    bool turned = false;
-    Element made = element_of(Profile::kShape, surface_, origin, &turned);
-    made.low = made.begin = std::numeric_limits<double>::infinity();
-    made.high = made.end = -made.low;
-    for (const Vec3& p : points_) {
-      double row[N + 1];
-      row_of(surface_, p, row);
-      made.low = std::min(made.low, row[N]), made.high = std::max(made.high, row[N]);
-      const double along = dot(p + mean_ - made.point, made.direction);
-      const double reached =
-          Profile::kShape == Shape::plane ? norm(perpendicular_part(p + mean_ - made.point, made.direction)) : along;
-      made.begin = std::min(made.begin, reached), made.end = std::max(made.end, reached);
-    }
-    if (Profile::kShape == Shape::plane) made.size = 0, made.begin = -made.end;
-    if (Profile::kShape != Shape::plane && Profile::kShape != Shape::cylinder && Profile::kShape != Shape::cone)
-      made.begin = made.end = 0;
-    element = made;
-  }
-
-  FitCriterion criterion_;
-  const Element& start_;
-  Vec3 mean_;
-  std::vector<Vec3> points_;  // about their mean
-  double extent_ = 0;
-  Placed<double> surface_;
-  std::vector<MinimaxRow<N>> rows_, model_;
-};
-
-template <class Profile>
-void solve(FitCriterion criterion, std::span<const Vec3> points, Element& element) {
-  const Element start = element;
-  MinimaxFit<Profile>(criterion, points, start).run(element);
-}
-
-/// The axis of the narrowest cylinder that holds all points.
-void refit_line(std::span<const Vec3> points, Element& line) {
-  Element cylinder = line;
-  cylinder.low = 0;
-  solve<CylinderProfile>(FitCriterion::minimum_circumscribed, points, cylinder);
-  line = cylinder;
-  line.size = 0;
-  line.high = cylinder.size, line.low = -cylinder.size;
-}
-
-}  // namespace
-
-const char* criterion_refusal(Shape shape, FitCriterion criterion) {
-  const Shape s = acts_as(shape);
+const char* criterion_refusal(const FeatureKind& kind, FitCriterion criterion) {
   if (criterion == FitCriterion::least_squares) return nullptr;
-  const bool pair = shape == Shape::parallel_planes || shape == Shape::symmetry_plane;
-  if (pair || is_outline(s) || s == Shape::point || s == Shape::torus) return "only least squares is available for it";
-  if (criterion == FitCriterion::minimum_zone) return nullptr;
-  return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere
-      ? nullptr
-      : "nothing can be inscribed in it or circumscribed about it";
+  if (!kind.refit) return "only least squares is available for it";
+  if (criterion == FitCriterion::minimum_zone || has_diameter(kind.acts_as)) return nullptr;
+  return "nothing can be inscribed in it or circumscribed about it";
 }
 
-void refit(Shape shape, FitCriterion criterion, std::span<const Vec3> points, Element& element) {
-  ABBE_CHECK(!criterion_refusal(shape, criterion));
+void refit(const FeatureKind& kind, FitCriterion criterion, std::span<const Vec3> points, Element& element) {
+  ABBE_CHECK(!criterion_refusal(kind, criterion));
   if (criterion == FitCriterion::least_squares) return;
   const Element least_squares = element;
-  switch (acts_as(shape)) {
-    case Shape::plane: solve<PlaneProfile>(criterion, points, element); break;
-    case Shape::line: refit_line(points, element); break;
-    case Shape::circle: solve<CircleProfile>(criterion, points, element); break;
-    case Shape::cylinder: solve<CylinderProfile>(criterion, points, element); break;
-    case Shape::sphere: solve<SphereProfile>(criterion, points, element); break;
-    case Shape::cone: solve<ConeProfile>(criterion, points, element); break;
-    default: throw InternalError("a shape without such a fit");
-  }
+  kind.refit(criterion, points, element);
   element.second = least_squares.second;
-  if (shape == Shape::arc) element.angle = least_squares.angle;
-  if (dot(element.direction, least_squares.direction) < 0 && shape != Shape::cone)
-    element = turned_over(shape, element);
+  element = turned_to(kind.shape, element, least_squares.direction);
 }
 
 }  // namespace abbe

@@ -7,29 +7,24 @@
 //                          14405-1): the size of the largest plug
 //   minimum circumscribed  the smallest one with all points inside (GN): the size of the smallest ring
 //
-// All three are minimax problems, min over x of max_i f_i(x) with f = +-d (distances, minimum zone),
-// rho (circumscribed) or -rho (inscribed). They are solved by linearising the f_i at the present
-// element, solving the linear minimax problem exactly within a trust region (engine/math/minimax.hpp),
-// and accepting the step when the true maximum falls (K. Madsen, J. Inst. Maths Applics 16, 1975,
-// 321-328). Where N + 1 points define the element this converges quadratically. The start is the
-// least-squares element; of several local optima the one next to it is found, which for features with
-// a form error that is small against their size is the only one.
+// minimax_fit.hpp says how. The start is the least-squares element; of several local optima the one next
+// to it is found, which for features with a form error that is small against their size is the only one.
 #pragma once
 
 #include <span>
 
-#include "engine/features/element.hpp"
+#include "engine/features/feature.hpp"
 
 namespace abbe {
 
 enum class FitCriterion { least_squares, minimum_zone, maximum_inscribed, minimum_circumscribed };
 
-/// Why features of this shape cannot be fitted so; nullptr when they can.
-const char* criterion_refusal(Shape, FitCriterion);
+/// Why features of this kind cannot be fitted so; nullptr when they can.
+const char* criterion_refusal(const FeatureKind&, FitCriterion);
 
 /// Replaces the least-squares element of the points by that of the criterion, same frame, mm. `low`
 /// and `high` are the residuals of the points about it. Precondition: no refusal, and `element` is
 /// the least-squares element.
-void refit(Shape, FitCriterion, std::span<const Vec3> points, Element& element);
+void refit(const FeatureKind&, FitCriterion, std::span<const Vec3> points, Element& element);
 
 }  // namespace abbe

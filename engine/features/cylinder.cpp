@@ -1,5 +1,6 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
@@ -47,6 +48,7 @@ extern const FeatureKind cylinder_kind{
     .nominal = nominal_cylinder,
     .written = written_cylinder,
     .fit_lanes = fit_lanes_of<CylinderProfile>,
+    .refit = refit_by<CylinderProfile>,
     .normal = away_from_axis,
     .pattern =
         {.help =

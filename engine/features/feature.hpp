@@ -11,6 +11,8 @@
 
 namespace abbe {
 
+enum class FitCriterion;
+
 /// Points of many lanes (virtual machines), structure of arrays: coordinate k (0..2) of touch i on lane l stands at
 /// data[(3 * i + k) * stride + l]. mm, frame W.
 struct PointColumns {
@@ -69,6 +71,9 @@ struct FeatureKind {
   /// the size of the feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr
   /// or the reason.
   void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
+  /// Replaces the least-squares element of the points by that of another criterion (criterion.hpp), same frame, mm; the
+  /// sense of its direction and what turns it about that are left open. nullptr: there is only least squares.
+  void (*refit)(FitCriterion, std::span<const Vec3> points, Element&) = nullptr;
   /// The unit normal out of the nominal surface nearest to `point`, as that of an outer feature; same frame, mm. Fails
   /// with a reason where the nominal leaves it open.
   Outcome<Vec3> (*normal)(const Element& nominal, const Vec3& point);

@@ -191,8 +191,8 @@ FitSolution solve(Shape shape, const Cloud& cloud, const std::vector<Placed<doub
 FitSolution with_usual_sense(Shape shape, FitSolution solution) {
   const Vec3& d = solution.element.direction;
   const double ax = std::fabs(d.x), ay = std::fabs(d.y), az = std::fabs(d.z);
-  const double leading = ax >= ay && ax >= az ? d.x : ay >= az ? d.y : d.z;
-  if (leading < 0 && shape != Shape::cone) solution.element = turned_over(shape, solution.element);
+  const Vec3 leading = ax >= ay && ax >= az ? Vec3{1, 0, 0} : ay >= az ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+  solution.element = turned_to(shape, solution.element, leading);
   return solution;
 }
 

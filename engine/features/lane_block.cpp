@@ -36,8 +36,7 @@ void fit_one_lane(Shape shape, const PointColumns& columns, int lane, const Elem
   if (solution.error) solution = fit_points(problem);
   failure = solution.error ? reason_of(solution.error->code) : nullptr;
   if (solution.error) return;
-  result = solution.element;
-  if (shape != Shape::cone && dot(result.direction, start.direction) < 0) result = turned_over(shape, result);
+  result = turned_to(shape, solution.element, start.direction);
 }
 
 }  // namespace abbe

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "engine/features/feature.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/pattern.hpp"
 #include "engine/features/straight_fit.hpp"
@@ -53,6 +54,16 @@ FeatArguments written_line(const Element& e) {
   return out;
 }
 
+/// The axis of the narrowest cylinder that holds all points.
+void refit_line(FitCriterion, std::span<const Vec3> points, Element& line) {
+  Element cylinder = line;
+  cylinder.low = 0;
+  refit_by<CylinderProfile>(FitCriterion::minimum_circumscribed, points, cylinder);
+  line = cylinder;
+  line.size = 0;
+  line.high = cylinder.size, line.low = -cylinder.size;
+}
+
 }  // namespace
 
 extern const FeatureKind line_kind{
@@ -68,6 +79,7 @@ extern const FeatureKind line_kind{
     .nominal = nominal_line,
     .written = written_line,
     .fit_lanes = fit_line_lanes,
+    .refit = refit_line,
     .normal = line_normal,
     .pattern = {.help = "evenly from end to end; unbounded: over 20 mm about the point", .touch = touch_line},
     .spread = 1,

@@ -1,4 +1,5 @@
 #include "engine/features/feature.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
@@ -6,6 +7,15 @@
 
 namespace abbe {
 namespace {
+
+/// A plane as a profile: the distance is the height. The size, of no influence, is held at 1.
+struct PlaneProfile {
+  static constexpr Shape kShape = Shape::plane;
+  static constexpr bool kAcross = false, kAlong = true, kTilt = true;
+  static constexpr int kSizes = 1;
+  static void prepare(const double*, double*) {}
+  static ProfileSlopes<double> slopes(double, double h, const double*) { return {h, 0, 1, {0, 0}}; }
+};
 
 Outcome<PatternTouch> touch_plane(const Element& e, bool, int k, int n) {
   const Across across(e.direction);
@@ -27,6 +37,7 @@ extern const FeatureKind plane_kind{
     .nominal = located,
     .written = written_location,
     .fit_lanes = fit_plane_lanes,
+    .refit = refit_by<PlaneProfile>,
     .normal = along_direction,
     .pattern = {.help = "rows over a square of 20 mm about the point, along x and y of the system",
                 .touch = touch_plane},

@@ -1,5 +1,7 @@
 #include "engine/features/revolution.hpp"
 
+#include "engine/features/solve.hpp"
+
 namespace abbe {
 
 Placed<double> placed(Shape shape, const Element& e, const Vec3& origin) {
@@ -13,7 +15,8 @@ Placed<double> placed(Shape shape, const Element& e, const Vec3& origin) {
   return s;
 }
 
-Element turned_over(Shape shape, Element e) {
+Element turned_to(Shape shape, Element e, const Vec3& direction) {
+  if (shape == Shape::cone || !(dot(e.direction, direction) < 0)) return e;
   e.direction = -e.direction;
   const double begin = e.begin, low = e.low;
   e.begin = -e.end, e.end = -begin;

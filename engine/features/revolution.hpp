@@ -208,9 +208,6 @@ void anchor_near(Placed<Real>& s, const Real (&target)[3]) {
   }
 }
 
-/// The same element with the opposite direction. Not for cones, whose direction has a meaning.
-Element turned_over(Shape shape, Element e);
-
 /// The element, relative to `origin`, as a placed surface.
 Placed<double> placed(Shape shape, const Element& e, const Vec3& origin);
 

@@ -16,6 +16,9 @@ inline constexpr double kOneDegreeSine = 0.0175;
 /// Slots, rectangles and ellipses: curves in a plane, with a centre and a long side.
 constexpr bool is_outline(Shape s) { return s == Shape::slot || s == Shape::rectangle || s == Shape::ellipse; }
 
+/// Those whose size is the radius of a circle or a sphere, wherever it is measured.
+constexpr bool has_diameter(Shape s) { return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere; }
+
 /// Points and spheres: an Element whose direction says nothing about how the feature lies.
 constexpr bool is_spot(Shape s) { return s == Shape::point || s == Shape::sphere; }
 constexpr bool has_axis(Shape s) {

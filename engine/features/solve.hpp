@@ -11,6 +11,10 @@ namespace abbe {
 /// revolution; lines and planes have one minimum.
 FitSolution fit_points_from(const FitProblem&, const Element& start);
 
+/// The element with its direction turned to the side of another one: points do not say which way a normal or an axis
+/// points. A cone's axis points to its open side by itself, and stays.
+Element turned_to(Shape, Element, const Vec3& direction);
+
 /// The reason in plain words, as static text, of a FitError code.
 const char* reason_of(std::string_view code);
 

@@ -1,5 +1,6 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
+#include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
@@ -44,6 +45,7 @@ extern const FeatureKind sphere_kind{
     .nominal = nominal_sphere,
     .written = written_sphere,
     .fit_lanes = fit_lanes_of<SphereProfile>,
+    .refit = refit_by<SphereProfile>,
     .normal = sphere_normal,
     .pattern =
         {.help =

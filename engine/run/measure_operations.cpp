@@ -228,14 +228,6 @@ void BlockRun::operator()(const plan::Touch& touch) {
 
 namespace {
 
-/// The same element with its direction turned round.
-Element reversed(Element e, Shape shape) {
-  e.direction = -e.direction;
-  e.begin = -std::exchange(e.end, -e.begin);
-  if (shape == Shape::plane) e.low = -std::exchange(e.high, -e.low);
-  return e;
-}
-
 /// The fit of an error-free machine. Nominals in real programs are often dummies, so the best element is
 /// looked for from the points alone; but few points may suit several elements equally well, and then the
 /// nominal settles which one is meant.
@@ -251,10 +243,7 @@ FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const E
     nominal_is_meant = !near_nominal.error && (anywhere.error || near_nominal.rms <= anywhere.rms + kSameFit_mm);
   }
   FitSolution& solution = nominal_is_meant ? near_nominal : anywhere;
-  // The data do not say which way a normal or an axis points; the nominal does. A cone's axis points to its
-  // open side by itself.
-  if (shape != Shape::cone && dot(solution.element.direction, nominal.direction) < 0)
-    solution.element = reversed(solution.element, shape);
+  solution.element = turned_to(shape, solution.element, nominal.direction);
   return std::move(solution);
 }
 
@@ -282,7 +271,7 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
       result = solution.element;
       if (kind.shape == Shape::arc) result.angle = nominal.angle;
       result.second = nominal.second;
-      refit(kind.shape, criterion, lane.points, result);
+      refit(kind, criterion, lane.points, result);
       if (observed) observed->fits.push_back({operation, lane.points, result});
     }
     of.has_actual = true;
@@ -315,7 +304,7 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
     }
     const FeatureKind& kind = *executor.plan_[feature].kind;
     if (kind.fitted_anywhere) result[k].second = start[k].second;
-    refit(kind.shape, criterion, block.lanes[lanes[k]].points, result[k]);
+    refit(kind, criterion, block.lanes[lanes[k]].points, result[k]);
     FeatureState& of = state(block.lanes[lanes[k]], feature);
     of.actual = result[k];
     of.has_actual = true;

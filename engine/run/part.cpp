@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/letter_case.hpp"
+#include "engine/features/shape_traits.hpp"
 #include "engine/lanes/elementary.hpp"
 #include "engine/lanes/random.hpp"
 
@@ -13,7 +14,6 @@ namespace abbe {
 namespace {
 
 bool is_round(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::cone; }
-bool has_diameter(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::sphere; }
 
 /// Features that the plan touches, by label in upper case.
 std::vector<std::string_view> touched_labels(const plan::Plan& plan) {

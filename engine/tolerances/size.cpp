@@ -6,10 +6,7 @@ namespace abbe {
 namespace {
 
 const char* round(const Arguments&, Shapes shapes) {
-  const Shape s = acts_as(shapes[0]);
-  return s == Shape::circle || s == Shape::cylinder || s == Shape::sphere
-      ? nullptr
-      : "a size tolerance is for circles, cylinders and spheres";
+  return has_diameter(acts_as(shapes[0])) ? nullptr : "a size tolerance is for circles, cylinders and spheres";
 }
 
 template <int Factor>

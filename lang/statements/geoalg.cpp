@@ -23,12 +23,12 @@ void choose_criterion(Lowering& lowering, const RawStatement& raw, const Match& 
   const FitCriterion criterion = criterion_of(method.text);
   if (word.text == "ALL") {  // every kind that can be fitted so
     for (const FeatureKind* kind : feature_kinds())
-      if (!criterion_refusal(kind->shape, criterion)) lowering.criteria[kind->shape].set(criterion);
+      if (!criterion_refusal(*kind, criterion)) lowering.criteria[kind->shape].set(criterion);
     return;
   }
   const FeatureKind* kind = find_feature_kind(word.text);
   if (!kind) return unknown_kind(lowering, word, raw.word, "kind of feature", feature_words());
-  if (const char* reason = criterion_refusal(kind->shape, criterion))
+  if (const char* reason = criterion_refusal(*kind, criterion))
     return lowering.error(Code::E0250, method.span,
                           fmt::format("a {} cannot be fitted by {}: {}", kind->word, method.text, reason),
                           fmt::format("write GEOALG/{},LSTSQR", kind->word), "LSTSQR");

@@ -5,7 +5,7 @@
 
 #include "engine/features/constructions/tools.hpp"
 #include "engine/features/feature.hpp"
-#include "engine/features/fit.hpp"
+#include "engine/features/solve.hpp"
 
 namespace abbe {
 namespace {
@@ -38,15 +38,7 @@ Outcome<Element> construct_best_fit(Shape result, Shapes, Elements from, const E
   if (fitted.error) return cannot(reason_of(*fitted.error));
   Element made = fitted.element;
   if (result == Shape::point) made.direction = nominal.direction;
-  const bool turned = dot(made.direction, nominal.direction) < 0;
-  // A cone's direction is settled by its apex. Residuals of a plane are signed along its normal.
-  if (result == Shape::cone || !turned) return {made};
-  made = in_sense_of(nominal, made);
-  if (result == Shape::plane) {
-    const double low = made.low;
-    made.low = -made.high, made.high = -low;
-  }
-  return {made};
+  return {turned_to(result, made, nominal.direction)};
 }
 
 }  // namespace

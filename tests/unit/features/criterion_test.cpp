@@ -29,7 +29,7 @@ Element least_squares_of(Shape shape, const std::vector<Vec3>& points, Vec3 norm
 
 Element fitted(Shape shape, FitCriterion criterion, const std::vector<Vec3>& points) {
   Element e = least_squares_of(shape, points);
-  refit(shape, criterion, points, e);
+  refit(feature_kind(shape), criterion, points, e);
   return e;
 }
 
@@ -221,10 +221,10 @@ TEST_CASE("Spheres, cones and lines in space") {
 
 TEST_CASE("Criteria that a shape does not have are refused") {
   for (const FitCriterion c : {minimum_zone, maximum_inscribed, minimum_circumscribed}) {
-    CHECK(criterion_refusal(Shape::point, c) != nullptr);
-    CHECK(criterion_refusal(Shape::torus, c) != nullptr);
-    CHECK(criterion_refusal(Shape::cylinder, c) == nullptr);
-    CHECK((criterion_refusal(Shape::plane, c) == nullptr) == (c == minimum_zone));
+    CHECK(criterion_refusal(feature_kind(Shape::point), c) != nullptr);
+    CHECK(criterion_refusal(feature_kind(Shape::torus), c) != nullptr);
+    CHECK(criterion_refusal(feature_kind(Shape::cylinder), c) == nullptr);
+    CHECK((criterion_refusal(feature_kind(Shape::plane), c) == nullptr) == (c == minimum_zone));
   }
-  CHECK(criterion_refusal(Shape::torus, least_squares) == nullptr);
+  CHECK(criterion_refusal(feature_kind(Shape::torus), least_squares) == nullptr);
 }
