@@ -1,5 +1,7 @@
 #include <cmath>
+#include <utility>
 
+#include "engine/features/cloud.hpp"
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/minimax_fit.hpp"
@@ -8,6 +10,9 @@
 #include "engine/features/pattern.hpp"
 
 namespace abbe {
+
+extern const FeatureKind circle_kind;
+
 namespace {
 
 /// The direction of the start angle: from (is, js, ks), else from the x axis, across the normal.
@@ -53,6 +58,10 @@ void refit_arc(FitCriterion criterion, std::span<const Vec3> points, Element& ar
   arc.angle = sweep;
 }
 
+FitSolution fit_arc_points(const FitProblem& problem, Cloud cloud, const Element* start) {
+  return circle_kind.fit_points(problem, std::move(cloud), start);
+}
+
 }  // namespace
 
 extern const FeatureKind arc_kind{
@@ -71,6 +80,7 @@ extern const FeatureKind arc_kind{
     .refit = refit_arc,
     .normal = away_from_axis,
     .pattern = {.help = "evenly from its start to its end", .touch = touch_arc},
+    .fit_points = fit_arc_points,
     .spread = 2,
 };
 

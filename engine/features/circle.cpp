@@ -4,8 +4,16 @@
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
+#include "engine/features/points_fit.hpp"
 
 namespace abbe {
+
+/// Of circles: that of the best line.
+template <>
+Extended limit_cost<CircleProfile>(const Cloud& cloud, const Points<double>&) {
+  return static_cast<Extended>(cloud.exact.size()) * cloud.spread.along[1] * cloud.spread.along[1];
+}
+
 namespace {
 
 Outcome<Element> nominal_circle(const Arguments& arguments) {
@@ -23,6 +31,29 @@ Outcome<PatternTouch> touch_circle(const Element& e, bool, int k, int n) {
 
 FeatArguments written_circle(const Element& e) { return {"CART", e.point, e.direction, 2 * e.size}; }
 
+/// The points of a circle seen along its normal: what is left when their heights are taken away.
+void flatten(Cloud& cloud, const Extended (&normal)[3]) {
+  for (std::size_t i = 0; i < cloud.exact.size(); ++i) {
+    auto& p = cloud.exact[i];
+    const Extended h = p[0] * normal[0] + p[1] * normal[1] + p[2] * normal[2];
+    for (int k = 0; k < 3; ++k) p[k] -= h * normal[k], cloud.rounded[i][k] = double(p[k]);
+  }
+  cloud.spread = spread_of_points(cloud.exact);
+}
+
+FitSolution fit_circle_points(const FitProblem& problem, Cloud cloud, const Element* start) {
+  Extended n[3];
+  for (int k = 0; k < 3; ++k) n[k] = problem.normal ? Extended((*problem.normal)[k]) : cloud.spread.direction[2][k];
+  const Extended length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (Extended& component : n) component /= length;
+  const Vec3 normal{double(n[0]), double(n[1]), double(n[2])};
+  flatten(cloud, n);
+  FitSolution bad;
+  if ((bad.error = refusal({Shape::circle, {}, normal}, cloud))) return bad;
+  return fit_revolution<CircleProfile>(
+      cloud, start, [&](const auto& points, const auto& spread) { return circle_starts(points, spread, normal); });
+}
+
 }  // namespace
 
 extern const FeatureKind circle_kind{
@@ -39,6 +70,7 @@ extern const FeatureKind circle_kind{
     .refit = refit_by<CircleProfile>,
     .normal = away_from_axis,
     .pattern = {.help = "evenly round, the first in the direction of x", .touch = touch_circle},
+    .fit_points = fit_circle_points,
     .spread = 2,
     .fit_names = {.element = "circle", .point = "center", .direction = "normal", .size = "radius"},
 };

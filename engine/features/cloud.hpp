@@ -2,7 +2,9 @@
 // spread in as many directions as the element needs?
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,7 +27,23 @@ struct Cloud {
   Spread<Extended> spread{};
   double largest_coordinate = 0;  ///< mm
   double extent() const { return static_cast<double>(spread.along[0]); }
+  Vec3 centre() const { return {double(mean[0]), double(mean[1]), double(mean[2])}; }
   double negligible() const { return negligible_spread(largest_coordinate, extent()); }
+};
+
+/// Extremes and sum of squares of residuals, and extent along the direction.
+struct CloudRanges {
+  Extended low = INFINITY, high = -INFINITY, begin = INFINITY, end = -INFINITY, squares = 0;
+  void add(Extended d, Extended h) {
+    low = std::min(low, d), high = std::max(high, d);
+    begin = std::min(begin, h), end = std::max(end, h);
+    squares += d * d;
+  }
+  void report(FitSolution& solution, std::size_t n) const {
+    solution.element.low = double(low), solution.element.high = double(high);
+    solution.rms = double(std::sqrt(squares / static_cast<Extended>(n)));
+    solution.form = double(high - low);
+  }
 };
 
 /// Finite points only.

@@ -3,6 +3,7 @@
 #include "engine/features/minimax_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
+#include "engine/features/points_fit.hpp"
 #include "engine/features/shape_traits.hpp"
 
 namespace abbe {
@@ -40,6 +41,7 @@ extern const FeatureKind cone_kind{
     .fit_lanes = fit_lanes_of<ConeProfile>,
     .refit = refit_by<ConeProfile>,
     .normal = cone_normal,
+    .fit_points = fit_points_of<ConeProfile, cone_starts>,
     .fit_names = {.element = "cone",
                   .point = "point",
                   .direction = "axis",

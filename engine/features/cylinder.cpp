@@ -4,6 +4,7 @@
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
+#include "engine/features/points_fit.hpp"
 
 namespace abbe {
 namespace {
@@ -56,6 +57,7 @@ extern const FeatureKind cylinder_kind{
              "length, or of 20 mm about the point",
          .touch = touch_cylinder,
          .minimum = 6},  // five points lie on several cylinders
+    .fit_points = fit_points_of<CylinderProfile, cylinder_starts>,
     .fit_names = {.element = "cylinder", .point = "point", .direction = "axis", .size = "radius"},
 };
 

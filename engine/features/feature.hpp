@@ -12,6 +12,9 @@
 namespace abbe {
 
 enum class FitCriterion;
+struct Cloud;
+struct FitProblem;
+struct FitSolution;
 
 /// Points of many lanes (virtual machines), structure of arrays: coordinate k (0..2) of touch i on lane l stands at
 /// data[(3 * i + k) * stride + l]. mm, frame W.
@@ -78,8 +81,9 @@ struct FeatureKind {
   /// with a reason where the nominal leaves it open.
   Outcome<Vec3> (*normal)(const Element& nominal, const Vec3& point);
   Pattern pattern{};
-  /// Which of its values the points alone settle, so that they can be fitted without a nominal near them (fit.hpp).
-  bool fitted_anywhere = true;
+  /// The least-squares element of the points alone or, with a start, the minimum next to that; what fit.hpp calls when
+  /// there are enough points, spread as follows. nullptr: points alone do not settle all of its values.
+  FitSolution (*fit_points)(const FitProblem&, Cloud, const Element* start) = nullptr;
   /// In how many directions points must be spread to determine it so: 0 points, 1 lines, 2 plane ones, 3 all others.
   int spread = 3;
   FitNames fit_names{};  ///< of elements that `abbe fit` offers

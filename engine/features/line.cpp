@@ -82,6 +82,7 @@ extern const FeatureKind line_kind{
     .refit = refit_line,
     .normal = line_normal,
     .pattern = {.help = "evenly from end to end; unbounded: over 20 mm about the point", .touch = touch_line},
+    .fit_points = fit_line_points,
     .spread = 1,
     .fit_names = {.element = "line", .point = "point", .direction = "direction"},
 };

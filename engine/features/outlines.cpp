@@ -128,7 +128,6 @@ extern const FeatureKind slot_kind{
     .normal = outline_normal<Shape::slot>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
                 .touch = touch_sides<Shape::slot>},
-    .fitted_anywhere = false,
 };
 
 extern const FeatureKind rectangle_kind{
@@ -149,7 +148,6 @@ extern const FeatureKind rectangle_kind{
     .normal = outline_normal<Shape::rectangle>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
                 .touch = touch_sides<Shape::rectangle>},
-    .fitted_anywhere = false,
 };
 
 extern const FeatureKind ellipse_kind{
@@ -167,7 +165,6 @@ extern const FeatureKind ellipse_kind{
     .normal = outline_normal<Shape::ellipse>,
     .pattern = {.help = "round it at equal steps of its parameter, the first on the major axis",
                 .touch = touch_ellipse},
-    .fitted_anywhere = false,
 };
 
 }  // namespace abbe

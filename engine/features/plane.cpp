@@ -41,6 +41,7 @@ extern const FeatureKind plane_kind{
     .normal = along_direction,
     .pattern = {.help = "rows over a square of 20 mm about the point, along x and y of the system",
                 .touch = touch_plane},
+    .fit_points = fit_plane_points,
     .spread = 2,
     .fit_names = {.element = "plane", .point = "point", .direction = "normal"},
 };

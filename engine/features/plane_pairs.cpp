@@ -126,7 +126,6 @@ extern const FeatureKind parallel_planes_kind{
     .fit_lanes = fit_planes,
     .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
-    .fitted_anywhere = false,
 };
 
 extern const FeatureKind symmetry_plane_kind{
@@ -144,7 +143,6 @@ extern const FeatureKind symmetry_plane_kind{
     .fit_lanes = fit_planes,
     .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
-    .fitted_anywhere = false,
 };
 
 }  // namespace abbe

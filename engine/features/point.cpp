@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "engine/features/cloud.hpp"
 #include "engine/features/feature.hpp"
 #include "engine/features/lane_block.hpp"
 #include "engine/features/nominal.hpp"
@@ -26,6 +27,12 @@ void fit_point_lanes(const PointColumns& columns, const Element* start, Element*
   }
 }
 
+FitSolution fit_mean_point(const FitProblem&, Cloud cloud, const Element*) {
+  FitSolution solution;
+  solution.element.point = cloud.centre();
+  return solution;
+}
+
 }  // namespace
 
 extern const FeatureKind point_kind{
@@ -41,6 +48,7 @@ extern const FeatureKind point_kind{
     .fit_lanes = fit_point_lanes,
     .normal = along_direction,
     .pattern = kAtThePoint,
+    .fit_points = fit_mean_point,
     .spread = 0,
 };
 

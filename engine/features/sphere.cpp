@@ -4,6 +4,7 @@
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
+#include "engine/features/points_fit.hpp"
 
 namespace abbe {
 namespace {
@@ -51,6 +52,7 @@ extern const FeatureKind sphere_kind{
         {.help =
              "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees",
          .touch = touch_sphere},
+    .fit_points = fit_points_of<SphereProfile, sphere_starts>,
     .fit_names = {.element = "sphere", .point = "center", .size = "radius"},
 };
 

@@ -49,7 +49,6 @@ extern const FeatureKind edge_point_kind{
     .fit_lanes = fit_mean,
     .normal = along_direction,
     .pattern = kAtThePoint,
-    .fitted_anywhere = false,
 };
 
 extern const FeatureKind surface_kind{
@@ -65,7 +64,6 @@ extern const FeatureKind surface_kind{
     .written = written_surface,
     .fit_lanes = fit_mean,
     .normal = unknown_normal,
-    .fitted_anywhere = false,
 };
 
 }  // namespace abbe

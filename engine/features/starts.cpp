@@ -8,7 +8,6 @@
 namespace abbe {
 namespace {
 
-using Starts = std::vector<Placed<double>>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -278,6 +277,36 @@ std::vector<Vec3> ring_axes(const Spread<Extended>& spread) {
   return axes;
 }
 
+/// Of a circle in the frame (dimension 2) or a sphere (3).
+Starts round_starts(const Points<double>& points, const Spread<Extended>& spread, int dimension,
+                    const Placed<double>& frame) {
+  Starts list = ball_starts(frame, points, dimension);
+  list.push_back(shallow_ball(points, spread, dimension, frame));
+  return list;
+}
+
+bool has_patch(const Points<double>& points) { return points.size() >= 6; }
+
+/// The principal directions of the points, what a patch of them suggests, and directions all over.
+std::vector<Vec3> likely_axes(const Points<double>& points, const Spread<Extended>& spread) {
+  std::vector<Vec3> axes;
+  for (const auto& d : spread.direction) axes.push_back(vec(d));
+  if (has_patch(points)) add_patch_axes(axes, patch_of(points, spread));
+  add_lattice(axes);
+  return axes;
+}
+
+/// One start for every axis.
+template <class StartAlong>
+Starts along_all(const std::vector<Vec3>& axes, const Points<double>& points, StartAlong start_along) {
+  Starts along;
+  for (const Vec3& axis : axes) along.push_back(start_along(axis, points));
+  return along;
+}
+
+/// How many times more starts are kept: few points have many minima, and cost little.
+int more_of(const Points<double>& points) { return points.size() < 16 ? 4 : 1; }
+
 /// Adds the best `count` of the candidates to `kept`, no two with nearly the same direction and size.
 template <class Profile>
 void keep_best(const Starts& candidates, const Points<double>& points, int count, double apart_rad, Starts& kept) {
@@ -317,43 +346,43 @@ Points<double> sample(const Points<double>& points, int count) {
   return chosen;
 }
 
-std::vector<Placed<double>> starts(Shape shape, const Points<double>& points, const Spread<Extended>& spread,
-                                   const std::optional<Vec3>& normal) {
-  if (shape == Shape::circle || shape == Shape::sphere) {
-    const int dimension = shape == Shape::circle ? 2 : 3;
-    const Placed<double> frame = normal ? frame_along(*normal) : Placed<double>{};
-    Starts list = ball_starts(frame, points, dimension);
-    list.push_back(shallow_ball(points, spread, dimension, frame));
-    return list;
-  }
-  std::vector<Vec3> axes;
-  for (const auto& d : spread.direction) axes.push_back(vec(d));
-  const bool has_patch = points.size() >= 6;
-  if (has_patch) add_patch_axes(axes, patch_of(points, spread));
-  add_lattice(axes);
-  const auto along_all = [&](const std::vector<Vec3>& list, auto start_along) {
-    Starts along;
-    for (const Vec3& axis : list) along.push_back(start_along(axis, points));
-    return along;
-  };
-  const int few = points.size() < 16 ? 4 : 1;  // few points have many minima, and cost little
+Starts circle_starts(const Points<double>& points, const Spread<Extended>& spread, const Vec3& normal) {
+  return round_starts(points, spread, 2, frame_along(normal));
+}
+
+Starts sphere_starts(const Points<double>& points, const Spread<Extended>& spread) {
+  return round_starts(points, spread, 3, {});
+}
+
+Starts cylinder_starts(const Points<double>& points, const Spread<Extended>& spread) {
+  const int more = more_of(points);
   Starts kept;
-  if (shape == Shape::cone) {
-    keep_best<ConeProfile>(along_all(axes, cone_along), points, 12 * few, 0.15 / few, kept);
-    return kept;
-  }
-  keep_best<CylinderProfile>(along_all(axes, cylinder_along), points, 8 * few, 0.2 / few, kept);
-  if (has_patch)
+  keep_best<CylinderProfile>(along_all(likely_axes(points, spread), points, cylinder_along), points, 8 * more,
+                             0.2 / more, kept);
+  if (has_patch(points))
     for (const Placed<double>& shallow : shallow_cylinders(patch_of(points, spread))) kept.push_back(shallow);
-  if (shape == Shape::cylinder) return kept;
+  return kept;
+}
+
+Starts cone_starts(const Points<double>& points, const Spread<Extended>& spread) {
+  const int more = more_of(points);
+  Starts kept;
+  keep_best<ConeProfile>(along_all(likely_axes(points, spread), points, cone_along), points, 12 * more, 0.15 / more,
+                         kept);
+  return kept;
+}
+
+Starts torus_starts(const Points<double>& points, const Spread<Extended>& spread) {
+  const int more = more_of(points);
   const double extent = double(spread.along[0]);
-  if (kept.size() > 8) kept.resize(8);
-  for (Placed<double>& cylinder : kept) descend<CylinderProfile>(points, extent, cylinder, 30);
-  const Starts tubes = std::move(kept);
-  kept = quartic_torus(points);
-  keep_best<TorusProfile>(along_all(axes, torus_along), points, 16 * few, 0.15 / few, kept);
-  keep_best<TorusProfile>(along_all(ring_axes(spread), torus_along), points, 12 * few, 0, kept);
-  keep_best<TorusProfile>(bent_tubes(tubes, extent), points, 24 * few, 0.15 / few, kept);
+  Starts tubes = cylinder_starts(points, spread);
+  if (tubes.size() > 8) tubes.resize(8);
+  for (Placed<double>& cylinder : tubes) descend<CylinderProfile>(points, extent, cylinder, 30);
+  Starts kept = quartic_torus(points);
+  keep_best<TorusProfile>(along_all(likely_axes(points, spread), points, torus_along), points, 16 * more, 0.15 / more,
+                          kept);
+  keep_best<TorusProfile>(along_all(ring_axes(spread), points, torus_along), points, 12 * more, 0, kept);
+  keep_best<TorusProfile>(bent_tubes(tubes, extent), points, 24 * more, 0.15 / more, kept);
   for (const Placed<double>& tube : tubes) kept.push_back(slightly_bent(tube, points));
   for (const Placed<double>& torus : scattered_tori(extent, points.size() < 64 ? 256 : 64)) kept.push_back(torus);
   return kept;

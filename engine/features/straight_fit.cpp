@@ -1,5 +1,6 @@
 #include "engine/features/straight_fit.hpp"
 
+#include "engine/features/cloud.hpp"
 #include "engine/features/lane_block.hpp"
 #include "engine/features/solve.hpp"
 #include "engine/features/spread.hpp"
@@ -121,6 +122,25 @@ void fit_straight(Shape shape, const PointColumns& columns, const Element* start
     StraightFit(shape, columns, first, start, result, failure).run();
 }
 
+FitSolution fit_straight(Shape shape, const Cloud& cloud) {
+  FitSolution solution;
+  solution.element.point = cloud.centre();
+  const Extended(&along)[3] = cloud.spread.direction[shape == Shape::line ? 0 : 2];
+  solution.element.direction = {double(along[0]), double(along[1]), double(along[2])};
+  CloudRanges ranges;
+  for (const auto& p : cloud.exact) {
+    const Extended h = p[0] * along[0] + p[1] * along[1] + p[2] * along[2];
+    const Extended x = p[0] - h * along[0], y = p[1] - h * along[1], z = p[2] - h * along[2];
+    const Extended across = std::sqrt(x * x + y * y + z * z);
+    shape == Shape::line ? ranges.add(across, h) : ranges.add(h, across);
+  }
+  if (shape == Shape::line) ranges.low = -ranges.high;
+  ranges.report(solution, cloud.exact.size());
+  solution.element.begin = double(shape == Shape::line ? ranges.begin : -ranges.end);
+  solution.element.end = double(ranges.end);
+  return solution;
+}
+
 }  // namespace
 
 void fit_line_lanes(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
@@ -129,6 +149,12 @@ void fit_line_lanes(const PointColumns& columns, const Element* start, Element* 
 
 void fit_plane_lanes(const PointColumns& columns, const Element* start, Element* result, const char** failure) {
   fit_straight(Shape::plane, columns, start, result, failure);
+}
+
+FitSolution fit_line_points(const FitProblem&, Cloud cloud, const Element*) { return fit_straight(Shape::line, cloud); }
+
+FitSolution fit_plane_points(const FitProblem&, Cloud cloud, const Element*) {
+  return fit_straight(Shape::plane, cloud);
 }
 
 }  // namespace abbe

@@ -11,4 +11,8 @@ namespace abbe {
 void fit_line_lanes(const PointColumns&, const Element* start, Element* result, const char** failure);
 void fit_plane_lanes(const PointColumns&, const Element* start, Element* result, const char** failure);
 
+/// FeatureKind::fit_points of the line and the plane.
+FitSolution fit_line_points(const FitProblem&, Cloud, const Element* start);
+FitSolution fit_plane_points(const FitProblem&, Cloud, const Element* start);
+
 }  // namespace abbe

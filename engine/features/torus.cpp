@@ -2,8 +2,19 @@
 #include "engine/features/lane_fit.hpp"
 #include "engine/features/nominal.hpp"
 #include "engine/features/pattern.hpp"
+#include "engine/features/points_fit.hpp"
 
 namespace abbe {
+
+/// Of tori: also that of the best cylinder.
+template <>
+Extended limit_cost<TorusProfile>(const Cloud& cloud, const Points<double>& sampled) {
+  const Extended flat = limit_cost<CylinderProfile>(cloud, sampled);
+  const auto straight =
+      minima<CylinderProfile>(cloud, descents<CylinderProfile>(cloud, cylinder_starts(sampled, cloud.spread), sampled));
+  return straight.empty() ? flat : std::min(flat, straight.front().cost);
+}
+
 namespace {
 
 Outcome<Element> nominal_torus(const Arguments& arguments) {
@@ -56,6 +67,7 @@ extern const FeatureKind torus_kind{
              "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside "
              "turned by half a step",
          .touch = touch_torus},
+    .fit_points = fit_points_of<TorusProfile, torus_starts>,
     .fit_names = {.element = "torus",
                   .point = "center",
                   .direction = "axis",

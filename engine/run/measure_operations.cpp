@@ -257,7 +257,7 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
     FeatureState& of = state(lane, feature);
     const Element& nominal = of.nominal;
     Element& result = of.actual;
-    if (!kind.fitted_anywhere || kind.shape == Shape::point) {
+    if (!kind.fit_points || kind.spread == 0) {
       const char* failure = nullptr;
       points_buffer.clear();
       for (const Vec3& p : lane.points) points_buffer.insert(points_buffer.end(), {p.x, p.y, p.z});
@@ -303,7 +303,7 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
       continue;
     }
     const FeatureKind& kind = *executor.plan_[feature].kind;
-    if (kind.fitted_anywhere) result[k].second = start[k].second;
+    if (kind.fit_points) result[k].second = start[k].second;
     refit(kind, criterion, block.lanes[lanes[k]].points, result[k]);
     FeatureState& of = state(block.lanes[lanes[k]], feature);
     of.actual = result[k];

@@ -26,7 +26,7 @@ const char* best_fit_applies(Shape result, Shapes shapes) {
   for (const Shape shape : shapes)
     if (!has_centre(shape) && !has_axis(shape)) return "BF takes features with a point, a centre or an axis";
   const FeatureKind& kind = feature_kind(result);
-  if (!kind.fitted_anywhere) return "BF does not make a feature of this kind";
+  if (!kind.fit_points) return "BF does not make a feature of this kind";
   return static_cast<int>(shapes.size()) < kind.minimum_points ? kTooFew : nullptr;
 }
 

@@ -32,7 +32,7 @@ struct Part {
 };
 
 /// Kinds that are fitted from the points alone; arcs are circles.
-inline bool is_basic(const FeatureKind& kind) { return kind.fitted_anywhere && kind.shape != Shape::arc; }
+inline bool is_basic(const FeatureKind& kind) { return kind.fit_points && kind.shape != Shape::arc; }
 
 /// The point of the surface with parameters u, v in (0, 1), displaced by `out` mm along the normal.
 inline Vec3 surface_point(const Element& e, Shape shape, double u, double v, double out, const Part& part = {}) {
