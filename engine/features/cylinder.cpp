@@ -45,11 +45,8 @@ extern const FeatureKind cylinder_kind{
     .help = "a cylinder: a point of the axis, its direction, diameter, optional length",
     .example = "F(CY1)=FEAT/CYLNDR,INNER,CART,50,50,0,0,0,1,20,30",
     .source = "ISO 22093:2011, FEAT/CYLNDR; Forbes, NPL DITC 140/89",
-    .minimum_points = 5,
     .nominal = nominal_cylinder,
     .written = written_cylinder,
-    .fit_lanes = fit_lanes_of<CylinderProfile>,
-    .refit = refit_by<CylinderProfile>,
     .normal = away_from_axis,
     .pattern =
         {.help =
@@ -57,6 +54,9 @@ extern const FeatureKind cylinder_kind{
              "length, or of 20 mm about the point",
          .touch = touch_cylinder,
          .minimum = 6},  // five points lie on several cylinders
+    .minimum_points = 5,
+    .fit_lanes = fit_lanes_of<CylinderProfile>,
+    .refit = refit_by<CylinderProfile>,
     .fit_points = fit_points_of<CylinderProfile, cylinder_starts>,
     .fit_names = {.element = "cylinder", .point = "point", .direction = "axis", .size = "radius"},
 };

@@ -1,4 +1,5 @@
-// One kind of feature (ISO 22093: FEAT/...). A kind is one .cpp file in this folder and one line in all.cpp.
+// One kind of feature (ISO 22093: FEAT/...): all that the program knows of it but the mathematics of constructions and
+// tolerances. A kind is one .cpp file in this folder, its Shape in element.hpp and one line in all.cpp.
 #pragma once
 
 #include <span>
@@ -52,41 +53,50 @@ struct FitNames {
   std::string_view half_angle{}, apex{};  ///< of a cone
 };
 
+/// Members without a default have to be given.
 struct FeatureKind {
   Shape shape;
   /// The shape that it is treated as where only its point, direction and radius matter: in constructions, alignments
   /// and tolerances of location. Pairs of planes are their median plane there.
   Shape acts_as = shape;
-  bool flat = false;      ///< made of faces; all others are curved, or points of a surface of which no more is known
-  std::string_view word;  ///< DMIS minor word: "CYLNDR"
+  /// Made of faces. All others are curved, or points of a surface of which no more is known.
+  bool flat = false;
+  std::string_view word;       ///< DMIS minor word: "CYLNDR"
   std::string_view signature;  ///< arguments after the word, notation of base/arguments.hpp
   std::string_view help;       ///< one line for people
   std::string_view example;    ///< a complete FEAT statement
   std::string_view source;     ///< standard and clause, or the reference of the fit
-  int minimum_points;          ///< touches that the least-squares fit needs
+
+  // The nominal.
+
   /// Builds the nominal element from matched arguments, in the frame current at the statement. Fails with a reason for
   /// impossible values (zero vector, negative diameter).
   Outcome<Element> (*nominal)(const Arguments&);
-  /// The other way round: the arguments after the side (where the signature begins with one) of the statement that
-  /// defines the element as measured, in its frame; mm and degrees.
+  /// The other way round: the arguments of the statement that defines an element, in its frame, mm and degrees. The
+  /// side, with which the signatures of those that have one begin, is left out.
   FeatArguments (*written)(const Element&);
+  /// The unit normal of the nominal surface where it is nearest to `point`, out of an outer feature; same frame, mm.
+  /// Fails with a reason where the nominal leaves it open.
+  Outcome<Vec3> (*normal)(const Element& nominal, const Vec3& point);
+  Pattern pattern{};
+
+  // The element that was measured.
+
+  int minimum_points;  ///< touches that the least-squares fit needs
   /// Orthogonal least squares over lanes, Gauss-Newton from `start[lane]`, which must be within about 1 % of
   /// the size of the feature. Each lane's result depends on its own points only. `failure[lane]` is nullptr
   /// or the reason.
   void (*fit_lanes)(const PointColumns&, const Element* start, Element* result, const char** failure);
-  /// Replaces the least-squares element of the points by that of another criterion (criterion.hpp), same frame, mm; the
-  /// sense of its direction and what turns it about that are left open. nullptr: there is only least squares.
+  /// Replaces the least-squares element of the points by that of another criterion (criterion.hpp), same frame, mm; may
+  /// leave the sense of its direction, and `second`, to the caller. nullptr: there is only least squares.
   void (*refit)(FitCriterion, std::span<const Vec3> points, Element&) = nullptr;
-  /// The unit normal out of the nominal surface nearest to `point`, as that of an outer feature; same frame, mm. Fails
-  /// with a reason where the nominal leaves it open.
-  Outcome<Vec3> (*normal)(const Element& nominal, const Vec3& point);
-  Pattern pattern{};
-  /// The least-squares element of the points alone or, with a start, the minimum next to that; what fit.hpp calls when
-  /// there are enough points, spread as follows. nullptr: points alone do not settle all of its values.
+  /// The least-squares element of points alone or, with a start, the minimum next to that; fit.hpp has found the points
+  /// to be enough, and spread as follows. nullptr: they do not settle all of its values.
   FitSolution (*fit_points)(const FitProblem&, Cloud, const Element* start) = nullptr;
-  /// In how many directions points must be spread to determine it so: 0 points, 1 lines, 2 plane ones, 3 all others.
+  /// Along how many of their principal directions the points must be spread for that: 0 of a point, 1 of a line, 2 of
+  /// what lies in a plane, 3 of all others.
   int spread = 3;
-  FitNames fit_names{};  ///< of elements that `abbe fit` offers
+  FitNames fit_names{};  ///< of an element that `abbe fit` offers
 };
 
 /// Every kind of feature, in the order of the language reference.

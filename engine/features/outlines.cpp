@@ -121,13 +121,13 @@ extern const FeatureKind slot_kind{
     .help = "a slot or tongue: centre, normal of its plane, direction along it, length over all, width",
     .example = "F(SL1)=FEAT/CPARLN,INNER,ROUND,CART,40,30,-5,0,0,1,1,0,0,30,10",
     .source = "ISO 22093:2011, FEAT/CPARLN; orthogonal least squares in the plane of the nominal normal",
-    .minimum_points = 5,
     .nominal = slot,
     .written = written_slot,
-    .fit_lanes = fit_outline_lanes<Shape::slot>,
     .normal = outline_normal<Shape::slot>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
                 .touch = touch_sides<Shape::slot>},
+    .minimum_points = 5,
+    .fit_lanes = fit_outline_lanes<Shape::slot>,
 };
 
 extern const FeatureKind rectangle_kind{
@@ -141,13 +141,13 @@ extern const FeatureKind rectangle_kind{
     .help = "a block: centre, three directions and lengths; the four sides across the first two are measured",
     .example = "F(RE1)=FEAT/RCTNGL,OUTER,CART,0,0,0,1,0,0,60,0,1,0,40,0,0,1,20",
     .source = "ISO 22093:2011, FEAT/RCTNGL; least squares of the four sides across the third direction",
-    .minimum_points = 5,
     .nominal = rectangle,
     .written = written_rectangle,
-    .fit_lanes = fit_outline_lanes<Shape::rectangle>,
     .normal = outline_normal<Shape::rectangle>,
     .pattern = {.help = "by turns on the two long sides and the two ends, evenly within each",
                 .touch = touch_sides<Shape::rectangle>},
+    .minimum_points = 5,
+    .fit_lanes = fit_outline_lanes<Shape::rectangle>,
 };
 
 extern const FeatureKind ellipse_kind{
@@ -158,13 +158,13 @@ extern const FeatureKind ellipse_kind{
     .help = "an ellipse: its two foci, the diameter along its major or minor axis, normal of its plane",
     .example = "F(EL1)=FEAT/ELLIPS,INNER,CART,-30,0,0,30,0,0,MAJOR,100,0,0,1",
     .source = "ISO 22093:2011, FEAT/ELLIPS; orthogonal least squares in the plane of the nominal normal",
-    .minimum_points = 5,
     .nominal = ellipse,
     .written = written_ellipse,
-    .fit_lanes = fit_outline_lanes<Shape::ellipse>,
     .normal = outline_normal<Shape::ellipse>,
     .pattern = {.help = "round it at equal steps of its parameter, the first on the major axis",
                 .touch = touch_ellipse},
+    .minimum_points = 5,
+    .fit_lanes = fit_outline_lanes<Shape::ellipse>,
 };
 
 }  // namespace abbe

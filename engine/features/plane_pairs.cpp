@@ -120,12 +120,12 @@ extern const FeatureKind parallel_planes_kind{
     .help = "two parallel planes: a point of the median plane, its normal, the width; or a point and normal of each",
     .example = "F(PP1)=FEAT/PARPLN,INNER,MIDPL,CART,40,30,-5,0,1,0,10",
     .source = "ISO 22093:2011, FEAT/PARPLN; least squares with a common normal",
-    .minimum_points = 4,
     .nominal = nominal_planes,
     .written = written_parallel_planes,
-    .fit_lanes = fit_planes,
     .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
+    .minimum_points = 4,
+    .fit_lanes = fit_planes,
 };
 
 extern const FeatureKind symmetry_plane_kind{
@@ -137,12 +137,12 @@ extern const FeatureKind symmetry_plane_kind{
     .help = "the plane midway between two opposite faces: a point of it, its normal, the distance of the faces",
     .example = "F(SP1)=FEAT/SYMPLN,OUTER,CART,0,0,0,1,0,0,80",
     .source = "ISO 22093:2011, FEAT/SYMPLN; as PARPLN",
-    .minimum_points = 4,
     .nominal = nominal_planes,
     .written = written_symmetry_plane,
-    .fit_lanes = fit_planes,
     .normal = nearer_face_normal,
     .pattern = kFacesByTurns,
+    .minimum_points = 4,
+    .fit_lanes = fit_planes,
 };
 
 }  // namespace abbe

@@ -42,16 +42,16 @@ extern const FeatureKind sphere_kind{
     .help = "a sphere: centre and diameter",
     .example = "F(S1)=FEAT/SPHERE,OUTER,CART,100,100,50,25",
     .source = "ISO 22093:2011, FEAT/SPHERE; Forbes, NPL DITC 140/89",
-    .minimum_points = 4,
     .nominal = nominal_sphere,
     .written = written_sphere,
-    .fit_lanes = fit_lanes_of<SphereProfile>,
-    .refit = refit_by<SphereProfile>,
     .normal = sphere_normal,
     .pattern =
         {.help =
              "one at the pole (z, inside -z), the others evenly round the equator; from 9 touches on also at 45 degrees",
          .touch = touch_sphere},
+    .minimum_points = 4,
+    .fit_lanes = fit_lanes_of<SphereProfile>,
+    .refit = refit_by<SphereProfile>,
     .fit_points = fit_points_of<SphereProfile, sphere_starts>,
     .fit_names = {.element = "sphere", .point = "center", .size = "radius"},
 };

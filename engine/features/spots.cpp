@@ -43,12 +43,12 @@ extern const FeatureKind edge_point_kind{
     .help = "a point of an edge: its place, the edge's vector out of the material, the normal of the surface beside it",
     .example = "F(E1)=FEAT/EDGEPT,CART,100,20,0,1,0,0,0,0,1",
     .source = "ISO 22093:2011, FEAT/EDGEPT; the mean of the touches",
-    .minimum_points = 1,
     .nominal = edge_point,
     .written = written_edge_point,
-    .fit_lanes = fit_mean,
     .normal = along_direction,
     .pattern = kAtThePoint,
+    .minimum_points = 1,
+    .fit_lanes = fit_mean,
 };
 
 extern const FeatureKind surface_kind{
@@ -59,11 +59,11 @@ extern const FeatureKind surface_kind{
     .help = "a surface of any form; where it lies is said by PTMEAS and judged by PROFS",
     .example = "F(G1)=FEAT/GSURF",
     .source = "ISO 22093:2011, FEAT/GSURF; the mean of the touches",
-    .minimum_points = 1,
     .nominal = any_surface,
     .written = written_surface,
-    .fit_lanes = fit_mean,
     .normal = unknown_normal,
+    .minimum_points = 1,
+    .fit_lanes = fit_mean,
 };
 
 }  // namespace abbe

@@ -57,16 +57,16 @@ extern const FeatureKind torus_kind{
     .help = "a torus: centre, axis, diameter of the centre line of the tube, diameter of the tube",
     .example = "F(T1)=FEAT/TORUS,OUTER,CART,0,0,0,0,0,1,80,20",
     .source = "ISO 22093:2011, FEAT/TORUS; distance from the centre line of the tube",
-    .minimum_points = 7,
     .nominal = nominal_torus,
     .written = written_torus,
-    .fit_lanes = fit_lanes_of<TorusProfile>,
     .normal = torus_normal,
     .pattern =
         {.help =
              "by turns on the ridge of the tube (where its axis points), on its outside and its inside, evenly round, the inside "
              "turned by half a step",
          .touch = touch_torus},
+    .minimum_points = 7,
+    .fit_lanes = fit_lanes_of<TorusProfile>,
     .fit_points = fit_points_of<TorusProfile, torus_starts>,
     .fit_names = {.element = "torus",
                   .point = "center",
