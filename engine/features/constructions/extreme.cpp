@@ -34,9 +34,9 @@ Vec3 farthest(Shape shape, const Element& f, const Vec3& e) {
 
 const char* extreme_applies(Shape result, Shapes shapes) {
   if (result != Shape::point) return "EXTREM makes a point";
-  if (shapes[0] == Shape::cone || is_outline(shapes[0]))
-    return "EXTREM takes points, lines, planes, circles, cylinders, spheres and tori";
-  return nullptr;
+  const Shape s = shapes[0];
+  const bool known = is_spot(s) || s == Shape::plane || s == Shape::circle || (has_axis(s) && s != Shape::cone);
+  return known ? nullptr : "EXTREM takes points, lines, planes, circles, cylinders, spheres and tori";
 }
 
 Outcome<Element> extreme(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
