@@ -269,7 +269,8 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
       FitSolution solution = fit_error_free(kind.acts_as, lane.points, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
-      if (kind.shape == Shape::arc) result.angle = nominal.angle;
+      // Fitted as the shape that it acts as: what it has besides is that of the nominal.
+      if (kind.acts_as != kind.shape) result.angle = nominal.angle;
       result.second = nominal.second;
       refit(kind, criterion, lane.points, result);
       if (observed) observed->fits.push_back({operation, lane.points, result});
