@@ -42,6 +42,18 @@ TEST_CASE("every shape has one kind, fully described") {
   CHECK(find_feature_kind("GCURVE") == nullptr);
 }
 
+TEST_CASE("what a kind says of itself hangs together") {
+  for (const FeatureKind* kind : feature_kinds()) {
+    CAPTURE(std::string(kind->word));
+    CHECK(feature_kind(kind->acts_as).acts_as == kind->acts_as);
+    CHECK(kind->pattern.help.empty() == !kind->pattern.touch);
+    if (kind->pattern.minimum) CHECK(kind->pattern.minimum > kind->minimum_points);
+    if (kind->refit) CHECK((kind->fit_points != nullptr));
+    if (kind->fit_points) CHECK(kind->minimum_points > kind->spread);
+    if (!kind->fit_names.element.empty()) CHECK((kind->fit_points && !kind->fit_names.point.empty()));
+  }
+}
+
 TEST_CASE("diameters become radii and vectors unit vectors") {
   const auto e =
       nominal("CYLNDR", {{"x", 1}, {"y", 2}, {"z", 3}, {"i", 0}, {"j", 3}, {"k", 4}, {"diam", 10}, {"length", 7}});
