@@ -28,7 +28,7 @@ void leave_out(std::optional<Value> RecordingRow::*column, const std::string& na
   for (RecordingRow& row : recording.rows) (row.*column).reset();
 }
 
-/// What every row has is in none left out.
+/// A column that every row has, has no gaps.
 template <class Value>
 void leave_out(Value RecordingRow::*, const std::string&, Recording&, const std::string&, std::vector<Diagnostic>&) {}
 
