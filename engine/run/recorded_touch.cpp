@@ -305,7 +305,8 @@ void require_target(const RecordingRow& row, const std::string& file) {
 
 void find_curved(RecordedTouches& out) {
   CurvedFeatures curved;
-  for (const RecordedTouch& t : out.touches) curved.add(out.features[t.scene.feature], t.scene.normal_on_part);
+  for (const RecordedTouch& t : out.touches)
+    curved.add(out.features[t.scene.feature], t.scene.setup, t.scene.normal_on_part);
   for (RecordedTouch& t : out.touches) t.scene.curved = curved.has(out.features[t.scene.feature]);
 }
 

@@ -120,7 +120,8 @@ void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   if (lane == block.reference()) {
     observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
     observed->frames.add(block.lanes[lane].X_WD);
-    observed->curved.add(upper(executor.plan_[touch.feature].label), touch_batch.surface_normal.get(slot));
+    observed->curved.add(upper(executor.plan_[touch.feature].label), executor.options_.setup,
+                         touch_batch.surface_normal.get(slot));
   }
   if (lane != 0 || block.machines == 0) return;
   observed->rows.push_back(recording_row(touch, slot));

@@ -32,10 +32,13 @@ TEST_CASE("a point has one normal, as a face has: its form is the wave, as it is
 
 TEST_CASE("features are curved by the normals of their touches") {
   CurvedFeatures curved;
-  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0.9987, 0.05, 0}}) curved.add("SLOT", normal);
-  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) curved.add("BLOCK", normal);
+  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0.9987, 0.05, 0}}) curved.add("SLOT", 1, normal);
+  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) curved.add("BLOCK", 1, normal);
+  for (int setup = 1; setup <= 2; ++setup)
+    for (const double side : {1.0, -1.0}) curved.add("GAUGE", setup, setup == 1 ? Vec3{side, 0, 0} : Vec3{0, side, 0});
   CHECK_FALSE(curved.has("SLOT"));
   CHECK(curved.has("BLOCK"));
+  CHECK_FALSE(curved.has("GAUGE"));
   CHECK(curved.touched("SLOT"));
   CHECK_FALSE(curved.touched("BORE"));
 }
