@@ -4,26 +4,30 @@
 //   faces, points:    r = a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength)
 //
 // h_k are real harmonics of the normal in the part's frame, with a largest value of 1: the five of
-// degree 2 and the two sectoral ones of degree 3. On a sphere they are its form, on a cylinder
-// along the part's z ovality and three lobes. A face has one normal: its form is over the position p
-// along an axis of the part, a wave. Which it is, is told by the touches: a feature is curved when their
-// normals are neither parallel nor opposite. r > 0 is material too much. The form is there in every
-// repeat and moves with the part. Sizes: reference spheres 0.05 to 0.1 um, machined parts
-// micrometres.
+// degree 2 and the seven of degree 3, so that a form is one however the part was put down. On a
+// sphere they are its form, on a cylinder along the part's z ovality and three lobes. A face has
+// one normal: its form is over the position p along an axis of the part, a wave. Which it is, is
+// told by the touches: a feature is curved when their normals are neither parallel nor opposite.
+// r > 0 is material too much. The form is there in every repeat and moves with the part. Sizes:
+// reference spheres 0.05 to 0.1 um, machined parts micrometres.
 // Source: real solid harmonics on the unit sphere; ISO 12181 (lobes), ISO 12780 (waviness).
 // Confused with: probe.tip_form and probe.pretravel_lobing, by definition so while the part is
 // never turned against the probe.
+#include <array>
+
 #include "engine/effects/part/part.hpp"
 
 namespace abbe {
 namespace {
 
-constexpr double kTypical_um = 0.5, kMost_um = 500;
-constexpr EffectParameter lobe(std::string_view name, std::string_view help) {
+constexpr int kHarmonics = 12;
+/// What is finer is smaller: as 1 / l^2 with the degree l, like the form of a smooth surface.
+constexpr double kTypical_um = 0.5, kTypicalThird_um = 0.22, kMost_um = 500;
+constexpr EffectParameter lobe(std::string_view name, std::string_view help, double typical_um = kTypical_um) {
   return {.name = name,
           .unit = "um",
           .help = help,
-          .typical = kTypical_um,
+          .typical = typical_um,
           .low = -kMost_um,
           .high = kMost_um,
           .linear = true};
@@ -37,8 +41,15 @@ constexpr EffectParameter kPartFormParameters[] = {
     lobe("oval_xz_um", "two lobes about the part's y: proud at 45 degrees between x and z"),
     lobe("oval_yz_um", "two lobes about the part's x: proud at 45 degrees between y and z"),
     lobe("egg_um", "proud by this at both poles of the part's z, low by half of it at the equator"),
-    lobe("three_lobe_um", "three lobes about the part's z: one of them proud along x"),
-    lobe("three_lobe_30_um", "three lobes about the part's z: one of them proud at 30 degrees from x"),
+    lobe("three_lobe_um", "three lobes about the part's z: one of them proud along x", kTypicalThird_um),
+    lobe("three_lobe_30_um", "three lobes about the part's z: one of them proud at 30 degrees from x",
+         kTypicalThird_um),
+    lobe("three_lobe_xz_um", "three lobes about the part's y: one of them proud along x", kTypicalThird_um),
+    lobe("three_lobe_yz_um", "three lobes about the part's x: one of them proud along y", kTypicalThird_um),
+    lobe("pear_um", "proud by this at the part's +z pole, low by it at the other", kTypicalThird_um),
+    lobe("crossed_oval_um", "an oval that changes over: above the part's equator proud along x, below it along y",
+         kTypicalThird_um),
+    lobe("crossed_oval_45_um", "the same, turned by 45 degrees", kTypicalThird_um),
     lobe("wave_um", "faces: wave over the position on the part, sine, zero at the part's origin"),
     lobe("wave_cosine_um", "faces: wave over the position on the part, cosine, proud at the part's origin"),
     {.name = "wavelength_mm",
@@ -53,15 +64,34 @@ constexpr EffectParameter kPartFormParameters[] = {
     axis_parameter("axis of the part along which the wave runs: 0 x, 1 y, 2 z"),
 };
 
+/// Harmonics of a unit normal, in the order of the parameters.
+std::array<double, kHarmonics> harmonics(const Vec3& normal) {
+  // what makes the largest values of x (1 - 5 z^2) and of z (x^2 - y^2) 1
+  const double of_tilted = 3 * std::sqrt(15.0) / 16, of_crossed = 3 * std::sqrt(3.0) / 2;
+  const auto [x, y, z] = normal;
+  return {x * x - y * y,
+          2 * x * y,
+          2 * x * z,
+          2 * y * z,
+          (3 * z * z - 1) / 2,
+          x * (x * x - 3 * y * y),
+          y * (3 * x * x - y * y),
+          of_tilted * x * (1 - 5 * z * z),
+          of_tilted * y * (1 - 5 * z * z),
+          z * (5 * z * z - 3) / 2,
+          of_crossed * z * (x * x - y * y),
+          of_crossed * z * 2 * x * y};
+}
+
 Vec3 part_form(const TouchScene& scene, const double* theta, const double*) {
-  double r_um;
+  double r_um = 0;
   if (scene.curved) {
-    const auto [x, y, z] = scene.normal_on_part;
-    r_um = theta[0] * (x * x - y * y) + theta[1] * 2 * x * y + theta[2] * 2 * x * z + theta[3] * 2 * y * z +
-        theta[4] * (3 * z * z - 1) / 2 + theta[5] * x * (x * x - 3 * y * y) + theta[6] * y * (3 * x * x - y * y);
+    const std::array<double, kHarmonics> h = harmonics(scene.normal_on_part);
+    for (int k = 0; k < kHarmonics; ++k) r_um += theta[k] * h[static_cast<std::size_t>(k)];
   } else {
-    const double phase = 2 * kPi * scene.on_part[code(theta[10])] / theta[9];
-    r_um = theta[7] * std::sin(phase) + theta[8] * std::cos(phase);
+    const double* wave = theta + kHarmonics;  // sine, cosine, length, axis
+    const double phase = 2 * kPi * scene.on_part[code(wave[3])] / wave[2];
+    r_um = wave[0] * std::sin(phase) + wave[1] * std::cos(phase);
   }
   return along_normal(scene, r_um * kUm);
 }

@@ -1,6 +1,9 @@
 // The effects of the part and its fixture: magnitudes, signs and signatures.
 #include "engine/effects/part/part.hpp"
 
+#include <Eigen/QR>
+#include <algorithm>
+
 #include "tests/unit/effects/bench.hpp"
 
 namespace abbe {
@@ -95,13 +98,53 @@ TEST_CASE("form: lobes repeat at their angle and sit where the help says") {
   const double s = std::sqrt(0.5);
   CHECK(reading_um(kPartForm, touch_on_part({}, {s, 0, s}), {{"oval_xz_um", 1}}) == doctest::Approx(1));
   CHECK(reading_um(kPartForm, touch_on_part({}, {0, s, s}), {{"oval_yz_um", 1}}) == doctest::Approx(1));
+  CHECK(reading_um(kPartForm, touch_on_part({}, {0, 0, -1}), {{"pear_um", 1}}) == doctest::Approx(-1));
+  CHECK(at("three_lobe_xz_um", 0) > 0.7);
+  CHECK(at("three_lobe_yz_um", 90) > 0.7);
+  CHECK(at("crossed_oval_um", 0) == doctest::Approx(0));
+}
+
+constexpr std::string_view kHarmonicsOfForm[] = {
+    "oval_um",          "oval_45_um",       "oval_xz_um",       "oval_yz_um", "egg_um",          "three_lobe_um",
+    "three_lobe_30_um", "three_lobe_xz_um", "three_lobe_yz_um", "pear_um",    "crossed_oval_um", "crossed_oval_45_um"};
+
+TEST_CASE("form: harmonics have a largest value of 1") {
+  for (const std::string_view name : kHarmonicsOfForm) {
+    CAPTURE(name);
+    double largest = 0;
+    for (int i = 0; i <= 180; ++i)
+      for (int j = 0; j < 360; j += 2) {
+        const double from_pole = i * kDegree, a = j * kDegree;
+        const Vec3 n{std::sin(from_pole) * std::cos(a), std::sin(from_pole) * std::sin(a), std::cos(from_pole)};
+        largest = std::max(largest, reading_um(kPartForm, touch_on_part({}, n), {{name, 1}}));
+      }
+    CHECK(largest == doctest::Approx(1).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("form: turning the part makes no other form of it") {
+  // Degrees 2 and 3 as a whole are closed under rotation: five and seven harmonics fit any turned one exactly.
+  const auto turned = [](const Vec3& n) {
+    return Vec3{0.36 * n.x + 0.48 * n.y - 0.8 * n.z, -0.8 * n.x + 0.6 * n.y, 0.48 * n.x + 0.64 * n.y + 0.6 * n.z};
+  };
+  constexpr int kPoints = 200;
+  const auto count = static_cast<Eigen::Index>(std::size(kHarmonicsOfForm));
+  Eigen::MatrixXd upright(kPoints, count), lying(kPoints, count);
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = -1 + 2 * (i + 0.5) / kPoints, a = 2.4 * i, across = std::sqrt(1 - z * z);
+    const Vec3 n{across * std::cos(a), across * std::sin(a), z};
+    for (Eigen::Index k = 0; k < count; ++k) {
+      upright(i, k) = reading_um(kPartForm, touch_on_part({}, n), {{kHarmonicsOfForm[k], 1}});
+      lying(i, k) = reading_um(kPartForm, touch_on_part({}, turned(n)), {{kHarmonicsOfForm[k], 1}});
+    }
+  }
+  const Eigen::MatrixXd fitted = upright * upright.colPivHouseholderQr().solve(lying);
+  CHECK((fitted - lying).cwiseAbs().maxCoeff() < 1e-9);
 }
 
 TEST_CASE("form: the harmonics are orthogonal to radius and centre of a sphere") {
-  const std::string_view names[] = {"oval_um",       "oval_45_um", "oval_xz_um",      "oval_yz_um",
-                                    "three_lobe_um", "egg_um",     "three_lobe_30_um"};
   constexpr int kRings = 60, kSectors = 60;
-  for (const std::string_view name : names) {
+  for (const std::string_view name : kHarmonicsOfForm) {
     CAPTURE(name);
     double mean = 0;
     Vec3 centre;
