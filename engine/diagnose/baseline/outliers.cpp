@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "engine/diagnose/median.hpp"
+#include "engine/diagnose/model/noise_law.hpp"
 
 namespace abbe::diagnose {
 

@@ -10,7 +10,7 @@
 #include <map>
 #include <numeric>
 
-#include "engine/diagnose/baseline/outliers.hpp"
+#include "engine/diagnose/model/noise_law.hpp"
 #include "engine/effects/noise/noise.hpp"
 
 namespace abbe::diagnose {

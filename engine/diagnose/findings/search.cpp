@@ -29,6 +29,12 @@ std::vector<double> probabilities(const Explanations& explanations, const Eviden
   return log_p;
 }
 
+/// The likeliest variant of the likeliest explanation.
+int likeliest_block(const Explanations& explanations, const Evidence& evidence) {
+  const std::vector<double> p = probabilities(explanations, evidence);
+  return best_block(explanations, static_cast<int>(std::max_element(p.begin(), p.end()) - p.begin()), evidence);
+}
+
 struct Named {
   Finding name, pattern;
 };
@@ -76,7 +82,10 @@ struct Round {
 
 Round round(const Case& c, const EvidenceSearch& search, int number) {
   Round r{search.evidence(), {}, 1};
-  r.null = search.bootstrap(r.evidence.statistic, c.options.replicates,
+  // Beside the likeliest explanation: a mismatch has tails too.
+  const int likeliest = likeliest_block(c.explanations, r.evidence);
+  const NoiseLaw law(search.residuals_beside(c.explanations.blocks[static_cast<std::size_t>(likeliest)]));
+  r.null = search.bootstrap(r.evidence.statistic, law, c.options.replicates,
                             c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
   std::vector<double> simulated;
   for (const Evidence& e : r.null) simulated.push_back(e.statistic);

@@ -165,20 +165,12 @@ Level Ensemble::level(const std::vector<double>& log_belief, const std::vector<d
   return l;
 }
 
-Vector Ensemble::simulated(const Level& level, std::uint64_t seed, int replicate) const {
-  constexpr std::uint32_t stream = stream_of("diagnose.bootstrap");
-  const auto normals = [&](Eigen::Index count, std::uint32_t site) {
-    Vector v(count);
-    for (Eigen::Index i = 0; i < v.size(); i += 2) {
-      const UniformPair p = uniform_pair(
-          {seed, static_cast<std::uint32_t>(replicate), stream, site + static_cast<std::uint32_t>(i), 0, 0});
-      v(i) = normal_quantile(p.a);
-      if (i + 1 < v.size()) v(i + 1) = normal_quantile(p.b);
-    }
-    return v;
-  };
-  const Vector z = (level.g2 * rotated_.lambda().array() + level.s2).sqrt() * normals(rotated_.rank(), 0).array();
-  return rotated_.recording(z, Vector(rotated_.off_model(normals(rotated_.rows(), 1u << 20)) * std::sqrt(level.s2)));
+Vector Ensemble::simulated(const Level& level, const NoiseLaw& law, std::uint64_t seed, int replicate) const {
+  constexpr std::uint32_t machines = stream_of("diagnose.bootstrap"), touches = stream_of("diagnose.noise");
+  const Vector u = standard_normal(rotated_.rank(), seed, machines, replicate);
+  const Vector noise = std::sqrt(level.s2) * law.simulated(rotated_.rows(), seed, touches, replicate);
+  const Vector z = (level.g2 * rotated_.lambda().array()).sqrt() * u.array();
+  return rotated_.recording(z + rotated_.coordinates(noise), rotated_.off_model(noise));
 }
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/noise_law.hpp"
 
 namespace abbe::diagnose {
 
@@ -54,7 +55,7 @@ class Ensemble {
   Level level(const std::vector<double>& log_belief, const std::vector<double>& squares) const;
 
   /// A recording of such a machine, um, without what nothing is known of.
-  Vector simulated(const Level&, std::uint64_t seed, int replicate) const;
+  Vector simulated(const Level&, const NoiseLaw&, std::uint64_t seed, int replicate) const;
 
   /// H_a' P H_b, H_a' P y, and H' P h of the columns of all blocks with some of them; at a level.
   Matrix between(const Level&, int a, int b) const;

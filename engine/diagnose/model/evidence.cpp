@@ -28,9 +28,8 @@ std::size_t index_of_largest(const std::vector<T>& v) {
 }  // namespace
 
 EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
-    : explanations_(explanations.list) {
+    : model_(model), hyper_(h), explanations_(explanations.list) {
   const bool plan = model.y.squaredNorm() == 0;
-  y_ = model.y;
   const double correlated = h.correlation > 0 ? kPriorCorrelated : 1;
   rough_ = add_machines(model, h, std::log(correlated));
   if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
@@ -38,14 +37,15 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.blocks);
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
-  if (!plan) evidence_ = judge(y_, &alone_, &with_);
+  if (!plan) evidence_ = judge(model_.y, &alone_, &with_);
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
   ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
-  if (model.rough.cols() == 0 || y_.squaredNorm() == 0) return 0;
+  if (model.rough.cols() == 0 || model_.y.squaredNorm() == 0) return 0;
   Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
-  const double harmonic = log_sum_exp(ensembles_.back().judge(y_).alone), other = log_sum_exp(rough.judge(y_).alone);
+  const double harmonic = log_sum_exp(ensembles_.back().judge(model_.y).alone),
+               other = log_sum_exp(rough.judge(model_.y).alone);
   if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   return 1 / (1 + std::exp(harmonic - other));
 }
@@ -57,7 +57,7 @@ void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) 
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
-  if (y_.squaredNorm() > 0) evidence_ = judge(y_, &alone_, &with_);
+  if (model_.y.squaredNorm() > 0) evidence_ = judge(model_.y, &alone_, &with_);
 }
 
 Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
@@ -99,8 +99,8 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
   return out;
 }
 
-std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates, std::uint64_t seed,
-                                                int threads) const {
+std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, int replicates,
+                                                std::uint64_t seed, int threads) const {
   constexpr int kBatch = 20, kEnough = 10;
   std::vector<Evidence> out;
   int extreme = 0;
@@ -108,7 +108,8 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, int replicates,
     const int first = static_cast<int>(out.size()), count = std::min(kBatch, replicates - first);
     out.resize(first + count);
     on_threads(count, threads, [&](int k) {
-      out[first + k] = judge(ensembles_[alone_.ensemble].simulated(alone_.level, seed, first + k), nullptr, nullptr);
+      out[first + k] =
+          judge(ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k), nullptr, nullptr);
     });
     for (int r = first; r < first + count; ++r) extreme += out[r].statistic >= observed ? 1 : 0;
   }

@@ -42,11 +42,15 @@ class EvidenceSearch {
   /// Evidence of simulated recordings without mismatch, at most `replicates`: fewer once enough of them are
   /// as extreme as `observed` to know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991). The
   /// same for any number of threads.
-  std::vector<Evidence> bootstrap(double observed, int replicates, std::uint64_t seed, int threads) const;
+  std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, int replicates, std::uint64_t seed,
+                                  int threads) const;
+
+  /// Standardised residuals beside a block of any size: each row against its prediction from all others.
+  Vector residuals_beside(const Block& b) const { return leave_one_out(with_free(model_, {&b.signature}), hyper_); }
 
   /// G and u of a block at the level of the recording, which is that with the likeliest explanation.
   Information information(int block) const {
-    return {between(block, block), likely().with_data(with_.level, block, y_)};
+    return {between(block, block), likely().with_data(with_.level, block, model_.y)};
   }
   /// H_a' P H_b at the level of the recording.
   Matrix between(int a, int b) const { return likely().between(with_.level, a, b); }
@@ -69,11 +73,12 @@ class EvidenceSearch {
   Evidence judge(const Vector& y, Baseline* alone, Baseline* with) const;
   const Ensemble& likely() const { return ensembles_[with_.ensemble]; }
 
+  LinearModel model_;
+  Hyperparameters hyper_;
   std::vector<Explanation> explanations_;
   std::vector<Ensemble> ensembles_;
   std::vector<double> log_weight_;  ///< by block
   std::size_t functions_ = 0;       ///< uneven error functions, before the blocks
-  Vector y_;
   Evidence evidence_;
   Baseline alone_, with_;
   double rough_ = 0;
