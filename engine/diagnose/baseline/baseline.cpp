@@ -218,19 +218,16 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   m.free = free.joined();
   m.random = random.joined();
   if (!options.known) {
-    constexpr double kLine = 2;
-    m.rough = rough_geometry(t, machine, kLine);
+    m.rough = rough_geometry(t, machine);
     m.uneven = uneven_functions(t, machine);
   } else {
     m.scale_spread = 0.3;  // an earlier recording has found the scale
     // what that left open may be wrong by some tens of per cent, not by a multiple: that is another machine
     m.largest_scale = 2;
-    // It followed the errors by harmonics, at its own touches: whether they are rougher elsewhere it cannot tell.
-    constexpr double kNotFollowed = 0.4;
-    const Matrix rough = rough_geometry(t, machine, 0);
+    const Matrix rough = rough_geometry_left(t, machine);
     m.rough.resize(n, geometry.cols() + rough.cols());
-    m.rough << geometry, kNotFollowed * rough;
-    for (const Matrix& function : uneven_functions(t, machine)) m.uneven.push_back(kNotFollowed * function);
+    m.rough << geometry, rough;
+    m.uneven = uneven_functions_left(t, machine);
   }
   m.y.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) m.y(i) = kUmPerMm * t.touches[i].residual_mm;

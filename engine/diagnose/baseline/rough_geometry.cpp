@@ -1,8 +1,10 @@
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/machine/geometry.hpp"
@@ -11,12 +13,16 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kKnots = 17;
+/// So many knots follow the shortest length; half as far apart they follow what harmonics cannot.
+constexpr int kKnots = 17, kFineKnots = 33;
 /// Lengths of the covariance, in halves of the travel.
 constexpr double kLengths[] = {0.25, 0.6, 1.5};
 constexpr double kShortLengths[] = {0.25};
 /// Standard deviation of a function over its largest value: of a smooth random function of bounded range.
 constexpr double kShareOfLargest = 0.3;
+/// What an earlier recording leaves open of a rough function, of its size: it was fitted by harmonics, at
+/// other touches than these.
+constexpr double kNotFollowed = 0.2;
 
 double covariance(double a, double b, std::span<const double> lengths, double line) {
   double sum = 0;
@@ -27,35 +33,77 @@ double covariance(double a, double b, std::span<const double> lengths, double li
   return sum + line * line * a * b;
 }
 
+/// The functions of u in [-1, 1] that the harmonics of the specification are made of.
+Vector harmonics(const Machine& machine, double u) {
+  const int size = basis_size(machine.harmonics);
+  Vector out(size);
+  for (int k = 0; k < size; ++k) {
+    GeometryCoefficients unit(static_cast<std::size_t>(kComponents * size), 0.0);
+    unit[static_cast<std::size_t>(k)] = 1;
+    out(k) = error_at(machine, unit, static_cast<Component>(0), (1 + u) / 2 * machine[Axis::x].travel_mm);
+  }
+  return out;
+}
+
 /// Functions of u in [-1, 1] with unit-size coefficients: at u, less their values at home.
 class Functions {
  public:
-  Functions(std::span<const double> lengths, double line) : lengths_(lengths), line_(line) {
-    Matrix k(kKnots, kKnots);
-    for (int i = 0; i < kKnots; ++i)
-      for (int j = 0; j < kKnots; ++j) k(i, j) = covariance(knot(i), knot(j), lengths, line);
-    root_ = Eigen::SelfAdjointEigenSolver<Matrix>(k + 1e-9 * Matrix::Identity(kKnots, kKnots)).operatorInverseSqrt();
+  Functions(std::span<const double> lengths, double line, int knots = kKnots)
+      : lengths_(lengths), line_(line), knots_(knots) {
+    Matrix k(knots, knots);
+    for (int i = 0; i < knots; ++i)
+      for (int j = 0; j < knots; ++j) k(i, j) = covariance(knot(i), knot(j), lengths, line);
+    root_ = Eigen::SelfAdjointEigenSolver<Matrix>(k + 1e-9 * Matrix::Identity(knots, knots)).operatorInverseSqrt();
     home_ = row(-1);
   }
+  int count() const { return knots_; }
   Vector at(double u) const { return row(u) - home_; }
 
  private:
-  static double knot(int i) { return -1 + 2.0 * i / (kKnots - 1); }
+  double knot(int i) const { return -1 + 2.0 * i / (knots_ - 1); }
   Vector row(double u) const {
-    Vector k(kKnots);
-    for (int i = 0; i < kKnots; ++i) k(i) = covariance(u, knot(i), lengths_, line_);
+    Vector k(knots_);
+    for (int i = 0; i < knots_; ++i) k(i) = covariance(u, knot(i), lengths_, line_);
     return root_ * k;
   }
   std::span<const double> lengths_;
   double line_;
+  int knots_;
   Matrix root_;
   Vector home_;
 };
 
-/// All error functions, kKnots columns each.
-Matrix function_columns(const RecordedTouches& t, const Machine& machine, const Functions& functions) {
+/// What of functions is no sum of harmonics.
+class BeyondHarmonics {
+ public:
+  BeyondHarmonics(const Machine& machine, std::span<const double> lengths)
+      : machine_(machine), functions_(lengths, 0, kFineKnots) {
+    constexpr int kPoints = 201;
+    Matrix rows(kPoints, functions_.count()), basis(kPoints, basis_size(machine.harmonics));
+    for (int i = 0; i < kPoints; ++i) {
+      const double u = -1 + 2.0 * i / (kPoints - 1);
+      rows.row(i) = functions_.at(u);
+      basis.row(i) = harmonics(machine, u);
+    }
+    followed_ = basis.colPivHouseholderQr().solve(rows);
+    home_ = row(-1);
+  }
+  int count() const { return functions_.count(); }
+  Vector at(double u) const { return row(u) - home_; }
+
+ private:
+  Vector row(double u) const { return functions_.at(u) - followed_.transpose() * harmonics(machine_, u); }
+  const Machine& machine_;
+  Functions functions_;
+  Matrix followed_;
+  Vector home_;
+};
+
+/// The columns of each of the 18 error functions.
+template <class F>
+std::vector<Matrix> error_functions(const RecordedTouches& t, const Machine& machine, const F& functions) {
   constexpr double kMmPerM = 1e-3;
-  Matrix out = Matrix::Zero(static_cast<Eigen::Index>(t.touches.size()), kComponents * kKnots);
+  std::vector<Matrix> out(kComponents, Matrix::Zero(static_cast<Eigen::Index>(t.touches.size()), functions.count()));
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;
     for (int axis = 0; axis < 3; ++axis) {
@@ -67,24 +115,55 @@ Matrix function_columns(const RecordedTouches& t, const Machine& machine, const 
         unit.value[c] = machine.components[static_cast<std::size_t>(c)].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
         const double um =
             kUmPerMm * dot(s.normal, geometric_error(machine, unit, s.reading, s.stylus.tip_from_mount_mm));
-        out.row(static_cast<Eigen::Index>(i)).segment(c * kKnots, kKnots) = um * f;
+        out[static_cast<std::size_t>(c)].row(static_cast<Eigen::Index>(i)) = um * f;
       }
     }
   }
   return out;
 }
 
+/// The same of what an earlier recording leaves open: a share of every shape, and all that its harmonics
+/// could not follow.
+std::vector<Matrix> left_open(const RecordedTouches& t, const Machine& machine, std::span<const double> lengths) {
+  std::vector<Matrix> out = error_functions(t, machine, Functions(lengths, 0));
+  const std::vector<Matrix> beyond = error_functions(t, machine, BeyondHarmonics(machine, lengths));
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    Matrix both(out[c].rows(), out[c].cols() + beyond[c].cols());
+    both << kNotFollowed * out[c], beyond[c];
+    out[c] = std::move(both);
+  }
+  return out;
+}
+
+Matrix side_by_side(const std::vector<Matrix>& functions) {
+  Matrix out(functions.front().rows(), functions.front().cols() * static_cast<Eigen::Index>(functions.size()));
+  for (std::size_t c = 0; c < functions.size(); ++c)
+    out.middleCols(static_cast<Eigen::Index>(c) * functions[c].cols(), functions[c].cols()) = functions[c];
+  return out;
+}
+
+std::vector<Matrix> each_compressed(std::vector<Matrix> functions) {
+  for (Matrix& m : functions) m = compressed(m);
+  return functions;
+}
+
 }  // namespace
 
-Matrix rough_geometry(const RecordedTouches& t, const Machine& machine, double line) {
-  return function_columns(t, machine, Functions(kLengths, line));
+Matrix rough_geometry(const RecordedTouches& t, const Machine& machine) {
+  constexpr double kLine = 2;
+  return side_by_side(error_functions(t, machine, Functions(kLengths, kLine)));
 }
 
 std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {
-  const Matrix all = function_columns(t, machine, Functions(kShortLengths, 0));
-  std::vector<Matrix> out;
-  for (int c = 0; c < kComponents; ++c) out.push_back(compressed(all.middleCols(c * kKnots, kKnots)));
-  return out;
+  return each_compressed(error_functions(t, machine, Functions(kShortLengths, 0)));
+}
+
+Matrix rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
+  return side_by_side(left_open(t, machine, kLengths));
+}
+
+std::vector<Matrix> uneven_functions_left(const RecordedTouches& t, const Machine& machine) {
+  return each_compressed(left_open(t, machine, kShortLengths));
 }
 
 }  // namespace abbe::diagnose

@@ -12,12 +12,15 @@
 
 namespace abbe::diagnose {
 
-/// Rows x columns, um per standard deviation. `line`: standard deviation of the straight line, over that of
-/// the process: scale and squareness are larger than waviness, until an earlier recording has told them.
-Matrix rough_geometry(const RecordedTouches&, const Machine&, double line);
+/// Rows x columns, um per standard deviation. The straight lines of scale and squareness are larger than waviness.
+Matrix rough_geometry(const RecordedTouches&, const Machine&);
 
-/// The same for each error function by itself, of short length only and without a line: a guide with one bad
-/// error function.
+/// Each error function by itself, of short length only and without a line: a guide with one bad error function.
 std::vector<Matrix> uneven_functions(const RecordedTouches&, const Machine&);
+
+/// The same of a machine that an earlier recording has told, by sums of harmonics: what these cannot follow,
+/// and a fifth of the size of every other shape.
+Matrix rough_geometry_left(const RecordedTouches&, const Machine&);
+std::vector<Matrix> uneven_functions_left(const RecordedTouches&, const Machine&);
 
 }  // namespace abbe::diagnose
