@@ -35,10 +35,10 @@ std::string first_sentence(const Diagnosis& d) {
     return fmt::format(
         "Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
         1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
-  if (d.verdict == Verdict::no_mismatch && d.beyond_known)
+  if (d.beyond_known)
     return fmt::format(
-        "This is not the machine that its file knows, or it has changed as a whole: it differs by {:.1f} times what was uncertain of it.",
-        *d.beyond_known);
+        "This is not the machine that its file knows, or it has changed as a whole: {}it differs by {:.1f} times what was uncertain of it.",
+        d.verdict == Verdict::no_mismatch ? "" : "beside what is told here, ", *d.beyond_known);
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format(
         "The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d),
