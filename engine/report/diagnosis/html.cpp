@@ -16,11 +16,10 @@ namespace {
 std::string_view title(const Diagnosis& d) {
   if (!d.judged) return "What such a recording can tell";
   if (!d.judgeable) return "Nothing can be judged";
+  if (d.verdict == Verdict::no_mismatch && d.beyond) return "Beyond the specification of the machine";
+  if (d.beyond_known) return "Not the machine that its file knows";
   switch (d.verdict) {
-    case Verdict::no_mismatch:
-      return d.beyond      ? "Beyond the specification of the machine"
-          : d.beyond_known ? "Not the machine that its file knows"
-                           : "No mismatch found";
+    case Verdict::no_mismatch: return "No mismatch found";
     case Verdict::named: return "A mismatch, and what makes it";
     case Verdict::one_of: return "A mismatch, and what may make it";
     case Verdict::unexplained: return "A mismatch without a name";

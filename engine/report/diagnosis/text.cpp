@@ -22,6 +22,17 @@ std::string what(const Diagnosis& d) {
   return d.values.size() == 1 ? "value is" : fmt::format("{} values are", d.values.size());
 }
 
+/// A machine with which the recording agrees. Errors twice those of the specification may still pass an
+/// acceptance test, but nobody should take the machine for one of it.
+std::string machine_that_agrees(const Diagnosis& d) {
+  constexpr double kLarge = 2;
+  if (d.baseline.known) return "this machine as it was reports";
+  if (d.baseline.geometry_scale < kLarge) return "a machine of this specification reports";
+  return fmt::format(
+      "a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher than its",
+      d.baseline.geometry_scale);
+}
+
 /// Do they agree?
 std::string first_sentence(const Diagnosis& d) {
   const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
@@ -40,9 +51,8 @@ std::string first_sentence(const Diagnosis& d) {
         "This is not the machine that its file knows, or it has changed as a whole: {}it differs by {:.1f} times what was uncertain of it.",
         d.verdict == Verdict::no_mismatch ? "" : "beside what is told here, ", *d.beyond_known);
   if (d.verdict == Verdict::no_mismatch)
-    return fmt::format(
-        "The {} what {} reports: a difference as large as this one comes by chance in {} of such recordings.", what(d),
-        machine, chance(d.p_value));
+    return fmt::format("The {} what {}: a difference as large as this one comes by chance in {} of such recordings.",
+                       what(d), machine_that_agrees(d), chance(d.p_value));
   return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d),
                      machine, chance(d.p_value));
 }

@@ -1,0 +1,51 @@
+#include "engine/report/diagnosis/diagnosis_report.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace abbe;
+
+namespace {
+
+Diagnosis nothing_found() {
+  Diagnosis d;
+  d.touches = 225;
+  d.p_value = 0.5;
+  return d;
+}
+
+Diagnosis named() {
+  Diagnosis d = nothing_found();
+  d.verdict = Verdict::named;
+  d.p_value = 1e-6;
+  DiagnosedEffect e;
+  e.members = {"machine.squareness"};
+  e.probability = 0.9;
+  d.effects.push_back(e);
+  return d;
+}
+
+std::string first_sentence(const Diagnosis& d) { return diagnosis_sentences(d).front(); }
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a recording that agrees says with which machine") {
+  Diagnosis d = nothing_found();
+  CHECK(says(first_sentence(d), "225 touches are what a machine of this specification reports"));
+  d.baseline.geometry_scale = 3.8;
+  CHECK(says(first_sentence(d), "geometric errors are 3.8 times those of its specification, or rougher"));
+  d.baseline.known = true;
+  CHECK(says(first_sentence(d), "what this machine as it was reports"));
+}
+
+TEST_CASE("that it is another machine comes first, in the text and on the page, beside a name too") {
+  for (Diagnosis d : {nothing_found(), named()}) {
+    CHECK_FALSE(says(first_sentence(d), "not the machine that its file knows"));
+    CHECK_FALSE(says(diagnosis_html(d, "r.csv", "m.json"), "<h1>Not the machine that its file knows</h1>"));
+    d.baseline.known = true;
+    d.beyond_known = 4.2;
+    CHECK(says(first_sentence(d), "not the machine that its file knows"));
+    CHECK(says(diagnosis_html(d, "r.csv", "m.json"), "<h1>Not the machine that its file knows</h1>"));
+  }
+}
