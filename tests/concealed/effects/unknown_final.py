@@ -2,8 +2,7 @@
 
 from portable import np
 
-from .base import Change, Effect, unit, vector
-from .probe import directions
+from .base import Change, Effect, vector
 
 UNKNOWN = {}
 
@@ -12,174 +11,183 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_chip(scene, rng):
-    often = [k for k in range(len(scene.styli)) if np.sum(scene.sensor == k) >= 15]
-    turn, sinks = rng.uniform(0, 2 * np.pi), rng.uniform(0.4, 0.8)
-    aside = np.array([np.cos(turn), np.sin(turn), 0.0])
+def draw_latch(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "sensor": int(rng.choice(often)),
-        "aside": aside,
-        "moves": np.sqrt(1 - sinks**2) * aside + [0, 0, sinks],
-        "held": rng.uniform(0.15, 0.4),
+        "late": rng.permutation([-1.0, 0.0, 1.0]),
+        "qualified_at_mm_s": rng.uniform(4.4, 5.6),
     }
 
 
-def change_chip(scene, p):
-    """A chip lies in the serration of the head at one orientation, and the wrist rocks on it. A touch from one side
-    tips it over: it leans aside and is pressed in, until a touch from the other side or the next indexing brings it
-    back. Amplitude between the two rests."""
-    push = np.sum(scene.normal * (scene.head @ np.asarray(p["aside"])), 1)
-    visit, over, tipped = None, False, np.zeros(scene.size)
-    for k in np.flatnonzero(scene.sensor == p["sensor"]):
-        over = push[k] > 0 if abs(push[k]) > p["held"] else over and scene.visit[k] == visit
-        visit, tipped[k] = scene.visit[k], over
-    return Change(tip=-p["amplitude_um"] * tipped[:, None] * (scene.head @ np.asarray(p["moves"])))
+def change_latch(scene, p):
+    """The controller latches the three scales one after another, not at once: the first axis is read too early, the
+    last one too late, in proportion to the speed. The map of the tip has taken what there was at the speed of its
+    qualification. Amplitude along these axes, from the slowest to the fastest."""
+    faster = (scene.speed - p["qualified_at_mm_s"]) / 6
+    return Change(tip=scene.travel * np.outer(p["amplitude_um"] * faster, p["late"]))
 
 
-def draw_beating(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "direction": unit(rng),
-        "period_s": rng.uniform(60, 240),
-        "phase": rng.uniform(0, np.pi),
-    }
-
-
-def change_beating(scene, p):
-    """Two compressors shake the machine, and their vibrations beat. Where they add up, the tip swings against the
-    surface and trips early, on either side. The qualification has taken the mean. Amplitude between silence and the
-    strongest, along the vibration."""
-    swell = np.abs(np.cos(np.pi * scene.time / p["period_s"] + p["phase"]))
-    return Change(along=p["amplitude_um"] * (swell - swell.mean()) * np.abs(scene.normal @ np.asarray(p["direction"])))
-
-
-def draw_shadow(scene, rng):
-    size, middle = np.ptp(scene.target, axis=0), (scene.target.min(0) + scene.target.max(0)) / 2
-    corner = rng.choice([-1.0, 1.0], 2) * rng.uniform(0.7, 1.1, 2)
-    return {
-        "amplitude_um": 1.0,
-        "receiver_mm": middle + np.append(corner * size[:2], rng.uniform(0.2, 0.6) * size[0]),
-        "lamp": rng.uniform(0, 2 * np.pi),
-        "shadowed": rng.uniform(0.25, 0.4),
-    }
-
-
-def change_shadow(scene, p):
-    """An optical probe sends its signal from a lamp on its side. Where this is turned away from the receiver, and far
-    from it, the signal is weak and detected late, and the machine goes on meanwhile. Amplitude in the dark, at
-    8 mm/s."""
-    sight = np.asarray(p["receiver_mm"]) - (scene.target - scene.arm)
-    far = np.linalg.norm(sight, axis=1)
-    facing = np.sum(sight * (scene.head @ [np.cos(p["lamp"]), np.sin(p["lamp"]), 0.0]), 1) / far
-    signal = (1.05 + facing) / far**2
-    weak = np.clip(1 - signal / np.quantile(signal, p["shadowed"]), 0, 1)
-    return Change(tip=scene.travel * (p["amplitude_um"] * weak * scene.speed / 8)[:, None])
-
-
-def draw_wheel(scene, rng):
-    axis, turn, around = int(rng.integers(2)), rng.uniform(0, 2 * np.pi), rng.uniform(55, 110)
-    way = float(np.abs(np.diff(scene.reading[:, axis])).sum())
+def draw_counts(scene, rng):
+    axis = int(rng.integers(2))
+    x = scene.reading[:, axis]
+    spot = float(np.quantile(x, rng.uniform(0.35, 0.65)))
+    ways = np.abs(np.diff(x))[(x[1:] > spot) != (x[:-1] > spot)]
     return {
         "amplitude_um": 1.0,
         "axis": axis,
-        "direction": np.roll([0.0, np.cos(turn), np.sin(turn)], axis),
-        "circumference_mm": around,
-        "slip": rng.choice([-1.0, 1.0]) * rng.uniform(1.5, 4) * around / way,
-        "phase": rng.uniform(0, 2 * np.pi),
+        "spot_mm": spot,
+        "mark_mm": float(np.quantile(x, rng.choice([rng.uniform(0.1, 0.2), rng.uniform(0.8, 0.9)]))),
+        "fast_beyond_mm": float(np.quantile(ways, rng.uniform(0.3, 0.6))),
     }
 
 
-def change_wheel(scene, p):
-    """The friction wheel that drives an axis is out of true: in every turn it pushes the carriage aside and back. It
-    slips on its bar in proportion to the way, so that the wave wanders along the guide in the course of the run."""
-    x = scene.reading[:, p["axis"]]
-    way = np.cumsum(np.abs(np.diff(x, prepend=x[0])))
-    turned = 2 * np.pi * (x + p["slip"] * way) / p["circumference_mm"] + p["phase"]
-    return Change(tip=vector(p["direction"], p["amplitude_um"] * np.sin(turned)))
+def change_counts(scene, p):
+    """There is dirt on a scale. On a long way the carriage is at full speed when it comes there, and loses a count: it
+    reads too low after a way up and too high after a way down. Short ways lose nothing, so that the counts do not
+    balance. A reference mark farther on puts it right whenever it is passed. Amplitude for one count."""
+    x, spot, mark = scene.reading[:, p["axis"]], p["spot_mm"], p["mark_mm"]
+    lost, balance = np.zeros(scene.size), 0.0
+    for k in range(1, scene.size):
+        way = x[k] - x[k - 1]
+        at_spot, at_mark = ((x[k] > place) != (x[k - 1] > place) for place in (spot, mark))
+        if at_mark:
+            balance = 0.0
+        if at_spot and abs(way) > p["fast_beyond_mm"] and not (at_mark and way * (mark - spot) > 0):
+            balance -= np.sign(way)
+        lost[k] = balance
+    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * lost))
 
 
-def draw_misread(scene, rng):
-    waves = rng.normal(size=(3, 2))
-    return {"amplitude_um": 1.0, "axis": int(rng.integers(2)), "waves": waves / np.sqrt(np.sum(waves**2) / 2)}
+def draw_swapped(scene, rng):
+    return {"amplitude_um": 1.0, "swapped": [int(k) for k in rng.permutation(2)]}
 
 
-def change_misread(scene, p):
-    """The software reads the correction of a scale at the place of the tip, not of the carriage: a stylus that lies
-    along this axis gets the correction of another place, by its length. Amplitude of the correction where its waves
-    add up."""
-    i = p["axis"]
-    x, span = scene.reading[:, i], np.ptp(scene.reading[:, i])
-
-    def correction(place):
-        q = np.outer(2 * np.pi * (place - x.min()) / span, np.arange(1, 4))
-        return np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * np.cos(q), 1)
-
-    error = correction(x + scene.arm[:, i]) - correction(x)
-    return Change(tip=vector(np.eye(3)[i], p["amplitude_um"] * error))
+def change_swapped(scene, p):
+    """The temperature sensors of x and y are plugged in the wrong way round. Each scale, held in its middle, is
+    corrected for the temperature of the other one: where one is read too long, the other is read too short.
+    Amplitude at the ends of the longer scale, for a difference of 1 K."""
+    warmer = scene.temperature["xyz"[p["swapped"][0]]] - scene.temperature["xyz"[p["swapped"][1]]]
+    away = scene.reading - (scene.reading.min(0) + scene.reading.max(0)) / 2
+    longer = np.abs(away[:, p["swapped"]]).max()
+    tip = np.zeros((scene.size, 3))
+    for k, sign in zip(p["swapped"], (-1, 1)):
+        tip[:, k] = sign * p["amplitude_um"] * warmer * away[:, k] / longer
+    return Change(tip=tip)
 
 
-def draw_braking(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "spring": rng.uniform(0, np.pi)}
-
-
-def change_braking(scene, p):
-    """A measuring probe is read when the machine has braked, and takes its own deflection off. One of its springs has
-    a wrong gain: the point is off by a share of the braking distance. The tip radius has taken the mean. Amplitude
-    along this spring, from no distance to the longest."""
-    phi, beta = directions(scene)
-    brake = scene.speed**2 / scene.acceleration
-    share = (np.cos(phi - p["spring"]) * np.cos(beta)) ** 2
-    return Change(along=p["amplitude_um"] * share * (brake - brake.mean()) / brake.max())
-
-
-def draw_gap(scene, rng):
-    axis = int(rng.integers(2))
-    warm = scene.temperature["xy"[axis]]
+def draw_levelling(scene, rng):
+    along = "xyz".index(scene.machine.chain[0])
+    turn = rng.uniform(np.pi / 3, 2 * np.pi / 3)
+    direction = np.array([np.cos(turn), np.sin(turn), 0.0])
     return {
         "amplitude_um": rng.choice([-1.0, 1.0]),
-        "axis": axis,
-        "aside": int(rng.choice([k for k in range(3) if k != axis])),
-        "set_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
-        "held": rng.uniform(0.05, 0.2),
+        "along": along,
+        "direction": direction if along == 0 else direction[[1, 0, 2]],
+        "tau_s": rng.uniform(15, 40),
     }
 
 
-def change_gap(scene, p):
-    """A light carriage grips its rail, and its air gaps open in the heat. The drive pulls a little obliquely and
-    presses it to one side in one sense, to the other side in the other. The controller takes this off as it was on the
-    day it was set. Amplitude to either side, for 1 K."""
-    warmer = scene.temperature["xy"[p["axis"]]] - p["set_at_C"]
-    sense = np.clip(scene.travel[:, p["axis"]] / p["held"], -1, 1)
-    return Change(tip=vector(np.eye(3)[p["aside"]], p["amplitude_um"] * warmer * sense))
+def change_levelling(scene, p):
+    """The machine floats on three air springs, two at one end. When its heavy bridge goes to another place the table
+    sinks, mostly to one side, and the ram swings across, until the valves have levelled it: slowly, so that the first
+    touches after a long way suffer most. Amplitude right after a way over the whole part."""
+    x = scene.reading[:, p["along"]]
+    level, lean = x[0], np.zeros(scene.size)
+    for k in range(1, scene.size):
+        level = x[k - 1] + (level - x[k - 1]) * np.exp(-(scene.time[k] - scene.time[k - 1]) / p["tau_s"])
+        lean[k] = (x[k] - level) / np.ptp(x)
+    return Change(tip=vector(p["direction"], p["amplitude_um"] * lean))
 
 
-def draw_vice(scene, rng):
+def draw_hands(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "placement": int(rng.choice(np.unique(scene.setup))),
         "across": int(rng.integers(2)),
-        "jaws_at": rng.uniform(-0.8, 0.8),
+        "side": rng.choice([-1.0, 1.0]),
+        "tau_s": rng.uniform(200, 600),
         "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
     }
 
 
-def change_vice(scene, p):
-    """In one placement the part is held in a narrow vice: between the jaws it is shorter, beside them it is not.
-    Amplitude at a jaw."""
-    i = p["across"]
-    u, v = scene.part_point[:, i] / p["half_size_mm"], scene.part_point[:, 1 - i] / p["half_size_mm"]
-    held = (scene.setup == p["placement"]) * np.exp(-0.5 * ((v - p["jaws_at"]) / 0.4) ** 2)
-    return Change(along=-p["amplitude_um"] * held * u * scene.part_normal[:, i])
+def change_hands(scene, p):
+    """The operator takes the part by one side whenever it is placed: this side is warm and long, the other one is not,
+    and the part is bent in its plane until the heat has spread. The software knows the temperature of the middle.
+    Amplitude at the corners, right after placing."""
+    i, j = 1 - p["across"], p["across"]
+    u, v, w = scene.part_point[:, i], p["side"] * scene.part_point[:, j], scene.part_point[:, 2]
+    u, v, w = u / p["half_size_mm"], v / p["half_size_mm"], w / p["half_size_mm"]
+    moved = np.zeros((scene.size, 3))
+    moved[:, i], moved[:, j], moved[:, 2] = u * v, p["side"] * (v**2 - u**2 - w**2) / 2, w * v
+    placed = np.array([scene.time[scene.setup == k].min() for k in scene.setup])
+    warm = np.exp(-(scene.time - placed) / p["tau_s"])
+    return Change(along=p["amplitude_um"] * warm * np.sum(moved * scene.part_normal, 1))
 
 
-unknown("chipped_serration", draw_chip, change_chip, ["head", "sensor", "direction", "time"])
-unknown("beating_compressors", draw_beating, change_beating, ["time", "direction"])
-unknown("shadowed_lamp", draw_shadow, change_shadow, ["head", "sensor", "position", "feature", "speed"])
-unknown("slipping_wheel", draw_wheel, change_wheel, ["position", "time", "feature"])
-unknown("misread_table", draw_misread, change_misread, ["head", "sensor", "position", "feature"])
-unknown(
-    "braking_distance", draw_braking, change_braking, ["speed", "acceleration", "direction", "head", "sensor"], "D"
-)
-unknown("opening_gap", draw_gap, change_gap, ["temperature", "direction"], "D")
-unknown("narrow_vice", draw_vice, change_vice, ["setup", "feature", "position"], "D")
+def draw_plume(scene, rng):
+    axis = int(rng.integers(2))
+    x = scene.reading[:, axis]
+    return {
+        "amplitude_um": 1.0,
+        "axis": axis,
+        "laser_end": rng.choice([-1.0, 1.0]),
+        "heater_mm": float(np.quantile(x, rng.uniform(0.35, 0.65))),
+        "width_mm": 0.06 * float(np.ptp(x)),
+        "switched_s": np.quantile(scene.time, (np.arange(6) + rng.uniform(0.1, 0.9, 6)) / 6),
+        "tau_s": rng.uniform(40, 120),
+    }
+
+
+def change_plume(scene, p):
+    """One axis is measured with a laser, and a heater that stands under its beam is switched on and off. The light goes
+    faster through the warm air that rises there, but only where the carriage is beyond it; nearer to the laser all is
+    well. Amplitude beyond a heater that has been on for long."""
+    since = scene.time[:, None] - np.asarray(p["switched_s"])
+    warm = np.sum((1 - np.exp(-np.maximum(since, 0) / p["tau_s"])) * [1, -1, 1, -1, 1, -1], 1)
+    away = p["laser_end"] * (scene.reading[:, p["axis"]] - p["heater_mm"]) / p["width_mm"]
+    beyond = 1 / (1 + np.exp(away))
+    return Change(tip=vector(np.eye(3)[p["axis"]], p["laser_end"] * p["amplitude_um"] * warm * beyond))
+
+
+def draw_rubber(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "twist": rng.uniform(0.3, 1),
+        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+    }
+
+
+def change_rubber(scene, p):
+    """The part stands on rubber feet, and every touch tips and twists it a little: the surface yields with the square
+    of the lever that the touch has about the middle, and comes back. The tip radius has taken the mean. Amplitude at a
+    lever of half the part."""
+    moment = np.cross(scene.part_point / p["half_size_mm"], scene.part_normal)
+    yields = moment[:, 0] ** 2 + moment[:, 1] ** 2 + p["twist"] * moment[:, 2] ** 2
+    return Change(along=-p["amplitude_um"] * (yields - yields.mean()))
+
+
+def draw_clutch(scene, rng):
+    return {"amplitude_um": 1.0, "held": rng.uniform(0.05, 0.25)}
+
+
+def change_clutch(scene, p):
+    """The clutch of the head slips. Every touch that comes from the side of a lying stylus, with a larger moment about
+    the vertical than friction holds, turns the head on a little; only the next indexing brings it back. Amplitude at
+    the longest stylus, where it has slipped farthest."""
+    lying = np.cross([0, 0, 1.0], scene.arm / scene.length.max())
+    moment = -np.sum(lying * scene.normal, 1)
+    slip = np.sign(moment) * np.maximum(np.abs(moment) - p["held"], 0)
+    turned = np.zeros(scene.size)
+    for k in np.unique(scene.visit):
+        mine = scene.visit == k
+        turned[mine] = np.cumsum(slip[mine]) - slip[mine]
+    return Change(tip=-p["amplitude_um"] * (turned / np.abs(turned).max())[:, None] * lying)
+
+
+unknown("staggered_latch", draw_latch, change_latch, ["speed", "direction"], "D")
+unknown("lost_counts", draw_counts, change_counts, ["time", "position"], "D")
+unknown("swapped_sensors", draw_swapped, change_swapped, ["temperature", "position", "feature", "setup"], "D")
+unknown("slow_levelling", draw_levelling, change_levelling, ["time", "position", "feature"])
+unknown("warm_hands", draw_hands, change_hands, ["time", "feature", "position", "setup"])
+unknown("heat_plume", draw_plume, change_plume, ["time", "position", "feature"])
+unknown("rubber_feet", draw_rubber, change_rubber, ["feature", "direction", "position"])
+unknown("slipping_clutch", draw_clutch, change_clutch, ["head", "sensor", "time", "direction"])
