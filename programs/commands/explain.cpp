@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/ids.hpp"
 #include "engine/base/letter_case.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/figures/signature.hpp"
@@ -15,9 +18,36 @@
 namespace abbe {
 namespace {
 
+/// What the messages of a range of codes are about (engine/base/diagnostic_codes.def).
+std::string_view subject(std::string_view code) {
+  constexpr std::pair<std::string_view, std::string_view> kSubjects[] = {{"01", "text and statements of a program"},
+                                                                         {"02", "meaning of a program"},
+                                                                         {"03", "running a program"},
+                                                                         {"04", "machine, workpiece and effects"},
+                                                                         {"05", "points, tables and recordings"},
+                                                                         {"06", "files and command line"},
+                                                                         {"07", "diagnosis of recordings"}};
+  const auto* const found = std::find_if(std::begin(kSubjects), std::end(kSubjects),
+                                         [&](const auto& s) { return s.first == code.substr(1, 2); });
+  ABBE_CHECK(found != std::end(kSubjects));
+  return found->second;
+}
+
+std::string_view consequence(Severity severity) {
+  switch (severity) {
+    case Severity::error: return "an error: this cannot be used as it is, and no result comes of it";
+    case Severity::warning: return "a warning: the result comes, but may not mean what was meant";
+    case Severity::note: return "a note: nothing is wrong, but it is worth knowing";
+  }
+  return "";
+}
+
 std::optional<std::string> explain_code(const std::string& word) {
   for (const CodeInfo& code : all_codes())
-    if (code.name == word) return fmt::format("{}: {}\n", code.name, code.title);
+    if (code.name == word)
+      return fmt::format(
+          "{}: {}\n  about: {}\n  {}\n  The message itself says where it is, what was found there, and the next step.\n",
+          code.name, code.title, subject(code.name), consequence(code.severity));
   return std::nullopt;
 }
 

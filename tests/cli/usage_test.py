@@ -1,4 +1,6 @@
 """The command line itself: help, version, and wrong usage (exit code 2)."""
+import re
+
 import harness
 
 
@@ -22,6 +24,14 @@ class Usage(harness.Case):
         self.assertIn("list, show, screen, init", self.refused("E0609", "machine"))
         self.assertIn("PROGRAM", self.refused("E0609", "run"))
         self.assertIn("--help", self.refused("E0609", "run"))
+
+    def test_every_code_of_a_message_is_explained(self):
+        table = (harness.ROOT / "engine/base/diagnostic_codes.def").read_text()
+        kinds = {"error": "no result comes of it", "warning": "may not mean", "note": "nothing is wrong"}
+        for code, severity, title in re.findall(r'^X\((\w+), (\w+), "(.*)"\)', table, re.MULTILINE):
+            told = self.abbe("explain", code).stdout
+            self.assertIn(f"{code}: {title}\n  about: ", told)
+            self.assertIn(kinds[severity], told, code)
 
     def test_only_effects_have_a_figure(self):
         self.assertIn('"reading of x, mm"', self.abbe("explain", "machine.scale", "--format", "vega").stdout)
