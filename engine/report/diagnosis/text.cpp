@@ -28,9 +28,8 @@ std::string machine_that_agrees(const Diagnosis& d) {
   constexpr double kLarge = 2;
   if (d.baseline.known) return "this machine as it was reports";
   if (d.baseline.geometry_scale < kLarge) return "a machine of this specification reports";
-  return fmt::format(
-      "a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher than its",
-      d.baseline.geometry_scale);
+  return fmt::format("a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher",
+                     d.baseline.geometry_scale);
 }
 
 /// Do they agree?

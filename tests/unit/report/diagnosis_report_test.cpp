@@ -34,7 +34,7 @@ TEST_CASE("a recording that agrees says with which machine") {
   Diagnosis d = nothing_found();
   CHECK(says(first_sentence(d), "225 touches are what a machine of this specification reports"));
   d.baseline.geometry_scale = 3.8;
-  CHECK(says(first_sentence(d), "geometric errors are 3.8 times those of its specification, or rougher"));
+  CHECK(says(first_sentence(d), "geometric errors are 3.8 times those of its specification, or rougher: a difference"));
   d.baseline.known = true;
   CHECK(says(first_sentence(d), "what this machine as it was reports"));
 }
