@@ -136,15 +136,26 @@ std::vector<Matrix> left_open(const RecordedTouches& t, const Machine& machine, 
 }
 
 Matrix side_by_side(const std::vector<Matrix>& functions) {
-  Matrix out(functions.front().rows(), functions.front().cols() * static_cast<Eigen::Index>(functions.size()));
-  for (std::size_t c = 0; c < functions.size(); ++c)
-    out.middleCols(static_cast<Eigen::Index>(c) * functions[c].cols(), functions[c].cols()) = functions[c];
+  Eigen::Index columns = 0;
+  for (const Matrix& m : functions) columns += m.cols();
+  Matrix out(functions.front().rows(), columns);
+  Eigen::Index first = 0;
+  for (const Matrix& m : functions) out.middleCols(first, m.cols()) = m, first += m.cols();
   return out;
 }
 
-std::vector<Matrix> each_compressed(std::vector<Matrix> functions) {
-  for (Matrix& m : functions) m = compressed(m);
-  return functions;
+/// Each function by itself, and all functions of an axis together.
+std::vector<Matrix> functions_and_guides(const std::vector<Matrix>& functions) {
+  std::vector<Matrix> out;
+  for (const Matrix& m : functions) out.push_back(compressed(m));
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Matrix> guide;
+    for (int c = 0; c < kComponents; ++c)
+      if (axis_of(static_cast<Component>(c)) == static_cast<Axis>(axis))
+        guide.push_back(out[static_cast<std::size_t>(c)]);
+    out.push_back(compressed(side_by_side(guide)));
+  }
+  return out;
 }
 
 }  // namespace
@@ -155,7 +166,7 @@ Matrix rough_geometry(const RecordedTouches& t, const Machine& machine) {
 }
 
 std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {
-  return each_compressed(error_functions(t, machine, Functions(kShortLengths, 0)));
+  return functions_and_guides(error_functions(t, machine, Functions(kShortLengths, 0)));
 }
 
 Matrix rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
@@ -163,7 +174,7 @@ Matrix rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
 }
 
 std::vector<Matrix> uneven_functions_left(const RecordedTouches& t, const Machine& machine) {
-  return each_compressed(left_open(t, machine, kShortLengths));
+  return functions_and_guides(left_open(t, machine, kShortLengths));
 }
 
 }  // namespace abbe::diagnose

@@ -15,7 +15,8 @@ namespace abbe::diagnose {
 /// Rows x columns, um per standard deviation. The straight lines of scale and squareness are larger than waviness.
 Matrix rough_geometry(const RecordedTouches&, const Machine&);
 
-/// Each error function by itself, of short length only and without a line: a guide with one bad error function.
+/// Each error function by itself, of short length only and without a line, in the order of the components, and then all
+/// those of each axis together: one bad error function, or a bad guide.
 std::vector<Matrix> uneven_functions(const RecordedTouches&, const Machine&);
 
 /// The same of a machine that an earlier recording has told, by sums of harmonics: what these cannot follow,

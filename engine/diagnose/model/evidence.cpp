@@ -12,7 +12,7 @@ namespace {
 
 /// Belief before the data that the machine's errors are rougher than the harmonics of the specification.
 constexpr double kPriorRough = 0.2;
-/// Belief before the data that one of the error functions is more uneven than the others.
+/// Belief before the data that an error function, or those of an axis, are more uneven than the others.
 constexpr double kPriorUneven = 0.2;
 /// Belief before the data that neighbours scatter alike, where they do: what goes on slowly in the sequence
 /// looks the same.

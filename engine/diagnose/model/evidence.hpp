@@ -1,7 +1,7 @@
 // The evidence of every explanation, and the p-value of the whole search.
 //
 // The baseline is the ensemble of the specification or, less probably, one of the same size and rougher
-// functions; at any scale (ensemble.hpp); and one of the error functions may be more uneven than the others,
+// functions; at any scale (ensemble.hpp); and one of the error functions, or those of one axis, may be more uneven than the others,
 // which is no physics left out either. The Bayes factor of an explanation is its likelihood averaged over
 // ensembles, scales, sizes and its blocks, over that of the baseline, averaged likewise. The statistic of the
 // search is the logarithm of the average Bayes factor of all explanations; its distribution without any

@@ -33,7 +33,7 @@ struct LinearModel {
   Matrix random;                  ///< Z, um per standard deviation
   std::vector<int> random_group;  ///< by column of Z; 0 is the group whose scale is estimated, the others keep theirs
   Matrix rough;  ///< another ensemble in the place of group 0: no columns when there is none (rough_geometry.hpp)
-  /// one error function each that is more uneven than the others: no physics left out (rough_geometry.hpp)
+  /// one error function, or all of an axis, that are more uneven than the others: no physics left out (rough_geometry.hpp)
   std::vector<Matrix> uneven;
   Vector noise_um;               ///< standard deviation of a row as the machine file states it
   std::vector<int> noise_group;  ///< by row

@@ -64,3 +64,15 @@ TEST_CASE("of a machine that is known, what its harmonics could not follow is op
   CHECK(variance_of(left, ripple(machine)) / variance_of(whole, ripple(machine)) > 0.9);
   CHECK(variance_of(rough_geometry_left(t, machine), bend()) < 0.05 * variance_of(rough_geometry(t, machine), bend()));
 }
+
+TEST_CASE("a bad guide may have several bad error functions, at their full size") {
+  const Machine machine = read_machine("coord3-mc16");
+  const RecordedTouches t = along_x(machine);
+  const std::vector<Matrix> uneven = uneven_functions(t, machine);
+  REQUIRE(uneven.size() == kComponents + 3);
+  Matrix sum = Matrix::Zero(kTouches, kTouches);
+  for (std::size_t c = 0; c < kComponents; ++c)
+    if (axis_of(static_cast<Component>(c)) == Axis::x) sum += uneven[c] * uneven[c].transpose();
+  const Matrix& guide = uneven[kComponents];
+  CHECK((guide * guide.transpose() - sum).norm() < 1e-4 * sum.norm());
+}
