@@ -126,6 +126,12 @@ Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t whic
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
 }
 
+/// What a pattern in the place of the last finding leaves: the probability that chance leaves as much.
+double adequacy_with(const Case& c, std::vector<Finding> findings, const Finding& pattern) {
+  findings.back() = pattern;
+  return round(c, rest_of(c, signatures_of(c, findings)), kRounds + 2).p;
+}
+
 /// Round after round, until nothing is left or what is left has no name.
 SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
   SearchResult result;
@@ -153,7 +159,8 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     }
     instead = std::move(other);
   }
-  if (result.adequacy < kInadequate && !likelier(result.findings.back(), *instead, kNamedInDoubt)) {
+  if (result.adequacy < kInadequate && !likelier(result.findings.back(), *instead, kNamedInDoubt) &&
+      leaves_less(adequacy_with(c, result.findings, *instead), result.adequacy)) {
     result.nearest = std::move(result.findings.back());
     result.findings.pop_back();
     result.other = std::move(instead);
@@ -259,6 +266,11 @@ Finding finding_of(const Explanations& all, const Evidence& evidence, bool catal
 
 bool likelier(const Finding& name, const Finding& pattern, double times) {
   return name.explanation >= 0 && name.probability >= times * pattern.probability;
+}
+
+bool leaves_less(double pattern_adequacy, double name_adequacy) {
+  constexpr double kClearly = 3;
+  return pattern_adequacy >= kInadequate && pattern_adequacy >= kClearly * name_adequacy;
 }
 
 std::vector<const Matrix*> signatures_of(const Case& c, const std::vector<Finding>& findings) {

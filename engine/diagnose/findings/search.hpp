@@ -38,10 +38,13 @@ SearchResult search(Case&, EvidenceSearch& first);
 /// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind; no
 /// explanation where there are none of it.
 Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
-/// A name must be so many times as likely as no name. One that leaves something of the mismatch must be far
-/// likelier: physics that the catalogue does not have looks like its nearest effect.
+/// A name must be so many times as likely as no name. One that leaves something of the mismatch, where a pattern
+/// leaves less, must be far likelier: physics that the catalogue does not have looks like its nearest effect.
 inline constexpr double kNamed = 1, kNamedInDoubt = 100;
 bool likelier(const Finding& name, const Finding& pattern, double times);
+/// From the probabilities that chance leaves as much as either: whether the pattern leaves no more than chance
+/// does, and clearly less than the name. One that leaves as much only mirrors it, and says nothing against it.
+bool leaves_less(double pattern_adequacy, double name_adequacy);
 /// Up to so many times less likely, what was not chosen is told beside what was.
 inline constexpr double kAsWell = 3;
 

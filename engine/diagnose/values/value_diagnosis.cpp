@@ -305,7 +305,8 @@ Finding tell(const ValueCase& c, Diagnosis& out) {
   const Evidence evidence = c.search->evidence(c.deviation);
   const Finding name = finding_of(all, evidence, true), pattern = finding_of(all, evidence, false);
   const double adequacy = adequacy_of(c, name);
-  const bool named = likelier(name, pattern, adequacy < kInadequate ? kNamedInDoubt : kNamed);
+  const bool doubted = adequacy < kInadequate && leaves_less(adequacy_of(c, pattern), adequacy);
+  const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
   if (named)
     tell_name(c, name, adequacy, out);
   else
