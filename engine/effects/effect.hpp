@@ -120,6 +120,7 @@ enum class Sought {
   direction,      ///< the three axes together span every direction (direction.hpp)
   stylus,         ///< the ordinals of the styli, 0 for all
   tip,            ///< the ordinals of the tips, a stylus in one orientation each; 0 for all
+  setup,          ///< the placements of the part, 0 for all
 };
 
 struct EffectParameter {

@@ -43,4 +43,13 @@ inline constexpr EffectParameter kSensorParameter{
     .high = 1000,
     .sought = Sought::stylus};
 
+/// Is this the placement of the part that the parameter `setup` names? 0 means every one.
+inline bool placed_in(const TouchScene& scene, double setup) { return code(setup) == 0 || code(setup) == scene.setup; }
+
+inline constexpr EffectParameter kSetupParameter{.name = "setup",
+                                                 .unit = "code",
+                                                 .help = "in which placement of the part; 0: in every one",
+                                                 .high = 1e6,
+                                                 .sought = Sought::setup};
+
 }  // namespace abbe

@@ -59,6 +59,13 @@ std::vector<double> ordinals(std::size_t count) {
   return list;
 }
 
+/// The placements of the part, if there are several; 0 stands for all of them.
+std::vector<double> setups(const RecordedTouches& t) {
+  std::set<double> list{0};
+  for (const RecordedTouch& touch : t.touches) list.insert(touch.scene.setup);
+  return list.size() > 2 ? std::vector<double>(list.begin(), list.end()) : std::vector<double>{0};
+}
+
 std::vector<double> codes(const EffectParameter& p) {
   std::vector<double> list;
   for (double v = p.low; v <= p.high; ++v) list.push_back(v);
@@ -82,6 +89,7 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
     case Sought::phase: return {Kind::phase, {0, 90}};
     case Sought::direction: return {Kind::direction, {0, 1, 2}};
     case Sought::stylus: return {Kind::tried, ordinals(t.styli.size())};
+    case Sought::setup: return {Kind::tried, setups(t)};
     case Sought::tip: return {Kind::tried, ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0)};
     case Sought::not_at_all: break;
   }

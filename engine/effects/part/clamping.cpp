@@ -6,8 +6,8 @@
 // The four softest modes of a plate: bow along its two directions, twist, and the sag between three
 // supports. A plate that bends also turns its normals, so points off its middle plane z = 0 move
 // sideways (Kirchhoff). h is half the size of the part: each parameter is the deflection at that
-// distance from the part's origin. Fixed to part and fixture: another clamping gives other values,
-// another placement of the clamped whole the same.
+// distance from the part's origin. Fixed to part and fixture: another clamping gives other values, so
+// that it may be there in one placement only; another placement of the clamped whole gives the same.
 // Size: 1 to 50 um. Source: Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, chapters 2
 // and 8.
 // Confused with: part.form (a distortion vanishes on unclamping), straightness errors of the
@@ -53,9 +53,11 @@ constexpr EffectParameter kClampingParameters[] = {
      .low = 1,
      .high = 10000,
      .standard = 250},
+    kSetupParameter,
 };
 
 Vec3 clamping(const TouchScene& scene, const double* theta, const double*) {
+  if (!placed_in(scene, theta[5])) return {};
   const double bow = theta[0] * kUm, cross_bow = theta[1] * kUm, twist = theta[2] * kUm, lobes = theta[3] * kUm,
                h = theta[4];
   const double u = scene.on_part.x / h, v = scene.on_part.y / h;
@@ -75,7 +77,7 @@ constinit const Effect kClamping{
         "The clamps or supports bend and twist the part like a plate. Surfaces are measured "
         "where they really are, but not where they will be when the part is free. The pattern is "
         "fixed to the part with its fixture, goes with them to another place, and changes when "
-        "the part is clamped again.",
+        "the part is clamped again: then it may be there in one placement only.",
     .source = "Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells: lowest bending modes",
     .separate =
         "unclamp and clamp again; turn the clamped part to another place; release the clamps and "

@@ -71,6 +71,16 @@ TEST_CASE("clamping: deflections at half the part's size") {
   CHECK(lobe(60) == doctest::Approx(-2));
 }
 
+TEST_CASE("clamping: another placement of the part is another clamping") {
+  TouchScene scene = touch({0, 0, 1});
+  scene.normal_on_part = {0, 0, 1};
+  scene.on_part = {250, 0, 0};
+  scene.setup = 2;
+  for (const double setup : {0, 2})
+    CHECK(reading_um(kClamping, scene, {{"bow_um", 3}, {"setup", setup}}) == doctest::Approx(3));
+  CHECK(reading_um(kClamping, scene, {{"bow_um", 3}, {"setup", 1}}) == 0);
+}
+
 TEST_CASE("clamping: sections stay plane and normal to the bent middle plane") {
   // The side displacement at height z is -z times the slope, found here by differences of w.
   const Parameters modes = {{"bow_um", 3}, {"cross_bow_um", -2}, {"twist_um", 5}, {"three_point_um", 1.5}};
