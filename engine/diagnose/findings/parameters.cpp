@@ -203,8 +203,10 @@ class Estimator {
 
   /// The axis where it may be one, else azimuth and elevation, the two parameters after it.
   void add_direction(std::size_t p, std::vector<DiagnosedParameter>& out) const {
-    const auto d = variants_[likeliest_].estimate->direction();
+    constexpr double kNone = 1e-6;  // rad: the touches see one direction only
+    auto d = variants_[likeliest_].estimate->direction();
     if (!d) return;
+    if (d->u < kNone) d->u = 0;
     const auto parameters = explanation_.effect->parameters;
     constexpr double kClearly = 2;  // standard uncertainties
     const double components[] = {d->x, d->y, d->z};
@@ -212,6 +214,7 @@ class Estimator {
     for (std::size_t k = 0; k < 3; ++k)
       if (std::acos(std::min(1.0, components[k])) <= kClearly * d->u) axis = k;
     out.push_back({.name = "direction", .unit = "", .word = std::string(parameters[p].choices[axis])});
+    if (!d->whole) out.back().called = "as far as these touches see";
     if (axis < 3) return;
     const double flat = std::hypot(d->x, d->y), degree = kPi / 180;
     out.push_back(told(parameters[p + 1], {std::atan2(d->y, d->x) / degree, d->u / std::max(flat, d->u) / degree}));

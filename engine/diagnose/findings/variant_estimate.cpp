@@ -1,6 +1,7 @@
 #include "engine/diagnose/findings/variant_estimate.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,31 @@ std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
     if (own_share(g, columns, kept) > kInseparable) kept.insert(kept.end(), columns.begin(), columns.end());
   std::sort(kept.begin(), kept.end());
   return kept;
+}
+
+/// Takes out of a motion, directions by phases, and of its covariance what the touches say nothing of: a direction whose
+/// uncertainty is not small beside the rest of the motion. Its noise would hide a motion that is told well. Whether
+/// nothing had to be.
+bool keep_told_directions(Matrix& motion, Matrix& covariance) {
+  constexpr double kSmall = 0.5;
+  const Eigen::Index directions = motion.rows(), phases = motion.cols();
+  for (Eigen::Index left = directions; left > 1; --left) {
+    Matrix of_directions = Matrix::Zero(directions, directions);
+    for (Eigen::Index f = 0; f < phases; ++f)
+      of_directions += covariance.block(f * directions, f * directions, directions, directions);
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(of_directions);
+    const Vector worst = solver.eigenvectors().col(directions - 1);
+    const Matrix keep = Matrix::Identity(directions, directions) - worst * worst.transpose();
+    if (std::sqrt(solver.eigenvalues()(directions - 1)) <= kSmall * (keep * motion).norm()) return left == directions;
+    motion = keep * motion;
+    for (Eigen::Index f = 0; f < phases; ++f) {
+      auto rows = covariance.middleRows(f * directions, directions);
+      rows = Matrix(keep * rows);
+      auto columns = covariance.middleCols(f * directions, directions);
+      columns = Matrix(columns * keep);
+    }
+  }
+  return directions == 1;
 }
 
 }  // namespace
@@ -74,6 +100,7 @@ std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) co
       if (column[static_cast<std::size_t>(i)] >= 0 && column[static_cast<std::size_t>(j)] >= 0)
         out.covariance(i, j) =
             unit * unit * covariance_(column[static_cast<std::size_t>(i)], column[static_cast<std::size_t>(j)]);
+  out.whole = keep_told_directions(m, out.covariance);
   const Eigen::JacobiSVD<Matrix> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   out.size = svd.singularValues()(0);
   out.along = svd.matrixU().col(0);
@@ -125,7 +152,7 @@ std::optional<SpannedDirection> VariantEstimate::direction() const {
     const std::optional<Motion> m = effect_.parameters[p].linear ? motion(static_cast<int>(p)) : std::nullopt;
     if (!m || m->size == 0) continue;
     return SpannedDirection{m->along(0), m->along(1), m->along(2),
-                            std::sqrt(across_directions(m->covariance, m->along, m->phase) / 2) / m->size};
+                            std::sqrt(across_directions(m->covariance, m->along, m->phase) / 2) / m->size, m->whole};
   }
   return std::nullopt;
 }

@@ -18,6 +18,7 @@ struct Estimate {
 struct SpannedDirection {
   double x = 0, y = 0, z = 0;
   double u = 0;
+  bool whole = true;  ///< whether every component is told; else it is that of the motion which the touches see
 };
 
 /// Linear-Gaussian posterior of the coefficients of a variant, with priors so wide that they do not pull.
@@ -48,6 +49,7 @@ class VariantEstimate {
     Vector along;       ///< u, by direction
     Vector phase;       ///< w, by phase
     Matrix covariance;  ///< of the coefficients, direction + directions * phase
+    bool whole = true;  ///< whether the touches see it from every direction
   };
   std::optional<Motion> motion(int parameter) const;
 

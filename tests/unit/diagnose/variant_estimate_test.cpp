@@ -1,0 +1,46 @@
+#include "engine/diagnose/findings/variant_estimate.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// What a jump of the part was estimated as, um, by touches of this information along x, y and z.
+struct Jump {
+  Jump(const Eigen::Vector3d& um, const Eigen::Vector3d& information) {
+    effect = find_effect("part.shift");
+    for (int axis = 0; axis < 3; ++axis) block.columns.push_back({0, axis, unit_um});
+    info.g = information.asDiagonal();
+    info.u = info.g * um / unit_um;
+  }
+  VariantEstimate estimate() const { return {*effect, block, info}; }
+
+  static constexpr double unit_um = 2;
+  const Effect* effect = nullptr;
+  Block block;
+  Information info;
+};
+
+}  // namespace
+
+TEST_CASE("a motion is told by the directions that the touches see") {
+  const Jump jump({0.0, 30.0, 500.0}, {400.0, 400.0, 1e-4});
+  const VariantEstimate e = jump.estimate();
+  REQUIRE(e.size(0));
+  CHECK(e.size(0)->value == doctest::Approx(30).epsilon(0.01));
+  CHECK(e.size(0)->u == doctest::Approx(0.1).epsilon(0.01));
+  REQUIRE(e.direction());
+  CHECK(e.direction()->y == doctest::Approx(1));
+  CHECK_FALSE(e.direction()->whole);
+}
+
+TEST_CASE("a motion that is seen from everywhere is told as it is") {
+  const Jump jump({3.0, 0.0, 4.0}, {400.0, 300.0, 200.0});
+  const VariantEstimate e = jump.estimate();
+  CHECK(e.size(0)->value == doctest::Approx(5).epsilon(0.01));
+  CHECK(e.direction()->x == doctest::Approx(0.6).epsilon(0.01));
+  CHECK(e.direction()->z == doctest::Approx(0.8).epsilon(0.01));
+  CHECK(e.direction()->whole);
+}
