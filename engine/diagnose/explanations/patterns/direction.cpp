@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
 
@@ -8,17 +7,9 @@ namespace abbe::diagnose::patterns {
 namespace {
 
 /// Two to nine lobes about the axis of the probe, greatest on its equator: fixed to the probe.
-std::vector<Matrix> lobes(const TouchFactors& f) {
+std::vector<Matrix> lobes_of_the_probe(const TouchFactors& f) {
   std::vector<Matrix> out;
-  for (int count = 2; count <= 9; ++count) {
-    Matrix m(f.normal_on_probe.size(), 2);
-    for (std::size_t i = 0; i < f.normal_on_probe.size(); ++i) {
-      const Vec3& n = f.normal_on_probe[i];
-      const double angle = count * std::atan2(n.y, n.x), equator = n.x * n.x + n.y * n.y;
-      m.row(static_cast<Eigen::Index>(i)) << equator * std::cos(angle), equator * std::sin(angle);
-    }
-    out.push_back(std::move(m));
-  }
+  for (int count = 2; count <= 9; ++count) out.push_back(lobes(f.normal_on_probe, 2, count));
   return out;
 }
 
@@ -60,7 +51,7 @@ void over_direction(const TouchFactors& f, Family& family) {
   }
   if (several(f.orientation)) {
     family.add("on the probe", smooth(as_points(f.normal_on_probe), 0.6, 40));
-    family.add("lobes", lobes(f));
+    family.add("lobes", lobes_of_the_probe(f));
   }
 }
 

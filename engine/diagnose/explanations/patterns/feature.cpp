@@ -29,9 +29,22 @@ std::vector<Matrix> one_in_time(const TouchFactors& f) {
   return out;
 }
 
+/// Lobes of the part about one of its axes, more than a form of the catalogue has; of all features alike, or of
+/// each by itself about its own.
+std::vector<Matrix> lobes_of_the_part(const TouchFactors& f) {
+  constexpr int kFirst = 4, kLast = 12;
+  std::vector<Matrix> out;
+  for (int count = kFirst; count <= kLast; ++count) {
+    for (int axis = 0; axis < 3; ++axis) out.push_back(lobes(f.normal_on_part, axis, count));
+    if (several(f.feature)) out.push_back(by_group(lobes(f.normal_on_part, 2, count), f.feature));
+  }
+  return out;
+}
+
 }  // namespace
 
 void over_feature(const TouchFactors& f, Family& family) {
+  family.add_joint("lobes", lobes_of_the_part(f));
   if (!several(f.feature)) return;
   const Matrix in = indicator(f.feature);
   family.add("size", in);

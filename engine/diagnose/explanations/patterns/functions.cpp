@@ -112,6 +112,16 @@ std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions& dire
   return out;
 }
 
+Matrix lobes(const Directions& d, int axis, int count) {
+  const Vector x = component(d, (axis + 1) % 3), y = component(d, (axis + 2) % 3);
+  Matrix m(x.size(), 2);
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double angle = count * std::atan2(y(i), x(i)), equator = x(i) * x(i) + y(i) * y(i);
+    m.row(i) << equator * std::cos(angle), equator * std::sin(angle);
+  }
+  return m;
+}
+
 Matrix indicator(const std::vector<int>& group) {
   std::map<int, int> index;
   for (const int g : group) index.emplace(g, 0);

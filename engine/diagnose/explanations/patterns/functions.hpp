@@ -38,6 +38,8 @@ Points as_points(const Directions&);
 Matrix along(const Matrix& field, const Directions&);
 /// The field in every direction, or in one of thirteen: the axes, and halfway between two or three of them.
 std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions&);
+/// So many lobes about an axis of the directions, greatest on its equator: two columns, for any phase.
+Matrix lobes(const Directions&, int axis, int count);
 /// One column for each group: 1 in its rows.
 Matrix indicator(const std::vector<int>& group);
 /// The columns kept apart by group.
