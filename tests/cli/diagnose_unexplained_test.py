@@ -67,6 +67,23 @@ class Unexplained(harness.Case):
         self.assertIn("machine.scale", said["effects"][0]["members"])
         self.assertEqual(said["effects"][0]["probability"], 0.5)
 
+    def test_two_effects_are_named_though_neither_is_the_likeliest(self):
+        """A larger tip with lobes looks most like a tip that is not round, and more like a pattern."""
+        self.abbe("record", PROGRAM, "--machine", MACHINE, "--seed", 1, "-o", "pair.csv",
+                  "--with", "probe.tip_radius:amplitude_um=2", "--with", "probe.pretravel_lobing:amplitude_um=0.15")
+        said = self.diagnosis("pair.csv", "--machine", MACHINE)
+        members = [e["members"] for e in said["effects"]]
+        self.assertEqual(len(members), 2, members)
+        self.assertTrue(any("probe.tip_radius" in m for m in members), members)
+        self.assertIn(["probe.pretravel_lobing"], members)
+
+    def test_lobes_of_a_part_are_no_period_of_a_scale(self):
+        """Five lobes about the vertical axis of the ball: the catalogue's form ends at three."""
+        recording = self.recorded("lobed.csv", lambda n, _: 0.003 * math.sin(5 * math.atan2(n[1], n[0])) * (1 - n[2] ** 2))
+        said = self.diagnosis(recording, "--machine", MACHINE)
+        self.assertEqual(said["verdict"], "unexplained")
+        self.assertEqual((said["unexplained"]["factor"], said["unexplained"]["shape"]), ("feature", "lobes"))
+
     def test_the_pattern_is_saved_and_explains(self):
         recording = self.recorded("dented.csv", lambda n, _: 0.012 * math.exp(-((n[0] - 0.5) ** 2 + (n[1] - 0.6) ** 2 + (n[2] - 0.62) ** 2) / 0.25))
         before = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")

@@ -93,14 +93,49 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   return r;
 }
 
-/// Whether an effect and another one beside it say more than a pattern alone, though the effect by itself
-/// does not. `before` ends with it.
-bool better_with_partner(const Case& c, const std::vector<Finding>& before, const Finding& pattern, int number) {
-  const Round r = round(c, rest_of(c, signatures_of(c, before)), number);
-  if (r.p > kLaterAlarm) return false;
-  const Finding partner = finding_of(c.explanations, r.evidence, true);
-  return partner.probability >= finding_of(c.explanations, r.evidence, false).probability &&
-      log_belief(c, before.back()) + log_belief(c, partner) > log_belief(c, pattern);
+/// The likeliest names but the first, each by itself.
+std::vector<Finding> second_thoughts(const Case& c, const Evidence& evidence, int first) {
+  constexpr std::size_t kMost = 3;
+  const std::vector<double> p = probabilities(c.explanations, evidence);
+  std::vector<int> order;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (c.explanations.list[k].effect && static_cast<int>(k) != first) order.push_back(static_cast<int>(k));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
+  order.resize(std::min(order.size(), kMost));
+  std::vector<Finding> out;
+  for (const int k : order) {
+    Finding f;
+    f.evidence = evidence;
+    f.set = {k};
+    f.probability = p[static_cast<std::size_t>(k)];
+    f.explanation = k;
+    f.block = best_block(c.explanations, k, evidence);
+    f.variants = c.explanations.list[static_cast<std::size_t>(k)].blocks;
+    out.push_back(std::move(f));
+  }
+  return out;
+}
+
+/// The name that with another one beside it says most, if the two say more than a pattern alone, though no name
+/// by itself does. Of two effects at once neither need be the likeliest name.
+std::optional<Finding> first_of_two(const Case& c, std::vector<Finding> before, const Finding& likeliest,
+                                    const Evidence& evidence, const Finding& pattern, int number) {
+  std::vector<Finding> names = second_thoughts(c, evidence, likeliest.explanation);
+  names.insert(names.begin(), likeliest);
+  std::optional<Finding> best;
+  double most = log_belief(c, pattern);
+  for (const Finding& name : names) {
+    before.push_back(name);
+    const Evidence rest = rest_of(c, signatures_of(c, before)).evidence();
+    before.pop_back();
+    const Finding partner = finding_of(c.explanations, rest, true);
+    if (partner.probability < finding_of(c.explanations, rest, false).probability) continue;
+    const double both = log_belief(c, name) + log_belief(c, partner);
+    if (both > most) most = both, best = name;
+  }
+  if (!best) return std::nullopt;
+  before.push_back(*best);
+  return round(c, rest_of(c, signatures_of(c, before)), number + 1).p <= kLaterAlarm ? best : std::nullopt;
 }
 
 /// What the others leave for a finding to explain: the other names, and the pattern beside them.
@@ -150,13 +185,16 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     }
     if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
     auto [named, other] = named_on_finer_grid(c, here);
-    result.findings.push_back(named);
-    if (!likelier(named, other, kNamed) &&
-        (number + 1 == kRounds || !better_with_partner(c, result.findings, other, number + 1))) {
-      result.findings.pop_back();
+    std::optional<Finding> name;
+    if (likelier(named, other, kNamed))
+      name = std::move(named);
+    else if (number + 1 < kRounds)
+      name = first_of_two(c, result.findings, named, r.evidence, other, number);
+    if (!name) {
       result.other = std::move(other);
       return result;
     }
+    result.findings.push_back(std::move(*name));
     instead = std::move(other);
   }
   if (result.adequacy < kInadequate && !likelier(result.findings.back(), *instead, kNamedInDoubt) &&
@@ -187,6 +225,13 @@ void drop_names_beside_a_pattern(const Case& c, SearchResult& result) {
   if (log_belief(c, alone) <= together) return;
   result.findings.clear();
   result.other = alone;
+}
+
+/// What the names leave is a mismatch of its own, but no further name was found for it: a pattern.
+void add_what_names_leave(const Case& c, SearchResult& result) {
+  if (result.findings.empty() || result.other || result.adequacy > kLaterAlarm) return;
+  result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
+  drop_names_beside_a_pattern(c, result);
 }
 
 /// A finding that later ones have taken over altogether is none: beside them nothing speaks for it.
@@ -236,6 +281,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   if (found > 1) name_again(c, result);
   if (result.findings.size() < found && !result.findings.empty())
     result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
+  add_what_names_leave(c, result);
   result.hyper =
       result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
   return result;
