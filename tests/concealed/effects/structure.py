@@ -185,7 +185,7 @@ effect(
     30,
     ["direction", "speed", "position"],
     needs=("accel_mm_s2",),
-    designs="CDE",
+    designs="D",
 )
 effect("machine.ram_droop", draw_droop, change_droop, ["droop_um"], 4, PLACE, designs="CDE", known=True)
 effect("machine.map_scallops", draw_scallops, change_scallops, ["amplitude_um"], 3, PLACE, designs="DE")

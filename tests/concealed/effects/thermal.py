@@ -157,7 +157,7 @@ effect(
     12,
     [HEAT, PLACE, "feature", "setup"],
     needs=("temp_part_C",),
-    designs="CDE",
+    designs="D",
 )
 effect(
     "thermal.scale_expansion",
