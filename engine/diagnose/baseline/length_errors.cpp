@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/diagnose/median.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -21,7 +23,18 @@ double share(const LengthError& e) { return std::abs(e.error_mm) / e.mpe_mm; }
 
 }  // namespace
 
-Vector without_placement(const LinearModel& m) { return m.y - m.free * m.free.colPivHouseholderQr().solve(m.y); }
+Vector without_placement(const LinearModel& m) {
+  constexpr int kMostSteps = 20;
+  constexpr double kGross = 10, kFine_um = 1;
+  Vector left = m.y - m.free * m.free.colPivHouseholderQr().solve(m.y);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vector size = left.cwiseAbs();
+    if (size.maxCoeff() <= kGross * median({size.begin(), size.end()})) break;
+    const Vector weight = size.cwiseMax(kFine_um).cwiseInverse().cwiseSqrt();
+    left = m.y - m.free * (weight.asDiagonal() * m.free).colPivHouseholderQr().solve(weight.cwiseProduct(m.y));
+  }
+  return left;
+}
 
 LengthError worst_length(const RecordedTouches& t, const Vector& residuals_um, const Specification& specification) {
   constexpr int kCount = 3;

@@ -90,3 +90,15 @@ TEST_CASE("one and a half MPE and four deviations of two touches are within the 
   dirty.touches[0].residual_mm = 1;
   CHECK(!beyond(dirty));
 }
+
+TEST_CASE("a gross touch does not move the placement that is taken out") {
+  LinearModel m;
+  m.y = Vector::Zero(40);
+  m.free = Matrix::Ones(40, 1);
+  for (Eigen::Index i = 0; i < 40; ++i) m.y(i) = i % 2 == 0 ? 0.5 : -0.5;
+  const Vector clean = without_placement(m);
+  m.y(7) += 500;
+  const Vector dirty = without_placement(m);
+  CHECK(dirty(7) == doctest::Approx(499.5).epsilon(2e-3));
+  for (Eigen::Index i = 0; i < 7; ++i) CHECK(std::abs(dirty(i) - clean(i)) < 0.6);
+}
