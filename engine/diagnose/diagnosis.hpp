@@ -29,7 +29,8 @@ struct DiagnosedParameter {
   double low = 0, high = 0;  ///< 95 % interval
   std::string word = {};     ///< of a choice: "x"; then the numbers mean nothing
   bool plausible = true;     ///< some of the interval is inside the range that the catalogue gives
-  std::string called = {};   ///< what a number stands for, where that has a name: the stylus; how far a word holds
+  /// what a number stands for, where that has a name: the stylus, the run of a moment; how far a word holds
+  std::string called = {};
 };
 
 /// A length between two touches, and how wrong it is.

@@ -39,9 +39,9 @@ std::string without_uncertainty(const DiagnosedParameter& p, int decimals) {
   return fmt::format("{} {:.{}f}{}", plain_name(p), p.value, p.unit == "code" ? 0 : decimals, unit_after(p));
 }
 
-std::string in_word(const DiagnosedParameter& p) {
-  return fmt::format("{} {}{}", plain_name(p), p.word, p.called.empty() ? "" : " (" + p.called + ")");
-}
+std::string remark(const DiagnosedParameter& p) { return p.called.empty() ? "" : " (" + p.called + ")"; }
+
+std::string in_word(const DiagnosedParameter& p) { return plain_name(p) + " " + p.word + remark(p); }
 
 }  // namespace
 
@@ -54,15 +54,16 @@ std::string with_uncertainty(const DiagnosedParameter& p) {
   if (!p.word.empty()) return in_word(p);
   const int decimals = decimals_for(2 * p.u, p.value);
   if (p.u == 0) return without_uncertainty(p, decimals);
-  return fmt::format("{} {:.{}f} ± {:.{}f}{}", plain_name(p), p.value, decimals, 2 * p.u, decimals, unit_after(p));
+  return fmt::format("{} {:.{}f} ± {:.{}f}{}{}", plain_name(p), p.value, decimals, 2 * p.u, decimals, unit_after(p),
+                     remark(p));
 }
 
 std::string with_interval(const DiagnosedParameter& p) {
   if (!p.word.empty()) return in_word(p);
   const int decimals = decimals_for(2 * p.u, p.value);
   if (p.u == 0 && p.low == p.high) return without_uncertainty(p, decimals);
-  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low,
-                     decimals, p.high, decimals, p.plausible ? "" : ", implausible");
+  return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}{}", plain_name(p), p.value, decimals, unit_after(p), p.low,
+                     decimals, p.high, decimals, remark(p), p.plausible ? "" : ", implausible");
 }
 
 std::string explanation_sentence(const std::vector<std::string_view>& titles,

@@ -106,7 +106,7 @@ std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, c
   const auto add = [&](const LaterRun& at, bool gone) {
     for (Block block : in_all) {
       if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
-      if (moment) block.theta[*moment] = at.between_s, block.cells[*moment] = {at.between_s, at.between_s};
+      if (moment) block.theta[*moment] = at.between_s(), block.cells[*moment] = at.gap_s;
       block.change = {at.from_run, gone};
       block.runs = at.runs;
       list.push_back(std::move(block));
@@ -274,13 +274,15 @@ std::optional<std::size_t> moment_of(const Effect& effect) {
 
 std::vector<LaterRun> later_runs(const RecordedTouches& t, const std::vector<int>& rows) {
   const auto scene = [&](int row) -> const TouchScene& { return t.touches[static_cast<std::size_t>(row)].scene; };
-  std::map<int, double> begin;
+  std::map<int, Cell> begin;
   double before = scene(rows.front()).time_s;
-  for (const int i : rows) begin.emplace(scene(i).run, (std::exchange(before, scene(i).time_s) + scene(i).time_s) / 2);
+  for (const int i : rows) {
+    const double now = scene(i).time_s, last = std::exchange(before, now);
+    begin.emplace(scene(i).run, Cell{std::min(last, now), std::max(last, now)});
+  }
   begin.erase(begin.begin());
   std::vector<LaterRun> out;
-  for (const auto& [run, between_s] : begin)
-    out.push_back({run, {double(out.size()), double(out.size() + 1)}, between_s});
+  for (const auto& [run, gap_s] : begin) out.push_back({run, {double(out.size()), double(out.size() + 1)}, gap_s});
   return out;
 }
 

@@ -105,9 +105,11 @@ void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanation
 
 /// Where something may have changed between runs: in front of one of a stretch of runs.
 struct LaterRun {
-  int from_run = 0;      ///< the middle one, which stands for all
-  Cell runs;             ///< places in the order of the later runs: from low, up to high without it
-  double between_s = 0;  ///< a moment in front of it
+  int from_run = 0;  ///< the middle one, which stands for all
+  Cell runs;         ///< places in the order of the later runs: from low, up to high without it
+  Cell gap_s;        ///< from the last touch in front of it to its first
+
+  double between_s() const { return (gap_s.low + gap_s.high) / 2; }
 };
 /// Every run but that of the lowest number.
 std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);

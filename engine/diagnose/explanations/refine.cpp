@@ -109,8 +109,9 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
   std::vector<LaterRun> stretch;
   for (const LaterRun& c : changes)
     if (c.runs.low >= whole.runs.low && c.runs.high <= whole.runs.high) stretch.push_back(c);
-  const std::vector<LaterRun> parts =
-      of_several_runs(whole) ? in_stretches(stretch, kParts) : std::vector<LaterRun>{{whole.change.run, whole.runs, 0}};
+  const std::vector<LaterRun> parts = of_several_runs(whole)
+      ? in_stretches(stretch, kParts)
+      : std::vector<LaterRun>{{whole.change.run, whole.runs, {}}};
   std::vector<Block> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
@@ -126,8 +127,7 @@ void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& 
   const std::optional<std::size_t> moment = moment_of(effect);
   if (!moment || part.change.run == 0) return;
   for (const LaterRun& c : changes)
-    if (c.from_run == part.change.run)
-      part.theta[*moment] = c.between_s, part.cells[*moment] = {c.between_s, c.between_s};
+    if (c.from_run == part.change.run) part.theta[*moment] = c.between_s(), part.cells[*moment] = c.gap_s;
 }
 
 /// The cell in thirds along every parameter that it has an extent in, and along its runs.

@@ -2,6 +2,8 @@
 // linear-Gaussian posterior with a prior so wide that it does not pull.
 #include "engine/diagnose/findings/parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -166,9 +168,10 @@ class Estimator {
     }
     const double value = likeliest.block.theta[p];
     const bool standard = value == parameter.standard;
-    if (search_[p].between && !(standard && search_[p].values.size() < 2))
+    if (search_[p].between && !(standard && search_[p].values.size() < 2)) {
       out.push_back(summary(parameter, searched(p), value));
-    else if (!parameter.choices.empty())
+      if (parameter.sought == Sought::moment) out.back().called = run_at(value);
+    } else if (!parameter.choices.empty())
       out.push_back({.name = std::string(parameter.name),
                      .unit = "",
                      .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
@@ -177,6 +180,20 @@ class Estimator {
       out.push_back(told(parameter, {value, 0}));
       out.back().called = called(parameter, static_cast<int>(value));
     }
+  }
+
+  /// In which of several runs a moment of their common clock lies; "" of one run.
+  std::string run_at(double time_s) const {
+    int before = 0, after = 0;
+    bool several = false;
+    for (const RecordedTouch& touch : touches_.touches) {
+      const TouchScene& s = touch.scene;
+      several |= s.run != touches_.touches.front().scene.run;
+      if (s.time_s < time_s) before = s.run;
+      if (s.time_s >= time_s && after == 0) after = s.run;
+    }
+    if (!several || before == 0 || after == 0) return "";
+    return before == after ? fmt::format("in run {}", before) : fmt::format("between runs {} and {}", before, after);
   }
 
   /// The stylus of that number, or the tip in its orientation; "" of any other number.

@@ -25,6 +25,9 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
   which.called = "STAR_LEFT";
   CHECK(with_interval(which) == "sensor STAR_LEFT");
   CHECK(with_uncertainty(which) == "sensor STAR_LEFT");
+  DiagnosedParameter moment = size("t0_s", "s", 301.8, 4.85);
+  moment.called = "in run 2";
+  CHECK(with_uncertainty(moment) == "t0 301.8 ± 9.7 s (in run 2)");
   DiagnosedParameter far = size("squareness_urad", "urad", 46, 6);
   far.plausible = false;
   CHECK(with_interval(far) == "squareness 46 urad (34 to 58), implausible");
