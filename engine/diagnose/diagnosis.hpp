@@ -106,6 +106,8 @@ struct NextMeasurement {
   double expected_probability = 0;  ///< of the truth, once it is made
   double minutes = 0;
   std::string program;  ///< DMIS
+  /// what is there in all runs does not show: these are the sizes of what is new in one of them
+  bool only_new = false;
 };
 
 struct BaselineSummary {

@@ -97,6 +97,8 @@ std::vector<std::string> in_words(const DiagnosedEffect& e) {
   return names;
 }
 
+std::string in_words(const Detectable& d) { return d.effect + (d.only_new ? ", if new in a run" : ""); }
+
 bool doubtful(const Diagnosis& d) { return d.adequacy_p && *d.adequacy_p < kInadequate && !d.unexplained; }
 
 std::string in_words(const Location& l) {

@@ -24,6 +24,9 @@ std::string sizes_in_words(const DiagnosedEffect&);
 /// The names of an effect in a table: "machine.squareness, new in run 2"
 std::vector<std::string> in_words(const DiagnosedEffect&);
 
+/// The name of what could be detected: "probe.tip_radius, if new in a run"
+std::string in_words(const Detectable&);
+
 /// The same with a capital at its beginning.
 std::string capitalised(std::string);
 

@@ -65,7 +65,9 @@ class Design {
 
   std::optional<Detectable> of(std::size_t k) const {
     const Explanation& e = all_.list[k];
-    std::vector<Form> forms = forms_of(e);
+    std::vector<Form> forms = forms_of(e, false);
+    const bool only_new = forms.empty();
+    if (only_new) forms = forms_of(e, true);
     if (forms.empty()) return std::nullopt;
     const EffectParameter& parameter = e.effect->parameters[static_cast<std::size_t>(parameter_of(e))];
     std::vector<double> belief(all_.list.size(), 0.0);
@@ -85,7 +87,8 @@ class Design {
                  .unit = std::string(parameter.unit),
                  .name = {},
                  .name_um = {},
-                 .confounded_with = {}};
+                 .confounded_with = {},
+                 .only_new = only_new};
     const Form detected = median_form(forms, [](const Form&f) { return f.um_per_snr; }),
                named = median_form(forms, [](const Form&f) { return f.um_per_snr * f.named; });
     d.detect = kDetects * detected.per_snr, d.detect_um = kDetects * detected.um_per_snr;
@@ -115,13 +118,15 @@ class Design {
     return linear == p.end() ? 0 : static_cast<int>(linear - p.begin());
   }
 
-  /// Some of its variants, from the one that shows most to the one that shows least, with the columns of the
+  /// Some of its variants, those in all runs or those that change between runs, from the one that shows most to the one that shows least, with the columns of the
   /// size that is told.
-  std::vector<Form> forms_of(const Explanation& e) const {
+  std::vector<Form> forms_of(const Explanation& e, bool changing) const {
     constexpr std::size_t kVariants = 7;
     std::vector<int> blocks;
     for (const int b : e.blocks)
-      if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12) blocks.push_back(b);
+      if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12 &&
+          (all_.blocks[static_cast<std::size_t>(b)].change.run > 0) == changing)
+        blocks.push_back(b);
     std::stable_sort(blocks.begin(), blocks.end(), [&](int a, int b) {
       return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff();
     });

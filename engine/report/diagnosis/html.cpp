@@ -136,9 +136,9 @@ std::string detectable_effects(const Diagnosis& d) {
   if (d.smallest_detectable.empty()) return "";
   std::string rows = html_row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
-    rows +=
-        html_row({s.effect, fmt::format("{:.2g}", s.detect_um), s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never",
-                  fmt::format("{}", fmt::join(s.confounded_with, ", "))});
+    rows += html_row({in_words(s), fmt::format("{:.2g}", s.detect_um),
+                      s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never",
+                      fmt::format("{}", fmt::join(s.confounded_with, ", "))});
   return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" +
       html_table(rows);
 }

@@ -85,7 +85,8 @@ Json detectable(const Detectable& d) {
           {"name", number(d.name)},
           {"detect_um", number(d.detect_um)},
           {"name_um", number(d.name_um)},
-          {"confounded_with", d.confounded_with}};
+          {"confounded_with", d.confounded_with},
+          {"only_new", d.only_new}};
 }
 
 Json next(const NextMeasurement& n) {

@@ -70,7 +70,7 @@ std::string second_sentence(const Diagnosis& d) {
         : d.beyond || d.beyond_known  ? "No effect of the catalogue was found that makes it: the table says"
                                       : "That does not mean that nothing is there: the table says";
     return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but,
-                       best->detect_um, best->effect);
+                       best->detect_um, in_words(*best));
   }
   if (doubtful(d))
     parts.push_back(fmt::format(
@@ -124,7 +124,7 @@ std::string design_table(const Diagnosis& d) {
   std::string out = fmt::format("{:<38} {:>11} {:>11}  {}\n", "largest displacement, um, that would be", "detected",
                                 "named", "looks like");
   for (const Detectable& s : d.smallest_detectable)
-    out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", s.effect, s.detect_um,
+    out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", in_words(s), s.detect_um,
                        s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::join(s.confounded_with, ", "));
   return out;
 }
