@@ -17,6 +17,7 @@
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
 #include "engine/diagnose/median.hpp"
@@ -111,25 +112,6 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   return b;
 }
 
-/// How probable a member of a finding's set is, up to a factor that all members share.
-double weight(const Case& c, const Finding& f, int member) {
-  const std::vector<double>& bayes = f.evidence.log_bayes;
-  return c.explanations.list[static_cast<std::size_t>(member)].prior *
-      std::exp(bayes[static_cast<std::size_t>(member)] - bayes[static_cast<std::size_t>(f.explanation)]);
-}
-
-/// Whether what was named could be judged from this recording.
-bool judged(const Case& c, const Finding& f) {
-  double open = 0, total = 0;
-  for (const int k : f.set) {
-    const double p = weight(c, f, k);
-    total += p;
-    if (c.explanations.list[static_cast<std::size_t>(k)].missing) open += p;
-  }
-  constexpr double kMostly = 0.8;
-  return open < kMostly * total;
-}
-
 /// Whether several runs share one placement of the part.
 bool stays_in_its_setup(const Case& c) {
   std::map<int, int> run_of;
@@ -168,30 +150,6 @@ RunChange change_of(const Block& variant, const Block& found) {
   return holds ? found.change : variant.change;
 }
 
-/// A member that would need a size which no such effect has explains nothing, where another of its set does
-/// with a possible one. What was believed of it is believed of no other.
-void drop_impossible_members(const Case& c, SearchResult& result) {
-  for (std::size_t k = 0; k < result.findings.size(); ++k) {
-    const Finding as_found = result.findings[k];
-    double all = 0, dropped = 0;
-    for (const int member : as_found.set) all += weight(c, as_found, member);
-    Finding& f = result.findings[k];
-    while (!plausible(estimate_size(c, result, k).parameters)) {
-      if (f.set.size() == 1) {
-        f = as_found;
-        break;
-      }
-      dropped += weight(c, as_found, f.set.front());
-      f.set.erase(f.set.begin());
-      f.explanation = f.set.front();
-      f.block = best_block(c.explanations, f.explanation, f.evidence);
-      // of all that were in question before, those outside the set too
-      const double impossible = as_found.probability * dropped / all;
-      f.probability = (as_found.probability - impossible) / (1 - impossible);
-    }
-  }
-}
-
 /// A pattern without a name that explains a finding as well; else nothing.
 std::string pattern_beside(const Case& c, const Finding& f) {
   const Finding pattern = finding_of(c.explanations, f.evidence, false);
@@ -223,6 +181,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
+    if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) +
@@ -430,6 +389,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   }
   c.rough = first.rough() > 0.5;
   SearchResult result = search(c, first);
+  put_judged_members_first(c, result);
   drop_impossible_members(c, result);
   out.baseline = summary(c, result.hyper, known);
   out.p_value = result.p_value;

@@ -45,6 +45,13 @@ struct RunChange {
   bool operator==(const RunChange&) const = default;
 };
 
+/// One member of a set of names, by itself.
+struct DiagnosedMember {
+  double probability = 0;
+  std::vector<DiagnosedParameter> parameters;
+  std::optional<double> largest_um = {};  ///< DiagnosedEffect::largest_um
+};
+
 struct DiagnosedEffect {
   std::vector<std::string> members;            ///< several: cannot be told apart by this recording; the likeliest first
   double probability = 0;                      ///< that it is one of these
@@ -53,6 +60,8 @@ struct DiagnosedEffect {
   std::vector<RunChange> change = {};  ///< by member; none: in all runs
   /// of what the first member does along the normal at a touch; nothing of scatter and of values
   std::optional<double> largest_um = {};
+  /// of several members, what each would be; of the least likely ones there may be no sizes
+  std::vector<DiagnosedMember> by_member = {};
 };
 
 struct Location {
@@ -97,6 +106,8 @@ struct Detectable {
   double detect_um = 0;        ///< the same as the largest displacement that it makes at one of the touches
   std::optional<double> name_um;
   std::vector<std::string> confounded_with;
+  /// what is there in all runs does not show: these are the sizes of what is new in one of them
+  bool only_new = false;
 };
 
 struct NextMeasurement {
@@ -106,8 +117,6 @@ struct NextMeasurement {
   double expected_probability = 0;  ///< of the truth, once it is made
   double minutes = 0;
   std::string program;  ///< DMIS
-  /// what is there in all runs does not show: these are the sizes of what is new in one of them
-  bool only_new = false;
 };
 
 struct BaselineSummary {

@@ -82,10 +82,10 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
                      told.empty() ? "" : ".");
 }
 
-std::string sizes_in_words(const DiagnosedEffect& e) {
+std::string sizes_in_words(const std::vector<DiagnosedParameter>& parameters, std::optional<double> largest_um) {
   std::vector<std::string> sizes;
-  for (const DiagnosedParameter& p : e.parameters) sizes.push_back(with_interval(p));
-  if (e.largest_um) sizes.push_back(fmt::format("at most {:.2g} um at a touch", *e.largest_um));
+  for (const DiagnosedParameter& p : parameters) sizes.push_back(with_interval(p));
+  if (largest_um) sizes.push_back(fmt::format("at most {:.2g} um at a touch", *largest_um));
   return fmt::format("{}", fmt::join(sizes, "; "));
 }
 

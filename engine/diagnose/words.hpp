@@ -20,7 +20,7 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
                                  const std::vector<DiagnosedParameter>& parameters, std::string_view data,
                                  RunChange change = {}, bool doubted = false);
 /// Its sizes in a table, and what they come to: "amplitude 0.0400 um (0.0324 to 0.0485); at most 1.4 um at a touch".
-std::string sizes_in_words(const DiagnosedEffect&);
+std::string sizes_in_words(const std::vector<DiagnosedParameter>&, std::optional<double> largest_um);
 /// The names of an effect in a table: "machine.squareness, new in run 2"
 std::vector<std::string> in_words(const DiagnosedEffect&);
 

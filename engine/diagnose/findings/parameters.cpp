@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/diagnose/explanations/refine.hpp"
 #include "engine/diagnose/explanations/search_grid.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"
 
@@ -79,33 +80,38 @@ std::vector<MixtureTerm> spread_estimate(const Information& info, double unit) {
 
 class Estimator {
  public:
-  Estimator(const Case& c, const SearchResult& result, std::size_t which)
-      : touches_(c.touches), explanation_(c.explanations.list[result.findings[which].explanation]) {
+  /// `member`: of the finding's set; what is not its first has coarse variants yet.
+  Estimator(const Case& c, const SearchResult& result, std::size_t which, int member)
+      : touches_(c.touches), rows_(c.rows), explanation_(c.explanations.list[static_cast<std::size_t>(member)]) {
+    const Finding& f = result.findings[which];
     std::vector<const Matrix*> others;
     for (std::size_t k = 0; k < result.findings.size(); ++k)
       if (k != which) others.push_back(&c.explanations.blocks[result.findings[k].block].signature);
-    const Explanations mine = only(c.explanations, {result.findings[which].explanation});
+    Explanations mine = only(c.explanations, {member});
     // Scale and noise as they are once everything named is taken out.
     std::vector<const Matrix*> all = others;
-    all.push_back(&c.explanations.blocks[result.findings[which].block].signature);
+    const int block = member == f.explanation ? f.block : best_block(c.explanations, member, f.evidence);
+    all.push_back(&c.explanations.blocks[static_cast<std::size_t>(block)].signature);
     const Hyperparameters hyper = estimate(with_free(c.model, all));
-    const EvidenceSearch search(with_free(c.model, others), hyper, mine);
-    const Evidence evidence = search.evidence();
-    const auto belief = [&](std::size_t b) { return evidence.block_log_bayes[b] + std::log(mine.blocks[b].weight); };
-    std::size_t likeliest = 0;
-    for (std::size_t b = 1; b < mine.blocks.size(); ++b)
-      if (belief(b) > belief(likeliest)) likeliest = b;
+    EvidenceSearch search(with_free(c.model, others), hyper, mine);
+    if (member != f.explanation) refine(c, mine, search);
+    const Evidence& evidence = search.evidence();
+    const std::vector<int>& blocks = mine.list.front().blocks;
+    const auto at = [&](int b) -> const Block& { return mine.blocks[static_cast<std::size_t>(b)]; };
+    const auto belief = [&](int b) {
+      return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(at(b).weight);
+    };
+    const int likeliest =
+        *std::max_element(blocks.begin(), blocks.end(), [&](int a, int b) { return belief(a) < belief(b); });
     std::vector<double> logs;
-    for (std::size_t b = 0; b < mine.blocks.size(); ++b)
-      logs.push_back(alike(mine.blocks[b], mine.blocks[likeliest]) ? belief(b)
-                                                                   : -std::numeric_limits<double>::infinity());
+    for (const int b : blocks)
+      logs.push_back(alike(at(b), at(likeliest)) ? belief(b) : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
-    for (std::size_t b = 0; b < mine.blocks.size(); ++b) {
-      const double weight = std::exp(logs[b] - total);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const double weight = std::exp(logs[k] - total);
       if (weight < 1e-4) continue;
-      const auto info = search.information(static_cast<int>(b));
-      if (b == likeliest) likeliest_ = variants_.size();
-      variants_.push_back({weight, mine.blocks[b], {}, info});
+      if (blocks[k] == likeliest) likeliest_ = variants_.size();
+      variants_.push_back({weight, at(blocks[k]), {}, search.information(blocks[k])});
     }
     for (Variant& v : variants_) v.estimate.emplace(*explanation_.effect, v.block, v.info);
     for (const EffectParameter& p : explanation_.effect->parameters) search_.push_back(search_of(p, c.touches));
@@ -166,6 +172,7 @@ class Estimator {
       case Search::Kind::fixed: return;
       case Search::Kind::tried: break;
     }
+    if (!matters(p)) return;
     const double value = likeliest.block.theta[p];
     const bool standard = value == parameter.standard;
     if (search_[p].between && !(standard && search_[p].values.size() < 2)) {
@@ -180,6 +187,19 @@ class Estimator {
       out.push_back(told(parameter, {value, 0}));
       out.back().called = called(parameter, static_cast<int>(value));
     }
+  }
+
+  /// Whether another value would do anything else to these touches: where a step lies along an axis, it has no moment.
+  bool matters(std::size_t p) const {
+    constexpr double kNothing_um = 1e-6;
+    const Block& likeliest = variants_[likeliest_].block;
+    std::vector<double> theta = likeliest.theta;
+    return std::any_of(search_[p].values.begin(), search_[p].values.end(), [&](double value) {
+      theta[p] = value;
+      const Matrix other = variant_at(*explanation_.effect, theta, likeliest.change, touches_, rows_).signature;
+      return other.cols() != likeliest.signature.cols() ||
+          (other - likeliest.signature).cwiseAbs().maxCoeff() > kNothing_um;
+    });
   }
 
   /// In which of several runs a moment of their common clock lies; "" of one run.
@@ -277,6 +297,7 @@ class Estimator {
   }
 
   const RecordedTouches& touches_;
+  const std::vector<int>& rows_;
   const Explanation& explanation_;
   std::vector<Variant> variants_;
   std::size_t likeliest_ = 0;   ///< of them
@@ -285,8 +306,8 @@ class Estimator {
 
 }  // namespace
 
-FoundSize estimate_size(const Case& c, const SearchResult& result, std::size_t finding) {
-  const Estimator estimator(c, result, finding);
+FoundSize estimate_size(const Case& c, const SearchResult& result, std::size_t finding, std::optional<int> member) {
+  const Estimator estimator(c, result, finding, member.value_or(result.findings[finding].explanation));
   return {estimator.all(), estimator.largest_um()};
 }
 

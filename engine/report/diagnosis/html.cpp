@@ -31,9 +31,17 @@ std::string_view title(const Diagnosis& d) {
 std::string explanations(const Diagnosis& d) {
   if (d.effects.empty() && !d.unexplained) return "";
   std::string rows = html_row({"effect", "probability", "size (95 % interval)"}, "th");
-  for (const DiagnosedEffect& e : d.effects)
-    rows += html_row(
-        {fmt::format("{}", fmt::join(in_words(e), " or ")), fmt::format("{:.2f}", e.probability), sizes_in_words(e)});
+  for (const DiagnosedEffect& e : d.effects) {
+    const std::vector<std::string> names = in_words(e);
+    if (e.by_member.empty())
+      rows += html_row({fmt::format("{}", fmt::join(names, " or ")), fmt::format("{:.2f}", e.probability),
+                        sizes_in_words(e.parameters, e.largest_um)});
+    else
+      rows += html_row({"one of these", fmt::format("{:.2f}", e.probability), ""});
+    for (std::size_t m = 0; m < e.by_member.size(); ++m)
+      rows += html_row({"– " + names[m], fmt::format("{:.2f}", e.by_member[m].probability),
+                        sizes_in_words(e.by_member[m].parameters, e.by_member[m].largest_um)});
+  }
   if (d.unexplained)
     rows += html_row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
                       fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um,

@@ -37,13 +37,13 @@ Json effect(const DiagnosedEffect& e) {
                                                                                             : Json());
     return list;
   };
-  return {{"members", e.members},
-          {"probability", number(e.probability)},
-          {"parameters", parameters(e.parameters)},
-          {"sentence", e.sentence},
-          {"new_in_run", in_run(false)},
-          {"gone_in_run", in_run(true)},
-          {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
+  Json by_member = Json::array();
+  for (const DiagnosedMember& m : e.by_member)
+    by_member.push_back({{"probability", number(m.probability)}, {"parameters", parameters(m.parameters)}});
+  return {{"members", e.members},        {"probability", number(e.probability)},
+          {"by_member", by_member},      {"parameters", parameters(e.parameters)},
+          {"sentence", e.sentence},      {"new_in_run", in_run(false)},
+          {"gone_in_run", in_run(true)}, {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
 }
 
 Json location(const Location& l) {

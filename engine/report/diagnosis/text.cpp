@@ -12,8 +12,10 @@ namespace abbe {
 namespace {
 
 std::string chance(double p) {
+  const double step = std::pow(10, std::floor(std::log10(1 / p)) - 1);  // two digits: it comes from simulations
   return p < 1e-4 ? "less than 1 in 10 000"
-      : p < 0.01  ? fmt::format("1 in {:.0f}", 1 / p)
+      : p < 0.01  ? fmt::format("1 in {:.0f}", step * std::round(1 / p / step))
+      : p > 0.95  ? "nearly all"
                   : fmt::format("{:.0f} %", 100 * p);
 }
 
@@ -89,27 +91,37 @@ std::string third_sentence(const Diagnosis& d) {
   const bool clear = std::abs(i.log_score_gain) > std::max(kClear, 2 * i.se), better = clear && i.log_score_gain > 0;
   const std::string says = better && i.rms_after_um > i.rms_before_um
       ? "it is right that something is there, but its size does not carry over from the others"
-      : better                           ? "it predicts better"
-      : clear                            ? "it predicts worse"
-      : i.rms_after_um < i.rms_before_um ? "it predicts better, though not beyond doubt"
-                                         : "it does not predict better";
+      : better               ? "it predicts better"
+      : clear                ? "it predicts worse"
+      : i.log_score_gain > 0 ? "it predicts better, though not beyond doubt"
+                             : "it does not predict better";
   const std::string beside = d.runner_up
       ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "),
                     d.runner_up->log_score_gain)
       : "";
   return fmt::format(
-      "On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} ± {:.1f} nats{}.",
+      "On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} nats (standard error {:.1f}){}.",
       d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um,
       i.bias_after_um, i.log_score_gain, i.se, beside);
+}
+
+std::string table_row(const std::string& what, double probability, const std::string& sizes) {
+  return fmt::format("{:<38} {:>6.2f}  {}\n", what, probability, sizes);
 }
 
 std::string mismatch_table(const Diagnosis& d) {
   std::string out = fmt::format("{:<38} {:>6}  {}\n", "explanation", "prob.", "size (95 % interval)");
   for (const DiagnosedEffect& e : d.effects) {
     const std::vector<std::string> names = in_words(e);
+    if (e.by_member.empty()) {
+      out += table_row(fmt::format("{}", fmt::join(names, " or ")), e.probability,
+                       sizes_in_words(e.parameters, e.largest_um));
+      continue;
+    }
+    out += table_row("one of these", e.probability, "");
     for (std::size_t m = 0; m < names.size(); ++m) {
-      out += fmt::format("{:<38} {:>6}", (m ? "  or " : "") + names[m], m ? "" : fmt::format("{:.2f}", e.probability));
-      out += m ? "\n" : fmt::format("  {}\n", sizes_in_words(e));
+      const DiagnosedMember& member = e.by_member[m];
+      out += table_row("  " + names[m], member.probability, sizes_in_words(member.parameters, member.largest_um));
     }
   }
   if (d.unexplained)
@@ -151,9 +163,13 @@ std::string next_steps(const Diagnosis& d) {
   if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
     out +=
         "  No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.\n";
-  if (!d.model_effects.empty())
-    out +=
-        "  To reckon with it until it is mended: --model-out writes the machine file with it, and 'abbe run' on that machine gives uncertainties with it.\n";
+  if (!d.model_effects.empty()) {
+    const bool open =
+        std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });
+    out += fmt::format(
+        "  To reckon with it until it is mended: --model-out writes the machine file with it{}, and 'abbe run' on that machine gives uncertainties with it.\n",
+        open ? " (of several names, with the first)" : "");
+  }
   return out.empty() ? "" : "what to do next:\n" + out;
 }
 
@@ -170,9 +186,10 @@ std::string value_table(const Diagnosis& d) {
 std::string baseline_line(const Diagnosis& d) {
   if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
-  std::string out = fmt::format(
-      "baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale,
-      b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification", b.noise_um);
+  std::string out = d.effects.empty() ? "" : "± is two standard uncertainties (95 %).\n";
+  out += fmt::format("baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale,
+                     b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification",
+                     b.noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
   if (!b.outliers.empty())
     out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",

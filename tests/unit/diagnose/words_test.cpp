@@ -67,9 +67,10 @@ TEST_CASE("a name says in which run it is new") {
 TEST_CASE("the sizes of an effect say what they come to at a touch") {
   DiagnosedEffect e;
   e.parameters = {size("amplitude_um", "um", 0.04, 0.004), size("phase_deg", "deg", -40, 1.8)};
-  CHECK(sizes_in_words(e) == "amplitude 0.0400 um (0.0322 to 0.0478); phase -40.0 deg (-43.5 to -36.5)");
+  CHECK(sizes_in_words(e.parameters, e.largest_um) ==
+        "amplitude 0.0400 um (0.0322 to 0.0478); phase -40.0 deg (-43.5 to -36.5)");
   e.largest_um = 1.38;
-  CHECK(sizes_in_words(e) ==
+  CHECK(sizes_in_words(e.parameters, e.largest_um) ==
         "amplitude 0.0400 um (0.0322 to 0.0478); phase -40.0 deg (-43.5 to -36.5); at most 1.4 um at a touch");
 }
 

@@ -1,0 +1,87 @@
+#include "engine/diagnose/findings/members.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/parameters.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// How probable a member of a finding's set is, up to a factor that all members share.
+double weight(const Case& c, const Finding& f, int member) {
+  const std::vector<double>& bayes = f.evidence.log_bayes;
+  return c.explanations.list[static_cast<std::size_t>(member)].prior *
+      std::exp(bayes[static_cast<std::size_t>(member)] - bayes[static_cast<std::size_t>(f.explanation)]);
+}
+
+}  // namespace
+
+bool judged(const Case& c, const Finding& f) {
+  double open = 0, total = 0;
+  for (const int k : f.set) {
+    const double p = weight(c, f, k);
+    total += p;
+    if (c.explanations.list[static_cast<std::size_t>(k)].missing) open += p;
+  }
+  constexpr double kMostly = 0.8;
+  return open < kMostly * total;
+}
+
+void put_judged_members_first(const Case& c, SearchResult& result) {
+  const auto can_be = [&](int m) { return !c.explanations.list[static_cast<std::size_t>(m)].missing; };
+  for (Finding& f : result.findings) {
+    if (!judged(c, f) || can_be(f.set.front())) continue;
+    std::stable_partition(f.set.begin(), f.set.end(), can_be);
+    const int first = f.set.front();
+    f.block = best_block(c.explanations, first, f.evidence);
+    f.explanation = first;
+  }
+}
+
+void drop_impossible_members(const Case& c, SearchResult& result) {
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    const Finding as_found = result.findings[k];
+    double all = 0, dropped = 0;
+    for (const int member : as_found.set) all += weight(c, as_found, member);
+    Finding& f = result.findings[k];
+    while (!plausible(estimate_size(c, result, k).parameters)) {
+      if (f.set.size() == 1) {
+        f = as_found;
+        break;
+      }
+      dropped += weight(c, as_found, f.set.front());
+      f.set.erase(f.set.begin());
+      f.explanation = f.set.front();
+      f.block = best_block(c.explanations, f.explanation, f.evidence);
+      // of all that were in question before, those outside the set too
+      const double impossible = as_found.probability * dropped / all;
+      f.probability = (as_found.probability - impossible) / (1 - impossible);
+    }
+  }
+}
+
+std::vector<DiagnosedMember> members_of(const Case& c, const SearchResult& result, std::size_t k,
+                                        const DiagnosedEffect& told) {
+  constexpr std::size_t kSized = 5;
+  const Finding& f = result.findings[k];
+  double all = 0;
+  for (const int m : f.set) all += weight(c, f, m);
+  std::vector<DiagnosedMember> out;
+  for (const int m : f.set) {
+    out.push_back({told.probability * weight(c, f, m) / all, {}, {}});
+    if (m == f.explanation) {
+      out.back().parameters = told.parameters;
+      out.back().largest_um = told.largest_um;
+    } else if (out.size() <= kSized) {
+      FoundSize size = estimate_size(c, result, k, m);
+      out.back().parameters = std::move(size.parameters);
+      out.back().largest_um = size.largest_um;
+    }
+  }
+  return out;
+}
+
+}  // namespace abbe::diagnose

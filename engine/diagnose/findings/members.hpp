@@ -1,0 +1,24 @@
+// The names that a finding may have: which of them can be judged, which would have a possible size, and what each
+// would be by itself.
+#pragma once
+
+#include "engine/diagnose/findings/search.hpp"
+
+namespace abbe::diagnose {
+
+/// Whether what was named could be judged from this recording.
+bool judged(const Case&, const Finding&);
+
+/// Of a set that can be judged those that can be stand first: a size in the unit of what was not logged tells nobody
+/// anything.
+void put_judged_members_first(const Case&, SearchResult&);
+
+/// A member that would need a size which no such effect has explains nothing, where another of its set does
+/// with a possible one. What was believed of it is believed of no other.
+void drop_impossible_members(const Case&, SearchResult&);
+
+/// The members of the set of a finding, the first as it was told.
+std::vector<DiagnosedMember> members_of(const Case&, const SearchResult&, std::size_t finding,
+                                        const DiagnosedEffect& told);
+
+}  // namespace abbe::diagnose
