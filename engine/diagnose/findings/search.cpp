@@ -227,9 +227,23 @@ void drop_names_beside_a_pattern(const Case& c, SearchResult& result) {
   result.other = alone;
 }
 
-/// What the names leave is a mismatch of its own, but no further name was found for it: a pattern.
+/// The share of what the recording has beyond chance, in squares, that the findings leave.
+double left_share(const Case& c, const SearchResult& result) {
+  const LinearModel rest = with_free(c.model, signatures_of(c, result));
+  const Hyperparameters hyper = estimate(rest);
+  const auto beyond_chance = [&](const LinearModel& m) {
+    const Precision precision(m, hyper);
+    return std::max(1.0, inner(precision.y(), precision.y())(0, 0) - double(m.y.size()));
+  };
+  return beyond_chance(rest) / beyond_chance(c.model);
+}
+
+/// What the names leave is a mismatch of its own, but no further name was found for it: a pattern. Of a large effect
+/// the catalogue's simple law leaves something too, which is little beside what it explains.
 void add_what_names_leave(const Case& c, SearchResult& result) {
-  if (result.findings.empty() || result.other || result.adequacy > kLaterAlarm) return;
+  constexpr double kLittle = 0.05;
+  if (result.findings.empty() || result.other || result.adequacy > kLaterAlarm || left_share(c, result) < kLittle)
+    return;
   result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
   drop_names_beside_a_pattern(c, result);
 }
