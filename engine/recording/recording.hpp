@@ -54,9 +54,12 @@ double common_step_mm(const Recording&);
 /// RFC 4180 with `#` lines before the header; a column appears when any row has it. Lengths with 7 decimals (0.1 nm).
 std::string to_csv(const Recording&);
 
+/// Whether a row needs a recorded position; a plan may have its target instead.
+enum class Positions { recorded, or_targets };
+
 /// Reads the contract of docs/formats.md. Throws UserError with the place of every mistake: unknown or
 /// missing column, value that is no number, incomplete vector, direction that is no unit vector.
-Recording read_recording(const SourceFile&);
+Recording read_recording(const SourceFile&, Positions = Positions::recorded);
 
 /// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches. Throws
 /// UserError where it is no table.

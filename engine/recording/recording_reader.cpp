@@ -121,8 +121,13 @@ Recording with_metadata(const CsvTable& table, const SourceFile& file) {
   return recording;
 }
 
+bool is_position(const RecordingColumn& column) {
+  const auto* vector = std::get_if<Vec3 RecordingRow::*>(&column.member);
+  return vector && *vector == &RecordingRow::position_mm;
+}
+
 /// What each column of the file is. An unknown one is an error: a misspelt covariate would silently be lost.
-std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file, Sink& sink) {
+std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file, Positions positions, Sink& sink) {
   const std::map<std::string_view, FileColumn> known = columns_by_name();
   std::vector<std::string_view> names;
   for (const auto& [name, column] : known) names.push_back(name);
@@ -141,7 +146,8 @@ std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file
   }
   for (const RecordingColumn& column : recording_columns())
     for (const std::string_view name : column.names)
-      if (column.required && !name.empty() && !present.contains(name))
+      if (column.required && !(is_position(column) && positions == Positions::or_targets) && !name.empty() &&
+          !present.contains(name))
         sink.add(diagnostic_at(
             file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
             "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
@@ -150,16 +156,16 @@ std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file
 
 /// The vector of three coordinates; nothing where none is given.
 std::optional<Vec3> complete(const PartialVector& v, const RecordingColumn& column, const SourceFile& file,
-                             const CsvRow& row, Sink& sink) {
+                             const CsvRow& row, Sink& sink, bool required) {
   const auto given = std::count_if(v.begin(), v.end(), [](const auto& coordinate) { return coordinate.has_value(); });
   const Span place = row.fields.front().span;
   if (given == 1 || given == 2)
     sink.add(diagnostic_at(file, place, Code::E0528,
                            fmt::format("of {} only {} of three values are given", name(column), given),
                            "give all three, or none"));
-  else if (given == 0 && column.required)
-    sink.add(
-        diagnostic_at(file, place, Code::E0528, "the recorded position is missing", "remove the row, or give x, y, z"));
+  else if (given == 0 && required)
+    sink.add(diagnostic_at(file, place, Code::E0528, "the recorded position is missing",
+                           "remove the row, or give x, y, z; a plan (--design-only) may give tx, ty, tz instead"));
   if (given < 3) return std::nullopt;
   const Vec3 all{*v[0], *v[1], *v[2]};
   if (!column.unit_vector) return all;
@@ -170,24 +176,32 @@ std::optional<Vec3> complete(const PartialVector& v, const RecordingColumn& colu
   return all / length;
 }
 
-void complete_vectors(const SourceFile& file, const CsvRow& row, Draft& draft, Sink& sink) {
+void complete_vectors(const SourceFile& file, const CsvRow& row, Positions positions, Draft& draft, Sink& sink) {
+  const auto vector = [&](std::size_t place, bool required) {
+    return complete(draft.vectors[place], recording_columns()[place], file, row, sink, required);
+  };
+  std::optional<std::size_t> position;
   for (std::size_t place = 0; place < recording_columns().size(); ++place) {
     const RecordingColumn& column = recording_columns()[place];
-    const auto vector = [&] { return complete(draft.vectors[place], column, file, row, sink); };
-    if (const auto* given = std::get_if<Vec3 RecordingRow::*>(&column.member))
-      draft.row.*(*given) = vector().value_or(Vec3{});
+    if (is_position(column))
+      position = place;
+    else if (const auto* given = std::get_if<Vec3 RecordingRow::*>(&column.member))
+      draft.row.*(*given) = vector(place, column.required).value_or(Vec3{});
     else if (const auto* logged = std::get_if<std::optional<Vec3> RecordingRow::*>(&column.member))
-      draft.row.*(*logged) = vector();
+      draft.row.*(*logged) = vector(place, column.required);
   }
+  const std::optional<Vec3> instead = positions == Positions::or_targets ? draft.row.target_mm : std::nullopt;
+  const std::optional<Vec3> recorded = vector(*position, !instead);
+  draft.row.position_mm = recorded.value_or(instead.value_or(Vec3{}));
 }
 
 }  // namespace
 
-Recording read_recording(const SourceFile& file) {
+Recording read_recording(const SourceFile& file, Positions positions) {
   const CsvTable table = read_csv(file);
   Recording recording = with_metadata(table, file);
   Sink sink;
-  const std::vector<FileColumn> columns = columns_of(table, file, sink);
+  const std::vector<FileColumn> columns = columns_of(table, file, positions, sink);
   if (sink.has_errors()) throw UserError(sink.list());
   for (const CsvRow& row : table.rows) {
     Draft draft;
@@ -203,7 +217,7 @@ Recording read_recording(const SourceFile& file) {
                         fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
                         fmt::format("it holds {}{}", holds, required ? "" : ", or nothing where it is not known")));
     }
-    complete_vectors(file, row, draft, sink);
+    complete_vectors(file, row, positions, draft, sink);
     draft.row.line = row.line;
     recording.rows.push_back(std::move(draft.row));
     if (sink.list().size() >= kMostCsvMessages) break;

@@ -105,11 +105,11 @@ void doubt_machine(const Recording& first, const std::string& name, const Record
 }
 
 /// Several files are one recording; their frames must agree.
-Recording joined(const std::vector<SourceFile>& files) {
+Recording joined(const std::vector<SourceFile>& files, Positions positions) {
   Recording all;
   for (std::size_t k = 0; k < files.size(); ++k) {
     const std::string& name = files[k].name();
-    Recording one = read_recording(files[k]);
+    Recording one = read_recording(files[k], positions);
     if (k == 0) {
       all = std::move(one);
       continue;
@@ -173,7 +173,7 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
 }
 
 Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how) {
-  Recording recording = joined(read.recordings);
+  Recording recording = joined(read.recordings, options.design_only ? Positions::or_targets : Positions::recorded);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
   const std::string name = machine_of(
       options, [&] { return recorded_machine(said(recording.metadata, "machine").value_or(""), options.recordings); });

@@ -145,7 +145,7 @@ class Diagnose(harness.Case):
         text = self.abbe("diagnose", self.record("--with", "probe.tip_radius:amplitude_um=2"), "--machine", MACHINE).stdout
         self.assertIn("are not what", text.splitlines()[0])
         self.assertIn("On touches that the model had not seen", text)
-        self.assertRegex(text, r"nats; with the runner-up, [a-z._]+, [+-]")
+        self.assertRegex(text, r"nats \(standard error [0-9.]+\); with the runner-up, [a-z._]+, [+-]")
         self.assertRegex(text, r"amplitude \d\.\d+ ± 0\.\d+ um")
         self.assertIn("what to do next:", text)
         self.assertNotIn("located in temperature", text)   # it was the same throughout
@@ -162,6 +162,20 @@ class Diagnose(harness.Case):
         self.assertGreaterEqual(len(best["separates"]), 2)
         self.assertTrue(0 < best["expected_probability"] <= 1, best)
         self.assertIn("ENDFIL", best["program"])
+
+    def test_a_plan_needs_targets_only(self):
+        """Before anything was measured there are no positions."""
+        plan = self.changed(self.record(), lambda row: {key: value for key, value in row.items() if key not in ("x", "y", "z")}, "plan.csv")
+        empty = self.changed(self.record(), lambda row: {**row, "x": "", "y": "", "z": ""}, "empty.csv")
+        def told(path):
+            return {d["effect"]: d["detect_um"] for d in self.diagnosis(path, "--design-only")["smallest_detectable"]}
+
+        measured = told(self.folder / "rec.csv")
+        for planned in (told(plan), told(empty)):
+            self.assertEqual(set(planned), set(measured))
+            for effect, um in measured.items():
+                self.assertAlmostEqual(planned[effect] / um, 1, delta=0.02)
+        self.assertIn("--design-only", self.refused("E0528", "diagnose", empty, "--machine", MACHINE))
 
     def test_a_missing_covariate_is_named(self):
         def without_speed(row):
