@@ -2,5 +2,5 @@
 ones are in modules of their own."""
 
 from . import head, part, probe, structure, thermal  # noqa: F401  they register themselves
-from . import unknown_eighth, unknown_later, unknown_ninth, unknown_seventh  # noqa: F401  these too
+from . import unknown_eighth, unknown_later, unknown_ninth, unknown_seventh, unknown_tenth  # noqa: F401  these too
 from .base import CATALOGUE, Change, Effect  # noqa: F401

@@ -1,6 +1,7 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
+from scene import BALL
 
 from .base import Change, Effect, vector
 
@@ -11,183 +12,153 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_latch(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "late": rng.permutation([-1.0, 0.0, 1.0]),
-        "qualified_at_mm_s": rng.uniform(4.4, 5.6),
-    }
-
-
-def change_latch(scene, p):
-    """The controller latches the three scales one after another, not at once: the first axis is read too early, the
-    last one too late, in proportion to the speed. The map of the tip has taken what there was at the speed of its
-    qualification. Amplitude along these axes, from the slowest to the fastest."""
-    faster = (scene.speed - p["qualified_at_mm_s"]) / 6
-    return Change(tip=scene.travel * np.outer(p["amplitude_um"] * faster, p["late"]))
-
-
-def draw_counts(scene, rng):
-    axis = int(rng.integers(2))
-    x = scene.reading[:, axis]
-    spot = float(np.quantile(x, rng.uniform(0.35, 0.65)))
-    ways = np.abs(np.diff(x))[(x[1:] > spot) != (x[:-1] > spot)]
+def draw_screw(scene, rng):
+    axis = "xyz".index(scene.machine.chain[1])
     return {
         "amplitude_um": 1.0,
         "axis": axis,
-        "spot_mm": spot,
-        "mark_mm": float(np.quantile(x, rng.choice([rng.uniform(0.1, 0.2), rng.uniform(0.8, 0.9)]))),
-        "fast_beyond_mm": float(np.quantile(ways, rng.uniform(0.3, 0.6))),
+        "held_end": rng.choice([-1.0, 1.0]),
+        "from_mm": float(scene.reading[:, axis].min()),
+        "to_mm": float(scene.reading[:, axis].max()),
+        "tau_s": rng.uniform(80, 240),
     }
 
 
-def change_counts(scene, p):
-    """There is dirt on a scale. On a long way the carriage is at full speed when it comes there, and loses a count: it
-    reads too low after a way up and too high after a way down. Short ways lose nothing, so that the counts do not
-    balance. A reference mark farther on puts it right whenever it is passed. Amplitude for one count."""
-    x, spot, mark = scene.reading[:, p["axis"]], p["spot_mm"], p["mark_mm"]
-    lost, balance = np.zeros(scene.size), 0.0
+def change_screw(scene, p):
+    """The carriage on the bridge has no scale but a ball screw with an encoder on its shaft. The screw warms wherever
+    the nut runs to and fro, piece by piece, and cools in the pauses. All warm pieces between the nut and the bearing
+    that holds one end push the nut away from this end, farther than the encoder says. Amplitude where and when this
+    is most."""
+    x, edges = scene.reading[:, p["axis"]], np.linspace(p["from_mm"], p["to_mm"], 41)
+    low, high, piece = edges[:-1], edges[1:], edges[1] - edges[0]
+    heat, grown = np.zeros(len(low)), np.zeros(scene.size)
     for k in range(1, scene.size):
-        way = x[k] - x[k - 1]
-        at_spot, at_mark = ((x[k] > place) != (x[k - 1] > place) for place in (spot, mark))
-        if at_mark:
-            balance = 0.0
-        if at_spot and abs(way) > p["fast_beyond_mm"] and not (at_mark and way * (mark - spot) > 0):
-            balance -= np.sign(way)
-        lost[k] = balance
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * lost))
+        run = np.minimum(high, max(x[k - 1], x[k])) - np.maximum(low, min(x[k - 1], x[k]))
+        heat = heat * np.exp(-(scene.time[k] - scene.time[k - 1]) / p["tau_s"]) + np.maximum(run, 0)
+        between = high - x[k] if p["held_end"] > 0 else x[k] - low
+        grown[k] = np.sum(heat * np.clip(between / piece, 0, 1))
+    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * p["held_end"] * grown / grown.max()))
 
 
-def draw_swapped(scene, rng):
-    return {"amplitude_um": 1.0, "swapped": [int(k) for k in rng.permutation(2)]}
+def draw_oil(scene, rng):
+    return {"amplitude_um": 1.0, "width_deg": rng.uniform(14, 22), "wiped": rng.uniform(0.5, 0.8)}
 
 
-def change_swapped(scene, p):
-    """The temperature sensors of x and y are plugged in the wrong way round. Each scale, held in its middle, is
-    corrected for the temperature of the other one: where one is read too long, the other is read too short.
-    Amplitude at the ends of the longer scale, for a difference of 1 K."""
-    warmer = scene.temperature["xyz"[p["swapped"][0]]] - scene.temperature["xyz"[p["swapped"][1]]]
-    away = scene.reading - (scene.reading.min(0) + scene.reading.max(0)) / 2
-    longer = np.abs(away[:, p["swapped"]]).max()
-    tip = np.zeros((scene.size, 3))
-    for k, sign in zip(p["swapped"], (-1, 1)):
-        tip[:, k] = sign * p["amplitude_um"] * warmer * away[:, k] / longer
-    return Change(tip=tip)
+def change_oil(scene, p):
+    """The balls have been oiled against rust. The tip rides on the film, and wipes a good part of it off around the
+    place that it touches: a touch that comes near the place of an earlier one, on the same ball, goes deeper. The tip
+    radius has taken the mean. Amplitude of the whole film."""
+    names, film = np.array(scene.feature), np.ones(scene.size)
+    for ball in np.unique(names):
+        mine = np.flatnonzero(names == ball)
+        for k in range(1, len(mine)):
+            near = scene.part_normal[mine[:k]] @ scene.part_normal[mine[k]]
+            away = np.degrees(np.arccos(np.clip(near, -1, 1))) / p["width_deg"]
+            film[mine[k]] = np.prod(1 - p["wiped"] * np.exp(-0.5 * away**2))
+    return Change(along=p["amplitude_um"] * (film - film.mean()))
 
 
-def draw_levelling(scene, rng):
-    along = "xyz".index(scene.machine.chain[0])
-    turn = rng.uniform(np.pi / 3, 2 * np.pi / 3)
-    direction = np.array([np.cos(turn), np.sin(turn), 0.0])
-    return {
-        "amplitude_um": rng.choice([-1.0, 1.0]),
-        "along": along,
-        "direction": direction if along == 0 else direction[[1, 0, 2]],
-        "tau_s": rng.uniform(15, 40),
-    }
+def draw_sleepy(scene, rng):
+    return {"amplitude_um": 1.0, "awake_s": rng.uniform(6, 9), "tau_s": rng.uniform(4, 12)}
 
 
-def change_levelling(scene, p):
-    """The machine floats on three air springs, two at one end. When its heavy bridge goes to another place the table
-    sinks, mostly to one side, and the ram swings across, until the valves have levelled it: slowly, so that the first
-    touches after a long way suffer most. Amplitude right after a way over the whole part."""
-    x = scene.reading[:, p["along"]]
-    level, lean = x[0], np.zeros(scene.size)
-    for k in range(1, scene.size):
-        level = x[k - 1] + (level - x[k - 1]) * np.exp(-(scene.time[k] - scene.time[k - 1]) / p["tau_s"])
-        lean[k] = (x[k] - level) / np.ptp(x)
-    return Change(tip=vector(p["direction"], p["amplitude_um"] * lean))
+def change_sleepy(scene, p):
+    """A radio probe saves its battery and falls asleep when nothing is touched for some seconds, the deeper the longer.
+    The first touch after the way to another ball wakes it: its signal is late, and the machine goes on meanwhile. All
+    other touches are right. Amplitude at 8 mm/s after a long sleep."""
+    rest = np.diff(scene.time, prepend=scene.time[0] - 60) - p["awake_s"]
+    asleep = 1 - np.exp(-np.maximum(rest, 0) / p["tau_s"])
+    return Change(tip=scene.travel * (p["amplitude_um"] * asleep * scene.speed / 8)[:, None])
 
 
-def draw_hands(scene, rng):
+def draw_fibres(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "across": int(rng.integers(2)),
-        "side": rng.choice([-1.0, 1.0]),
-        "tau_s": rng.uniform(200, 600),
+        "fibres_deg": rng.uniform(0, 180),
         "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
     }
 
 
-def change_hands(scene, p):
-    """The operator takes the part by one side whenever it is placed: this side is warm and long, the other one is not,
-    and the part is bent in its plane until the heat has spread. The software knows the temperature of the middle.
-    Amplitude at the corners, right after placing."""
-    i, j = 1 - p["across"], p["across"]
-    u, v, w = scene.part_point[:, i], p["side"] * scene.part_point[:, j], scene.part_point[:, 2]
-    u, v, w = u / p["half_size_mm"], v / p["half_size_mm"], w / p["half_size_mm"]
-    moved = np.zeros((scene.size, 3))
-    moved[:, i], moved[:, j], moved[:, 2] = u * v, p["side"] * (v**2 - u**2 - w**2) / 2, w * v
-    placed = np.array([scene.time[scene.setup == k].min() for k in scene.setup])
-    warm = np.exp(-(scene.time - placed) / p["tau_s"])
-    return Change(along=p["amplitude_um"] * warm * np.sum(moved * scene.part_normal, 1))
+def change_fibres(scene, p):
+    """The frame of the part is of carbon fibre, and grows with every kelvin across the fibres only. The software knows
+    the mean of both expansions: across the fibres the part is longer than it believes, along them shorter. Amplitude
+    at the end of the part, for 1 K away from 20 degrees."""
+    a = np.radians(p["fibres_deg"])
+    along, across = np.array([np.cos(a), np.sin(a), 0.0]), np.array([-np.sin(a), np.cos(a), 0.0])
+    longer = (scene.part_point @ across) * (scene.part_normal @ across)
+    shorter = (scene.part_point @ along) * (scene.part_normal @ along)
+    warmer = scene.temperature["part"] - 20
+    return Change(along=p["amplitude_um"] * warmer * (longer - shorter) / p["half_size_mm"])
 
 
-def draw_plume(scene, rng):
-    axis = int(rng.integers(2))
-    x = scene.reading[:, axis]
+def draw_press(scene, rng):
+    turn = rng.uniform(0, 2 * np.pi)
     return {
         "amplitude_um": 1.0,
-        "axis": axis,
-        "laser_end": rng.choice([-1.0, 1.0]),
-        "heater_mm": float(np.quantile(x, rng.uniform(0.35, 0.65))),
-        "width_mm": 0.06 * float(np.ptp(x)),
-        "switched_s": np.quantile(scene.time, (np.arange(6) + rng.uniform(0.1, 0.9, 6)) / 6),
-        "tau_s": rng.uniform(40, 120),
+        "direction": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
+        "period_s": rng.uniform(40, 90),
+        "first_s": rng.uniform(0, 40),
+        "tau_s": rng.uniform(5, 10),
     }
 
 
-def change_plume(scene, p):
-    """One axis is measured with a laser, and a heater that stands under its beam is switched on and off. The light goes
-    faster through the warm air that rises there, but only where the carriage is beyond it; nearer to the laser all is
-    well. Amplitude beyond a heater that has been on for long."""
-    since = scene.time[:, None] - np.asarray(p["switched_s"])
-    warm = np.sum((1 - np.exp(-np.maximum(since, 0) / p["tau_s"])) * [1, -1, 1, -1, 1, -1], 1)
-    away = p["laser_end"] * (scene.reading[:, p["axis"]] - p["heater_mm"]) / p["width_mm"]
-    beyond = 1 / (1 + np.exp(away))
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["laser_end"] * p["amplitude_um"] * warm * beyond))
+def change_press(scene, p):
+    """A large press works in the next hall, stroke after stroke. Each one makes the floor give way to the same side,
+    the machine swings over on its soft feet and creeps back within seconds: only a touch soon after a stroke is off.
+    Amplitude right after a stroke."""
+    since = np.mod(scene.time - p["first_s"], p["period_s"])
+    return Change(tip=vector(p["direction"], p["amplitude_um"] * np.exp(-since / p["tau_s"])))
 
 
-def draw_rubber(scene, rng):
+def draw_forgotten(scene, rng):
+    return {"amplitude_um": 1.0, "phase": rng.uniform(0, 2 * np.pi)}
+
+
+def change_forgotten(scene, p):
+    """The machine had a fixed probe with three lobes before it got its head. The controller still corrects every touch
+    for these, by the direction of the approach in the machine, however the head stands now; the new probe has none.
+    Amplitude of the lobes for horizontal touches."""
+    azimuth = np.arctan2(scene.normal[:, 1], scene.normal[:, 0])
+    return Change(along=p["amplitude_um"] * np.cos(3 * azimuth + p["phase"]) * (1 - scene.normal[:, 2] ** 2))
+
+
+def draw_struck(scene, rng):
+    return {"amplitude_um": 1.0, "foot_mm": rng.uniform(10, 30)}
+
+
+def change_struck(scene, p):
+    """The balls stand on thin posts of unequal height. The tip strikes them, and until the probe has triggered the post
+    bends: with the cube of its height, with the speed, and for touches from the side only; then it springs back.
+    Amplitude at the tallest post, from the side, at 8 mm/s."""
+    height = (scene.part_point - BALL * scene.part_normal)[:, 2]
+    height = height - height.min() + p["foot_mm"]
+    sideways = 1 - scene.part_normal[:, 2] ** 2
+    return Change(along=-p["amplitude_um"] * (height / height.max()) ** 3 * sideways * scene.speed / 8)
+
+
+def draw_sister(scene, rng):
+    other = rng.normal(size=(9, 3)) * [1, 1, 0.5]
     return {
         "amplitude_um": 1.0,
-        "twist": rng.uniform(0.3, 1),
-        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+        "placement": int(rng.choice(np.unique(scene.setup))),
+        "other_places": (other / np.sqrt(np.mean(other**2))).tolist(),
     }
 
 
-def change_rubber(scene, p):
-    """The part stands on rubber feet, and every touch tips and twists it a little: the surface yields with the square
-    of the lever that the touch has about the middle, and comes back. The tip radius has taken the mean. Amplitude at a
-    lever of half the part."""
-    moment = np.cross(scene.part_point / p["half_size_mm"], scene.part_normal)
-    yields = moment[:, 0] ** 2 + moment[:, 1] ** 2 + p["twist"] * moment[:, 2] ** 2
-    return Change(along=-p["amplitude_um"] * (yields - yields.mean()))
+def change_sister(scene, p):
+    """There are two parts of the same kind, and in one placement the operator takes the sister from the shelf by
+    mistake. Its balls are not quite where the certificate of the first one has them, each by its own small vector.
+    Amplitude is the root of the mean square of these."""
+    ball = [int(f.removeprefix("BALL")) - 1 for f in scene.feature]
+    away = np.sum(np.asarray(p["other_places"])[ball] * scene.part_normal, 1)
+    return Change(along=p["amplitude_um"] * away * (scene.setup == p["placement"]))
 
 
-def draw_clutch(scene, rng):
-    return {"amplitude_um": 1.0, "held": rng.uniform(0.05, 0.25)}
-
-
-def change_clutch(scene, p):
-    """The clutch of the head slips. Every touch that comes from the side of a lying stylus, with a larger moment about
-    the vertical than friction holds, turns the head on a little; only the next indexing brings it back. Amplitude at
-    the longest stylus, where it has slipped farthest."""
-    lying = np.cross([0, 0, 1.0], scene.arm / scene.length.max())
-    moment = -np.sum(lying * scene.normal, 1)
-    slip = np.sign(moment) * np.maximum(np.abs(moment) - p["held"], 0)
-    turned = np.zeros(scene.size)
-    for k in np.unique(scene.visit):
-        mine = scene.visit == k
-        turned[mine] = np.cumsum(slip[mine]) - slip[mine]
-    return Change(tip=-p["amplitude_um"] * (turned / np.abs(turned).max())[:, None] * lying)
-
-
-unknown("staggered_latch", draw_latch, change_latch, ["speed", "direction"], "D")
-unknown("lost_counts", draw_counts, change_counts, ["time", "position"], "D")
-unknown("swapped_sensors", draw_swapped, change_swapped, ["temperature", "position", "feature", "setup"], "D")
-unknown("slow_levelling", draw_levelling, change_levelling, ["time", "position", "feature"])
-unknown("warm_hands", draw_hands, change_hands, ["time", "feature", "position", "setup"])
-unknown("heat_plume", draw_plume, change_plume, ["time", "position", "feature"])
-unknown("rubber_feet", draw_rubber, change_rubber, ["feature", "direction", "position"])
-unknown("slipping_clutch", draw_clutch, change_clutch, ["head", "sensor", "time", "direction"])
+unknown("warm_screw", draw_screw, change_screw, ["time", "position", "feature"])
+unknown("wiped_oil", draw_oil, change_oil, ["feature", "direction", "time"])
+unknown("sleepy_probe", draw_sleepy, change_sleepy, ["time", "speed"])
+unknown("fibre_frame", draw_fibres, change_fibres, ["temperature", "feature", "position", "setup"], "D")
+unknown("stamping_press", draw_press, change_press, ["time"])
+unknown("forgotten_lobes", draw_forgotten, change_forgotten, ["direction", "head", "sensor"])
+unknown("struck_posts", draw_struck, change_struck, ["feature", "speed", "direction"], "D")
+unknown("sister_part", draw_sister, change_sister, ["setup", "feature", "position"], "D")
