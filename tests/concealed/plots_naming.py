@@ -75,11 +75,11 @@ def unknown_panel(rows):
             "answer": {"no_mismatch": "nothing", "unexplained": "unexplained"}.get(r["verdict"], "a name"),
             "place": ("in " + (r["unexplained"] or {}).get("factor", "")) if r["verdict"] == "unexplained" and r["unexplained"] else "",
         }
-        for r in sorted(rows, key=lambda r: (r["families"] or [""])[0])
+        for r in sorted(rows, key=lambda r: (r["families"][:1], r["snr"]))
         if r["kind"] == "unknown"
     ]
     colour = axis("answer", "said", "nominal", scale={"domain": ["unexplained", "a name", "nothing"], "range": [COLOURS[2], COLOURS[1], "#bbbbbb"]})
-    bars = {"mark": "bar", "encoding": {"y": axis("family", None, "nominal"), "x": {"aggregate": "count", "title": "cases", "axis": {"tickMinStep": 1}}, "color": colour}}
+    bars = {"mark": "bar", "encoding": {"y": axis("family", None, "nominal", sort=None), "x": {"aggregate": "count", "title": "cases", "axis": {"tickMinStep": 1}}, "color": colour}}
     return spec("Effects that no catalogue names", values, [bars], "right answer: unexplained", height={"step": 16})
 
 
