@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes a round of concealed cases.
 
-    generate.py --round development|rehearsal|final --out DIR [--sealed DIR/sealed] [--scale 0.1] [--secret HEX]
+    generate.py --round development|rehearsal|final --out DIR [--sealed DIR/sealed] [--scale 0.1] [--only KIND] [--secret HEX]
 
 DIR/SEAL.txt     hashes of the truths, written before the data
 DIR/cases/NNNN/  machine.json, recording.csv and, for a known machine, calibration.csv
@@ -35,9 +35,9 @@ def write_case(job):
     return number, seal(secret, number, raw)
 
 
-def counts_at(scale):
-    """How many cases of each kind a round of this scale has."""
-    return {kind: max(1, round(n * scale)) for kind, n in cases.COUNTS.items()}
+def counts_at(scale, only=None):
+    """How many cases of each kind a round of this scale has; of one kind `only`."""
+    return {kind: max(1, round(n * scale)) if only in (None, kind) else 0 for kind, n in cases.COUNTS.items()}
 
 
 def numbered(secret, counts, final):
@@ -66,6 +66,7 @@ def main(argv=None):
     parser.add_argument("--out", type=pathlib.Path, required=True)
     parser.add_argument("--sealed", type=pathlib.Path, help="where the truths go, default DIR/sealed")
     parser.add_argument("--scale", type=float, default=1.0)
+    parser.add_argument("--only", choices=cases.COUNTS, help="cases of one kind: many nulls, for a closer look at false alarms")
     parser.add_argument("--secret", help="hexadecimal; makes a published round again")
     parser.add_argument("--jobs", type=int, default=1)
     given = parser.parse_args(argv)
@@ -73,7 +74,7 @@ def main(argv=None):
         parser.error(f"{given.out}/cases exists already: choose another folder")
     secret = given.secret or (PUBLIC if given.round == "development" else secrets.token_hex(16))
     secret = f"{given.round} {secret}"
-    counts = counts_at(given.scale)
+    counts = counts_at(given.scale, given.only)
     sealed = given.sealed or given.out / "sealed"
     numbers = numbered(secret, counts, given.round == "final")
     write_round(given.round, secret, numbers, given.out, sealed, given.jobs)
