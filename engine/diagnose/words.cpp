@@ -99,6 +99,13 @@ std::vector<std::string> in_words(const DiagnosedEffect& e) {
 
 std::string in_words(const Detectable& d) { return d.effect + (d.only_new ? ", if new in a run" : ""); }
 
+Headline headline(const Diagnosis& d) {
+  if (!d.judged) return Headline::plan;
+  if (!d.judgeable) return Headline::nothing_judged;
+  if (d.verdict == Verdict::no_mismatch && d.beyond) return Headline::beyond_specification;
+  return d.beyond_known ? Headline::another_machine : Headline::verdict;
+}
+
 bool doubtful(const Diagnosis& d) { return d.adequacy_p && *d.adequacy_p < kInadequate && !d.unexplained; }
 
 std::string in_words(const Location& l) {

@@ -30,6 +30,16 @@ std::string in_words(const Detectable&);
 /// The same with a capital at its beginning.
 std::string capitalised(std::string);
 
+/// What is said of a diagnosis first: the first of these that holds.
+enum class Headline {
+  plan,                  ///< no value was looked at
+  nothing_judged,        ///< the unknowns take up all that was touched
+  beyond_specification,  ///< nothing was found, but lengths are beyond the machine's specification
+  another_machine,       ///< not the machine that its file knows
+  verdict,
+};
+Headline headline(const Diagnosis&);
+
 /// Whether the names leave more than chance does, and no pattern says what.
 bool doubtful(const Diagnosis&);
 

@@ -14,10 +14,13 @@ namespace abbe {
 namespace {
 
 std::string_view title(const Diagnosis& d) {
-  if (!d.judged) return "What such a recording can tell";
-  if (!d.judgeable) return "Nothing can be judged";
-  if (d.verdict == Verdict::no_mismatch && d.beyond) return "Beyond the specification of the machine";
-  if (d.beyond_known) return "Not the machine that its file knows";
+  switch (headline(d)) {
+    case Headline::plan: return "What such a recording can tell";
+    case Headline::nothing_judged: return "Nothing can be judged";
+    case Headline::beyond_specification: return "Beyond the specification of the machine";
+    case Headline::another_machine: return "Not the machine that its file knows";
+    case Headline::verdict: break;
+  }
   switch (d.verdict) {
     case Verdict::no_mismatch: return "No mismatch found";
     case Verdict::named: return "A mismatch, and what makes it";

@@ -34,28 +34,34 @@ std::string machine_that_agrees(const Diagnosis& d) {
                      d.baseline.geometry_scale);
 }
 
-/// Do they agree?
-std::string first_sentence(const Diagnosis& d) {
-  const std::string machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
-  if (!d.judged)
-    return fmt::format("No value was looked at: this is what a recording of {} could tell.",
-                       d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
-  if (!d.judgeable)
-    return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.",
-                       d.touches);
-  if (d.verdict == Verdict::no_mismatch && d.beyond)
-    return fmt::format(
-        "Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
-        1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
-  if (d.beyond_known)
-    return fmt::format(
-        "This is not the machine that its file knows, or it has changed as a whole: {}it differs by {:.1f} times what was uncertain of it.",
-        d.verdict == Verdict::no_mismatch ? "" : "beside what is told here, ", *d.beyond_known);
+std::string agreement(const Diagnosis& d) {
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format("The {} what {}: a difference as large as this one comes by chance in {} of such recordings.",
                        what(d), machine_that_agrees(d), chance(d.p_value));
   return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d),
                      machine, chance(d.p_value));
+}
+
+/// Do they agree?
+std::string first_sentence(const Diagnosis& d) {
+  switch (headline(d)) {
+    case Headline::plan:
+      return fmt::format("No value was looked at: this is what a recording of {} could tell.",
+                         d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
+    case Headline::nothing_judged:
+      return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.",
+                         d.touches);
+    case Headline::beyond_specification:
+      return fmt::format(
+          "Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
+          1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
+    case Headline::another_machine:
+      return fmt::format(
+          "This is not the machine that its file knows, or it has changed as a whole: {}it differs by {:.1f} times what was uncertain of it.",
+          d.verdict == Verdict::no_mismatch ? "" : "beside what is told here, ", *d.beyond_known);
+    case Headline::verdict: return agreement(d);
+  }
+  return "";
 }
 
 /// What is it?
