@@ -82,6 +82,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
                 const std::string& file, std::vector<Diagnostic>& messages) {
   Recording once = without_copies(recorded, file, messages);
   check_data(once, machine, file);
+  doubt_temperatures(once, file, messages);
   leave_out_partly_logged(once, file, messages);
   count_from_first_touch(once, file, messages);
   return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
@@ -240,6 +241,16 @@ Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d
   return open ? Verdict::cannot_judge : several ? Verdict::one_of : Verdict::named;
 }
 
+/// An effect that could be judged but would not show at any size is hidden by what is unknown of the part.
+void add_hidden(const Case& c, Diagnosis& out) {
+  for (const Explanation& e : c.explanations.list) {
+    const auto is_it = [&](const auto& told) { return told.effect == e.name; };
+    if (e.effect && std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(), is_it) &&
+        std::none_of(out.cannot_judge.begin(), out.cannot_judge.end(), is_it))
+      out.cannot_judge.push_back({e.name, {}});
+  }
+}
+
 /// The unknowns of the recording explain whatever it holds: no effect of any size would show.
 void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out) {
   const bool surfaces = c.baseline.surfaces == Surfaces::unknown;
@@ -280,6 +291,15 @@ Diagnostic beyond_its_specification(const LengthError& e, const std::string& fil
           "{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um",
           file, e.length_mm, kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
       "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
+}
+
+Diagnostic large_errors(double times, const std::string& file) {
+  return diagnostic(
+      Code::W0723,
+      fmt::format(
+          "{}: it agrees with a machine whose geometric errors are {:.1f} times those of its specification only", file,
+          times),
+      "a machine out of its specification, or an effect that looks like its geometry: measure calibrated lengths (ISO 10360-2), or the same part in another place");
 }
 
 /// How many times what is uncertain of a known machine a recording may ask for beside what was found. Of 40
@@ -376,6 +396,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   first.extend(c.explanations, without_readings);
   out.cannot_judge = cannot_judge(c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
+  add_hidden(c, out);
   const bool known = !machine.known_state.empty();
   if (plan) {
     out.baseline = summary(c, c.hyper, known);
@@ -406,6 +427,8 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
   if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
+  if (!known && out.verdict == Verdict::no_mismatch && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
+    out.messages.push_back(large_errors(out.baseline.geometry_scale, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
   show_improvement(c, result, out);

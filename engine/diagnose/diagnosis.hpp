@@ -95,7 +95,8 @@ struct RunnerUp {
 
 struct CannotJudge {
   std::string effect;
-  std::vector<std::string> missing;  ///< columns; empty: the effect does nothing to these touches
+  /// columns; empty: the effect does nothing to these touches, or what is unknown of the part hides it
+  std::vector<std::string> missing;
 };
 
 /// The smallest size of an effect that this recording can detect, and the smallest that it can name.
@@ -154,6 +155,10 @@ struct JudgedValue {
   double p = 1;              ///< share of virtual machines that are at least as far out
   double low = 0, high = 0;  ///< 95 % of the deviations of virtual machines lie between these
 };
+
+/// Geometric errors of so many times those of the specification are told: such a machine may still pass an acceptance
+/// test, but nobody should take it for one of its specification.
+inline constexpr double kLargeErrors = 2;
 
 /// Adequacy below which the names are doubted.
 inline constexpr double kInadequate = 0.05;

@@ -1,4 +1,4 @@
-"""abbe diagnose where columns say less than they seem to: few digits, clocks with another beginning, gaps, a dirty touch."""
+"""abbe diagnose where columns say less than they seem to: few digits, clocks with another beginning, gaps, another unit, a dirty touch."""
 import json
 
 import harness
@@ -51,6 +51,26 @@ class Columns(harness.Case):
         self.assertEqual(said["verdict"], "no_mismatch")
         without = self.diagnosis(self.changed(whole, lambda row: {k: v for k, v in row.items() if k != "time_s"}))
         self.assertEqual(said["p_value"], without["p_value"])
+
+    def test_degrees_fahrenheit_are_doubted(self):
+        whole = self.record("--seed", 4)
+        warm = self.changed(whole, lambda row: row | {"temp_part_C": "68.2"})
+        self.assertIn("W0724", self.codes(self.diagnosis(warm)))
+        self.assertNotIn("W0724", self.codes(self.diagnosis(self.changed(whole, lambda row: row | {"temp_part_C": "20.1"}))))
+
+    def test_errors_far_beyond_the_specification_are_told(self):
+        """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
+        said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertGreater(said["baseline"]["geometry_scale"], 2)
+        self.assertIn("W0723", self.codes(said))
+
+    def test_what_an_unknown_size_hides_is_listed(self):
+        sized = self.write("sized.csv", "# surfaces: unknown_size\n" + self.record("--seed", 4).read_text())
+        said = self.diagnosis(sized)
+        told = {d["effect"] for d in said["smallest_detectable"]}
+        self.assertNotIn("probe.tip_radius", told)
+        self.assertIn({"effect": "probe.tip_radius", "missing": []}, said["cannot_judge"])
 
     def test_one_dirty_touch_is_no_failed_acceptance_test(self):
         whole = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/e0.dmi")

@@ -16,6 +16,8 @@ void count_from_first_touch(Recording&, const std::string& file, std::vector<Dia
 /// A recording without what was logged in some rows only: what is missing would be taken for its usual value, beside
 /// what was logged (W0722).
 void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Warns of temperatures that no measuring room has (W0724).
+void doubt_temperatures(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Throws UserError: another unit, axes or normals.
 void check_data(const Recording&, const Machine&, const std::string& file);
 /// Throws UserError when many touches lie beside their targets; a few are warned of.

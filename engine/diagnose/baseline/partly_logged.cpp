@@ -1,8 +1,9 @@
-// Columns of a recording that say less than they seem to: a clock with another beginning, gaps.
+// Columns of a recording that say less than they seem to: a clock with another beginning, gaps, another unit.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "engine/diagnose/baseline/data_problems.hpp"
@@ -32,7 +33,32 @@ void leave_out(std::optional<Value> RecordingRow::*column, const std::string& na
 template <class Value>
 void leave_out(Value RecordingRow::*, const std::string&, Recording&, const std::string&, std::vector<Diagnostic>&) {}
 
+/// Doubts a column of temperatures that reaches further than a measuring room does.
+void doubt(std::optional<double> RecordingRow::*column, const std::string& name, const Recording& recording,
+           const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kHot_C = 45, kFreezing_F = 32, kPerKelvin = 1.8;
+  for (const RecordingRow& row : recording.rows) {
+    const std::optional<double>& value = row.*column;
+    if (!value || *value < kHot_C) continue;
+    messages.push_back(diagnostic(
+        Code::W0724,
+        fmt::format("{}: {} is {:.1f} degrees C for '{}' touch {}", file, name, *value, row.feature, row.touch),
+        fmt::format("if these are degrees Fahrenheit, convert them: {:.1f} F are {:.1f} C", *value,
+                    (*value - kFreezing_F) / kPerKelvin)));
+    return;
+  }
+}
+
 }  // namespace
+
+void doubt_temperatures(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  for (const auto& [name, column] : {std::pair{"temp_part_C", &RecordingRow::temp_part_C},
+                                     {"temp_x_C", &RecordingRow::temp_x_C},
+                                     {"temp_y_C", &RecordingRow::temp_y_C},
+                                     {"temp_z_C", &RecordingRow::temp_z_C},
+                                     {"temp_air_C", &RecordingRow::temp_air_C}})
+    doubt(column, name, recording, file, messages);
+}
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   for (const RecordingColumn& column : recording_columns())
