@@ -145,7 +145,7 @@ class Diagnose(harness.Case):
         text = self.abbe("diagnose", self.record("--with", "probe.tip_radius:amplitude_um=2"), "--machine", MACHINE).stdout
         self.assertIn("are not what", text.splitlines()[0])
         self.assertIn("On touches that the model had not seen", text)
-        self.assertRegex(text, r"nats \(standard error [0-9.]+\); with the runner-up, [a-z._]+, [+-]")
+        self.assertRegex(text, r"nats, standard error [0-9.]+; with the runner-up, [a-z._]+, [+-]")
         self.assertRegex(text, r"amplitude \d\.\d+ ± 0\.\d+ um")
         self.assertIn("what to do next:", text)
         self.assertNotIn("located in temperature", text)   # it was the same throughout

@@ -27,9 +27,8 @@ std::string what(const Diagnosis& d) {
 /// A machine with which the recording agrees. Errors twice those of the specification may still pass an
 /// acceptance test, but nobody should take the machine for one of it.
 std::string machine_that_agrees(const Diagnosis& d) {
-  constexpr double kLarge = 2;
   if (d.baseline.known) return "this machine as it was reports";
-  if (d.baseline.geometry_scale < kLarge) return "a machine of this specification reports";
+  if (d.baseline.geometry_scale < kLargeErrors) return "a machine of this specification reports";
   return fmt::format("a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher",
                      d.baseline.geometry_scale);
 }
@@ -38,6 +37,7 @@ std::string agreement(const Diagnosis& d) {
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format("The {} what {}: a difference as large as this one comes by chance in {} of such recordings.",
                        what(d), machine_that_agrees(d), chance(d.p_value));
+  const char* const machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
   return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d),
                      machine, chance(d.p_value));
 }
@@ -80,10 +80,11 @@ std::string second_sentence(const Diagnosis& d) {
     return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but,
                        best->detect_um, in_words(*best));
   }
+  constexpr double kClear = 0.01;
   if (doubtful(d))
     parts.push_back(fmt::format(
-        "But what it leaves would come by chance in {} of recordings: something else is at work, beside it or instead.",
-        chance(*d.adequacy_p)));
+        "But what it leaves would come by chance in {} of recordings: something else {} at work, beside it or instead.",
+        chance(*d.adequacy_p), *d.adequacy_p < kClear ? "is" : "may be"));
   if (d.verdict == Verdict::cannot_judge)
     parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
   return fmt::format("{}", fmt::join(parts, " "));
@@ -101,14 +102,10 @@ std::string third_sentence(const Diagnosis& d) {
       : clear                ? "it predicts worse"
       : i.log_score_gain > 0 ? "it predicts better, though not beyond doubt"
                              : "it does not predict better";
-  const std::string beside = d.runner_up
-      ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "),
-                    d.runner_up->log_score_gain)
-      : "";
   return fmt::format(
-      "On {} that the model had not seen ({}) {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um, log score {:+.1f} nats (standard error {:.1f}){}.",
-      d.values.empty() ? "touches" : "values", i.scheme, says, i.rms_before_um, i.rms_after_um, i.bias_before_um,
-      i.bias_after_um, i.log_score_gain, i.se, beside);
+      "On {} that the model had not seen {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
+      d.values.empty() ? "touches" : "values", says, i.rms_before_um, i.rms_after_um, i.bias_before_um,
+      i.bias_after_um);
 }
 
 std::string table_row(const std::string& what, double probability, const std::string& sizes) {
@@ -151,9 +148,10 @@ std::string cannot_judge(const Diagnosis& d) {
   std::string out;
   for (const CannotJudge& c : d.cannot_judge)
     out += fmt::format("  {:<36} {}\n", c.effect,
-                       c.missing.empty()
-                           ? d.touches > 0 ? "does nothing to these touches" : "nothing of it shows in values"
-                           : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
+                       c.missing.empty() ? d.touches > 0
+                               ? "does nothing to these touches, or is hidden by what is unknown of the part"
+                               : "nothing of it shows in values"
+                                         : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
 
@@ -189,6 +187,17 @@ std::string value_table(const Diagnosis& d) {
   return out + "\n";
 }
 
+/// For those who know statistics.
+std::string held_out_line(const Diagnosis& d) {
+  if (!d.improvement) return "";
+  const std::string beside = d.runner_up
+      ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "),
+                    d.runner_up->log_score_gain)
+      : "";
+  return fmt::format("held out ({}): log score {:+.1f} nats, standard error {:.1f}{}\n", d.improvement->scheme,
+                     d.improvement->log_score_gain, d.improvement->se, beside);
+}
+
 std::string baseline_line(const Diagnosis& d) {
   if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
@@ -220,7 +229,7 @@ std::string diagnosis_text(const Diagnosis& d) {
         (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
   out += next_steps(d);
   out += cannot_judge(d);
-  return out + baseline_line(d);
+  return out + held_out_line(d) + baseline_line(d);
 }
 
 }  // namespace abbe

@@ -49,3 +49,31 @@ TEST_CASE("that it is another machine comes first, in the text and on the page, 
     CHECK(says(diagnosis_html(d, "r.csv", "m.json"), "<h1>Not the machine that its file knows</h1>"));
   }
 }
+
+TEST_CASE("each name of a set has its own probability and size") {
+  Diagnosis d = named();
+  d.verdict = Verdict::one_of;
+  DiagnosedEffect& e = d.effects.front();
+  e.members = {"machine.squareness", "machine.scale"};
+  e.parameters = {{.name = "squareness_urad", .unit = "urad", .value = 12, .u = 1, .low = 10, .high = 14}};
+  e.by_member = {{0.6, e.parameters, {}},
+                 {0.3, {{.name = "scale_um_per_m", .unit = "um/m", .value = -5, .u = 0.5, .low = -6, .high = -4}}, {}}};
+  d.model_effects = {{"machine.squareness", {}}};
+  const std::string text = diagnosis_text(d), page = diagnosis_html(d, "r.csv", "m.json");
+  for (const std::string& told : {text, page}) {
+    CHECK(says(told, "one of these"));
+    CHECK(says(told, "squareness 12.0 urad (10.0 to 14.0)"));
+    CHECK(says(told, "scale -5.0 um/m (-6.0 to -4.0)"));
+  }
+  CHECK(says(text, "machine.scale                          0.30"));
+  CHECK(says(text, "(of several names, with the first)"));
+}
+
+TEST_CASE("a chance has no more digits than simulations give") {
+  Diagnosis d = nothing_found();
+  d.p_value = 1;
+  CHECK(says(first_sentence(d), "by chance in nearly all of such recordings"));
+  d.p_value = 1 / 2682.0;
+  d.verdict = Verdict::named;
+  CHECK(says(first_sentence(d), "by chance it would look so in 1 in 2700 of such recordings"));
+}
