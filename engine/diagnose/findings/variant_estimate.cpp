@@ -40,10 +40,10 @@ std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
 }
 
 /// Takes out of a motion, directions by phases, and of its covariance what the touches say nothing of: a direction whose
-/// uncertainty is not small beside the rest of the motion. Its noise would hide a motion that is told well. Whether
+/// uncertainty is far larger than that of another, and not small beside the rest of the motion. Its noise would hide a motion that is told well. Whether
 /// nothing had to be.
 bool keep_told_directions(Matrix& motion, Matrix& covariance) {
-  constexpr double kSmall = 0.5;
+  constexpr double kSmall = 0.5, kFar = 5;
   const Eigen::Index directions = motion.rows(), phases = motion.cols();
   for (Eigen::Index left = directions; left > 1; --left) {
     Matrix of_directions = Matrix::Zero(directions, directions);
@@ -52,7 +52,9 @@ bool keep_told_directions(Matrix& motion, Matrix& covariance) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(of_directions);
     const Vector worst = solver.eigenvectors().col(directions - 1);
     const Matrix keep = Matrix::Identity(directions, directions) - worst * worst.transpose();
-    if (std::sqrt(solver.eigenvalues()(directions - 1)) <= kSmall * (keep * motion).norm()) return left == directions;
+    const double of_worst = std::sqrt(std::max(0.0, solver.eigenvalues()(directions - 1))),
+                 of_best = std::sqrt(std::max(0.0, solver.eigenvalues()(directions - left)));
+    if (of_worst <= kFar * of_best || of_worst <= kSmall * (keep * motion).norm()) return left == directions;
     motion = keep * motion;
     for (Eigen::Index f = 0; f < phases; ++f) {
       auto rows = covariance.middleRows(f * directions, directions);

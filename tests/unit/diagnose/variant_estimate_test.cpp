@@ -44,3 +44,10 @@ TEST_CASE("a motion that is seen from everywhere is told as it is") {
   CHECK(e.direction()->z == doctest::Approx(0.8).epsilon(0.01));
   CHECK(e.direction()->whole);
 }
+
+TEST_CASE("a motion that is hardly seen, from everywhere alike, keeps all its directions") {
+  const Jump jump({2.0, 1.5, -1.5}, {2.0, 1.0, 1.5});
+  REQUIRE(jump.estimate().direction());
+  CHECK(jump.estimate().direction()->whole);
+  CHECK(jump.estimate().direction()->u > 0.3);
+}
