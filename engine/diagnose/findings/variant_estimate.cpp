@@ -39,22 +39,27 @@ std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
   return kept;
 }
 
-/// Takes out of a motion, directions by phases, and of its covariance what the touches say nothing of: a direction whose
-/// uncertainty is far larger than that of another, and not small beside the rest of the motion. Its noise would hide a motion that is told well. Whether
-/// nothing had to be.
+/// Takes out of a motion, directions by phases, and of its covariance what the touches say nothing of: a direction
+/// whose uncertainty is far larger than that of another, and not small beside the rest of the motion. Its noise would
+/// hide a motion that is told well. Whether every direction is told.
 bool keep_told_directions(Matrix& motion, Matrix& covariance) {
-  constexpr double kSmall = 0.5, kFar = 5;
+  constexpr double kSmall = 0.5, kFar = 5, kNone = 1e-12;
   const Eigen::Index directions = motion.rows(), phases = motion.cols();
-  for (Eigen::Index left = directions; left > 1; --left) {
+  for (;;) {
     Matrix of_directions = Matrix::Zero(directions, directions);
     for (Eigen::Index f = 0; f < phases; ++f)
       of_directions += covariance.block(f * directions, f * directions, directions, directions);
+    // Those that were taken out, or that no touch sees at all, have no variance.
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(of_directions);
+    const Vector& variance = solver.eigenvalues();
+    const double largest = variance(directions - 1);
+    Eigen::Index first = 0;
+    while (first < directions - 1 && variance(first) <= kNone * largest) ++first;
     const Vector worst = solver.eigenvectors().col(directions - 1);
     const Matrix keep = Matrix::Identity(directions, directions) - worst * worst.transpose();
-    const double of_worst = std::sqrt(std::max(0.0, solver.eigenvalues()(directions - 1))),
-                 of_best = std::sqrt(std::max(0.0, solver.eigenvalues()(directions - left)));
-    if (of_worst <= kFar * of_best || of_worst <= kSmall * (keep * motion).norm()) return left == directions;
+    if (first == directions - 1 || largest <= kFar * kFar * variance(first) ||
+        std::sqrt(largest) <= kSmall * (keep * motion).norm())
+      return first == 0;
     motion = keep * motion;
     for (Eigen::Index f = 0; f < phases; ++f) {
       auto rows = covariance.middleRows(f * directions, directions);
@@ -63,7 +68,6 @@ bool keep_told_directions(Matrix& motion, Matrix& covariance) {
       columns = Matrix(columns * keep);
     }
   }
-  return directions == 1;
 }
 
 }  // namespace

@@ -45,6 +45,17 @@ TEST_CASE("a motion that is seen from everywhere is told as it is") {
   CHECK(e.direction()->whole);
 }
 
+TEST_CASE("what no touch sees at all is not told, and makes nothing else less sure") {
+  Jump jump({2.0, 1.5, 0.0}, {2.0, 1.0, 1.0});
+  jump.block.columns.pop_back();
+  jump.info.g = Matrix(jump.info.g.topLeftCorner(2, 2)), jump.info.u = Vector(jump.info.u.head(2));
+  const VariantEstimate e = jump.estimate();
+  REQUIRE(e.direction());
+  CHECK_FALSE(e.direction()->whole);
+  CHECK(e.direction()->x == doctest::Approx(0.8).epsilon(0.05));
+  CHECK(e.direction()->y == doctest::Approx(0.6).epsilon(0.05));
+}
+
 TEST_CASE("a motion that is hardly seen, from everywhere alike, keeps all its directions") {
   const Jump jump({2.0, 1.5, -1.5}, {2.0, 1.0, 1.5});
   REQUIRE(jump.estimate().direction());
