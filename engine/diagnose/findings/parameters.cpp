@@ -80,7 +80,7 @@ std::vector<MixtureTerm> spread_estimate(const Information& info, double unit) {
 
 class Estimator {
  public:
-  /// `member`: of the finding's set; what is not its first has coarse variants yet.
+  /// `member`: of the finding's set.
   Estimator(const Case& c, const SearchResult& result, std::size_t which, int member)
       : touches_(c.touches), rows_(c.rows), explanation_(c.explanations.list[static_cast<std::size_t>(member)]) {
     const Finding& f = result.findings[which];
@@ -94,7 +94,7 @@ class Estimator {
     all.push_back(&c.explanations.blocks[static_cast<std::size_t>(block)].signature);
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     EvidenceSearch search(with_free(c.model, others), hyper, mine);
-    if (member != f.explanation) refine(c, mine, search);
+    if (!result.refined.contains(member)) refine(c, mine, search);
     const Evidence& evidence = search.evidence();
     const std::vector<int>& blocks = mine.list.front().blocks;
     const auto at = [&](int b) -> const Block& { return mine.blocks[static_cast<std::size_t>(b)]; };
@@ -194,6 +194,7 @@ class Estimator {
     constexpr double kNothing_um = 1e-6;
     const Block& likeliest = variants_[likeliest_].block;
     std::vector<double> theta = likeliest.theta;
+    if (search_[p].values.size() < 2) return true;
     return std::any_of(search_[p].values.begin(), search_[p].values.end(), [&](double value) {
       theta[p] = value;
       const Matrix other = variant_at(*explanation_.effect, theta, likeliest.change, touches_, rows_).signature;

@@ -29,6 +29,15 @@ std::vector<double> probabilities(const Explanations& explanations, const Eviden
   return log_p;
 }
 
+/// The effects, or the patterns, by their probabilities.
+std::vector<int> likeliest_first(const Explanations& explanations, const std::vector<double>& p, bool catalogue) {
+  std::vector<int> order;
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if ((explanations.list[k].effect != nullptr) == catalogue) order.push_back(static_cast<int>(k));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
+  return order;
+}
+
 /// The likeliest variant of the likeliest explanation.
 int likeliest_block(const Explanations& explanations, const Evidence& evidence) {
   const std::vector<double> p = probabilities(explanations, evidence);
@@ -93,24 +102,20 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   return r;
 }
 
-/// The likeliest names but the first, each by itself.
+/// The likeliest names but the first, each by itself, on the grid of the case.
 std::vector<Finding> second_thoughts(const Case& c, const Evidence& evidence, int first) {
   constexpr std::size_t kMost = 3;
   const std::vector<double> p = probabilities(c.explanations, evidence);
-  std::vector<int> order;
-  for (std::size_t k = 0; k < p.size(); ++k)
-    if (c.explanations.list[k].effect && static_cast<int>(k) != first) order.push_back(static_cast<int>(k));
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
-  order.resize(std::min(order.size(), kMost));
   std::vector<Finding> out;
-  for (const int k : order) {
+  for (const int k : likeliest_first(c.explanations, p, true)) {
+    if (k == first) continue;
+    if (out.size() == kMost) break;
     Finding f;
     f.evidence = evidence;
     f.set = {k};
     f.probability = p[static_cast<std::size_t>(k)];
     f.explanation = k;
     f.block = best_block(c.explanations, k, evidence);
-    f.variants = c.explanations.list[static_cast<std::size_t>(k)].blocks;
     out.push_back(std::move(f));
   }
   return out;
@@ -206,14 +211,16 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
   return result;
 }
 
-/// The finer variants of what was found take the place of the coarse ones.
-void keep_variants(Case& c, const std::vector<Finding>& findings) {
+/// The finer variants of what was found take the place of the coarse ones. Which explanations have them now.
+std::set<int> keep_variants(Case& c, const std::vector<Finding>& findings) {
   std::set<int> refined;
   for (const Finding& f : findings) {
+    if (f.variants.empty()) continue;
     std::vector<int>& blocks = c.explanations.list[static_cast<std::size_t>(f.explanation)].blocks;
     if (refined.insert(f.explanation).second) blocks.clear();
     blocks.insert(blocks.end(), f.variants.begin(), f.variants.end());
   }
+  return refined;
 }
 
 /// Where a pattern alone is as good as effects with a pattern beside them, the effects were not there.
@@ -286,7 +293,7 @@ void name_again(const Case& c, SearchResult& result) {
 SearchResult search(Case& c, EvidenceSearch& first) {
   const std::size_t grid = c.explanations.blocks.size();
   SearchResult result = found_in_rounds(c, first);
-  keep_variants(c, result.findings);
+  result.refined = keep_variants(c, result.findings);
   first.extend(c.explanations, grid);
   result.first = first.evidence();
   drop_names_beside_a_pattern(c, result);
@@ -303,14 +310,9 @@ SearchResult search(Case& c, EvidenceSearch& first) {
 
 Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
   const std::vector<double> p = probabilities(all, evidence);
-  std::vector<int> order;
+  const std::vector<int> order = likeliest_first(all, p, catalogue);
   double total = 0;
-  for (std::size_t k = 0; k < p.size(); ++k) {
-    if ((all.list[k].effect != nullptr) != catalogue) continue;
-    order.push_back(static_cast<int>(k));
-    total += p[k];
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return p[a] > p[b]; });
+  for (const int k : order) total += p[static_cast<std::size_t>(k)];
   Finding f;
   f.evidence = evidence;
   if (order.empty()) return f;

@@ -1,6 +1,8 @@
 // What explains a mismatch: names of the catalogue, and patterns without one.
 #pragma once
 
+#include <set>
+
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/model/evidence.hpp"
 
@@ -25,6 +27,7 @@ struct SearchResult {
   std::vector<Finding> findings;   ///< of the catalogue
   std::optional<Finding> other;    ///< what the catalogue does not explain
   std::optional<Finding> nearest;  ///< the name that was doubted in favour of `other`
+  std::set<int> refined;           ///< explanations that have finer variants in the case now
   Evidence first;                  ///< before any finding, with the finer variants of what was found
   Evidence on_grid;                ///< that of the grid alone, as `null` is
   std::vector<Evidence> null;      ///< simulated, before any finding
