@@ -53,7 +53,9 @@ struct DiagnosedMember {
 };
 
 struct DiagnosedEffect {
-  std::vector<std::string> members;            ///< several: cannot be told apart by this recording; the likeliest first
+  /// several: cannot be told apart by this recording; the likeliest first, but those that cannot be judged after those
+  /// that can
+  std::vector<std::string> members;
   double probability = 0;                      ///< that it is one of these
   std::vector<DiagnosedParameter> parameters;  ///< of the first member
   std::string sentence;

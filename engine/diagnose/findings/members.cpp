@@ -17,17 +17,20 @@ double weight(const Case& c, const Finding& f, int member) {
       std::exp(bayes[static_cast<std::size_t>(member)] - bayes[static_cast<std::size_t>(f.explanation)]);
 }
 
+double weight_of_all(const Case& c, const Finding& f) {
+  double sum = 0;
+  for (const int member : f.set) sum += weight(c, f, member);
+  return sum;
+}
+
 }  // namespace
 
 bool judged(const Case& c, const Finding& f) {
-  double open = 0, total = 0;
-  for (const int k : f.set) {
-    const double p = weight(c, f, k);
-    total += p;
-    if (c.explanations.list[static_cast<std::size_t>(k)].missing) open += p;
-  }
   constexpr double kMostly = 0.8;
-  return open < kMostly * total;
+  double open = 0;
+  for (const int k : f.set)
+    if (c.explanations.list[static_cast<std::size_t>(k)].missing) open += weight(c, f, k);
+  return open < kMostly * weight_of_all(c, f);
 }
 
 void put_judged_members_first(const Case& c, SearchResult& result) {
@@ -44,8 +47,8 @@ void put_judged_members_first(const Case& c, SearchResult& result) {
 void drop_impossible_members(const Case& c, SearchResult& result) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding as_found = result.findings[k];
-    double all = 0, dropped = 0;
-    for (const int member : as_found.set) all += weight(c, as_found, member);
+    const double all = weight_of_all(c, as_found);
+    double dropped = 0;
     Finding& f = result.findings[k];
     while (!plausible(estimate_size(c, result, k).parameters)) {
       if (f.set.size() == 1) {
@@ -67,8 +70,7 @@ std::vector<DiagnosedMember> members_of(const Case& c, const SearchResult& resul
                                         const DiagnosedEffect& told) {
   constexpr std::size_t kSized = 5;
   const Finding& f = result.findings[k];
-  double all = 0;
-  for (const int m : f.set) all += weight(c, f, m);
+  const double all = weight_of_all(c, f);
   std::vector<DiagnosedMember> out;
   for (const int m : f.set) {
     out.push_back({told.probability * weight(c, f, m) / all, {}, {}});
