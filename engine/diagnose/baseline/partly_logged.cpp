@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
 #include <variant>
 
 #include "engine/diagnose/baseline/data_problems.hpp"
@@ -52,12 +51,10 @@ void doubt(std::optional<double> RecordingRow::*column, const std::string& name,
 }  // namespace
 
 void doubt_temperatures(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
-  for (const auto& [name, column] : {std::pair{"temp_part_C", &RecordingRow::temp_part_C},
-                                     {"temp_x_C", &RecordingRow::temp_x_C},
-                                     {"temp_y_C", &RecordingRow::temp_y_C},
-                                     {"temp_z_C", &RecordingRow::temp_z_C},
-                                     {"temp_air_C", &RecordingRow::temp_air_C}})
-    doubt(column, name, recording, file, messages);
+  for (const RecordingColumn& column : recording_columns()) {
+    const auto* const value = std::get_if<std::optional<double> RecordingRow::*>(&column.member);
+    if (value && column.names[0].starts_with("temp_")) doubt(*value, name(column), recording, file, messages);
+  }
 }
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
