@@ -80,11 +80,11 @@ std::string second_sentence(const Diagnosis& d) {
     return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but,
                        best->detect_um, in_words(*best));
   }
-  constexpr double kClear = 0.01;
+  constexpr double kHardlyChance = 0.01;
   if (doubtful(d))
     parts.push_back(fmt::format(
         "But what it leaves would come by chance in {} of recordings: something else {} at work, beside it or instead.",
-        chance(*d.adequacy_p), *d.adequacy_p < kClear ? "is" : "may be"));
+        chance(*d.adequacy_p), *d.adequacy_p < kHardlyChance ? "is" : "may be"));
   if (d.verdict == Verdict::cannot_judge)
     parts.push_back("Whether it is this cannot be judged, because what would tell was not logged or did not change.");
   return fmt::format("{}", fmt::join(parts, " "));
