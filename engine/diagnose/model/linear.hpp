@@ -40,9 +40,9 @@ struct LinearModel {
   int noise_groups = 1;
   /// of group 0 that is believed: whatever asks for more is no machine of this specification, or not the
   /// known one
-  double largest_scale = 3;
+  double largest_scale = 2.5;
   /// of the logarithm of the scale of group 0: how far a machine's errors may be from the specification's
-  double scale_spread = 0.7;
+  double scale_spread = 0.5;
   /// least factor on noise_um: no probe is so much better than its specification
   double quietest = 0.05;
   std::vector<char> follows;  ///< by row: measured right after the row before, with the same stylus
