@@ -181,7 +181,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         ? " It is gone: the machine file needs nothing of it."
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
-    e.probability = believed(f.probability, something_else || !judged(c, f) || !possible);
+    e.probability = believed(f.probability, something_else || !judged(c, f) || !possible || !shown(out.improvement));
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
@@ -415,6 +415,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.baseline = summary(c, result.hyper, known);
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
+  show_improvement(c, result, out);
   tell_findings(c, result, out);
   if (!surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out)) {
     Diagnosis again = before;
@@ -431,7 +432,6 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
     out.messages.push_back(large_errors(out.baseline.geometry_scale, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
-  show_improvement(c, result, out);
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);
   if (options.keep_state) out.known_state = known_state_beside(c, result);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,16 @@ inline constexpr double kTold = 0.9;
 /// The most that is believed of a name that is doubted. A name is doubted
 /// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
 /// - on a covariate that was not logged or did not change: other functions of it would look the same;
+/// - where it does not predict touches better that it was not fitted to;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
 /// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.
 inline constexpr double kDoubted = 0.5;
 inline double believed(double probability, bool doubted) {
   return doubted ? std::min(probability, kDoubted) : probability;
 }
+
+/// Whether held-out touches are predicted better by more than the standard error of the gain.
+inline bool shown(const std::optional<Improvement>& i) { return i && i->log_score_gain > i->se; }
 
 /// Whether every size is inside the catalogue's range.
 inline bool plausible(const std::vector<DiagnosedParameter>& parameters) {

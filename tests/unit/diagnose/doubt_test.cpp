@@ -21,3 +21,11 @@ TEST_CASE("a size beside the range is possible where its uncertainty reaches the
   CHECK(value(force(2.5, 0.1)) == 2.5);
   CHECK_FALSE(plausible(bending, force(2.5, 0.1)));
 }
+
+TEST_CASE("a gain on touches left out counts beyond its standard error") {
+  const auto of = [](double gain, double se) { return Improvement{"leave-one-setup-out", gain, se}; };
+  CHECK_FALSE(shown(std::nullopt));
+  CHECK_FALSE(shown(of(1.4, 4.2)));
+  CHECK_FALSE(shown(of(-3, 1)));
+  CHECK(shown(of(5.2, 2.2)));
+}
