@@ -96,6 +96,24 @@ TEST_CASE("a pattern is found in its factor, smooth or not") {
         }) == "OTHER feature, size in time");
 }
 
+TEST_CASE("the form of one ball is a pattern of the direction, and counts once") {
+  RecordedTouches t = scattered(300);
+  const auto over_position = [&] {
+    Explanations all;
+    std::vector<int> rows(t.touches.size());
+    std::iota(rows.begin(), rows.end(), 0);
+    add_other(t, rows, all);
+    return std::count_if(all.list.begin(), all.list.end(),
+                         [](const Explanation& e) { return e.factor == Factor::position; });
+  };
+  CHECK(over_position() == 6);
+  for (RecordedTouch& touch : t.touches)
+    touch.scene.point = touch.scene.reading = Vec3{200, 300, 100} + 12.5 * touch.scene.normal;
+  CHECK(over_position() == 3);
+  CHECK(likeliest(t, [](const TouchScene& s) { return 10 * s.normal.x * s.normal.y * s.normal.z * s.normal; }) ==
+        "OTHER direction, smooth");
+}
+
 TEST_CASE("a joint that settles after each indexing is seen over the time since") {
   const RecordedTouches t = scattered(300);
   const auto since = [&](const TouchScene& s) {

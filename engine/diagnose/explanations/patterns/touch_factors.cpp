@@ -1,5 +1,6 @@
 #include "engine/diagnose/explanations/patterns/touch_factors.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,6 +34,17 @@ bool same_visit(const TouchScene& a, const TouchScene& b) {
 template <class Key>
 int ordinal(std::map<Key, int>& known, const Key& key) {
   return known.emplace(key, static_cast<int>(known.size())).first->second;
+}
+
+/// Whether the places, of an extent of 1, follow from the normals: a linear function of them, as on a ball.
+bool on_one_round(const Points& place, const Directions& normal) {
+  constexpr double kFollows = 0.02;
+  const Matrix by_normal = linear(as_points(normal));
+  Matrix at(by_normal.rows(), 3);
+  for (Eigen::Index i = 0; i < at.rows(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k) at(i, k) = place[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+  const Matrix left = at - by_normal * by_normal.completeOrthogonalDecomposition().solve(at);
+  return left.squaredNorm() < kFollows * kFollows * double(at.rows());
 }
 
 /// Groups by the order of their first use. Of more than a pattern may have columns for, those that follow one
@@ -89,6 +101,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
   }
   onto_unit(touch), onto_unit(settled), onto_unit(clamped), onto_unit(place);
   for (Points& r : reading) onto_unit(r);
+  one_round = on_one_round(place, normal);
   for (std::vector<int>* group : {&orientation, &sensor, &feature, &setup, &run, &speed, &dynamics}) in_few(*group);
 }
 

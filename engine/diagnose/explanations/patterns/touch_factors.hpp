@@ -15,7 +15,8 @@ struct TouchFactors {
   Points touch;             ///< its number in the sequence
   Points settled, clamped;  ///< time since the head, or the part, was moved to where it is
   Points reading[3];
-  Points place;  ///< in W, from 0 to 1 along the longest extent
+  Points place;            ///< in W, from 0 to 1 along the longest extent
+  bool one_round = false;  ///< all touches are on one ball or circle, put down once: their normals tell their places
 
   // Directions and displacements that a change of one unit has along the normal.
   Directions normal, normal_on_part;
