@@ -55,11 +55,12 @@ class NextMeasurement(harness.Case):
 
     def test_what_was_found_beside_does_not_help(self):
         """A lobing that is known to be there tells nothing about which of the others is there too."""
-        radius = "probe.tip_radius:amplitude_um=3"
-        alone = self.diagnosis(self.record(PROGRAM, "alone.csv", radius))["next_measurement"]
+        radius = "probe.tip_radius:amplitude_um=2"
+        alone = self.diagnosis(self.record(PROGRAM, "alone.csv", radius))
         beside = self.diagnosis(self.record(PROGRAM, "beside.csv", radius, "probe.pretravel_lobing:amplitude_um=3"))
         self.assertEqual(beside["effects"][0]["members"], ["probe.pretravel_lobing"])
-        alone, beside = ({n["change"]: n["expected_probability"] for n in said} for said in (alone, beside["next_measurement"]))
+        self.assertEqual(set(alone["effects"][0]["members"]), set(beside["effects"][1]["members"]))
+        alone, beside = ({n["change"]: n["expected_probability"] for n in said["next_measurement"]} for said in (alone, beside))
         self.assertEqual(set(alone), set(beside))
         for change in alone:
             self.assertAlmostEqual(alone[change], beside[change], delta=0.05)
