@@ -4,9 +4,9 @@
 //
 // u is the place of the ball that touches, in the frame of the head's last link: the form turns
 // with the stylus. Y_lm are the real orthonormal spherical harmonics; degrees 0 and 1 are absent
-// because radius and centre are qualified. z_lm are drawn once per machine. The weights make the heights of
-// the lobes fall with their number, ovality the largest, as on lapped and on worn balls. They make the expected square over the ball amplitude^2, so
-// `amplitude_um` is the rms form error.
+// because radius and centre are qualified. z_lm are drawn once per machine. The weights make lobes the lower
+// the more there are, but leave more than an oval. With them the expected square over the ball is
+// amplitude^2, so `amplitude_um` is the rms form error.
 // Size: grade 5 balls deviate by 0.13 um, grade 3 by 0.08 um (range); worn ones by micrometres.
 // Confused with: probe.pretravel_lobing and probe.stylus_bending (degree 2), squareness when only
 // one sphere was measured.
