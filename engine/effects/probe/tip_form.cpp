@@ -1,12 +1,13 @@
 // Form error of the tip ball.
 //
-//   r = amplitude * sum over l = 2..6, m = -l..l of  z_lm w_l Y_lm(u),    u = - R_WR^T n,   w_l ~ 1/l
+//   r = amplitude * sum over l = 2..6, m = -l..l of  z_lm w_l Y_lm(u),    u = - R_WR^T n,   w_l ~ 1/l^2
 //
 // u is the place of the ball that touches, in the frame of the head's last link: the form turns
 // with the stylus. Y_lm are the real orthonormal spherical harmonics; degrees 0 and 1 are absent
-// because radius and centre are qualified. z_lm are drawn once per machine. The weights make lobes the lower
-// the more there are, but leave more than an oval. With them the expected square over the ball is
-// amplitude^2, so `amplitude_um` is the rms form error.
+// because radius and centre are qualified. z_lm are drawn once per machine. The weights are those of a
+// smooth surface, whose slopes have a finite mean square: lapping leaves ovality and a few lobes, and
+// little of higher degrees. They make the expected square over the ball amplitude^2, so
+// `amplitude_um` is the rms form error.
 // Size: grade 5 balls deviate by 0.13 um, grade 3 by 0.08 um (range); worn ones by micrometres.
 // Confused with: probe.pretravel_lobing and probe.stylus_bending (degree 2), squareness when only
 // one sphere was measured.
@@ -38,13 +39,13 @@ constexpr EffectParameter kTipFormParameters[] = {
 using Norms = std::array<std::array<double, kHighest + 1>, kHighest + 1>;
 Norms norms() {
   double square = 0;
-  for (int l = kLowest; l <= kHighest; ++l) square += (2 * l + 1) / (4 * kPi) / (l * l);
+  for (int l = kLowest; l <= kHighest; ++l) square += (2 * l + 1) / (4 * kPi) / (l * l * l * l);
   Norms norm{};
   for (int l = kLowest; l <= kHighest; ++l)
     for (int m = 0; m <= l; ++m) {
       double factorials = 1;
       for (int i = l - m + 1; i <= l + m; ++i) factorials *= i;
-      norm[l][m] = std::sqrt((2 * l + 1) / (4 * kPi) * (m == 0 ? 1 : 2) / factorials / square) / l;
+      norm[l][m] = std::sqrt((2 * l + 1) / (4 * kPi) * (m == 0 ? 1 : 2) / factorials / square) / (l * l);
     }
   return norm;
 }
