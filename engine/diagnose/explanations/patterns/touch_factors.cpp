@@ -39,10 +39,7 @@ int ordinal(std::map<Key, int>& known, const Key& key) {
 /// Whether the places, of an extent of 1, follow from the normals: a linear function of them, as on a ball.
 bool on_one_round(const Points& place, const Directions& normal) {
   constexpr double kFollows = 0.02;
-  const Matrix by_normal = linear(as_points(normal));
-  Matrix at(by_normal.rows(), 3);
-  for (Eigen::Index i = 0; i < at.rows(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k) at(i, k) = place[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
+  const Matrix by_normal = linear(as_points(normal)), at = linear(place).rightCols(3);
   const Matrix left = at - by_normal * by_normal.completeOrthogonalDecomposition().solve(at);
   return left.squaredNorm() < kFollows * kFollows * double(at.rows());
 }
