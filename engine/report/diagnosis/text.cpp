@@ -24,8 +24,7 @@ std::string what(const Diagnosis& d) {
   return d.values.size() == 1 ? "value is" : fmt::format("{} values are", d.values.size());
 }
 
-/// A machine with which the recording agrees. Errors twice those of the specification may still pass an
-/// acceptance test, but nobody should take the machine for one of it.
+/// A machine with which the recording agrees.
 std::string machine_that_agrees(const Diagnosis& d) {
   if (d.baseline.known) return "this machine as it was reports";
   if (d.baseline.geometry_scale < kLargeErrors) return "a machine of this specification reports";
