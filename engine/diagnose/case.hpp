@@ -9,8 +9,8 @@ namespace abbe::diagnose {
 
 /// False alarms that a diagnosis allows itself.
 inline constexpr double kAlarm = 0.01;
-/// Probability that a set of names must reach. Names come whole, so that sets have more than they must, 97 % on average:
-/// enough to hold the truth in 95 of 100 recordings.
+/// Probability that a set of names must reach. Names come whole, so that sets have more than they must: enough to hold
+/// the truth in 95 of 100 recordings (docs/evidence.md).
 inline constexpr double kCredible = 0.92;
 
 struct Case {
