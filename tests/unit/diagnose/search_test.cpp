@@ -1,0 +1,46 @@
+#include "engine/diagnose/findings/search.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/effects/effect.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// What is found where the names, and one pattern beside them, have these probabilities.
+Finding found(const std::vector<double>& names, double pattern, bool catalogue) {
+  Explanations all;
+  Evidence evidence;
+  const auto add = [&](const Effect* effect, double probability) {
+    Explanation e;
+    e.effect = effect;
+    e.prior = probability;
+    e.blocks = {static_cast<int>(all.blocks.size())};
+    all.blocks.emplace_back();
+    all.list.push_back(e);
+    evidence.log_bayes.push_back(0);
+    evidence.block_log_bayes.push_back(0);
+  };
+  for (const double probability : names) add(find_effect("machine.scale"), probability);
+  add(nullptr, pattern);
+  return finding_of(all, evidence, catalogue);
+}
+
+}  // namespace
+
+TEST_CASE("a set of names ends where it holds 92 % of what the names have") {
+  const Finding sure = found({0.02, 0.93, 0.05}, 0, true);
+  CHECK(sure.set == std::vector<int>{1});
+  CHECK(sure.probability == doctest::Approx(0.93));
+  const Finding two = found({0.02, 0.91, 0.07}, 0, true);
+  CHECK(two.set == std::vector<int>{1, 2});
+  CHECK(two.probability == doctest::Approx(0.98));
+  const Finding beside = found({0.01, 0.465, 0.025}, 0.5, true);
+  CHECK(beside.set == std::vector<int>{1});
+  CHECK(beside.probability == doctest::Approx(0.465));
+  CHECK(found({0.1, 0.2}, 0.7, false).set == std::vector<int>{2});
+}
