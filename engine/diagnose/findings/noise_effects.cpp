@@ -10,27 +10,13 @@
 #include <map>
 #include <numeric>
 
+#include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/effects/noise/noise.hpp"
 
 namespace abbe::diagnose {
 
 namespace {
-
-/// The looks at the scatter: three groups, three axes, all touches, outliers.
-constexpr int kLooks = 8;
-/// Together they may not cost more false alarms than a tenth of what the search allows itself.
-constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
-
-/// The probability that a chi-squared variable of one degree of freedom exceeds x.
-double chi2_above_1(double x) { return std::erfc(std::sqrt(std::max(0.0, x) / 2)); }
-
-struct Residuals {
-  Vector standardised;  ///< variance 1 under the fitted noise
-  double noise_um = 1;  ///< that noise
-  double tails = 1;     ///< by how much squares scatter more than those of normal residuals
-  Matrix coupling;      ///< squares of their correlations: what is common to many rows counts less
-};
 
 /// Half the variance of the squared residuals: 1 for normal ones, more for heavy tails, which would pass for
 /// unequal scatter.
@@ -51,52 +37,17 @@ Residuals residuals(const Case& c, const SearchResult& result) {
   return r;
 }
 
-/// Variances 1 + excess * share, times a common factor: what they gain over equal ones. The gain of
-/// independent normal residuals has half a chi-squared law; that of others is larger by the variance of the
-/// score, sum of share times square, over what it would be for those.
-struct Excess {
-  double size = 0, p = 1;
-};
-Excess excess_along(const Residuals& r, const Vector& share) {
-  const Vector square = r.standardised.array().square(), centred = share.array() - share.mean();
-  const double inflation = r.tails - 1 + centred.dot(r.coupling * centred) / centred.squaredNorm();
-  const auto n = static_cast<double>(square.size());
-  const auto log_likelihood = [&](double excess) {
-    const Vector v = 1 + excess * share.array();
-    return -0.5 * (v.array().log().sum() + n * std::log((square.array() / v.array()).mean()));
-  };
-  Excess out;
-  double best = 0;
-  for (double excess = 0.05; excess < 300; excess *= 1.15) {
-    const double gain = log_likelihood(excess) - log_likelihood(0);
-    if (gain > best) best = gain, out.size = excess;
-  }
-  out.p = chi2_above_1(2 * best / std::max(1.0, inflation)) / 2;
-  return out;
-}
-
 /// Whether what scatters more, in these rows and by this share of their variance, is other each time: repeats
 /// of one touch, with the same stylus at the same place, have less than half of it in common. Without repeats
 /// nobody knows.
 bool other_each_time(const Case& c, const Residuals& r, const Vector& in, double share) {
-  constexpr int kEnough = 20;
-  constexpr double kPerMm = 1e3, kPerUnit = 1e4;  // the same to a micrometre, and to a tenth of a milliradian
-  std::map<std::array<long, 8>, Eigen::Index> first;
+  const auto pairs = repeats_in(c, in);
   double common = 0, squares = 0;
-  int pairs = 0;
-  for (Eigen::Index k = 0; k < in.size(); ++k) {
-    if (in(k) < 0.5) continue;
-    const TouchScene& s = c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)])].scene;
-    std::array<long, 8> key{s.setup, s.stylus.tip_ordinal};
-    for (int a = 0; a < 3; ++a)
-      key[2 + a] = std::lround(kPerMm * s.point[a]), key[5 + a] = std::lround(kPerUnit * s.normal[a]);
-    const auto [at, is_first] = first.try_emplace(key, k);
-    if (is_first) continue;
-    const double a = r.standardised(at->second), b = r.standardised(k);
+  for (const auto& [first, again] : pairs) {
+    const double a = r.standardised(first), b = r.standardised(again);
     common += a * b, squares += (a * a + b * b) / 2;
-    ++pairs;
   }
-  return pairs >= kEnough && common < 0.5 * share * squares;
+  return pairs.size() >= kEnoughRepeats && common < kInCommon * share * squares;
 }
 
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u) {
@@ -114,45 +65,18 @@ struct Unequal {
   Vector in;
 };
 std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
-  constexpr double kLeastRatio = 1.1;
-  constexpr int kEnough = 20;
-  const auto rows = static_cast<Eigen::Index>(c.rows.size());
-  const auto scene = [&](Eigen::Index k) -> const TouchScene& {
-    return c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)])].scene;
-  };
-  Vector length(rows), speed(rows);
-  for (Eigen::Index k = 0; k < rows; ++k) length(k) = scene(k).stylus.length_mm, speed(k) = scene(k).speed_mm_s;
-  const double long_mm = (length.minCoeff() + length.maxCoeff()) / 2 + 1,
-               fast_mm_s = (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
-  /// A group of the effect, by its name there, and the limit that parts it from the others.
-  struct Split {
-    const char* group;
-    Factor factor;
-    std::optional<DiagnosedParameter> limit;
-    Vector in;
-  };
-  std::vector<Split> splits{
-      {"long styli", Factor::sensor, figure("longer_than_mm", "mm", long_mm, 0), Vector(rows)},
-      {"tilted head", Factor::head, std::nullopt, Vector(rows)},
-      {"fast probing", Factor::speed, figure("faster_than_mm_s", "mm/s", fast_mm_s, 0), Vector(rows)}};
-  for (Eigen::Index k = 0; k < rows; ++k) {
-    splits[0].in(k) = length(k) > long_mm;
-    splits[1].in(k) = std::abs(scene(k).stylus.head_a_rad) > kUpright_rad;
-    splits[2].in(k) = speed(k) > fast_mm_s;
-  }
   std::optional<Unequal> best;
-  for (const Split& s : splits) {
-    const double in = s.in.sum(), out = double(rows) - in;
-    if (in < kEnough || out < kEnough) continue;
+  for (const Split& s : splits_of(c)) {
+    if (!parts(s)) continue;
     const Excess e = excess_along(r, s.in);
-    const double ratio = std::sqrt(1 + e.size), u = ratio * std::sqrt(1 / (2 * in) + 1 / (2 * out));
-    if (e.p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->finding.p < e.p)) continue;
-    NoiseFinding f{find_effect("noise.unequal"), e.p, {figure("ratio", "1", ratio, u)}, {}};
+    const double p = chance_of_excess(e.chi2), ratio = std::sqrt(1 + e.size), u = ratio * relative_u(s);
+    if (p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->finding.p < p)) continue;
+    NoiseFinding f{find_effect("noise.unequal"), p, {figure("ratio", "1", ratio, u)}, {}};
     const double others =
         std::sqrt((r.standardised.array().square() / (1 + e.size * s.in.array())).mean()) * r.noise_um;
-    f.parameters.push_back(figure("sd_um", "um", others, others / std::sqrt(2 * out)));
+    f.parameters.push_back(figure("sd_um", "um", others, others / std::sqrt(2 * (double(s.in.size()) - s.in.sum()))));
     f.parameters.push_back({.name = "group", .unit = "", .word = s.group});
-    if (s.limit) f.parameters.push_back(*s.limit);
+    if (s.limit) f.parameters.push_back(figure(s.limit, s.unit, s.limit_at, 0));
     f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
     f.factor = s.factor, f.where = {{"group", s.group}};
     f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.group, ratio);
@@ -193,21 +117,19 @@ bool alike_along_all_axes(const Case& c, const Residuals& r) {
 /// Scatter that depends on the direction of the normal, or that is far above the machine's in touches that do
 /// not scatter more than others.
 std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const Vector& quiet) {
-  constexpr double kLeastExcess = 1.6, kLeastAlong = 1.2;
   std::optional<NoiseFinding> best;
   for (int axis = 0; axis < 3; ++axis) {
-    Vector along(r.standardised.size());
-    for (std::size_t k = 0; k < c.rows.size(); ++k)
-      along(static_cast<Eigen::Index>(k)) =
-          std::pow(c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene.normal[axis], 2);
-    if ((along.array() - along.mean()).square().sum() < 1) continue;
+    const std::optional<Vector> share = share_along(c, axis);
+    if (!share) continue;
+    const Vector& along = *share;
     const Excess e = excess_along(r, along);
-    if (e.p > kNoiseAlarm || std::sqrt(1 + e.size) < kLeastAlong || (best && best->p < e.p)) continue;
+    const double p = chance_of_excess(e.chi2);
+    if (p > kNoiseAlarm || std::sqrt(1 + e.size) < kLeastAlong || (best && best->p < p)) continue;
     // The fitted noise is that of all touches together; what is left of it across the axis is the probe's own.
     const double probe =
         r.noise_um * std::sqrt((r.standardised.array().square() / (1 + e.size * along.array())).mean());
     const double sd = probe * std::sqrt(e.size), u = sd * (1 + 1 / e.size) / std::sqrt(2 * along.sum());
-    NoiseFinding f{find_effect("noise.vibration"), e.p, {figure("sd_um", "um", sd, u)}, {}};
+    NoiseFinding f{find_effect("noise.vibration"), p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
     f.certain = other_each_time(c, r, along, e.size / (1 + e.size));
     f.factor = Factor::direction, f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
@@ -229,9 +151,8 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
 }
 
 /// More touches beyond the limit of gross outliers than normal noise puts there, by the tail of a Poisson
-/// law, and far beyond it: the ends of a pattern that the search has missed are just beyond.
+/// law, and far beyond it.
 std::optional<NoiseFinding> outliers(const Case& c) {
-  constexpr double kFar = 1.5;
   double n = 0, sum = 0, limit = 0;
   std::map<int, int> by_feature;
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
@@ -243,8 +164,8 @@ std::optional<NoiseFinding> outliers(const Case& c) {
   }
   const double all = static_cast<double>(c.masked.size()), share = n / all,
                expected = all * std::erfc(kOutlier / std::sqrt(2.0));
-  const double p = std::exp(n * std::log(expected) - std::lgamma(n + 1));
-  if (n < 2 || p > kNoiseAlarm || sum < kFar * limit) return std::nullopt;
+  const double p = chance_of_outliers(n, expected);
+  if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
   NoiseFinding f{
       find_effect("noise.outliers"),
       p,

@@ -1,0 +1,89 @@
+#include "engine/diagnose/findings/scatter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "engine/effects/noise/noise.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+const TouchScene& scene_of_row(const Case& c, Eigen::Index row) {
+  return c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(row)])].scene;
+}
+
+}  // namespace
+
+// The gain of independent normal residuals has half a chi-squared law; that of others is larger by the variance of the
+// score, sum of share times square, over what it would be for those.
+Excess excess_along(const Residuals& r, const Vector& share) {
+  const Vector square = r.standardised.array().square(), centred = share.array() - share.mean();
+  const double inflation = r.tails - 1 + centred.dot(r.coupling * centred) / centred.squaredNorm();
+  const auto n = static_cast<double>(square.size());
+  const auto log_likelihood = [&](double excess) {
+    const Vector v = 1 + excess * share.array();
+    return -0.5 * (v.array().log().sum() + n * std::log((square.array() / v.array()).mean()));
+  };
+  Excess out;
+  double best = 0;
+  for (double excess = 0.05; excess < 300; excess *= 1.15) {
+    const double gain = log_likelihood(excess) - log_likelihood(0);
+    if (gain > best) best = gain, out.size = excess;
+  }
+  out.chi2 = 2 * best / std::max(1.0, inflation);
+  return out;
+}
+
+double chance_of_excess(double chi2) { return std::erfc(std::sqrt(std::max(0.0, chi2) / 2)) / 2; }
+
+double chance_of_outliers(double count, double expected) {
+  return std::exp(count * std::log(expected) - std::lgamma(count + 1));
+}
+
+std::vector<Split> splits_of(const Case& c) {
+  const auto rows = static_cast<Eigen::Index>(c.rows.size());
+  Vector length(rows), speed(rows), tilt(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const TouchScene& s = scene_of_row(c, k);
+    length(k) = s.stylus.length_mm, speed(k) = s.speed_mm_s, tilt(k) = std::abs(s.stylus.head_a_rad);
+  }
+  const double long_mm = (length.minCoeff() + length.maxCoeff()) / 2 + 1,
+               fast_mm_s = (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
+  const auto above = [](const Vector& v, double limit) { return Vector((v.array() > limit).cast<double>()); };
+  return {{"long styli", Factor::sensor, above(length, long_mm), "longer_than_mm", "mm", long_mm},
+          {"tilted head", Factor::head, above(tilt, kUpright_rad)},
+          {"fast probing", Factor::speed, above(speed, fast_mm_s), "faster_than_mm_s", "mm/s", fast_mm_s}};
+}
+
+double relative_u(const Split& s) {
+  const double in = s.in.sum(), out = double(s.in.size()) - in;
+  return std::sqrt(1 / (2 * in) + 1 / (2 * out));
+}
+
+std::optional<Vector> share_along(const Case& c, int axis) {
+  Vector along(static_cast<Eigen::Index>(c.rows.size()));
+  for (Eigen::Index k = 0; k < along.size(); ++k) along(k) = std::pow(scene_of_row(c, k).normal[axis], 2);
+  if ((along.array() - along.mean()).square().sum() < 1) return std::nullopt;
+  return along;
+}
+
+std::vector<std::pair<Eigen::Index, Eigen::Index>> repeats_in(const Case& c, const Vector& in) {
+  constexpr double kPerMm = 1e3, kPerUnit = 1e4;  // the same to a micrometre, and to a tenth of a milliradian
+  std::map<std::array<long, 8>, Eigen::Index> first;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> out;
+  for (Eigen::Index k = 0; k < in.size(); ++k) {
+    if (in(k) < 0.5) continue;
+    const TouchScene& s = scene_of_row(c, k);
+    std::array<long, 8> key{s.setup, s.stylus.tip_ordinal};
+    for (int a = 0; a < 3; ++a)
+      key[2 + a] = std::lround(kPerMm * s.point[a]), key[5 + a] = std::lround(kPerUnit * s.normal[a]);
+    const auto [at, is_first] = first.try_emplace(key, k);
+    if (!is_first) out.emplace_back(at->second, k);
+  }
+  return out;
+}
+
+}  // namespace abbe::diagnose

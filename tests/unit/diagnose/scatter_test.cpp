@@ -1,0 +1,42 @@
+#include "engine/diagnose/findings/scatter.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/diagnose/model/noise_law.hpp"
+#include "engine/lanes/random.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+constexpr std::uint32_t kStream = stream_of("test.scatter");
+constexpr Eigen::Index kTouches = 400;
+
+/// The first half scatters by this ratio more than the second.
+Excess excess_of(double ratio, int replicate) {
+  Vector share = Vector::Zero(kTouches), r = NoiseLaw().simulated(kTouches, 3, kStream, replicate);
+  share.head(kTouches / 2).setOnes();
+  r.head(kTouches / 2) *= ratio;
+  return excess_along({r, 1, 1, Matrix::Identity(kTouches, kTouches)}, share);
+}
+
+}  // namespace
+
+TEST_CASE("scatter that is equal seems unequal as often as is said, and scatter that is not is found") {
+  constexpr int kMany = 1000;
+  int alarms = 0;
+  double size = 0;
+  for (int k = 0; k < kMany; ++k) alarms += chance_of_excess(excess_of(1, k).chi2) <= 0.05;
+  for (int k = 0; k < 100; ++k) size += excess_of(2, k).size / 100;
+  // 50 expected; outside 30 to 71 once in 400 times
+  CHECK(alarms >= 30);
+  CHECK(alarms <= 71);
+  CHECK(size == doctest::Approx(3).epsilon(0.1));  // variances 4 and 1
+}
+
+TEST_CASE("the chances of unequal scatter and of outliers are those of their laws") {
+  CHECK(chance_of_excess(3.841) == doctest::Approx(0.025).epsilon(0.001));
+  CHECK(chance_of_excess(0) == 0.5);
+  CHECK(chance_of_outliers(2, 0.01) == doctest::Approx(5e-5));
+}
