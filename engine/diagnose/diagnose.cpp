@@ -20,9 +20,11 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
+#include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/diagnose/planning/design.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
+#include "engine/diagnose/planning/noise_design.hpp"
 #include "engine/diagnose/words.hpp"
 
 namespace abbe {
@@ -359,11 +361,10 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
 
 /// Rounding is noise too: without it, what is rounded coarsely would lie on its steps without any.
 void add_rounding(double step_um, Case& c) {
-  constexpr double kLeastOfNoise = 0.3;
   c.step_um = step_um;
   const double rounding_um = step_um / std::sqrt(12.0);
   Vector& noise_um = c.baseline.model.noise_um;
-  if (rounding_um < kLeastOfNoise * noise_um.mean()) return;
+  if (rounding_um < kLeastRounding * noise_um.mean()) return;
   c.rounding_um = rounding_um;
   noise_um = (noise_um.array().square() + rounding_um * rounding_um).sqrt();
   c.baseline.model.quietest = std::max(c.baseline.model.quietest, rounding_um / noise_um.mean());
@@ -397,6 +398,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.cannot_judge = cannot_judge(c.explanations);
   out.smallest_detectable = smallest_detectable(c, first);
   add_hidden(c, out);
+  if (!out.smallest_detectable.empty()) add_smallest_scatter(c, out);
   const bool known = !machine.known_state.empty();
   if (plan) {
     out.baseline = summary(c, c.hyper, known);

@@ -111,6 +111,7 @@ struct Detectable {
   std::vector<std::string> confounded_with;
   /// what is there in all runs does not show: these are the sizes of what is new in one of them
   bool only_new = false;
+  bool scatter = false;  ///< of the noise: detect_um and name_um are standard deviations, of outliers their size
 };
 
 struct NextMeasurement {

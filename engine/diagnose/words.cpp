@@ -97,7 +97,15 @@ std::vector<std::string> in_words(const DiagnosedEffect& e) {
   return names;
 }
 
-std::string in_words(const Detectable& d) { return d.effect + (d.only_new ? ", if new in a run" : ""); }
+std::string in_words(const Detectable& d) {
+  if (d.scatter && d.unit == "1") return fmt::format("{} ({} {:.2g})", d.effect, d.parameter, d.detect);
+  return d.effect + (d.only_new ? ", if new in a run" : "");
+}
+
+std::string looks_like(const Detectable& d) {
+  if (!d.name_um && d.confounded_with.empty()) return "a pattern without a name";
+  return fmt::format("{}", fmt::join(d.confounded_with, ", "));
+}
 
 Headline headline(const Diagnosis& d) {
   if (!d.judged) return Headline::plan;

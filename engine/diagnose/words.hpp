@@ -26,6 +26,8 @@ std::vector<std::string> in_words(const DiagnosedEffect&);
 
 /// The name of what could be detected: "probe.tip_radius, if new in a run"
 std::string in_words(const Detectable&);
+/// What it would be taken for.
+std::string looks_like(const Detectable&);
 
 /// The same with a capital at its beginning.
 std::string capitalised(std::string);

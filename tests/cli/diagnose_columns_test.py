@@ -72,6 +72,13 @@ class Columns(harness.Case):
         self.assertNotIn("probe.tip_radius", told)
         self.assertIn({"effect": "probe.tip_radius", "missing": []}, said["cannot_judge"])
 
+    def test_scatter_of_groups_that_are_not_parted_cannot_be_judged(self):
+        whole = self.record("--seed", 4)
+        unequal = {"effect": "noise.unequal", "missing": ["head_A_deg", "sensor", "speed_mm_s"]}
+        upright = self.changed(whole, lambda row: row | {"head_A_deg": "0", "head_B_deg": "0"}, "upright.csv")
+        self.assertNotIn(unequal, self.diagnosis(whole, "--design-only")["cannot_judge"])
+        self.assertIn(unequal, self.diagnosis(upright, "--design-only")["cannot_judge"])
+
     def test_one_dirty_touch_is_no_failed_acceptance_test(self):
         whole = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/e0.dmi")
         first = []

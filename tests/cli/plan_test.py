@@ -34,6 +34,29 @@ class Plan(harness.Case):
             said = self.diagnosis(self.record("--seed", 81, "--with", f"{effect}:{told['parameter']}={1.5 * told['name']:.6g}"))
             self.assertEqual([e["members"] for e in said["effects"]], [[effect]])
 
+    def test_scatter_is_named_where_touches_are_repeated(self):
+        """Of two runs; a single one cannot tell it from a pattern too fine for its touches."""
+        def runs(*options):
+            paths = []
+            for run in (1, 2):
+                self.abbe("record", PROGRAM, "--machine", MACHINE, "-o", f"{run}.csv", "--run", run, *options)
+                paths.append(self.folder / f"{run}.csv")
+            return paths
+
+        twice = {d["effect"]: d for d in self.diagnosis(*runs(), "--design-only")["smallest_detectable"]}
+        for effect in ("noise.vibration", "noise.unequal"):
+            self.assertIsNone(self.row(effect)["name"])
+            self.assertLess(twice[effect]["name"], self.row(effect)["detect"])
+        for effect in ("noise.outliers", "noise.resolution"):
+            self.assertEqual(twice[effect]["name"], twice[effect]["detect"])
+        told = twice["noise.vibration"]["name"]
+        for seed in (91, 92, 93):
+            for share, named in ((1.5, [["noise.vibration"]]), (0.4, [])):
+                shaken = f"noise.vibration:sd_um={share * told:.6g},direction=y"
+                said = self.diagnosis(*runs("--seed", seed, "--with", shaken))
+                self.assertEqual([e["members"] for e in said["effects"]], named)
+                self.assertTrue(all(e["probability"] > 0.9 for e in said["effects"]))
+
     def test_what_looks_alike_is_not(self):
         for effect, twin in (("probe.tip_radius", "probe.trigger_delay"), ("machine.step", "part.shift")):
             told = self.row(effect)

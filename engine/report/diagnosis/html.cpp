@@ -148,8 +148,7 @@ std::string detectable_effects(const Diagnosis& d) {
   std::string rows = html_row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
     rows += html_row({in_words(s), fmt::format("{:.2g}", s.detect_um),
-                      s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never",
-                      fmt::format("{}", fmt::join(s.confounded_with, ", "))});
+                      s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", looks_like(s)});
   return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" +
       html_table(rows);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/diagnose/words.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
@@ -70,9 +71,10 @@ std::string second_sentence(const Diagnosis& d) {
   if (d.unexplained) parts.push_back(d.unexplained->sentence);
   if (parts.empty()) {
     if (d.smallest_detectable.empty()) return "";
-    const auto best =
-        std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
-                         [](const Detectable& a, const Detectable& b) { return a.detect_um < b.detect_um; });
+    const auto best = std::min_element(d.smallest_detectable.begin(), d.smallest_detectable.end(),
+                                       [](const Detectable& a, const Detectable& b) {
+                                         return std::pair(a.scatter, a.detect_um) < std::pair(b.scatter, b.detect_um);
+                                       });
     const char* const but = !d.judged ? "The table says"
         : d.beyond || d.beyond_known  ? "No effect of the catalogue was found that makes it: the table says"
                                       : "That does not mean that nothing is there: the table says";
@@ -137,9 +139,12 @@ std::string mismatch_table(const Diagnosis& d) {
 std::string design_table(const Diagnosis& d) {
   std::string out = fmt::format("{:<38} {:>11} {:>11}  {}\n", "largest displacement, um, that would be", "detected",
                                 "named", "looks like");
-  for (const Detectable& s : d.smallest_detectable)
+  bool scatter = false;
+  for (const Detectable& s : d.smallest_detectable) {
+    if (s.scatter && !std::exchange(scatter, true)) out += "scatter, standard deviation, um\n";
     out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", in_words(s), s.detect_um,
-                       s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", fmt::join(s.confounded_with, ", "));
+                       s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", looks_like(s));
+  }
   return out;
 }
 
