@@ -48,16 +48,16 @@ std::pair<Vec3, double> extent_of(const Rows& rows) {
 }
 
 /// The small motion that lessens the weighted sum of squares most: a shift, a turn about `middle` times
-/// `extent`, and with `tip` a length along all normals.
-Motion step(const Rows& rows, const Back& back, bool tip, const Vec3& middle, double extent,
-            const std::vector<double>& r) {
+/// `extent`, and with `tip` a length along all normals. A touch turns the part with the arm of its target: where
+/// it lies itself may be a gross error, which along the surface is no distance to mend.
+Motion step(const Rows& rows, bool tip, const Vec3& middle, double extent, const std::vector<double>& r) {
   constexpr double kLeast_mm = 1e-6, kShare = 0.01, kUnseen = 1e-6;
   double floor = kLeast_mm;  // below this a residual counts by its square
   for (const double x : r) floor += kShare * std::abs(x) / double(r.size());
   Square a = Square::Zero();
   Motion b = Motion::Zero();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vec3 n = *rows[i]->normal, turn = cross((back.X * rows[i]->position_mm - middle) / extent, n);
+    const Vec3 n = *rows[i]->normal, turn = cross((*rows[i]->target_mm - middle) / extent, n);
     const Motion s{{n.x, n.y, n.z, turn.x, turn.y, turn.z, tip ? -1.0 : 0.0}};
     const double weight = 1 / std::max(floor, std::abs(r[i]));
     a += weight * s * s.transpose();
@@ -78,7 +78,7 @@ Back refined(const Rows& rows, Back back, bool tip) {
   constexpr double kSettled_mm = 1e-7;
   const auto [middle, extent] = extent_of(rows);
   for (int k = 0; k < kMostSteps; ++k) {
-    const Motion m = step(rows, back, tip, middle, extent, beyond(rows, back));
+    const Motion m = step(rows, tip, middle, extent, beyond(rows, back));
     const Vec3 shift{m(0), m(1), m(2)}, turn = Vec3{m(3), m(4), m(5)} / extent;
     const Mat3 R = norm(turn) > 0 ? rotation(unit(turn), norm(turn)) : Mat3{};
     back = {Rigid{R, middle + shift - R * middle} * back.X, back.out_mm + m(6)};

@@ -75,6 +75,25 @@ TEST_CASE("a part on its targets is left as it is, and so is a turn that nothing
   }
 }
 
+TEST_CASE("one touch far off along the surface turns no ball") {
+  const Vec3 middle{400, 300, -200};
+  Recording ball;
+  for (int k = 0; k < 25; ++k) {  // a spiral from the pole to the equator
+    const double height = 1 - k / 24.0, across = std::sqrt(1 - height * height);
+    RecordingRow row;
+    row.feature = "BALL", row.touch = k + 1, row.setup = 1;
+    row.normal = Vec3{across * std::cos(2.4 * k), across * std::sin(2.4 * k), height};
+    row.target_mm = middle + 14.5 * *row.normal;
+    row.position_mm = *row.target_mm + 0.001 * std::sin(5.0 * k) * *row.normal;
+    ball.rows.push_back(row);
+  }
+  ball.rows[8].position_mm.x += 30;
+  std::vector<Diagnostic> messages;
+  const Recording same = put_on_targets(ball, kNoTip, "ball", messages);
+  CHECK(messages.empty());
+  for (std::size_t i = 0; i < ball.rows.size(); ++i) CHECK(same.rows[i].position_mm == ball.rows[i].position_mm);
+}
+
 TEST_CASE("each setup has its own placement") {
   Recording both = box({Mat3{}, {1, 0, 0}}, 1);
   const Recording second = box({Mat3{}, {0, -3, 0}}, 2);
