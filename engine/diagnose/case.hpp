@@ -18,6 +18,7 @@ struct Case {
   const Machine* machine = nullptr;
   DiagnoseOptions options;
   RecordedTouches touches;
+  bool styli_unlogged = false;  ///< more than one stylus or orientation touched, and no row says which
   Baseline baseline;
   double step_um = 0;        ///< of which all positions of the file are multiples
   double rounding_um = 0;    ///< standard uncertainty by that, where it counts beside the probe's

@@ -183,7 +183,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         ? " It is gone: the machine file needs nothing of it."
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
-    e.probability = believed(f.probability, something_else || !judged(c, f) || !possible || !shown(out.improvement));
+    const bool doubted = something_else || c.styli_unlogged || !judged(c, f) || !possible || !shown(out.improvement);
+    e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
@@ -235,7 +236,7 @@ void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) 
 Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d) {
   if (result.other) return Verdict::unexplained;
   if (result.findings.empty()) return d.effects.empty() ? Verdict::no_mismatch : Verdict::named;
-  bool open = false, several = false;
+  bool open = c.styli_unlogged, several = false;
   for (const Finding& f : result.findings) {
     open = open || !judged(c, f);
     several = several || f.set.size() > 1;
@@ -325,6 +326,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   c.options = options;
   c.touches = recorded_touches(recording, machine, file);
   out.messages.insert(out.messages.end(), c.touches.messages.begin(), c.touches.messages.end());
+  c.styli_unlogged = styli_unlogged(recording, file, out.messages);
   constexpr int kLeastTouches = 12;
   if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
     throw UserError(diagnostic(

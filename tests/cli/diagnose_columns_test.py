@@ -79,6 +79,20 @@ class Columns(harness.Case):
         self.assertNotIn(unequal, self.diagnosis(whole, "--design-only")["cannot_judge"])
         self.assertIn(unequal, self.diagnosis(upright, "--design-only")["cannot_judge"])
 
+    def test_styli_that_were_not_logged_are_missed_where_one_cannot_reach_all(self):
+        def without_styli(path, name):
+            return self.changed(path, lambda row: row | {c: "" for c in ("sensor", "head_A_deg", "head_B_deg")}, name)
+        several = self.record("--seed", 4, "--with", "machine.squareness:squareness_urad=80", name="several.csv")
+        one = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi", name="one.csv")
+        said = self.diagnosis(several)
+        self.assertNotIn("W0725", self.codes(said))
+        self.assertGreater(said["effects"][0]["probability"], 0.9)
+        said = self.diagnosis(without_styli(several, "nobody_knows.csv"))
+        self.assertIn("W0725", self.codes(said))
+        self.assertIn(said["verdict"], ("cannot_judge", "unexplained"))
+        self.assertTrue(all(e["probability"] <= 0.5 for e in said["effects"]))
+        self.assertNotIn("W0725", self.codes(self.diagnosis(without_styli(one, "one_stylus.csv"))))
+
     def test_one_dirty_touch_is_no_failed_acceptance_test(self):
         whole = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/e0.dmi")
         first = []
