@@ -78,8 +78,13 @@ class Values(harness.Case):
 
     def test_an_uncertain_reference_explains_a_deviation(self):
         values = self.recorded("--with", "probe.tip_radius:amplitude_um=15").read_text()
-        uncertain = values.replace("reference\n", "reference,U,artefact\n").replace(",500.0\n", ",500.0,0.06,block\n")
-        self.assertEqual(self.diagnosis(self.write("uncertain.csv", uncertain))["verdict"], "no_mismatch")
+        def with_U(U):
+            said = self.diagnosis(self.write("uncertain.csv", values.replace("reference\n", "reference,U,artefact\n").replace(",500.0\n", f",500.0,{U},block\n")))
+            return said["verdict"], [m["code"] for m in said["messages"]]
+        self.assertEqual(with_U(0.06), ("no_mismatch", ["W0726"]))   # of gauge blocks it is in um
+        verdict, codes = with_U(0.00006)
+        self.assertNotEqual(verdict, "no_mismatch")
+        self.assertNotIn("W0726", codes)
 
     def test_a_result_file_is_a_recording(self):
         program = BLOCKS / "x1_L.dmi"

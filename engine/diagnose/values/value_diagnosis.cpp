@@ -11,6 +11,7 @@
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/search.hpp"
+#include "engine/diagnose/median.hpp"
 #include "engine/diagnose/values/value_search.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
@@ -314,6 +315,24 @@ Finding tell(const ValueCase& c, Diagnosis& out) {
   return named ? name : pattern;
 }
 
+/// Calibrations that say less of most values than any machine of the specification would.
+void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
+  constexpr double kTimes = 3;
+  std::vector<double> times;
+  for (Eigen::Index k = 0; k < c.deviation.size(); ++k) {
+    const double calibrated = c.calibration.row(k).norm(), of_both = std::sqrt(c.covariance(k, k));
+    times.push_back(calibrated /
+                    std::sqrt(std::max(of_both * of_both - calibrated * calibrated, kLeast_um * kLeast_um)));
+  }
+  const double middle = median(std::move(times));
+  if (middle < kTimes) return;
+  messages.push_back(diagnostic(
+      Code::W0726,
+      fmt::format("{}: by U the calibrated values are known {:.0f} times worse than the machine measures them",
+                  c.recording->source.name(), middle),
+      "U is the expanded uncertainty (k = 2) in mm or degrees, as the value is; as it stands, only errors larger than U show"));
+}
+
 }  // namespace
 
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
@@ -321,6 +340,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   const ValueCase c = on_the_bench(recording, programs, machine, options);
   Diagnosis out;
   out.judged = !options.design_only;
+  doubt_calibrations(c, out.messages);
   out.cannot_judge = cannot_judge(c.search->explanations());
   out.smallest_detectable = smallest_detectable(c);
   if (options.design_only) return out;
