@@ -79,6 +79,12 @@ std::optional<std::pair<std::string, int>> declared(Lowering& lowering, const Ra
     return std::nullopt;
   }
   if (bracket == std::string::npos) return std::pair{name, 0};
+  const char closing = a.text[bracket] == '[' ? ']' : ')';
+  if (a.text.back() != closing) {
+    lowering.error(Code::E0243, a.span, fmt::format("the size of an array ends with '{}'", closing),
+                   fmt::format("write {}[10] for ten elements; there is one index", name));
+    return std::nullopt;
+  }
   RawArgument inner;
   inner.begin = a.begin + bracket + 1;
   inner.end = a.end - 1;
