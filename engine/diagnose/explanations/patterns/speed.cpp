@@ -6,8 +6,7 @@ namespace {
 
 /// The approach speed beyond its mean, 1 at the farthest from it.
 Vector faster(const TouchFactors& f) {
-  Vector v(static_cast<Eigen::Index>(f.speed.size()));
-  for (Eigen::Index i = 0; i < v.size(); ++i) v(i) = f.speed[static_cast<std::size_t>(i)];
+  Vector v = Eigen::Map<const Vector>(f.speed_mm_s.data(), static_cast<Eigen::Index>(f.speed_mm_s.size()));
   v.array() -= v.mean();
   return v / v.cwiseAbs().maxCoeff();
 }

@@ -56,11 +56,32 @@ void in_few(std::vector<int>& group) {
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = order[i] * kMostGroups / count;
 }
 
+/// Levels of a measured quantity above zero, numbered from the lowest. Values that differ by less than a twentieth
+/// are one level, as of one command; of many levels, neighbours are taken together.
+std::vector<int> levels_of(const std::vector<double>& value) {
+  constexpr double kOneLevel = 1.05;
+  constexpr int kMostLevels = 8;
+  std::map<double, int> level;
+  for (const double v : value) level.emplace(v, 0);
+  double lowest = level.begin()->first;
+  int count = 0;
+  for (auto& [v, k] : level) {
+    if (v > kOneLevel * lowest) lowest = v, ++count;
+    k = count;
+  }
+  ++count;
+  std::vector<int> out;
+  for (const double v : value) out.push_back(count > kMostLevels ? level[v] * kMostLevels / count : level[v]);
+  return out;
+}
+
 }  // namespace
 
 TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& rows)
     : part_above_20(static_cast<Eigen::Index>(rows.size())) {
-  std::map<std::pair<double, double>, int> orientations, dynamics_used;
+  std::map<std::pair<double, double>, int> orientations;
+  std::map<std::pair<int, int>, int> dynamics_used;
+  std::vector<double> accelerations;
   std::map<std::array<int, 3>, double> begun;
   for (Vector& v : scale_above_20) v.resize(part_above_20.size());
   const double first_s = t.touches.front().scene.time_s, last_s = t.touches.back().scene.time_s;
@@ -90,8 +111,8 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     feature.push_back(s.feature);
     setup.push_back(s.setup);
     run.push_back(s.run);
-    speed.push_back(static_cast<int>(std::lround(1000 * s.speed_mm_s)));
-    dynamics.push_back(ordinal(dynamics_used, {s.speed_mm_s, s.acceleration_mm_s2}));
+    speed_mm_s.push_back(s.speed_mm_s);
+    accelerations.push_back(s.acceleration_mm_s2);
     const auto row = static_cast<Eigen::Index>(i);
     part_above_20(row) = s.temperature.part - 20;
     for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - 20;
@@ -99,7 +120,10 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
   onto_unit(touch), onto_unit(settled), onto_unit(clamped), onto_unit(place);
   for (Points& r : reading) onto_unit(r);
   one_round = on_one_round(place, normal);
-  for (std::vector<int>* group : {&orientation, &sensor, &feature, &setup, &run, &speed, &dynamics}) in_few(*group);
+  for (std::vector<int>* group : {&orientation, &sensor, &feature, &setup, &run}) in_few(*group);
+  speed = levels_of(speed_mm_s);
+  const std::vector<int> acceleration = levels_of(accelerations);
+  for (std::size_t i = 0; i < rows.size(); ++i) dynamics.push_back(ordinal(dynamics_used, {speed[i], acceleration[i]}));
 }
 
 bool several(const std::vector<int>& group) {

@@ -29,8 +29,9 @@ struct TouchFactors {
 
   // Groups.
   std::vector<int> orientation, sensor, feature, setup, run;
-  std::vector<int> speed;     ///< um/s
-  std::vector<int> dynamics;  ///< speeds and accelerations that were used together
+  std::vector<double> speed_mm_s;
+  std::vector<int> speed;     ///< levels, from the slowest
+  std::vector<int> dynamics;  ///< levels of speed and acceleration that were used together
 
   Vector part_above_20, scale_above_20[3];  ///< degrees C
 };
