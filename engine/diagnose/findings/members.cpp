@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
 
 namespace abbe::diagnose {
@@ -21,6 +22,38 @@ double weight_of_all(const Case& c, const Finding& f) {
   double sum = 0;
   for (const int member : f.set) sum += weight(c, f, member);
   return sum;
+}
+
+/// Whether a machine can have what was found of the first member: where its file has the effect already, both together.
+bool possible(const Case& c, const Finding& f, const std::vector<DiagnosedParameter>& found) {
+  const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
+  if (c.explanations.blocks[static_cast<std::size_t>(f.block)].change.gone) return plausible(found);
+  const auto known = known_effect(*c.machine, effect, abbe::diagnose::setting_of(std::string(effect.name), found));
+  if (!known) return plausible(found);
+  return known->gone || plausible(effect, nearest_possible(effect, known->now));
+}
+
+/// Adds the likeliest of the other effects until a set holds kCredible of what is believed of those that were not
+/// struck out.
+void fill_up(const Case& c, Finding& f, const std::vector<int>& struck) {
+  const auto in = [](const std::vector<int>& list, int k) {
+    return std::find(list.begin(), list.end(), k) != list.end();
+  };
+  std::vector<std::pair<double, int>> others;
+  double held = weight_of_all(c, f), all = held;
+  for (int k = 0; k < static_cast<int>(c.explanations.list.size()); ++k) {
+    if (!c.explanations.list[static_cast<std::size_t>(k)].effect || in(f.set, k) || in(struck, k)) continue;
+    others.emplace_back(-weight(c, f, k), k);
+    all += weight(c, f, k);
+  }
+  std::sort(others.begin(), others.end());
+  const double probability_of_weight = f.probability / held;
+  for (const auto& [minus_weight, k] : others) {
+    if (held >= kCredible * all) break;
+    held -= minus_weight;
+    f.set.push_back(k);
+  }
+  f.probability = probability_of_weight * held;
 }
 
 }  // namespace
@@ -49,12 +82,15 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
     const Finding as_found = result.findings[k];
     const double all = weight_of_all(c, as_found);
     double dropped = 0;
+    std::vector<int> struck;
     Finding& f = result.findings[k];
-    while (!plausible(estimate_size(c, result, k).parameters)) {
+    while (!possible(c, f, estimate_size(c, result, k).parameters)) {
       if (f.set.size() == 1) {
         f = as_found;
+        struck.clear();
         break;
       }
+      struck.push_back(f.set.front());
       dropped += weight(c, as_found, f.set.front());
       f.set.erase(f.set.begin());
       f.explanation = f.set.front();
@@ -63,6 +99,7 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
       const double impossible = as_found.probability * dropped / all;
       f.probability = (as_found.probability - impossible) / (1 - impossible);
     }
+    if (!struck.empty()) fill_up(c, f, struck);
   }
 }
 

@@ -13,8 +13,9 @@ bool judged(const Case&, const Finding&);
 /// anything.
 void put_judged_members_first(const Case&, SearchResult&);
 
-/// A member that would need a size which no such effect has explains nothing, where another of its set does
-/// with a possible one. What was believed of it is believed of no other.
+/// A member that would need a size which no such effect has, with what the machine file has of it, explains nothing
+/// where another of its set does with a possible one. What was believed of it is believed of no other; the set is
+/// filled up with the effects next in likelihood.
 void drop_impossible_members(const Case&, SearchResult&);
 
 /// The members of the set of a finding, the first as it was told.
