@@ -134,18 +134,17 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
              "correct the sign in the recording");
 }
 
-/// A machine travels against the normal that it touches.
-void check_normals(const Recording& r, const std::string& file) {
+}  // namespace
+
+void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& back, const std::string& file) {
   std::vector<double> along;
-  for (const RecordingRow& row : r.rows)
-    if (row.normal && row.travel) along.push_back(dot(*row.normal, *row.travel));
+  for (const RecordingRow* row : rows)
+    if (row->normal && row->travel) along.push_back(dot(*row->normal, back * *row->travel));
   if (along.empty() || median(std::move(along)) < 0) return;
   refuse(
       file, "the machine travels along the normals, out of the material, not against them",
       "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
 }
-
-}  // namespace
 
 Recording without_copies(const Recording& recorded, const std::string& file, std::vector<Diagnostic>& messages) {
   std::map<std::tuple<std::string, int, int, int, std::string, std::optional<double>>, const RecordingRow*> seen;
@@ -180,7 +179,6 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   const bool complete =
       std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
   if (!complete) return;  // recorded_touches() says what is missing
-  check_normals(r, file);
   check_units(r, machine, file);
   check_readings(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });

@@ -20,7 +20,10 @@ void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Di
 void doubt_temperatures(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Whether more than one stylus or orientation must have touched, and no row says which (W0725).
 bool styli_unlogged(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
-/// Throws UserError: another unit, axes or normals.
+/// Throws UserError where the machine does not travel against the normals that it touches; `back` turns a setup onto
+/// its targets.
+void check_normals(const std::vector<const RecordingRow*>& setup, const Mat3& back, const std::string& file);
+/// Throws UserError: another unit or other axes.
 void check_data(const Recording&, const Machine&, const std::string& file);
 /// Throws UserError when many touches lie beside their targets; a few are warned of.
 void check_pairing(const Recording&, const RecordedTouches&, const std::string& file,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/diagnose/baseline/data_problems.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/math/rigid_fit.hpp"
 
@@ -146,6 +147,7 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
   std::map<int, Rigid> back;
   for (const auto& [setup, rows] : setups) {
     const Back placement = placement_of(rows);
+    check_normals(rows, placement.X.R, file);
     refuse_wrong_tip(rows, placement, most_out_mm, file);
     const Rigid& X = placement.X;
     const std::vector<double> before = beyond(rows, {}), after = beyond(rows, placement);
@@ -162,8 +164,12 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
         "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
   }
   Recording out = recorded;
-  for (RecordingRow& row : out.rows)
-    if (const auto X = back.find(row.setup); X != back.end()) row.position_mm = X->second * row.position_mm;
+  for (RecordingRow& row : out.rows) {
+    const auto X = back.find(row.setup);
+    if (X == back.end()) continue;
+    row.position_mm = X->second * row.position_mm;
+    if (row.travel) row.travel = X->second.R * *row.travel;
+  }
   return out;
 }
 

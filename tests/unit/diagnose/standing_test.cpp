@@ -94,6 +94,17 @@ TEST_CASE("one touch far off along the surface turns no ball") {
   for (std::size_t i = 0; i < ball.rows.size(); ++i) CHECK(same.rows[i].position_mm == ball.rows[i].position_mm);
 }
 
+TEST_CASE("the approaches of a part that stood turned are turned back with it") {
+  const Rigid X{rotation({0, 0, 1}, kPi), {900, 700, 0}};
+  Recording turned = box(X);
+  for (RecordingRow& row : turned.rows) row.travel = -(X.R * *row.normal);
+  std::vector<Diagnostic> messages;
+  const Recording back = put_on_targets(turned, kNoTip, "turned", messages);
+  for (const RecordingRow& row : back.rows) CHECK(norm(*row.travel + *row.normal) < 1e-6);
+  for (RecordingRow& row : turned.rows) row.travel = -*row.travel;
+  CHECK_THROWS_AS(put_on_targets(turned, kNoTip, "turned", messages), UserError);
+}
+
 TEST_CASE("each setup has its own placement") {
   Recording both = box({Mat3{}, {1, 0, 0}}, 1);
   const Recording second = box({Mat3{}, {0, -3, 0}}, 2);
