@@ -139,7 +139,8 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
   }
   if (best) return best;
   const double n = quiet.sum(), noise = r.noise_um * std::sqrt(r.standardised.array().square().matrix().dot(quiet) / n);
-  const double spec = c.model.noise_um.mean(), excess = noise / spec, u = excess / std::sqrt(2 * n);
+  const double spec = c.model.noise_um.mean(), excess = noise / spec,
+               u = excess * std::sqrt(std::max(1.0, inflation(r.tails, r.coupling, quiet)) / (2 * n));
   const double p = std::erfc((excess - kLeastExcess) / u / std::sqrt(2.0)) / 2;
   if (excess < kLeastExcess || p > kNoiseAlarm) return std::nullopt;
   const double sd = spec * std::sqrt(excess * excess - 1), u_sd = spec * excess * u / std::sqrt(excess * excess - 1);
@@ -150,33 +151,55 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
   return f;
 }
 
-/// More touches beyond the limit of gross outliers than normal noise puts there, by the tail of a Poisson
-/// law, and far beyond it.
-std::optional<NoiseFinding> outliers(const Case& c) {
-  double n = 0, sum = 0, limit = 0;
+/// How far each touch that was left out is from what the others predict, um, once the effects that were found are known:
+/// what happened at a moment strikes its first touches alone.
+Vector beyond_found(const Case& c, const SearchResult& result) {
+  std::vector<int> all(c.masked.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Matrix> found;
+  for (const Finding& f : result.findings) {
+    const Block& b = c.explanations.blocks[static_cast<std::size_t>(f.block)];
+    const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
+    found.push_back(variant_at(effect, b.theta, b.change, c.touches, all).signature);
+  }
+  if (found.empty()) return c.off_um;
+  std::vector<const Matrix*> signatures;
+  for (const Matrix& m : found) signatures.push_back(&m);
+  return beyond_prediction(with_free(compact(c.baseline.model), signatures), result.hyper, c.masked);
+}
+
+/// More touches beyond the limit of gross outliers than normal noise puts there, and far beyond it.
+std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) {
+  if (c.off_um.size() == 0) return std::nullopt;
+  const Vector beyond = beyond_found(c, result);
+  std::vector<std::size_t> out;
+  double sum = 0, outwards = 0, log_sum = 0, limit = 0;
   std::map<int, int> by_feature;
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
-    if (!c.masked[i]) continue;
-    ++by_feature[c.touches.touches[i].scene.feature];
     const auto row = static_cast<Eigen::Index>(i);
-    n += 1, sum += std::abs(c.off_um(row));
-    limit += kOutlier * c.baseline.model.noise_um(row) * c.hyper.noise(c.baseline.model.noise_group[i]);
+    const double off = beyond(row),
+                 own = kOutlier * c.baseline.model.noise_um(row) * c.hyper.noise(c.baseline.model.noise_group[i]);
+    if (!c.masked[i] || std::abs(off) < own) continue;
+    out.push_back(i);
+    ++by_feature[c.touches.touches[i].scene.feature];
+    sum += std::abs(off), outwards += off, log_sum += std::log(std::abs(off)), limit += own;
   }
+  const auto n = static_cast<double>(out.size());
   const double all = static_cast<double>(c.masked.size()), share = n / all,
                expected = all * std::erfc(kOutlier / std::sqrt(2.0));
   const double p = chance_of_outliers(n, expected);
   if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
-  NoiseFinding f{
-      find_effect("noise.outliers"),
-      p,
-      {figure("share", "1", share, std::sqrt(share / all)), figure("size_um", "um", sum / n, sum / n / std::sqrt(n))},
-      {}};
+  constexpr double kLogSpread = 0.7;  // of the effect
+  const double median = std::copysign(std::exp(log_sum / n), outwards);
+  NoiseFinding f{find_effect("noise.outliers"),
+                 p,
+                 {figure("share", "1", share, std::sqrt(share / all)),
+                  figure("size_um", "um", median, kLogSpread * std::abs(median) / std::sqrt(n))},
+                 {}};
   // Dirt lies anywhere in the sequence. What lies so close together by chance in one recording of twenty may
   // be something that happened then.
   constexpr double kByChance = 0.05;
-  const auto first = std::find(c.masked.begin(), c.masked.end(), 1) - c.masked.begin(),
-             last = c.masked.rend() - std::find(c.masked.rbegin(), c.masked.rend(), 1);
-  f.certain = n * std::pow(double(last - first) / all, n - 1) > kByChance;
+  f.certain = n * std::pow(double(out.back() + 1 - out.front()) / all, n - 1) > kByChance;
   const auto most = std::max_element(by_feature.begin(), by_feature.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   f.factor = Factor::feature, f.where = {{"feature", c.touches.features[static_cast<std::size_t>(most->first)]}};
@@ -187,7 +210,7 @@ std::optional<NoiseFinding> outliers(const Case& c) {
 }  // namespace
 
 std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result) {
-  std::vector<std::optional<NoiseFinding>> judged{resolution(c), outliers(c)};
+  std::vector<std::optional<NoiseFinding>> judged{resolution(c), outliers(c, result)};
   // What an imperfect explanation leaves is no scatter.
   if (!result.other && result.adequacy >= kInadequate) {
     const Residuals r = residuals(c, result);

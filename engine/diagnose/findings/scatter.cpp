@@ -21,7 +21,7 @@ const TouchScene& scene_of_row(const Case& c, Eigen::Index row) {
 // score, sum of share times square, over what it would be for those.
 Excess excess_along(const Residuals& r, const Vector& share) {
   const Vector square = r.standardised.array().square(), centred = share.array() - share.mean();
-  const double inflation = r.tails - 1 + centred.dot(r.coupling * centred) / centred.squaredNorm();
+  const double inflated = inflation(r.tails, r.coupling, centred);
   const auto n = static_cast<double>(square.size());
   const auto log_likelihood = [&](double excess) {
     const Vector v = 1 + excess * share.array();
@@ -33,8 +33,12 @@ Excess excess_along(const Residuals& r, const Vector& share) {
     const double gain = log_likelihood(excess) - log_likelihood(0);
     if (gain > best) best = gain, out.size = excess;
   }
-  out.chi2 = 2 * best / std::max(1.0, inflation);
+  out.chi2 = 2 * best / std::max(1.0, inflated);
   return out;
+}
+
+double inflation(double tails, const Matrix& coupling, const Vector& rows) {
+  return tails - 1 + rows.dot(coupling * rows) / rows.squaredNorm();
 }
 
 double chance_of_excess(double chi2) { return std::erfc(std::sqrt(std::max(0.0, chi2) / 2)) / 2; }

@@ -41,9 +41,13 @@ struct Excess {
 };
 Excess excess_along(const Residuals&, const Vector& share);
 
+/// How many times the variance of a sum of squares over rows is that of as many independent normal residuals: tails and
+/// correlations.
+double inflation(double tails, const Matrix& coupling, const Vector& rows);
+
 /// The probability that equal variances gain so much: size is never below 0, so half a chi-squared law.
 double chance_of_excess(double chi2);
-/// Of a count of outliers where so many are expected: their term of a Poisson law.
+/// Of so many outliers or more where few are expected: the first term of the tail of a Poisson law, nearly all of it.
 double chance_of_outliers(double count, double expected);
 
 /// A group of noise.unequal.

@@ -79,7 +79,7 @@ class ScatterDesign {
   /// Of all touches alike, over the specification of the probe.
   ScatterForm everywhere() const {
     const Vector all = Vector::Ones(static_cast<Eigen::Index>(c_.rows.size()));
-    const double relative = 1 / std::sqrt(2 * double(all.size()));
+    const double relative = std::sqrt(std::max(1.0, inflation(1, coupling_, all)) / (2 * double(all.size())));
     ScatterForm out;
     out.detected = least(200, [&](double excess) {
       const double ratio = std::sqrt(1 + excess), z = (ratio - kLeastExcess) / (ratio * relative) - kPower;

@@ -40,3 +40,11 @@ TEST_CASE("the chances of unequal scatter and of outliers are those of their law
   CHECK(chance_of_excess(0) == 0.5);
   CHECK(chance_of_outliers(2, 0.01) == doctest::Approx(5e-5));
 }
+
+TEST_CASE("a sum of squares varies more where tails are heavy or residuals have much in common") {
+  const Vector all = Vector::Ones(kTouches);
+  const Matrix apart = Matrix::Identity(kTouches, kTouches), one = Matrix::Ones(kTouches, kTouches);
+  CHECK(inflation(1, apart, all) == doctest::Approx(1));
+  CHECK(inflation(2.5, apart, all) == doctest::Approx(2.5));
+  CHECK(inflation(1, one, all) == doctest::Approx(double(kTouches)));
+}
