@@ -29,9 +29,10 @@ std::vector<double> moments(const RecordedTouches& t) {
 }
 
 /// Equally spaced frequencies from a quarter of a cycle up: the spectral resolution is one cycle per recording.
-std::vector<double> periods(const RecordedTouches& t) {
+/// None shorter than the effect has them: what repeats after a few touches would fit one of those.
+std::vector<double> periods(const EffectParameter& p, const RecordedTouches& t) {
   std::vector<double> list;
-  for (int k = 1; k <= kFrequencies; ++k) list.push_back(duration(t) / (0.5 * k));
+  for (int k = 1; k <= kFrequencies && duration(t) / (0.5 * k) >= p.low; ++k) list.push_back(duration(t) / (0.5 * k));
   return list;
 }
 
@@ -83,7 +84,7 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
     case Sought::signal_period: return {Kind::tried, listed(p)};
     case Sought::around_listed: return {Kind::tried, listed(p), true};
     case Sought::moment: return {Kind::tried, moments(t), true};
-    case Sought::period: return {Kind::tried, periods(t), true};
+    case Sought::period: return {Kind::tried, periods(p, t), true};
     case Sought::time_constant: return {Kind::tried, time_constants(t), true};
     case Sought::reading: return {Kind::tried, places(t), true};
     case Sought::phase: return {Kind::phase, {0, 90}};
