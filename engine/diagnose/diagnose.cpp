@@ -20,6 +20,7 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
+#include "engine/diagnose/findings/same_phase.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/diagnose/planning/design.hpp"
@@ -158,9 +159,13 @@ std::string pattern_beside(const Case& c, const Finding& f) {
   const Finding pattern = finding_of(c.explanations, f.evidence, false);
   if (pattern.explanation < 0 || kAsWell * pattern.probability < f.probability) return "";
   const Explanation& e = c.explanations.list[static_cast<std::size_t>(pattern.explanation)];
-  return fmt::format(" A pattern over {} ({}) that no effect of the catalogue makes would explain it as well.",
+  return fmt::format(" A pattern over {} ({}) that no single effect of the catalogue makes would explain it as well.",
                      abbe::diagnose::name(e.factor), e.shape);
 }
+
+constexpr const char* kSamePhase =
+    " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
+    "same. Repeat it with the part moved by a third of the period.";
 
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
@@ -183,13 +188,15 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         ? " It is gone: the machine file needs nothing of it."
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
-    const bool doubted = something_else || c.styli_unlogged || !judged(c, f) || !possible || !shown(out.improvement);
+    const bool same_phase = same_phase_in_same_direction(c, f);
+    const bool doubted =
+        something_else || c.styli_unlogged || same_phase || !judged(c, f) || !possible || !shown(out.improvement);
     e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) +
-        pattern_beside(c, f) + in_file;
+        pattern_beside(c, f) + (same_phase ? kSamePhase : "") + in_file;
     if (change.run > 0 && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
