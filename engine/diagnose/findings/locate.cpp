@@ -150,11 +150,12 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
 
 /// The explanations of one factor.
 struct Located {
-  int best = -1;                   ///< the likeliest
+  int best = -1;  ///< the likeliest
+  double belief_in_best = 0;
   std::vector<double> log_belief;  ///< of each
 
-  void add(int explanation, double belief, const Evidence& evidence) {
-    if (best < 0 || evidence.log_bayes[explanation] > evidence.log_bayes[best]) best = explanation;
+  void add(int explanation, double belief) {
+    if (best < 0 || belief > belief_in_best) best = explanation, belief_in_best = belief;
     log_belief.push_back(belief);
   }
 };
@@ -166,8 +167,7 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
     const Explanation& e = all.list[k];
     const int block = best_block(all, static_cast<int>(k), evidence);
     const bool changes = all.blocks[static_cast<std::size_t>(block)].change.run > 0;
-    out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k],
-                                                    evidence);
+    out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k]);
   }
   return out;
 }
@@ -242,7 +242,7 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
       fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording", u.factor, u.shape, u.amplitude_um);
   const Finding name = finding_of(c.explanations, f.evidence, true);
   const bool as_good = kAsWell * name.probability >= f.probability;
-  u.sentence += !as_good ? " that no effect of the catalogue makes."
+  u.sentence += !as_good ? " that no single effect of the catalogue makes."
                          : fmt::format(". {} would explain it as well as what the catalogue does not have.",
                                        listed(c.explanations, name.set));
   if (result.nearest) {
