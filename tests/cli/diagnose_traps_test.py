@@ -1,0 +1,107 @@
+"""abbe diagnose where something looks like an effect that it is not, or hides one that it is."""
+import itertools
+import json
+import math
+
+import harness
+
+MACHINE = harness.ROOT / "examples/machines/coord3-mc16.json"
+PORTAL, SPHERE = (harness.ROOT / "examples/iso10360" / name for name in ("portal-2009.json", "form_and_size_1x25.dmi"))
+BALLS = ((0, 0, 0), (350, 0, 0), (0, 250, 0), (350, 250, 0), (180, 120, 150), (60, 200, 80))
+RADIUS = 12.5
+
+
+def program():
+    """Six balls at round heights, the same touches on each, in three orientations of the head."""
+    lines = ["DMISMN/'six balls',4.0", "UNITS/MM,ANGDEC", "SNSET/APPRCH,3", "SNSET/RETRCT,3", "FEDRAT/MESVEL,MMPS,4"]
+    orientations = ((0, 0), (45, 90), (45, -90))
+    lines += [f"S(O{k})=SNSDEF/PROBE,INDEX,POL,{a},{b},0,0,-1,120,3" for k, (a, b) in enumerate(orientations)]
+    lines.append("D(R)=TRANS/XORIG,700,YORIG,400,ZORIG,-550")
+    rings = ((90, 1, 0), (55, 5, 0), (20, 6, 15))   # elevation, touches, azimuth of the first
+    normals = [(math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e)) for elevation, count, first in rings
+               for e, a in ((math.radians(elevation), math.radians(first + 360 * k / count)) for k in range(count))]
+    for k, (ball, centre) in itertools.product(range(len(orientations)), enumerate(BALLS)):
+        if ball == 0:
+            lines.append(f"SNSLCT/S(O{k})")
+        lines.append(f"GOTO/{centre[0]},{centre[1]},{centre[2] + 60}")
+        lines += [f"F(B{ball}_{k})=FEAT/SPHERE,OUTER,CART,{','.join(map(str, centre))},{2 * RADIUS}", f"MEAS/SPHERE,F(B{ball}_{k}),{len(normals)}"]
+        lines += ["PTMEAS/CART," + ",".join(f"{v:.7f}" for v in (*(c + RADIUS * n for c, n in zip(centre, normal)), *normal)) for normal in normals]
+        lines.append("ENDMES")
+    return "\n".join([*lines, "ENDFIL", ""])
+
+
+def farther(row, um):
+    """The touch `um` farther out, as its scales show it."""
+    by = {a: um / 1000 * float(row["n" + a]) for a in "xyz"}
+    return row | {a: f"{float(row[a]) + by[a]:.7f}" for a in "xyz"} | {f"enc_{a}": f"{float(row['enc_' + a]) + by[a]:.7f}" for a in "xyz"}
+
+
+class Traps(harness.Case):
+    def setUp(self):
+        super().setUp()
+        self.write("balls.dmi", program())
+
+    def record(self, *options, name="balls.csv", machine=MACHINE):
+        self.abbe("record", "balls.dmi", "--machine", machine, "-o", name, *options)
+        return self.folder / name
+
+    def diagnosis(self, recording, machine=MACHINE):
+        return json.loads(self.abbe("diagnose", recording, "--machine", machine, "--format", "json").stdout)
+
+    def test_what_depends_on_the_direction_is_no_period_of_a_scale_at_round_heights(self):
+        """Each ring of every ball is at one phase of a scale of 50 um."""
+        poles = self.changed(self.record("--seed", 31), lambda row: farther(row, 5 * max(float(row["nz"]), 0) ** 4))
+        said = self.diagnosis(poles)
+        for e in said["effects"]:
+            self.assertLessEqual(e["probability"], 0.5)
+            if e["members"][0] == "machine.scale_interpolation":
+                self.assertIn("moved by a third of the period", e["sentence"])
+
+    def test_what_every_fifth_touch_does_no_room_does(self):
+        for seed in (7, 8):
+            count = itertools.count()
+            said = self.diagnosis(self.changed(self.record("--seed", seed), lambda row: farther(row, 3 if next(count) % 5 == 0 else 0)))
+            for e in said["effects"]:
+                self.assertNotIn("thermal.cycle", e["members"])
+
+    def test_the_first_touches_after_a_step_are_no_dirt(self):
+        for moment_s in (151, 207):
+            said = self.diagnosis(self.record("--seed", 24, "--with", f"machine.step:t0_s={moment_s},amplitude_um=6"))
+            self.assertIn("machine.step", said["effects"][0]["members"])
+            self.assertNotIn(["noise.outliers"], [e["members"] for e in said["effects"]])
+
+    def test_the_size_of_dirt_is_its_median(self):
+        logs = []
+        for seed in range(1, 7):
+            said = self.diagnosis(self.record("--seed", seed, "--with", "noise.outliers:share=0.05,size_um=-30"))
+            size = next(e["parameters"]["size_um"] for e in said["effects"] if e["members"] == ["noise.outliers"])
+            self.assertLess(size["value"], 0)
+            logs.append(math.log(size["value"] / -30))
+        # about 10 touches in each of 6 recordings, whose logarithms have a standard deviation of 0.7: 0.09 of the mean
+        self.assertLess(abs(sum(logs) / len(logs)), 3 * 0.09)
+
+    def test_speeds_that_were_measured_are_those_that_were_commanded(self):
+        """The machine is off along x as it goes faster, which no effect does; each touch logs its own speed."""
+        said = []
+        for step in (1.0, 0.001):
+            count = itertools.count(1)
+
+            def faster(row):
+                speed = round((3 + 4 * (next(count) * 0.6180339887 % 1)) / step) * step
+                return farther(row, 1.5 * (speed - 5) * float(row["nx"])) | {"speed_mm_s": f"{speed:.3f}"}
+            said.append(self.diagnosis(self.changed(self.record("--seed", 3), faster)))
+        for d in said:
+            self.assertEqual((d["verdict"], d["location"][0]["factor"]), ("unexplained", "speed"))
+
+    def test_an_effect_of_the_machine_file_that_is_gone_is_named(self):
+        machine = json.loads(PORTAL.read_text())
+        machine["effects"] = [{"name": "probe.pretravel_lobing", "parameters": {"amplitude_um": {"value": 0.11, "u": 0}}}]
+        self.abbe("record", SPHERE, "--machine", PORTAL, "--seed", 6, "-o", "sphere.csv")
+        said = self.diagnosis("sphere.csv", self.write("mended.json", json.dumps(machine)))
+        self.assertEqual(said["effects"][0]["members"][0], "probe.pretravel_lobing")
+        self.assertGreater(said["effects"][0]["probability"], 0.8)
+        self.assertIn("it is not there any more", said["effects"][0]["sentence"])
+
+
+if __name__ == "__main__":
+    harness.main()
