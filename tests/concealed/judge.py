@@ -1,10 +1,11 @@
 """Sets one answer against one truth: a flat row of what was right, what was wrong, and by how much.
 docs/formats.md has the answer's keys.
 
-Rules, fixed before any final round: something is *detected* when the verdict is a mismatch. A name is *right*
-when the truth is among the members of the first effect (of any effect, for a pair). It is *confidently wrong*
-when an effect with a probability above 0.95 has no truth among its members, nor what the truth cannot be told
-from. Noise properties that a hard null really has may be named.
+Rules, fixed before any final round (but for the last, which became stricter after the twelfth): something is *detected*
+when the verdict is a mismatch. A name is *right* when the truth is among the members of the first effect (of any effect,
+for a pair). It is *confidently wrong* when an effect with a probability above 0.95 has no truth among its members, nor
+what the truth cannot be told from. Of a null, whatever is told is a *false alarm*, by any verdict: a pattern, or a name,
+but for noise properties that a hard null really has.
 """
 
 INDISTINCT = 0.95  # correlation, as where effects are put into one class
@@ -136,8 +137,8 @@ def row(truth, stored):
         other_names=[r[0] for r in truth.get("rivals", [])],
         next_measurement=[m.get("change") for m in said.get("next_measurement", [])][:1],
     )
-    tolerated = set(truth.get("tolerated", []))
-    out["false_alarm"] = (
-        truth["kind"] == "null" and out["detected"] and not (sets and all(s and set(s) <= tolerated for s in sets))
-    )
+    tolerated, pattern = set(truth.get("tolerated", [])), bool(said.get("unexplained"))
+    alarm = out["detected"] or bool(sets) or pattern  # cannot_judge may have names; where nothing can be judged, it has none
+    harmless = bool(sets) and all(s and set(s) <= tolerated for s in sets) and not pattern
+    out["false_alarm"] = truth["kind"] == "null" and alarm and not harmless
     return out

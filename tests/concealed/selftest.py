@@ -28,6 +28,7 @@ import measures
 import null
 import score
 import seal
+import stories
 import tallies
 import world
 from effects import CATALOGUE, base, noise, probe, unknown, unknown_final
@@ -350,6 +351,14 @@ class Files(unittest.TestCase):
         self.assertEqual(len({(row["feature"], row["touch"], row["run"]) for row in table}), len(table))
 
 
+def judged(kind, said, concealed=("thermal.drift",), **more):
+    """The row of an answer to a case that conceals effects of these names."""
+    truth = {k: "" for k in ("case", "detail", "machine", "mode", "verdict")}
+    effects = [{"name": name, "fixed": {}, "factors": []} for name in concealed]
+    truth |= {"kind": kind, "snr": 10, "design": "D", "touches": 9, "nuisance": {"noise": "dirt"}, "effects": effects, **more}
+    return judge.row(truth, {"answer": said, "seconds": 1, "exit": 0})
+
+
 class Scoring(unittest.TestCase):
     def test_limits_of_shares(self):
         self.assertAlmostEqual(tallies.upper_limit(10, 1000), 0.0169, places=3)
@@ -403,6 +412,23 @@ class Scoring(unittest.TestCase):
         figures = measures.all_of([right, wrong])
         self.assertEqual(figures["naming"]["rich"]["6"]["k"], 1)
         self.assertEqual([t["met"] for t in measures.targets(figures) if t["name"] == "detected at SNR 6"], [True])
+
+    def test_a_false_alarm_is_one_by_any_verdict(self):
+        dirt, pattern = {"members": ["noise.outliers"], "probability": 0.5}, {"factor": "position", "shape": "smooth"}
+        doubted = {"members": ["thermal.drift"], "probability": 0.5}
+        for verdict, p, effects, unexplained, alarm in (
+            ("no_mismatch", 0.4, [], None, False),
+            ("named", 0.001, [dirt], None, False),
+            ("unexplained", 0.001, [], pattern, True),
+            ("unexplained", 0.001, [dirt], pattern, True),
+            ("cannot_judge", 0.001, [doubted], None, True),
+            ("cannot_judge", None, [], None, False),
+        ):
+            said = {"verdict": verdict, "p_value": p, "effects": effects, "unexplained": unexplained}
+            row = judged("null", said, (), tolerated=["noise.outliers"])
+            self.assertEqual(row["false_alarm"], alarm, said)
+            self.assertEqual(score.badness(row) > 0, alarm, said)
+        self.assertIn("beside a pattern", stories.story(judged("null", {"verdict": "unexplained", "effects": [dirt], "unexplained": pattern}, ())))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,8 @@ def said_of(r):
     chance = "" if r.get("probability") is None else f" with probability {r['probability']:.2f}"
     if r.get("members"):
         names = ", ".join(r["members"][:3]) + (f" and {len(r['members']) - 3} more" if len(r["members"]) > 3 else "")
-        return ("one of " if len(r["members"]) > 1 else "") + names + chance
+        beside = " beside a pattern" if r.get("unexplained") else ""
+        return ("one of " if len(r["members"]) > 1 else "") + names + chance + beside
     return "unexplained" if r.get("verdict") == "unexplained" else "nothing"
 
 
