@@ -89,6 +89,17 @@ def likenesses(truth):
     return {name for name, correlation in truth.get("nearest") or [] if correlation > INDISTINCT}
 
 
+def told(truth, said):
+    """Each set of names told, {probability, right}: right when a truth is among its members, or when it is nothing but what
+    the noise of a null really has."""
+    names, tolerated, out = {e["name"] for e in truth["effects"]}, set(truth.get("tolerated", [])), []
+    for effect in said.get("effects", []):
+        members = set(effect.get("members", []))
+        right = bool(names & members) or bool(members) and members <= tolerated
+        out.append({"probability": effect.get("probability", 0), "right": right})
+    return out
+
+
 def row(truth, stored):
     """Everything that the scorer counts, of one case."""
     said = stored.get("answer")
@@ -113,6 +124,7 @@ def row(truth, stored):
         detected=said.get("verdict") in MISMATCH,
         members=sets[0] if sets else [],
         all_members=sets,
+        told=told(truth, said),
         probability=first.get("probability"),
         right=bool(sets)
         and (bool(names & set(sets[0])) if truth["kind"] != "pair" else all(any(n in s for s in sets) for n in names)),
@@ -137,8 +149,8 @@ def row(truth, stored):
         other_names=[r[0] for r in truth.get("rivals", [])],
         next_measurement=[m.get("change") for m in said.get("next_measurement", [])][:1],
     )
-    tolerated, pattern = set(truth.get("tolerated", [])), bool(said.get("unexplained"))
+    pattern = bool(said.get("unexplained"))
     alarm = out["detected"] or bool(sets) or pattern  # cannot_judge may have names; where nothing can be judged, it has none
-    harmless = bool(sets) and all(s and set(s) <= tolerated for s in sets) and not pattern
+    harmless = bool(sets) and all(t["right"] for t in out["told"]) and not pattern
     out["false_alarm"] = truth["kind"] == "null" and alarm and not harmless
     return out

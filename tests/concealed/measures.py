@@ -243,9 +243,14 @@ def of_unknown(rows):
 
 
 def of_missing(rows):
+    """What cannot be judged follows from the columns alone, so that it is listed by construction. Right is who lists it and
+    invents nothing: tells no set without the truth with more than one half."""
+    listed = [bool(set(r["families"]) & set(r["cannot_judge"])) for r in rows]
+    invented = [any(t["probability"] > 0.5 and not t["right"] for t in r["told"]) for r in rows]
     return {
-        "listed": share([bool(set(r["families"]) & set(r["cannot_judge"])) for r in rows]),
-        "invented": share([r["verdict"] == "named" and not r["right"] for r in rows]),
+        "listed": share(listed),
+        "invented": share(invented),
+        "right": share([a and not b for a, b in zip(listed, invented)]),
         "confident_wrong": share(flags(rows, "confident_wrong")),
     }
 
@@ -289,7 +294,8 @@ def targets(m):
     unlike = m["unknown"]["unlike"]  # what resembles a catalogue effect (correlation above 0.7) is counted apart
     add("unknown, called unexplained", ">= 90 %", unlike["unexplained"], at_least(0.90))
     add("unknown, falsely named", "<= 5 %", unlike["falsely_named"], at_most(0.05))
-    add("missing covariate, listed as not to be judged", ">= 95 %", m["missing"]["listed"], at_least(0.95))
+    add("missing covariate, listed, no wrong name", ">= 95 %", m["missing"]["right"], at_least(0.95))
+    add("missing covariate, wrong name told (> 0.5)", "<= 5 %", m["missing"]["invented"], at_most(0.05))
     add("pairs, both named (separable)", ">= 95 %", m["pairs"]["separable"], at_least(0.95))
     add("decoys, truth in the set", ">= 95 %", m["pairs"]["decoy"], at_least(0.95))
     return out

@@ -430,6 +430,21 @@ class Scoring(unittest.TestCase):
             self.assertEqual(score.badness(row) > 0, alarm, said)
         self.assertIn("beside a pattern", stories.story(judged("null", {"verdict": "unexplained", "effects": [dirt], "unexplained": pattern}, ())))
 
+    def test_a_missing_covariate_is_right_where_no_name_is_invented(self):
+        listed = [{"effect": "thermal.drift"}]
+        rows = []
+        for verdict, members, probability in (
+            ("named", ["head.sag"], 0.9),
+            ("one_of", ["head.sag", "machine.step"], 0.6),
+            ("one_of", ["head.sag", "thermal.drift"], 0.9),
+            ("cannot_judge", ["head.sag"], 0.5),
+        ):
+            effects = [{"members": members, "probability": probability}]
+            rows.append(judged("missing", {"verdict": verdict, "effects": effects, "cannot_judge": listed}))
+        rows += [judged("missing", {"verdict": "no_mismatch", "cannot_judge": some}) for some in (listed, [])]
+        figures = measures.of_missing(rows)
+        self.assertEqual([figures[k]["k"] for k in ("listed", "invented", "right")], [5, 2, 3])
+
 
 if __name__ == "__main__":
     unittest.main()
