@@ -138,13 +138,17 @@ def of_detection(nulls, singles):
     }
 
 
+def reliability(rows):
+    """Of every set told in any answer: of two effects, strangers, nulls and doubted by half as well."""
+    sets = [t for r in rows for t in r["told"]]
+    return calibration([t["probability"] for t in sets], flags(sets, "right"))
+
+
 def of_names(singles):
     named = [r for r in singles if r["verdict"] in ("named", "one_of")]
-    sure = [r for r in named if r["probability"] is not None]
     return {
         "naming": {"rich": naming(pick(singles, design=RICH)), "poor": naming(pick(singles, design=POOR))},
         "named_set_contains_truth": share(flags(named, "right")),
-        "reliability": calibration([r["probability"] for r in sure], flags(sure, "right")),
         "strong": of_strong([r for r in singles if r["snr"] >= 6 and r["detected"]]),
         "location": by(pick(singles, detected=True), snr, lambda rows: share(flags(rows, "located"))),
         "parameters": of_parameters(singles),
@@ -193,6 +197,7 @@ def all_of(rows):
         **of_nulls(nulls),
         **of_detection(nulls, singles),
         **of_names(singles),
+        "reliability": reliability(answered),
         **of_pairs(pick(answered, kind="pair")),
         "unknown": of_unknown(pick(answered, kind="unknown")),
         "missing": of_missing(pick(answered, kind="missing")),

@@ -27,7 +27,7 @@ def reliability(m):
     number = {"mark": {"type": "text", "dx": 14, "fontSize": 10}, "encoding": {"x": x, "y": share("right", titles[1]), "text": axis("n", None, "nominal")}}
     layers = [*with_limits(x, share("right", titles[1])), number, line([0, 1], [0, 1], titles)]
     error = m["reliability"]["error"]
-    return spec("Reliability of the probability of a name", rows, layers, f"expected calibration error {error:.3f}; numbers: cases" if rows else None)
+    return spec("Reliability of the probability of a name", rows, layers, f"every set told in any case; expected calibration error {error:.3f}; numbers: sets" if rows else None)
 
 
 def sets(m):

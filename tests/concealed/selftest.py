@@ -445,6 +445,22 @@ class Scoring(unittest.TestCase):
         figures = measures.of_missing(rows)
         self.assertEqual([figures[k]["k"] for k in ("listed", "invented", "right")], [5, 2, 3])
 
+    def test_probabilities_are_held_against_every_name_told(self):
+        def named(*names):
+            return {"verdict": "named", "effects": [{"members": [name], "probability": 0.97} for name in names]}
+
+        rows = [
+            judged("single", named("thermal.drift")),
+            judged("pair", named("thermal.drift", "head.sag"), ("thermal.drift", "machine.step")),
+            judged("missing", named("head.sag")),
+            judged("unknown", named("head.sag"), ("dent",)),
+            judged("null", named("thermal.drift"), ()),
+            judged("null", named("noise.outliers"), (), tolerated=["noise.outliers"]),
+            judged("single", {"verdict": "no_mismatch"}),
+        ]
+        (row,) = measures.all_of(rows)["reliability"]["bins"]
+        self.assertEqual((row["n"], row["right"]), (7, 3 / 7))
+
 
 if __name__ == "__main__":
     unittest.main()
