@@ -152,5 +152,5 @@ def row(truth, stored):
     pattern = bool(said.get("unexplained"))
     alarm = out["detected"] or bool(sets) or pattern  # cannot_judge may have names; where nothing can be judged, it has none
     harmless = bool(sets) and all(t["right"] for t in out["told"]) and not pattern
-    out["false_alarm"] = truth["kind"] == "null" and alarm and not harmless
+    out.update(alarm=alarm, false_alarm=truth["kind"] == "null" and alarm and not harmless)
     return out

@@ -71,17 +71,21 @@ def p_values(rows):
 
 
 def compared(rows):
-    """The same cases, judged by simpler methods and by one that knows the family."""
+    """The same cases, judged by simpler methods and by one that knows the family. Nulls: every alarm counts, also one
+    that says what the noise really has, for the others cannot say it."""
     nulls, singles = pick(rows, kind="null"), pick(rows, kind="single")
 
     def r(case, key):
         return (case.get("rivals") or {}).get(key)
 
+    def alarms(alarm):
+        return {f"alarms_{d}": share([bool(alarm(c)) for c in pick(nulls, detail=d)]) for d in ("clean", "hard")}
+
     chi2 = lambda case: (r(case, "chi2_p") if r(case, "chi2_p") is not None else 1) < 0.01
     return {
-        "chi2": {"false_alarms": share([chi2(c) for c in nulls]), "power": share([chi2(c) for c in singles])},
+        "chi2": {**alarms(chi2), "power": share([chi2(c) for c in singles])},
         "stepwise_bic": {
-            "false_alarms": share([bool(r(c, "stepwise_members")) for c in nulls]),
+            **alarms(lambda c: r(c, "stepwise_members")),
             "right": share([bool(r(c, "stepwise_right")) for c in singles]),
         },
         "best_bayes_factor": {
@@ -91,7 +95,7 @@ def compared(rows):
             ),
         },
         "this": {
-            "false_alarms": share(flags(nulls, "false_alarm")),
+            **alarms(lambda c: c["alarm"]),
             "right": share(flags(singles, "right")),
             "confident_wrong": share(flags(singles, "confident_wrong")),
             "power": share(flags(singles, "detected")),

@@ -19,7 +19,7 @@ except ModuleNotFoundError as missing:
     sys.exit(f"score: needs {missing.name} (Debian: python3-numpy)")
 
 
-METHOD_FIGURES = ("false_alarms", "power", "right", "confident_wrong")
+METHOD_FIGURES = ("alarms_clean", "alarms_hard", "power", "right", "confident_wrong")
 WORST = ("case", "kind", "detail", "design", "mode", "snr", "families", "verdict", "members", "probability", "p_value", "exit")
 
 
@@ -77,7 +77,7 @@ def tables(result):
         "power by design": table(["design", *(f"s = {s}" for s in steps)], powers),
         "false alarms": table(["noise (hard nulls) or design (all)", "n", "false alarms"], nulls),
         "families": table(["family", "n", "detected", "right, of the detected"], families),
-        "other methods": table(["method", "false alarms", "detected", "right", "confident and wrong"], methods),
+        "other methods": table(["method", "alarms, clean nulls", "alarms, hard nulls", "detected", "right", "confident and wrong"], methods),
         "worst": table(["case", "what happened"], [[w["case"], w["story"]] for w in result["worst"]]),
     }
 

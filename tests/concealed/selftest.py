@@ -461,6 +461,15 @@ class Scoring(unittest.TestCase):
         (row,) = measures.all_of(rows)["reliability"]["bins"]
         self.assertEqual((row["n"], row["right"]), (7, 3 / 7))
 
+    def test_methods_are_compared_without_tolerance(self):
+        effects = [{"members": ["noise.outliers"], "probability": 0.97}]
+        said = {"verdict": "named", "effects": effects, "rivals": {"chi2": {"p": 1e-9}, "stepwise_bic": {"members": ["head.sag"]}}}
+        rows = [judged("null", said, (), detail="hard", tolerated=["noise.outliers"]), judged("null", {"verdict": "no_mismatch"}, (), detail="clean")]
+        self.assertFalse(any(r["false_alarm"] for r in rows))
+        for method in ("chi2", "stepwise_bic", "this"):
+            block = measures.compared(rows)[method]
+            self.assertEqual([block[f"alarms_{d}"]["k"] for d in ("clean", "hard")], [0, 1], method)
+
 
 if __name__ == "__main__":
     unittest.main()
