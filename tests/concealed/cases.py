@@ -155,10 +155,14 @@ def poor_or_rich(effect):
     return effect.designs + "D" * (len(effect.designs) - 1) * ("D" in effect.designs)
 
 
+def table_of(spec):
+    """The effects that may be concealed in such a case."""
+    return {"unknown": (unknown_final if spec.detail == "final" else unknown).UNKNOWN}.get(spec.kind, CATALOGUE)
+
+
 def find(rng, spec, family=None, attempts=8):
     """A stage on which the effect of the spec is possible: (stage, effect, parameters, signature), or None."""
-    table = {"unknown": (unknown_final if spec.detail == "final" else unknown).UNKNOWN}.get(spec.kind, CATALOGUE)
-    effect = table[family or spec.family]
+    effect = table_of(spec)[family or spec.family]
     for _ in range(attempts):
         stage = staged(rng, poor_or_rich(effect) if spec.kind != "missing" else "D", 0.8 if effect.known else 0.15)
         got = scaled(effect, stage.base, stage.null, effect.draw(stage.scene, rng), spec.snr)
@@ -169,8 +173,8 @@ def find(rng, spec, family=None, attempts=8):
 
 def found(rng, spec):
     """As find; another family when this one cannot be that large anywhere."""
-    family = spec.family
-    others = [f for f in sorted(CATALOGUE) if f != family and (spec.kind != "missing" or CATALOGUE[f].needs)]
+    family, table = spec.family, table_of(spec)
+    others = [f for f in sorted(table) if f != family and (spec.kind != "missing" or table[f].needs)]
     while True:
         got = find(rng, spec, family)
         if got:

@@ -10,6 +10,7 @@ import re
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 try:
     from portable import np
@@ -255,6 +256,15 @@ class Rounds(unittest.TestCase):
         self.assertEqual(sorted(groups), sorted(world.LADDER))
         for snr, some in groups.items():
             self.assertGreaterEqual(len(some), 4, snr)
+
+    def test_a_stranger_that_fits_nowhere_gives_way_to_another(self):
+        find, rng = cases.find, seal.generator("selftest", "stranger")
+        for detail, table in (("", unknown.UNKNOWN), ("final", unknown_final.UNKNOWN)):
+            spec = cases.Spec("unknown", sorted(table)[0], 6.0, detail)
+            nowhere = lambda rng, spec, family: None if family == spec.family else find(rng, spec, family)
+            with unittest.mock.patch.object(cases, "find", nowhere):
+                _, effect, *_ = cases.found(rng, spec)
+            self.assertIn(effect, [e for name, e in table.items() if name != spec.family])
 
     def test_five_lobes_are_a_tip_form(self):
         s, effect = stage("C"), unknown.UNKNOWN["five_lobes"]
