@@ -3,7 +3,7 @@
 
     generate.py --round development|rehearsal|final --out DIR [--sealed DIR/sealed] [--scale 0.1] [--only KIND] [--secret HEX]
 
-DIR/SEAL.txt     hashes of the truths, written before the data
+DIR/SEAL.txt     hashes of the truths, written before the data appear
 DIR/cases/NNNN/  machine.json, recording.csv and, for a known machine, calibration.csv
 DIR/sealed/      secret.txt and the truths NNNN.json; keep it away from those who answer until they have answered
 """

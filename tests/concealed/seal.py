@@ -1,5 +1,5 @@
-"""Sealing: the truth of every case is bound by a hash that is published before the data, and opened after the
-answers.
+"""Sealing: the truth of every case is bound by a hash that is there before the data appear, and opened after
+the answers.
 
 The seal of a case is SHA-256(salt || truth bytes); the salt comes from the secret of the round, so that
 nobody can try truths until one fits, and the truth holds the SHA-256 of the data files, so that they cannot
