@@ -304,7 +304,6 @@ def targets(m):
     add("unknown, called unexplained", ">= 90 %", unlike["unexplained"], at_least(0.90))
     add("unknown, falsely named", "<= 5 %", unlike["falsely_named"], at_most(0.05))
     add("missing covariate, listed, no wrong name", ">= 95 %", m["missing"]["right"], at_least(0.95))
-    add("missing covariate, wrong name told (> 0.5)", "<= 5 %", m["missing"]["invented"], at_most(0.05))
     add("pairs, both named (separable)", ">= 95 %", m["pairs"]["separable"], at_least(0.95))
     add("decoys, truth in the set", ">= 95 %", m["pairs"]["decoy"], at_least(0.95))
     return out
