@@ -223,6 +223,7 @@ class Mistakes(Input):
         readings = ("enc_x", "enc_y", "enc_z")
         for by, unit in ((1 / 25.4, "inches"), (1e-3, "metres"), (1e3, "micrometres")):
             self.assertIn(f"readings are in {unit}", self.told("E0701", self.scaled(readings, by), "--machine", machine))
+        self.assertIn("are in radians", self.told("E0701", self.scaled(("head_A_deg", "head_B_deg"), math.pi / 180), "--machine", machine))
 
     def test_a_recording_names_a_machine_beside_it(self):
         machine = (harness.ROOT / "examples/machines/moving-table-700.json").read_text()

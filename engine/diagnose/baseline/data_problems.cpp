@@ -134,6 +134,23 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
              "correct the sign in the recording");
 }
 
+/// Angles of the head in radians: none above a full turn, and each a usual one once it is taken for degrees.
+void check_head(const Recording& r, const std::string& file) {
+  constexpr double kStep_deg = 2.5, kReads_deg = 0.1, kDegrees = 180 / kPi;
+  const auto usual = [](double deg) { return std::abs(deg - kStep_deg * std::round(deg / kStep_deg)) < kReads_deg; };
+  bool small = true, as_degrees = true, as_radians = true;
+  for (const RecordingRow& row : r.rows) {
+    for (const std::optional<double>& angle : {row.head_a_deg, row.head_b_deg}) {
+      if (!angle) continue;
+      small = small && std::abs(*angle) < 2 * kPi;
+      as_degrees = as_degrees && usual(*angle);
+      as_radians = as_radians && usual(kDegrees * *angle);
+    }
+  }
+  if (small && as_radians && !as_degrees)
+    refuse(file, "the angles of the head are in radians", "multiply head_A_deg and head_B_deg by 57.29578");
+}
+
 }  // namespace
 
 void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& back, const std::string& file) {
@@ -181,6 +198,7 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   if (!complete) return;  // recorded_touches() says what is missing
   check_units(r, machine, file);
   check_readings(r, file);
+  check_head(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross > kGross_mm) check_axes(r, file, gross);
 }
