@@ -2,7 +2,7 @@
 // - Direction of a datum: a plane's normal; the direction of a line, circle, cylinder, cone, torus.
 //   A point or a sphere has none, and so has an axis that runs along the primary direction (a bore
 //   in the primary plane): as secondary they give the direction from the origin, or from the
-//   primary axis, to their own point.
+//   primary axis, to their own point. ROTATE reads a feature in the same way, from the axis that it turns about.
 // - Origin of a datum: the coordinate of its point along the new axis, for every shape. For a
 //   secondary plane this is where the plane lies when it is associated at a right angle to the
 //   primary (ISO 5459:2011): through its centroid, whatever its own small tilt.
@@ -17,18 +17,27 @@ constexpr double kUseless = 1e-3;  // sine below which the projection of a direc
 
 int index(Axis axis) { return static_cast<int>(axis); }
 
-/// The unit vector across `primary` that a datum gives, seen from `anchor`, a point of the primary
-/// axis.
-Outcome<Vec3> direction_across(Shape shape, const Element& datum, const Vec3& primary, const Vec3& anchor) {
+/// Why a feature gives no direction across an axis, in the words of the statement.
+struct NoDirection {
+  const char *parallel, *on_axis;
+};
+
+constexpr NoDirection kOfSecondary{"the direction of the secondary datum is parallel to the primary",
+                                   "the secondary datum lies on the primary axis and gives no direction"};
+constexpr NoDirection kOfRotation{"the direction of the feature is parallel to the axis of rotation",
+                                  "the feature lies on the axis of rotation and gives no direction"};
+
+/// The unit vector across the axis `primary` that a feature gives, seen from `anchor`, a point of that axis.
+Outcome<Vec3> direction_across(Shape shape, const Element& datum, const Vec3& primary, const Vec3& anchor,
+                               const NoDirection& failure) {
   const Vec3 own = perpendicular_part(datum.direction, primary);
   const double sine = norm(own);
   const bool straight = shape == Shape::plane || shape == Shape::line;
   if (!is_spot(shape) && sine > (straight ? kUseless : kNearlyParallel)) return {own / sine};
-  if (straight) return Outcome<Vec3>::failed("the direction of the secondary datum is parallel to the primary");
+  if (straight) return Outcome<Vec3>::failed(failure.parallel);
   const Vec3 there = perpendicular_part(datum.point - anchor, primary);
   const double distance = norm(there);
-  if (!(distance > kSameAxis_mm))
-    return Outcome<Vec3>::failed("the secondary datum lies on the primary axis and gives no direction");
+  if (!(distance > kSameAxis_mm)) return Outcome<Vec3>::failed(failure.on_axis);
   return {there / distance};
 }
 
@@ -63,7 +72,7 @@ Outcome<Mat3> datum_axes(const Rigid& X_WD, std::span<const DatumUse> datums) {
   const int second = index(secondary->direction.axis);
   if (first == second) return Outcome<Mat3>::failed("primary and secondary datum define the same axis");
   const Vec3 anchor = anchor_of(X_WD, datums, *primary, *secondary);
-  const Outcome<Vec3> v = direction_across(secondary->shape, secondary->element, u, anchor);
+  const Outcome<Vec3> v = direction_across(secondary->shape, secondary->element, u, anchor, kOfSecondary);
   if (!v) return Outcome<Mat3>::failed(v.failure);
   return {from_two_axes(first, u, second, secondary->direction.sign * v.value)};
 }
@@ -83,15 +92,13 @@ Outcome<Rigid> datum_frame(const Rigid& X_WD, std::span<const DatumUse> datums) 
   return {made};
 }
 
-Outcome<Rigid> rotated_to(const Rigid& X_WD, Axis axis, const Element& element, AxisDirection toward) {
+Outcome<Rigid> rotated_to(const Rigid& X_WD, Axis axis, Shape shape, const Element& element, AxisDirection toward) {
   const int first = index(axis), second = index(toward.axis);
   if (first == second) return Outcome<Rigid>::failed("an axis cannot be turned toward a feature about itself");
   const Vec3 u = column(X_WD.R, first);
-  const Vec3 across = perpendicular_part(element.direction, u);
-  const double sine = norm(across);
-  if (!(sine > kUseless))
-    return Outcome<Rigid>::failed("the direction of the feature is parallel to the axis of rotation");
-  return {{from_two_axes(first, u, second, toward.sign * (across / sine)), X_WD.p}};
+  const Outcome<Vec3> v = direction_across(shape, element, u, X_WD.p, kOfRotation);
+  if (!v) return Outcome<Rigid>::failed(v.failure);
+  return {{from_two_axes(first, u, second, toward.sign * v.value), X_WD.p}};
 }
 
 }  // namespace abbe

@@ -129,7 +129,8 @@ void BlockRun::operator()(const plan::RotateFrame& rotate) {
     }
     const Element* element = actual(i, rotate.to);
     if (!element) return "";
-    const Outcome<Rigid> made = rotated_to(lane.X_WD, rotate.axis, *element, rotate.toward);
+    const Shape shape = executor.plan_[rotate.to].kind->acts_as;
+    const Outcome<Rigid> made = rotated_to(lane.X_WD, rotate.axis, shape, *element, rotate.toward);
     if (!made) return made.failure;
     set_frame(lane, rotate.result, made.value);
     return "";

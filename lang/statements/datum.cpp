@@ -178,8 +178,8 @@ const Statement kRotate = {
         "axis:XAXIS|YAXIS|ZAXIS, ( angle:angle ; ( to:feature ; to:datum ), "
         "toward:XDIR|YDIR|ZDIR|-XDIR|-YDIR|-ZDIR )",
     .help =
-        "Turns the current coordinate system about one of its axes, by an angle "
-        "or until a feature points along a direction.",
+        "Turns the current coordinate system about one of its axes, by an angle or until a feature points along a "
+        "direction. A point, a sphere or a bore along the axis comes to lie in that direction from the origin.",
     .example = "D(PART)=ROTATE/ZAXIS,FA(EDGE),XDIR",
     .source = "ISO 22093, ROTATE",
     .lower = rotate,

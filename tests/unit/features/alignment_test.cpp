@@ -120,17 +120,31 @@ TEST_CASE("Datums that cannot make a frame are refused with a reason") {
 
 TEST_CASE("ROTATE turns about the frame's own axis toward a feature") {
   const Element line = kPose * at({9, 9, 9}, {1, 1, 0.5});
-  const Rigid X = rotated_to(kPose, Axis::z, line, {Axis::x, 1}).value;
+  const Rigid X = rotated_to(kPose, Axis::z, Shape::line, line, {Axis::x, 1}).value;
   check_near(X.p, kPose.p);
   check_near(X.R.cz, kPose.R.cz);
   check_near(transpose(kPose.R) * X.R.cx, unit({1, 1, 0}));
-  const Rigid Y = rotated_to(kPose, Axis::z, line, {Axis::y, -1}).value;
+  const Rigid Y = rotated_to(kPose, Axis::z, Shape::line, line, {Axis::y, -1}).value;
   check_near(transpose(kPose.R) * Y.R.cy, unit({-1, -1, 0}));
   check_near(cross(Y.R.cx, Y.R.cy), Y.R.cz);
-  CHECK(std::string(rotated_to({}, Axis::z, at({}, {0, 0, 1}), {Axis::x, 1}).failure) ==
+  CHECK(std::string(rotated_to({}, Axis::z, Shape::line, at({}, {0, 0, 1}), {Axis::x, 1}).failure) ==
         "the direction of the feature is parallel to the axis of rotation");
-  CHECK(std::string(rotated_to({}, Axis::z, line, {Axis::z, 1}).failure) ==
+  CHECK(std::string(rotated_to({}, Axis::z, Shape::line, line, {Axis::z, 1}).failure) ==
         "an axis cannot be turned toward a feature about itself");
+}
+
+TEST_CASE("ROTATE toward what has no direction across the axis looks at its place") {
+  const auto turned_x = [](Shape shape, const Element& e) {
+    return transpose(kPose.R) * rotated_to(kPose, Axis::z, shape, kPose * e, {Axis::x, 1}).value.R.cx;
+  };
+  const Vec3 place{30, 30, -4}, diagonal = unit({1, 1, 0});
+  check_near(turned_x(Shape::point, at(place, {0, 1, 0})), diagonal);  // its direction is the normal of a surface
+  check_near(turned_x(Shape::sphere, at(place, {1, 0, 0})), diagonal);
+  check_near(turned_x(Shape::circle, at(place, {0, 0, 1})), diagonal);
+  check_near(turned_x(Shape::cylinder, at(place, {1e-3, 0, -1})), diagonal);
+  check_near(turned_x(Shape::cylinder, at(place, {0, 1, 0})), {0, 1, 0});
+  CHECK(std::string(rotated_to({}, Axis::z, Shape::point, at({0, 0.05, 9}, {1, 0, 0}), {Axis::x, 1}).failure) ==
+        "the feature lies on the axis of rotation and gives no direction");
 }
 
 TEST_CASE("Datum reference frames of ISO 5459") {

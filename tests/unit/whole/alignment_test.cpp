@@ -19,13 +19,17 @@ RunOptions only_probe() {
   return options;
 }
 
-/// Three touches on the face z = 0, two on the edge y = 0, one on the stop x = 0, four in a bore about the origin.
+/// Three touches on the face z = 0, two on the edge y = 0, one on the stop x = 0, four in a bore about the origin;
+/// a point and a bore L further along x.
 std::string datums() {
   return measured("FACE", "PLANE,CART,0,0,0,0,0,1", {"0,0,0,0,0,1", "100,0,0,0,0,1", "0,100,0,0,0,1"}) +
       measured("EDGE", "LINE,UNBND,CART,0,0,0,1,0,0,0,-1,0", {"0,0,0,0,-1,0", "100,0,0,0,-1,0"}) +
       measured("STOP", "POINT,CART,0,0,0,-1,0,0", {"0,0,0,-1,0,0"}) +
       measured("BORE", "CIRCLE,INNER,CART,0,0,0,0,0,1,20",
                {"10,0,0,-1,0,0", "0,10,0,0,-1,0", "-10,0,0,1,0,0", "0,-10,0,0,1,0"}) +
+      measured("SIDE", "POINT,CART,100,0,0,0,-1,0", {"100,0,0,0,-1,0"}) +
+      measured("SECOND", "CIRCLE,INNER,CART,100,0,0,0,0,1,20",
+               {"110,0,0,-1,0,0", "100,10,0,0,-1,0", "90,0,0,1,0,0", "100,-10,0,0,1,0"}) +
       "DATDEF/FA(FACE),DAT(A)\nDATDEF/FA(EDGE),DAT(B)\nDATDEF/FA(STOP),DAT(C)\n";
 }
 
@@ -61,6 +65,9 @@ const Case kCases[] = {
     // Turned about the origin to the edge: the difference of its two touches over L, times the lever.
     {"ROTATE/ZAXIS,FA(EDGE),XDIR", {X, 0, 0}, 'Y', 1 + 2 * square(X / L)},
     {"ROTATE/ZAXIS,FA(EDGE),XDIR", {0, Y, 0}, 'X', 1 + 2 * square(Y / L)},
+    // The same to the point of a stop or the centre of a bore at that distance.
+    {"ROTATE/ZAXIS,FA(SIDE),XDIR", {X, 0, 0}, 'Y', 1 + square(X / L)},
+    {"ROTATE/ZAXIS,FA(SECOND),XDIR", {X, 0, 0}, 'Y', 1 + square(X / L) / 2},
     // A translation by a number and a rotation by an angle are exact.
     {"TRANS/XORIG,10,YORIG,-5", {X, Y, 0}, 'X', 1},
     {"ROTATE/ZAXIS,90", {X, Y, 0}, 'Y', 1},
