@@ -18,6 +18,13 @@ plan::Expression combine(plan::Op2 op, plan::Expression left, const plan::Expres
     if (!v) throw Mistake{Code::E0119, 0, 0, fmt::format("this is {}", v.failure), "", ""};
     return {plan::PushConstant{v.value}};
   }
+  if (left.size() + right.size() >= kLargestExpression)
+    throw Mistake{Code::E0104,
+                  0,
+                  0,
+                  fmt::format("this expression has more than {} numbers and operators", kLargestExpression),
+                  "assign parts of it to variables first",
+                  ""};
   left.insert(left.end(), right.begin(), right.end());
   left.push_back(op);
   if (plan::stack_depth(left) > plan::kExpressionStack)

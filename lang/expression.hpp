@@ -43,6 +43,10 @@ using Evaluation = std::variant<Value, Mistake>;
 /// The value of the bytes [begin, end) of a statement's joined text.
 Evaluation evaluate(std::string_view text, std::size_t begin, std::size_t end, Names&);
 
+/// How many numbers and operators an expression over measured values may have: a few functions of vectors that take
+/// each other's results would otherwise fill any memory.
+inline constexpr std::size_t kLargestExpression = 10'000;
+
 /// `left op right` of two plan expressions, folded when both are constants; throws Mistake without a place
 /// when there is no result, or when the expression needs more memory than a machine has for it.
 plan::Expression combine(plan::Op2, plan::Expression left, const plan::Expression& right);

@@ -104,9 +104,18 @@ void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actual
     failed_control();
     throw TooLong{};
   }
+  std::optional<std::vector<LogicalLine>> lines = expand(macro, actuals);
+  if (!lines) {
+    lowering_.error(Code::E0104, raw.span,
+                    fmt::format("the arguments make a line of M({}) longer by more than {} characters", macro.name,
+                                kLongestArguments),
+                    "assign them to variables first");
+    failed_control();
+    throw TooLong{};  // who hands arguments on twice does so in every macro
+  }
   const std::string outer = lowering_.call.empty() ? "" : ", " + lowering_.call.substr(1, lowering_.call.size() - 2);
   const std::string where = fmt::format("(in M({}), called in line {}{})", macro.name, raw.line, outer);
-  Routine body = read_routine(*macro.file, expand(macro, actuals), where);
+  Routine body = read_routine(*macro.file, std::move(*lines), where);
   inside(body, where, fmt::format("#{}/", ++calls_));
 }
 

@@ -174,25 +174,57 @@ bool in_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
 
+/// Where no variables are.
+class NoNames : public Names {
+ public:
+  std::optional<Value> variable(std::string_view, const std::optional<Value>&) override { return std::nullopt; }
+  std::string near(std::string_view) override { return ""; }
+  Texts& texts() override { return texts_; }
+
+ private:
+  Texts texts_;
+};
+
+/// What stands for an argument: an expression without variables is computed, so that it stays short however often
+/// macros hand it on.
+RawArgument folded(const RawArgument& actual) {
+  if (actual.kind != RawArgument::Kind::expression) return actual;
+  NoNames none;
+  const Evaluation result = evaluate(actual.text, 0, actual.text.size(), none);
+  const Value* value = std::get_if<Value>(&result);
+  if (!value || !value->is_number()) return actual;
+  RawArgument out = actual;
+  out.kind = RawArgument::Kind::number;
+  out.text = fmt::format("{}", value->constant());
+  if (value->type == Type::real && out.text.find_first_of(".e") == std::string::npos) out.text += '.';
+  return out;
+}
+
 /// Copies one line, with actuals in place of dummies.
 class Replacer {
  public:
-  Replacer(const Macro& macro, std::span<const RawArgument> actuals, const JoinedText& from)
-      : macro_(macro), actuals_(actuals), from_(from), text_(from.text()) {}
+  Replacer(const Macro& macro, std::span<const RawArgument> actuals, std::span<const RawArgument> values,
+           const JoinedText& from)
+      : macro_(macro), actuals_(actuals), values_(values), from_(from), text_(from.text()) {}
 
-  JoinedText run() {
+  /// Nothing when the arguments are too long.
+  std::optional<JoinedText> run() {
+    std::size_t added = 0;
     for (std::size_t at = 0; at < text_.size();) {
       const std::size_t end = token_end(at);
       const std::string_view token = text_.substr(at, end - at);
       if (token == "(") label_ = at > 0 && in_name(text_[at - 1]);
       if (token == ")") label_ = false;
       const int k = dummy(token);
-      if (k < 0)
+      if (k < 0) {
         copy(at, end);
-      else
-        out_.append_instead(
-            replacement(static_cast<std::size_t>(k), token.front() == '\'', at > 0 && is_sign(text_[at - 1])),
-            from_.span(at, end));
+      } else {
+        const std::string by =
+            replacement(static_cast<std::size_t>(k), token.front() == '\'', at > 0 && is_sign(text_[at - 1]));
+        added += by.size();
+        if (added > kLongestArguments) return std::nullopt;
+        out_.append_instead(by, from_.span(at, end));
+      }
       at = end;
     }
     return std::move(out_);
@@ -223,7 +255,7 @@ class Replacer {
 
   /// In a label a text loses its quotes; an expression keeps its worth whatever stands beside it.
   std::string replacement(std::size_t k, bool quoted, bool after_sign) const {
-    const RawArgument& a = actuals_[k];
+    const RawArgument& a = label_ ? actuals_[k] : values_[k];
     using K = RawArgument::Kind;
     if (a.kind == K::text) return label_ ? a.text : fmt::format("'{}'", a.text);
     const bool grouped = a.kind == K::expression && a.text.starts_with('(') && a.text.find(')') == a.text.size() - 1;
@@ -246,7 +278,7 @@ class Replacer {
   }
 
   const Macro& macro_;
-  std::span<const RawArgument> actuals_;
+  std::span<const RawArgument> actuals_, values_;
   const JoinedText& from_;
   std::string_view text_;
   JoinedText out_;
@@ -255,10 +287,15 @@ class Replacer {
 
 }  // namespace
 
-std::vector<LogicalLine> expand(const Macro& macro, std::span<const RawArgument> actuals) {
+std::optional<std::vector<LogicalLine>> expand(const Macro& macro, std::span<const RawArgument> actuals) {
+  std::vector<RawArgument> values;
+  for (const RawArgument& a : actuals) values.push_back(folded(a));
   std::vector<LogicalLine> out;
-  for (const LogicalLine& line : macro.lines)
-    out.push_back({Replacer(macro, actuals, line.code).run(), std::nullopt, line.line});
+  for (const LogicalLine& line : macro.lines) {
+    std::optional<JoinedText> code = Replacer(macro, actuals, values, line.code).run();
+    if (!code) return std::nullopt;
+    out.push_back({std::move(*code), std::nullopt, line.line});
+  }
   return out;
 }
 

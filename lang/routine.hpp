@@ -57,7 +57,13 @@ struct Macro {
 /// The macro that the MACRO statement in this line defines.
 Macro macro_at(const Routine&, int line);
 
-/// The lines of the macro with actual arguments in place of its dummies. Precondition: as many actuals as dummies.
-std::vector<LogicalLine> expand(const Macro&, std::span<const RawArgument> actuals);
+/// How many characters the arguments of a call may add to one line of its macro, so that macros that hand them on
+/// twice, as A+A, cannot fill the memory.
+inline constexpr std::size_t kLongestArguments = 2'000;
+
+/// The lines of the macro with actual arguments in place of its dummies; nothing when these are longer than
+/// `kLongestArguments`. An expression without variables is replaced by its value. Precondition: as many actuals as
+/// dummies.
+std::optional<std::vector<LogicalLine>> expand(const Macro&, std::span<const RawArgument> actuals);
 
 }  // namespace abbe::lang

@@ -64,3 +64,22 @@ TEST_CASE("macros with deep blocks call each other") {
                         times(20, "ENDIF\n"));
   CHECK(messages(measured(text + "M(A20)=MACRO\nENDMAC\nCALL/M(A0)\n")) == "E0126");
 }
+
+TEST_CASE("expressions over measured values are limited, constants and texts of calls too") {
+  const auto sum = [](int n) { return measured("X=ASSIGN/X" + times(n, "+X") + "\n"); };
+  CHECK(messages(sum(4'999)) == "");
+  CHECK(messages(sum(5'000)) == "E0104");
+  const auto units = [](int n) {
+    return measured("DECL/VECTOR,V\nV=ASSIGN/VCART(X,1,2)\nV=ASSIGN/" + times(n, "VUNIT(") + "V" + times(n, ")") +
+                    "\n");
+  };
+  CHECK(messages(units(3)) == "");
+  CHECK(messages(units(60)) == "E0104");
+  const auto handed_on = [](const std::string& first) {
+    std::string macros = "M(M0)=MACRO/A\nGOTO/A,1,1\nENDMAC\n";
+    for (int k = 1; k < 30; ++k) macros += fmt::format("M(M{})=MACRO/A\nCALL/M(M{}),(A+A)/2\nENDMAC\n", k, k - 1);
+    return measured(macros + "CALL/M(M29)," + first + "\n");
+  };
+  CHECK(messages(handed_on("1")) == "");
+  CHECK(messages(handed_on("X")) == "E0104");
+}
