@@ -10,6 +10,14 @@
 
 namespace abbe {
 
+std::uint64_t cost(const plan::Action& action) {
+  using namespace plan;
+  if (std::holds_alternative<Touch>(action)) return kTouchCost;
+  const bool geometry = std::holds_alternative<EndMeasure>(action) || std::holds_alternative<Construct>(action) ||
+      std::holds_alternative<SetDatumFrame>(action) || std::holds_alternative<Evaluate>(action);
+  return geometry ? kCostOfGeometry : 1;
+}
+
 Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source)
     : plan_(plan),
       machine_(machine),
@@ -38,8 +46,11 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   }
   if (options.recorded) find_recorded_points();
   std::uint32_t touches = 0;
-  for (const plan::Operation& op : plan.operations)
+  for (const plan::Operation& op : plan.operations) {
     site_.push_back(std::holds_alternative<plan::Touch>(op.action) ? touches++ : 0);
+    cost_.push_back(cost(op.action));
+    fuel_ += cost_.back();
+  }
 }
 
 void Executor::find_curved(const CurvedFeatures& curved) {
@@ -160,7 +171,7 @@ void BlockRun::run() {
   while (gather_lowest(), !active.empty()) {
     for (const int lane : active) {
       ++block.lanes[lane].pc;
-      if (++block.lanes[lane].fuel_used > kFuel)
+      if ((block.lanes[lane].fuel_used += executor.cost_[static_cast<std::size_t>(operation)]) > executor.fuel_)
         trap(lane, "the program does not end: two million operations were run (endless loop)");
     }
     std::erase_if(active, [&](int lane) { return !block.lanes[lane].running; });

@@ -19,10 +19,14 @@
 
 namespace abbe {
 
-/// How many operations a lane may execute before it counts as caught in an endless loop.
+/// What an operation counts, against one assignment. A touch and its share of the fit take some fifty times as long, but
+/// loops of 100 000 touches have to run; with 8 they do, and a lane caught in a loop stops after about a second.
+inline constexpr std::uint64_t kTouchCost = 8, kCostOfGeometry = 2;
+std::uint64_t cost(const plan::Action&);
+
+/// How much a lane may execute, besides every operation once, before it counts as caught in an endless loop.
 inline constexpr std::uint64_t kFuel = 2'000'000;
-static_assert(kFuel / 2 < kMostVisits,
-              "visits must have addresses of their own: each takes two operations, itself and the jump back");
+static_assert(kFuel / kCostOfGeometry < kMostVisits, "visits of touches and evaluations have addresses of their own");
 
 class Executor {
  public:
@@ -95,6 +99,8 @@ class Executor {
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
   plan::FeatureSlots slots_;
   plan::VisitCounters visits_;
+  std::vector<std::uint64_t> cost_;  ///< by operation
+  std::uint64_t fuel_ = kFuel;       ///< of a lane: what is straight is never too long
   std::vector<std::uint32_t> site_;  ///< by operation: ordinal of a touch among the touches of the plan
 };
 

@@ -2,7 +2,10 @@
 // what it gets alone.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "engine/lanes/random.hpp"
+#include "engine/run/executor.hpp"
 #include "tests/unit/run/plan_builder.hpp"
 
 using namespace abbe;
@@ -115,6 +118,50 @@ TEST_CASE("an endless loop ends in a message, not in a hang") {
   b.append(Jump{0});
   const Machine machine = read_machine("coord3-mc16");
   CHECK_THROWS_AS(run(b.plan, machine, screened_machines(machine, 1, 1, 1), 128, 1), UserError);
+}
+
+TEST_CASE("touches count as more than assignments, and still 100 000 may be made in a loop") {
+  PlanBuilder b;
+  b.append(SelectSensor{b.sensor(0, 0, 100)});
+  const ColumnId i = b.column(), y = b.column();
+  b.append(Assign{i, {PushConstant{0}}});
+  const int begin = static_cast<int>(b.plan.operations.size());
+  const FeatureId p = b.point({800, 400, -500}, {0, -1, 0});
+  b.append(Obtain{y, p, Quantity::y});
+  b.append(Assign{i, {PushColumn{i}, PushConstant{1}, Op2::add}});
+  const int leave = b.append(JumpUnless{{PushColumn{i}, PushConstant{100'000}, Op2::less}, 0});
+  b.append(Jump{begin});
+  const auto end = [&](Expression again) {
+    b.plan.operations[leave].action = JumpUnless{std::move(again), static_cast<int>(b.plan.operations.size())};
+  };
+  const Machine machine = read_machine("coord3-mc16");
+  const VirtualMachines one = screened_machines(machine, 1, 1, 1);
+
+  end({PushColumn{i}, PushConstant{100'000}, Op2::less});
+  const RunResult counted = run(b.plan, machine, one, 128, 1);
+  CHECK(counted.touches == 100'000);
+  CHECK(counted.traps.empty());
+
+  end({PushColumn{y}, PushConstant{400}, Op2::not_equal});  // the error-free machine leaves at once
+  const RunResult stuck = run(b.plan, machine, one, 128, 1);
+  CHECK(stuck.traps.size() == 1);
+  CHECK(stuck.touches < 200'000);
+}
+
+TEST_CASE("what has no loop runs to its end, however long it is") {
+  PlanBuilder b;
+  b.append(SelectSensor{b.sensor(0, 0, 100)});
+  b.point({800, 400, -500}, {0, -1, 0});
+  auto& operations = b.plan.operations;
+  const auto touch = std::find_if(operations.begin(), operations.end(),
+                                  [](const Operation& o) { return std::holds_alternative<Touch>(o.action); });
+  REQUIRE(touch != operations.end());
+  constexpr int kTouches = 300'000;
+  static_assert(kTouches * kTouchCost > kFuel);
+  const Operation again = *touch;
+  operations.insert(touch, kTouches - 1, again);
+  const Machine machine = read_machine("coord3-mc16");
+  CHECK(run(b.plan, machine, screened_machines(machine, 1, 1, 1), 128, 1).touches == kTouches);
 }
 
 TEST_CASE("a machine that cannot go on is trapped and counted; the others go on") {
