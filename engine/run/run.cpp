@@ -51,14 +51,13 @@ BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
 /// Enters what `lane` evaluated and the error-free machine did not, as the lane's twin saw it.
 void keep_elsewhere(const Block& block, const Lane& lane, const std::set<Key>& referenced,
                     std::map<Key, Value>& elsewhere) {
+  const std::vector<Value>& seen = block.lanes[lane.twin].values;
+  auto next = seen.begin();  // lane and twin took the same path and evaluated in the same order
   for (const Value& v : lane.values) {
     const Key key{v.characteristic.value, v.visit};
     if (referenced.contains(key) || elsewhere.contains(key)) continue;
-    const std::vector<Value>& seen = block.lanes[lane.twin].values;
-    const auto twins = std::find_if(seen.begin(), seen.end(), [&](const Value& t) {
-      return Key{t.characteristic.value, t.visit} == key;
-    });
-    elsewhere.emplace(key, twins != seen.end() ? *twins : v);  // a twin that stopped right here has none
+    next = std::find_if(next, seen.end(), [&](const Value& t) { return Key{t.characteristic.value, t.visit} == key; });
+    elsewhere.emplace(key, next != seen.end() ? *next : v);  // a twin that stopped right here has none
   }
 }
 

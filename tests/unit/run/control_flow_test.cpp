@@ -127,6 +127,11 @@ TEST_CASE("touches count as more than assignments, and still 100 000 may be made
   b.append(Assign{i, {PushConstant{0}}});
   const int begin = static_cast<int>(b.plan.operations.size());
   const FeatureId p = b.point({800, 400, -500}, {0, -1, 0});
+  Arguments a;
+  a.add_text("axis", "YAXIS");
+  a.add_number("lower", -1);
+  a.add_number("upper", 1);
+  b.evaluate({p}, "CORTOL", a);
   b.append(Obtain{y, p, Quantity::y});
   b.append(Assign{i, {PushColumn{i}, PushConstant{1}, Op2::add}});
   const int leave = b.append(JumpUnless{{PushColumn{i}, PushConstant{100'000}, Op2::less}, 0});
@@ -146,6 +151,7 @@ TEST_CASE("touches count as more than assignments, and still 100 000 may be made
   const RunResult stuck = run(b.plan, machine, one, 128, 1);
   CHECK(stuck.traps.size() == 1);
   CHECK(stuck.touches < 200'000);
+  CHECK(stuck.samples.size() > 100'000);  // sought one by one among the others, they would take a minute
 }
 
 TEST_CASE("what has no loop runs to its end, however long it is") {
