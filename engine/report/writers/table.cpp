@@ -21,13 +21,15 @@ std::string Table::to_text() const {
   std::vector<std::vector<std::string>> lines{titles};
   lines.insert(lines.end(), rows_.begin(), rows_.end());
 
+  std::vector<int> widths(columns_.size(), 0);
+  for (const auto& cells : lines)
+    for (std::size_t c = 0; c < columns_.size(); ++c) widths[c] = std::max(widths[c], display_width(cells[c]));
+
   std::string out;
   for (const auto& cells : lines) {
     std::string line;
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      int width = 0;
-      for (const auto& other : lines) width = std::max(width, display_width(other[c]));
-      const std::string padding(width - display_width(cells[c]), ' ');
+      const std::string padding(widths[c] - display_width(cells[c]), ' ');
       line += (c ? "  " : "") + (columns_[c].align == Align::left ? cells[c] + padding : padding + cells[c]);
     }
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";

@@ -337,6 +337,15 @@ TEST_CASE("a report without characteristics says so") {
   CHECK(Json::parse(written("json", r))["characteristics"].empty());
 }
 
+TEST_CASE("the time of a table goes with its rows") {
+  Table table({{"n"}, {"text", Table::Align::left}});
+  constexpr int kRows = 200'000;  // with their square it would take an hour
+  for (int k = 0; k < kRows; ++k) table.add({std::to_string(k), k == kRows / 2 ? "a long cell" : "x"});
+  const std::string text = table.to_text();
+  CHECK(text.starts_with("     n  text\n     0  x\n"));
+  CHECK(std::count(text.begin(), text.end(), '\n') == kRows + 1);
+}
+
 TEST_CASE("columns are as wide as what a terminal shows") {
   CHECK(display_width("Bohrung_ä") == 9);
   Table table({{"a", Table::Align::left}, {"b"}});
