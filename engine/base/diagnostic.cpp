@@ -47,20 +47,61 @@ std::string_view name(Severity severity) {
 
 namespace {
 
-/// A blank for each character before a byte of the line, with tabs kept so that the caret stands under the text.
-std::string indent_like(std::string_view line, std::size_t bytes) {
+constexpr std::size_t kLineWidth = 160;        ///< characters of a source line that are shown
+constexpr std::size_t kBeforeCaret = 60;       ///< of them before the caret, in a longer line
+constexpr std::size_t kLongestMessage = 2000;  ///< bytes; names of a program may be of any length
+constexpr std::string_view kLeftOut = "...";
+
+/// Control characters, which a terminal may obey, as the signs that Unicode has for them.
+void append_visible(std::string& out, std::string_view text, std::size_t at) {
+  const Character c = character_at(text, at);
+  if (c.code < 0x20)
+    append_utf8(out, 0x2400 + c.code);
+  else if (c.code == 0x7F)
+    append_utf8(out, 0x2421);
+  else if (c.code >= 0x80 && c.code < 0xA0)
+    append_utf8(out, 0xFFFD);
+  else
+    out += text.substr(at, c.bytes);
+}
+
+/// What is said of a text: line ends and tabs are ours.
+std::string visible(std::string_view text) {
   std::string out;
-  for (std::size_t at = 0; at < std::min(bytes, line.size()); at += character_at(line, at).bytes)
-    out += line[at] == '\t' ? '\t' : ' ';
+  for (std::size_t at = 0; at < text.size(); at += character_at(text, at).bytes) {
+    if (out.size() > kLongestMessage) return out + std::string(kLeftOut);
+    if (text[at] == '\n' || text[at] == '\t')
+      out += text[at];
+    else
+      append_visible(out, text, at);
+  }
   return out;
 }
 
-/// Columns count bytes; carets stand under characters.
-std::string carets(const Diagnostic& d) {
+/// The source line and the carets under it, of a long line what lies about the place. Columns count bytes; carets stand
+/// under characters, and tabs are kept for that.
+std::string marked_line(const Diagnostic& d) {
   const std::string_view line = d.source_line;
   const std::size_t begin = std::min(static_cast<std::size_t>(d.place.column - 1), line.size());
-  const std::size_t under = count_characters(line.substr(begin, static_cast<std::size_t>(d.caret_length)));
-  return indent_like(line, begin) + std::string(std::max<std::size_t>(under, 1), '^');
+  const std::size_t caret = count_characters(line.substr(0, begin));
+  const std::size_t size = count_characters(line);
+  const std::size_t first = size <= kLineWidth ? 0 : std::min(caret - std::min(caret, kBeforeCaret), size - kLineWidth);
+  const std::size_t shown = std::min(size - first, kLineWidth), last = first + shown;
+  const std::size_t under = count_characters(line.substr(begin, static_cast<std::size_t>(std::max(d.caret_length, 0))));
+
+  std::string text, marks;
+  if (first > 0) text = kLeftOut, marks = std::string(kLeftOut.size(), ' ');
+  std::size_t at = first_characters(line, first).size();
+  for (std::size_t k = first; k < last; ++k, at += character_at(line, at).bytes) {
+    if (line[at] == '\t')
+      text += '\t';
+    else
+      append_visible(text, line, at);
+    if (k < caret) marks += line[at] == '\t' ? '\t' : ' ';
+  }
+  if (last < size) text += kLeftOut;
+  const std::size_t room = last > caret ? last - caret : 1;
+  return fmt::format("  {}\n  {}\n", text, marks + std::string(std::clamp<std::size_t>(under, 1, room), '^'));
 }
 
 }  // namespace
@@ -68,11 +109,9 @@ std::string carets(const Diagnostic& d) {
 std::string render(const Diagnostic& d) {
   std::string out;
   if (!d.file.empty()) out += d.span ? fmt::format("{}:{}:{}: ", d.file, d.place.line, d.place.column) : d.file + ": ";
-  out += fmt::format("{} {}: {}\n", name(d.severity()), info(d.code).name, d.message);
-  if (d.span) {
-    out += fmt::format("  {}\n  {}\n", d.source_line, carets(d));
-  }
-  if (!d.help.empty()) out += "  help: " + d.help + "\n";
+  out += fmt::format("{} {}: {}\n", name(d.severity()), info(d.code).name, visible(d.message));
+  if (d.span) out += marked_line(d);
+  if (!d.help.empty()) out += "  help: " + visible(d.help) + "\n";
   return out;
 }
 

@@ -29,6 +29,25 @@ TEST_CASE("the caret stands under the characters, not under their bytes") {
         "p:1:9: error E0110: x\n  F(äö)=FÄAT\n        ^^^^\n");
 }
 
+TEST_CASE("of a long line what lies about the place is shown") {
+  const std::string a(100'000, 'a'), b(100'000, 'b');
+  const SourceFile source("p", a + "wrong" + b);
+  CHECK(render(diagnostic_at(source, {100'000, 100'005}, Code::E0110, "x")) ==
+        "p:1:100001: error E0110: x\n  ..." + a.substr(0, 60) + "wrong" + b.substr(0, 95) + "...\n  " +
+            std::string(63, ' ') + "^^^^^\n");
+  const std::string whole = render(diagnostic_at(source, {0, 200'005}, Code::E0110, "'" + a + "' is wrong"));
+  CHECK(whole.size() < 3'000);
+  CHECK(whole.ends_with("\n  " + a.substr(0, 160) + "...\n  " + std::string(160, '^') + "\n"));
+  CHECK(render(diagnostic_at(source, {200'004, 200'005}, Code::E0110, "x")) ==
+        "p:1:200005: error E0110: x\n  ..." + b.substr(0, 160) + "\n  " + std::string(162, ' ') + "^\n");
+}
+
+TEST_CASE("control characters are shown, not sent") {
+  const SourceFile source("p", std::string("A\0B\033[2J\x7f", 8));
+  CHECK(render(diagnostic_at(source, {2, 3}, Code::E0110, std::string("'\0\033'", 4), "\b")) ==
+        "p:1:3: error E0110: '\u2400\u241b'\n  A\u2400B\u241b[2J\u2421\n    ^\n  help: \u2408\n");
+}
+
 TEST_CASE("a caret stays on its line") {
   const SourceFile source("p", "ab\ncd");
   CHECK(diagnostic_at(source, {1, 5}, Code::E0401, "x").caret_length == 1);
