@@ -36,9 +36,16 @@ void note_redefinition(Lowering& lowering, const RawStatement& raw, const Tolera
                 "each OUTPUT uses the definition above it");
 }
 
+/// Programs write angularity as ANGL too: the angle of a cone has no datum.
+bool is_angularity(const RawStatement& raw, std::string_view word) {
+  return same_label(word, "ANGL") && std::any_of(raw.arguments.begin(), raw.arguments.end(), [](const RawArgument& a) {
+           return a.kind == RawArgument::Kind::label && a.label.kind == "DAT";
+         });
+}
+
 void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const MatchedValue& word = *match.find("kind");
-  const ToleranceKind* kind = find_tolerance_kind(word.text);
+  const ToleranceKind* kind = find_tolerance_kind(is_angularity(raw, word.text) ? "ANGLR" : word.text);
   if (!kind) return unknown_kind(lowering, word, "TOL", "tolerance", tolerance_words());
   std::optional<Match> rest =
       lowering.match(kind->signature, raw, fmt::format("TOL/{}", kind->word), match.used, Varying::taken);
