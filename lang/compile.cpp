@@ -31,8 +31,9 @@ bool in_label(char c) {
 /// Drives the statements of one file through lookup, signature and lowering.
 class Compiler {
  public:
-  Compiler(const SourceFile& source, Sink& sink, const CompileOptions& options) : lowering_(source, sink) {
-    for (const auto& [name, answer] : options.answers) lowering_.answers[upper(name)] = answer;
+  Compiler(const SourceFile& source, Sink& sink, const CompileOptions& options)
+      : lowering_(source, sink), given_(options.answers) {
+    for (const auto& [name, answer] : given_) lowering_.answers[upper(name)] = answer;
     lowering_.only_valid = options.only_valid;
   }
 
@@ -210,9 +211,22 @@ class Compiler {
     if (lowering_.end_line == 0 && (lowering_.begin_line != 0 || empty))
       lowering_.warn(Code::W0225, last, "the program has no ENDFIL", "end it with ENDFIL");
     check_expectations(lowering_);
+    for (const auto& [name, answer] : given_) check_asked(name);
+  }
+
+  /// Only answers of the command line: those of the program may be meant for another path through it.
+  void check_asked(const std::string& name) {
+    if (lowering_.asked.contains(upper(name))) return;
+    const std::string near = nearest_word(name, {lowering_.asked.begin(), lowering_.asked.end()});
+    Diagnostic d = diagnostic(
+        Code::W0263, fmt::format("the program does not ask for {}: its answer is not used", name),
+        near.empty() ? "the name is that of the variable before =PROMPT/" : fmt::format("did you mean {}?", near));
+    d.file = lowering_.source.name();
+    lowering_.sink.add(std::move(d));
   }
 
   Lowering lowering_;
+  const std::map<std::string, std::string>& given_;  ///< CompileOptions::answers
   std::string meant_;
   std::map<std::string, std::string> meant_by_;
   bool after_end_reported_ = false;

@@ -228,6 +228,7 @@ class Lowering : public State {
   std::map<int, std::vector<FormItem>> forms;         ///< by FeatureId
   std::map<int, std::vector<FormItem>> sensor_forms;  ///< by SensorId, of those that the program defines
   std::map<std::string, std::string> answers;         ///< to PROMPT, by variable in upper case
+  std::set<std::string> asked;                        ///< by PROMPT: variables in upper case
   int parted = 0;                                     ///< conditions that machines may have decided differently here
   int parting = 0;                                    ///< counts the places where machines part while all were together
   int looping = 0;                                    ///< loops around here whose turns differ from machine to machine

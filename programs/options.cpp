@@ -12,6 +12,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/report/writer.hpp"
 #include "programs/commands/commands.hpp"
@@ -109,7 +110,9 @@ void add_answers(CLI::App* command, std::map<std::string, std::string>& answers)
       const std::size_t equals = text.find('=');
       if (equals == std::string::npos || equals == 0)
         throw CLI::ConversionError(text, "--answer: expected NAME=VALUE, as in --answer SERIAL=12");
-      answers[text.substr(0, equals)] = text.substr(equals + 1);
+      const std::string name = upper(text.substr(0, equals));
+      if (!answers.emplace(name, text.substr(equals + 1)).second)
+        throw CLI::ConversionError(text, fmt::format("--answer: {} has an answer already", name));
     }
   };
   command

@@ -134,6 +134,7 @@ std::optional<Value> answer_value(Lowering& lowering, const std::string& answer,
 
 void prompt(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const std::string name = raw.label->name.substr(0, raw.label->name.find_first_of(" ["));
+  lowering.asked.insert(upper(name));
   const auto answer = lowering.answers.find(upper(name));
   if (answer == lowering.answers.end())
     return lowering.error(

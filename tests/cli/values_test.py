@@ -38,6 +38,18 @@ class Values(harness.Case):
         self.write("asking.dmi", ASKING)
         self.assertIn("NAME=VALUE", self.refused("E0609", "check", "asking.dmi", "--answer", "12"))
 
+    def test_an_answer_that_nobody_asks_for_is_named(self):
+        self.write("asking.dmi", ASKING)
+        given = ["--answer", "X=1", "--answer", "NAME=A"]
+        self.assertNotIn("W0263", self.abbe("check", "asking.dmi", *given).stderr)
+        said = self.abbe("check", "asking.dmi", *given, "--answer", "NAMES=B").stderr
+        self.assertIn("warning W0263: the program does not ask for NAMES", said)
+        self.assertIn("did you mean NAME?", said)
+
+    def test_one_question_has_one_answer(self):
+        self.write("asking.dmi", ASKING)
+        self.assertIn("X has an answer already", self.refused("E0609", "check", "asking.dmi", "--answer", "X=1", "--answer", "x=2"))
+
     def test_a_measured_value_decides(self):
         program = harness.LENGTH.replace("OUTPUT/", "DECL/REAL,X\nX=OBTAIN/FA(B),4\nIF/(X .GT. 100)\nF(C)=FEAT/POINT,CART,50,0,0,1,0,0\n"
                                          "MEAS/POINT,F(C),1\nPTMEAS/CART,50,0,0,1,0,0\nENDMES\nENDIF\nOUTPUT/").replace(
