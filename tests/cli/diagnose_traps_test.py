@@ -57,6 +57,23 @@ class Traps(harness.Case):
             if e["members"][0] == "machine.scale_interpolation":
                 self.assertIn("moved by a third of the period", e["sentence"])
 
+    def test_a_ball_that_stands_elsewhere_is_touched_beside_its_targets(self):
+        """The machine goes its programmed ways and meets the surface where it bends away."""
+        self.abbe("record", SPHERE, "--machine", PORTAL, "--seed", 1, "-o", "sphere.csv")
+        shift = (1.2, -0.8, 0.4)
+
+        def met(row):
+            normal, error = [float(row["n" + a]) for a in "xyz"], sum((float(row[a]) - float(row["t" + a])) * float(row["n" + a]) for a in "xyz")
+            radius = 12.5 + 2   # of the centres of the tip
+            arm = [radius * n - s for n, s in zip(normal, shift)]   # from the middle of the ball to the target
+            along = sum(a * n for a, n in zip(arm, normal))
+            way = -along + math.sqrt(along ** 2 - sum(a * a for a in arm) + (radius + error) ** 2)
+            return row | {a: f"{float(row['t' + a]) + way * n:.7f}" for a, n in zip("xyz", normal)}
+        for change in (met, lambda row: row | {a: f"{float(row[a]) + s:.7f}" for a, s in zip("xyz", shift)}):
+            said = self.diagnosis(self.changed(self.folder / "sphere.csv", change), PORTAL)
+            self.assertEqual(said["verdict"], "no_mismatch")
+            self.assertIn("1.50 mm beside its targets and turned by 0.000 degrees", said["messages"][0]["message"])
+
     def test_what_every_fifth_touch_does_no_room_does(self):
         for seed in (7, 8):
             count = itertools.count()

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "engine/diagnose/baseline/data_problems.hpp"
+#include "engine/diagnose/baseline/round_surface.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/math/rigid_fit.hpp"
 
@@ -15,7 +17,17 @@ namespace abbe::diagnose {
 
 namespace {
 
-using Rows = std::vector<const RecordingRow*>;
+/// A touch, and the surface that it was aimed at where that is a round one.
+struct Aimed {
+  const RecordingRow* row;
+  std::optional<RoundSurface> round;
+
+  const Vec3& target_mm() const { return *row->target_mm; }
+  const Vec3& normal() const { return *row->normal; }
+  /// What a touch that X carries there owes to where it lies beside its target.
+  double bend_mm(const Rigid& X) const { return round ? round->bend_mm(target_mm(), X * row->position_mm) : 0; }
+};
+using Rows = std::vector<Aimed>;
 constexpr int kUnknowns = 7;
 using Square = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using Motion = Eigen::Matrix<double, kUnknowns, 1>;  // shift, turn, and what all touches are too far out
@@ -29,8 +41,8 @@ struct Back {
 /// How far each touch lies beyond its target, once the part is carried back.
 std::vector<double> beyond(const Rows& rows, const Back& back) {
   std::vector<double> r;
-  for (const RecordingRow* row : rows)
-    r.push_back(dot(*row->normal, back.X * row->position_mm - *row->target_mm) - back.out_mm);
+  for (const Aimed& a : rows)
+    r.push_back(dot(a.normal(), back.X * a.row->position_mm - a.target_mm()) + a.bend_mm(back.X) - back.out_mm);
   return r;
 }
 
@@ -43,9 +55,19 @@ double middle_size(std::vector<double> r) {
 std::pair<Vec3, double> extent_of(const Rows& rows) {
   Vec3 middle;
   double extent = 1;
-  for (const RecordingRow* row : rows) middle += *row->target_mm / double(rows.size());
-  for (const RecordingRow* row : rows) extent = std::max(extent, norm(*row->target_mm - middle));
+  for (const Aimed& a : rows) middle += a.target_mm() / double(rows.size());
+  for (const Aimed& a : rows) extent = std::max(extent, norm(a.target_mm() - middle));
   return {middle, extent};
+}
+
+/// Of the motions that differ by what no normal sees the one that turns least: the shift of a ball that was not
+/// touched all around is also a shift with a turn about its middle.
+Motion turning_least(const Motion& motion, const Eigen::Matrix<double, kUnknowns, Eigen::Dynamic>& unseen) {
+  constexpr double kShift = 1e-3;  // of a turn: what nothing shows shifts nothing either
+  if (unseen.cols() == 0) return motion;
+  const Motion counts{{kShift, kShift, kShift, 1, 1, 1, 1}};
+  const Eigen::MatrixXd counted = counts.asDiagonal() * unseen;
+  return motion - unseen * counted.colPivHouseholderQr().solve(counts.cwiseProduct(motion));
 }
 
 /// The small motion that lessens the weighted sum of squares most: a shift, a turn about `middle` times
@@ -58,7 +80,7 @@ Motion step(const Rows& rows, bool tip, const Vec3& middle, double extent, const
   Square a = Square::Zero();
   Motion b = Motion::Zero();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vec3 n = *rows[i]->normal, turn = cross((*rows[i]->target_mm - middle) / extent, n);
+    const Vec3 n = rows[i].normal(), turn = cross((rows[i].target_mm() - middle) / extent, n);
     const Motion s{{n.x, n.y, n.z, turn.x, turn.y, turn.z, tip ? -1.0 : 0.0}};
     const double weight = 1 / std::max(floor, std::abs(r[i]));
     a += weight * s * s.transpose();
@@ -66,12 +88,15 @@ Motion step(const Rows& rows, bool tip, const Vec3& middle, double extent, const
   }
   const Eigen::SelfAdjointEigenSolver<Square> solver(a);
   Motion motion = Motion::Zero();
+  int unseen = 0;  // the first so many, in rising order
   for (int k = 0; k < kUnknowns; ++k) {
     const double seen = solver.eigenvalues()(k);
     if (seen > kUnseen * solver.eigenvalues()(kUnknowns - 1))
       motion += solver.eigenvectors().col(k).dot(b) / seen * solver.eigenvectors().col(k);
+    else
+      unseen = k + 1;
   }
-  return motion;
+  return turning_least(motion, solver.eigenvectors().leftCols(unseen));
 }
 
 Back refined(const Rows& rows, Back back, bool tip) {
@@ -95,7 +120,7 @@ Back placement_of(const Rows& rows) {
   const double left = middle_size(beyond(rows, near));
   if (left < kStrayed_mm) return near;
   std::vector<Vec3> here, there;
-  for (const RecordingRow* row : rows) here.push_back(row->position_mm), there.push_back(*row->target_mm);
+  for (const Aimed& a : rows) here.push_back(a.row->position_mm), there.push_back(a.target_mm());
   const std::optional<Rigid> start = rigid_fit(here, there);
   if (!start) return near;
   const Back far = refined(rows, {*start}, false);
@@ -136,18 +161,44 @@ void refuse_wrong_tip(const Rows& rows, const Back& back, double most_out_mm, co
       "where it is the size of the features that is not known, say '# surfaces: unknown_size'"));
 }
 
+/// The touches of each setup that have a target and a normal. One ball may be touched in points that are features
+/// by themselves. A tip of its own has a surface of its own, where it is the centres of tips that were recorded.
+std::map<int, Rows> aimed_at(const std::vector<RecordingRow>& rows) {
+  constexpr int kPoints = 2;  // that a feature of its own has at the most
+  std::map<std::pair<int, std::string>, int> touches;
+  for (const RecordingRow& row : rows) ++touches[{row.setup, row.feature}];
+  const auto surface = [&](const RecordingRow& row) {
+    const bool point = touches[{row.setup, row.feature}] <= kPoints;
+    return std::tuple(row.setup, point ? std::string{} : row.feature, row.sensor.value_or(""));
+  };
+  struct Place {
+    std::vector<Vec3> targets_mm, normals;
+    std::optional<RoundSurface> round;
+  };
+  std::map<std::tuple<int, std::string, std::string>, Place> places;
+  for (const RecordingRow& row : rows) {
+    if (!row.target_mm || !row.normal) continue;
+    Place& place = places[surface(row)];
+    place.targets_mm.push_back(*row.target_mm), place.normals.push_back(*row.normal);
+  }
+  for (auto& [of, place] : places) place.round = RoundSurface::through(place.targets_mm, place.normals);
+  std::map<int, Rows> out;
+  for (const RecordingRow& row : rows)
+    if (row.target_mm && row.normal) out[row.setup].push_back({&row, places[surface(row)].round});
+  return out;
+}
+
 }  // namespace
 
 Recording put_on_targets(const Recording& recorded, double most_out_mm, const std::string& file,
                          std::vector<Diagnostic>& messages) {
   constexpr double kNoticeable_mm = 0.05;  // up to this the linear placement is good to 0.1 um
-  std::map<int, Rows> setups;
-  for (const RecordingRow& row : recorded.rows)
-    if (row.target_mm && row.normal) setups[row.setup].push_back(&row);
-  std::map<int, Rigid> back;
-  for (const auto& [setup, rows] : setups) {
+  Recording out = recorded;
+  for (const auto& [setup, rows] : aimed_at(recorded.rows)) {
     const Back placement = placement_of(rows);
-    check_normals(rows, placement.X.R, file);
+    std::vector<const RecordingRow*> touched;
+    for (const Aimed& a : rows) touched.push_back(a.row);
+    check_normals(touched, placement.X.R, file);
     refuse_wrong_tip(rows, placement, most_out_mm, file);
     const Rigid& X = placement.X;
     const std::vector<double> before = beyond(rows, {}), after = beyond(rows, placement);
@@ -155,20 +206,19 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
     for (std::size_t i = 0; i < rows.size(); ++i) change = std::max(change, std::abs(after[i] - before[i]));
     if (change < kNoticeable_mm) continue;
     const Vec3 middle = extent_of(rows).first;
-    back[setup] = X;
+    for (RecordingRow& row : out.rows) {
+      if (row.setup != setup) continue;
+      row.position_mm = X * row.position_mm;
+      if (row.travel) row.travel = X.R * *row.travel;
+    }
+    for (const Aimed& a : rows)
+      out.rows[static_cast<std::size_t>(a.row - recorded.rows.data())].position_mm += a.bend_mm(X) * a.normal();
     messages.push_back(diagnostic(
         Code::N0709,
         fmt::format(
             "{}: in setup {} the part stood {:.2f} mm beside its targets and turned by {:.3f} degrees; that is taken out",
             file, setup, norm(inverse(X) * middle - middle), angle_deg(X.R)),
         "errors of the machine are reckoned at the targets: give targets where the part stood if that is far"));
-  }
-  Recording out = recorded;
-  for (RecordingRow& row : out.rows) {
-    const auto X = back.find(row.setup);
-    if (X == back.end()) continue;
-    row.position_mm = X->second * row.position_mm;
-    if (row.travel) row.travel = X->second.R * *row.travel;
   }
   return out;
 }

@@ -3,7 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
+#include "engine/diagnose/baseline/round_surface.hpp"
 #include "engine/math/vec.hpp"
 
 using namespace abbe;
@@ -30,6 +33,22 @@ Recording box(const Rigid& X, int setup = 1) {
       row.position_mm = X * (*row.target_mm + (k == 5 ? kError_mm : 0) * n);
       r.rows.push_back(row);
     }
+  }
+  return r;
+}
+
+/// A spiral from the pole of a ball to its equator, each touch with a small error.
+Recording ball() {
+  const Vec3 middle{400, 300, -200};
+  Recording r;
+  for (int k = 0; k < 25; ++k) {
+    const double height = 1 - k / 24.0, across = std::sqrt(1 - height * height);
+    RecordingRow row;
+    row.feature = "BALL", row.touch = k + 1, row.setup = 1;
+    row.normal = Vec3{across * std::cos(2.4 * k), across * std::sin(2.4 * k), height};
+    row.target_mm = middle + 14.5 * *row.normal;
+    row.position_mm = *row.target_mm + 0.001 * std::sin(5.0 * k) * *row.normal;
+    r.rows.push_back(row);
   }
   return r;
 }
@@ -76,22 +95,64 @@ TEST_CASE("a part on its targets is left as it is, and so is a turn that nothing
 }
 
 TEST_CASE("one touch far off along the surface turns no ball") {
-  const Vec3 middle{400, 300, -200};
-  Recording ball;
-  for (int k = 0; k < 25; ++k) {  // a spiral from the pole to the equator
-    const double height = 1 - k / 24.0, across = std::sqrt(1 - height * height);
-    RecordingRow row;
-    row.feature = "BALL", row.touch = k + 1, row.setup = 1;
-    row.normal = Vec3{across * std::cos(2.4 * k), across * std::sin(2.4 * k), height};
-    row.target_mm = middle + 14.5 * *row.normal;
-    row.position_mm = *row.target_mm + 0.001 * std::sin(5.0 * k) * *row.normal;
-    ball.rows.push_back(row);
-  }
-  ball.rows[8].position_mm.x += 30;
+  Recording strayed = ball();
+  strayed.rows[8].position_mm.x += 30;
   std::vector<Diagnostic> messages;
-  const Recording same = put_on_targets(ball, kNoTip, "ball", messages);
+  const Recording same = put_on_targets(strayed, kNoTip, "ball", messages);
   CHECK(messages.empty());
-  for (std::size_t i = 0; i < ball.rows.size(); ++i) CHECK(same.rows[i].position_mm == ball.rows[i].position_mm);
+  for (std::size_t i = 0; i < strayed.rows.size(); ++i) CHECK(same.rows[i].position_mm == strayed.rows[i].position_mm);
+}
+
+TEST_CASE("a ball that was shifted is not turned") {
+  const Recording here = ball();
+  Recording shifted = here;
+  for (RecordingRow& row : shifted.rows) row.position_mm += Vec3{1.5, -1, 0.5};
+  std::vector<Diagnostic> messages;
+  const Recording back = put_on_targets(shifted, kNoTip, "ball", messages);
+  REQUIRE(messages.size() == 1);
+  for (std::size_t i = 0; i < here.rows.size(); ++i)
+    CHECK(norm(back.rows[i].position_mm - here.rows[i].position_mm) < 0.002);  // as large as the errors
+}
+
+TEST_CASE("a round surface that stands elsewhere is touched elsewhere") {
+  // The machine goes along the normals of the targets until it touches the ball where it stands.
+  const Vec3 middle{400, 300, -200}, shift{0.3, -0.5, 0.4};
+  Recording here = ball();
+  std::vector<double> error_mm;
+  for (RecordingRow& row : here.rows) {
+    error_mm.push_back(off_mm(row));
+    const Vec3 from =
+        *row.target_mm - middle - shift;  // along n until the distance from the new middle is that of the ball
+    const double along = dot(*row.normal, from), radius = 14.5 + error_mm.back();
+    const double t = -along + std::sqrt(along * along - dot(from, from) + radius * radius);
+    row.position_mm = *row.target_mm + t * *row.normal;
+  }
+  for (const bool points : {false, true}) {
+    if (points)
+      for (RecordingRow& row : here.rows) row.feature += std::to_string(std::exchange(row.touch, 1));
+    std::vector<Diagnostic> messages;
+    const Recording back = put_on_targets(here, kNoTip, "ball", messages);
+    REQUIRE(messages.size() == 1);
+    for (std::size_t i = 0; i < here.rows.size(); ++i) CHECK(std::abs(off_mm(back.rows[i]) - error_mm[i]) < 8e-4);
+  }
+}
+
+TEST_CASE("balls and cylinders are known from their targets, a box is none") {
+  std::vector<Vec3> targets, normals, sides, faces;
+  for (const RecordingRow& row : box({}).rows) sides.push_back(*row.target_mm), faces.push_back(*row.normal);
+  CHECK(!RoundSurface::through(sides, faces));
+  for (const double radius : {20.0, -20.0}) {
+    targets.clear(), normals.clear();
+    for (int k = 0; k < 12; ++k) {
+      normals.push_back({std::cos(kPi / 6 * k), std::sin(kPi / 6 * k), 0});
+      targets.push_back(Vec3{5, 6, 3.0 * (k % 3)} + radius * normals.back());
+    }
+    const auto cylinder = RoundSurface::through(targets, normals);
+    REQUIRE(cylinder);
+    const Vec3 beside = targets[0] + Vec3{0, 1, 7};  // one across, and any along the axis
+    CHECK(cylinder->bend_mm(targets[0], beside) == doctest::Approx(std::copysign(std::hypot(20, 1) - 20, radius)));
+    CHECK(cylinder->bend_mm(targets[0], targets[0] + Vec3{0, 6, 0}) == 0);
+  }
 }
 
 TEST_CASE("the approaches of a part that stood turned are turned back with it") {

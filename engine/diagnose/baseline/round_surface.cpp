@@ -1,0 +1,61 @@
+#include "engine/diagnose/baseline/round_surface.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// The direction that all normals are square to, if there is only one.
+std::optional<Vec3> axis_of(const std::vector<Vec3>& normals) {
+  constexpr double kSquare = 1e-3, kSpread = 1e-2;  // of the mean square of a component
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (const Vec3& n : normals) {
+    const Eigen::Vector3d v(n.x, n.y, n.z);
+    moments += v * v.transpose() / double(normals.size());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
+  if (solver.eigenvalues()(0) > kSquare * kSquare || solver.eigenvalues()(1) < kSpread) return std::nullopt;
+  const Eigen::Vector3d a = solver.eigenvectors().col(0);
+  return Vec3{a(0), a(1), a(2)};
+}
+
+Vec3 across(const Vec3& v, const std::optional<Vec3>& axis) { return axis ? v - dot(v, *axis) * *axis : v; }
+
+}  // namespace
+
+std::optional<RoundSurface> RoundSurface::through(const std::vector<Vec3>& targets, const std::vector<Vec3>& normals) {
+  constexpr std::size_t kFewest = 5;
+  constexpr double kOn_mm = 0.02;  // targets and normals come rounded
+  constexpr double kSpread = 1e-4;
+  if (targets.size() < kFewest) return std::nullopt;
+  RoundSurface out;
+  out.axis_ = axis_of(normals);
+  const double share = 1 / double(targets.size());
+  Vec3 target, normal;
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    target += share * across(targets[i], out.axis_), normal += share * normals[i];
+  double both = 0, spread = 0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Vec3 n = normals[i] - normal;
+    both += share * dot(n, across(targets[i], out.axis_) - target), spread += share * dot(n, n);
+  }
+  if (spread < kSpread) return std::nullopt;
+  out.radius_mm_ = both / spread;
+  out.middle_ = target - out.radius_mm_ * normal;
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    if (norm(across(targets[i], out.axis_) - out.middle_ - out.radius_mm_ * normals[i]) > kOn_mm) return std::nullopt;
+  return out;
+}
+
+double RoundSurface::bend_mm(const Vec3& target, const Vec3& place) const {
+  constexpr double kFarthest = 0.25;
+  const Vec3 arm = across(target, axis_) - middle_, off = across(place - target, axis_);
+  const double radius = norm(arm), up = dot(off, arm) / radius, beside = norm(off - up / radius * arm);
+  if (beside > kFarthest * radius) return 0;
+  return std::copysign(norm(arm + off) - radius - up, radius_mm_);
+}
+
+}  // namespace abbe::diagnose
