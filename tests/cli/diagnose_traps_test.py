@@ -74,6 +74,15 @@ class Traps(harness.Case):
             self.assertEqual(said["verdict"], "no_mismatch")
             self.assertIn("1.50 mm beside its targets and turned by 0.000 degrees", said["messages"][0]["message"])
 
+    def test_machines_in_order_that_look_unusual_are_held_against_more_of_their_kind(self):
+        """Among 300 of its kind each of these is one in 190; among 1800 it is not one in a hundred."""
+        part = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        for seed in (281, 283):
+            self.abbe("record", part, "--machine", MACHINE, "--seed", seed, "-o", "part.csv")
+            said = self.diagnosis(self.folder / "part.csv")
+            self.assertEqual(said["verdict"], "no_mismatch")
+            self.assertLess(said["p_value"], 0.03)
+
     def test_what_every_fifth_touch_does_no_room_does(self):
         for seed in (7, 8):
             count = itertools.count()

@@ -83,6 +83,8 @@ EvidenceSearch rest_of(const Case& c, const std::vector<const Matrix*>& found) {
   return {model, estimate(model), c.explanations};
 }
 
+double alarm_of(int round) { return round == 0 ? kAlarm : kLaterAlarm; }
+
 struct Round {
   Evidence evidence;
   std::vector<Evidence> null;
@@ -94,7 +96,7 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   // Beside the likeliest explanation: a mismatch has tails too.
   const int likeliest = likeliest_block(c.explanations, r.evidence);
   const NoiseLaw law(search.residuals_beside(c.explanations.blocks[static_cast<std::size_t>(likeliest)]));
-  r.null = search.bootstrap(r.evidence.statistic, law, c.options.replicates,
+  r.null = search.bootstrap(r.evidence.statistic, law, {c.options.replicates, alarm_of(number)},
                             c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
   std::vector<double> simulated;
   for (const Evidence& e : r.null) simulated.push_back(e.statistic);
@@ -188,7 +190,7 @@ SearchResult found_in_rounds(Case& c, EvidenceSearch& first) {
     } else {
       result.adequacy = r.p;
     }
-    if (r.p > (number == 0 ? kAlarm : kLaterAlarm) || number == kRounds) break;
+    if (r.p > alarm_of(number) || number == kRounds) break;
     auto [named, other] = named_on_finer_grid(c, here);
     std::optional<Finding> name;
     if (likelier(named, other, kNamed))

@@ -25,6 +25,13 @@ std::size_t index_of_largest(const std::vector<T>& v) {
   return static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
 }
 
+/// Whether more simulated recordings could carry a p-value over the level. Downwards that is further: the few
+/// largest of some hundred tell little of how the tail goes on.
+bool is_near(double p, double level) {
+  constexpr double kAbove = 3, kBelow = 30;
+  return p < kAbove * level && p > level / kBelow;
+}
+
 }  // namespace
 
 EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& h, const Explanations& explanations)
@@ -99,20 +106,29 @@ Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with)
   return out;
 }
 
-std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, int replicates,
+std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, const Replicates& replicates,
                                                 std::uint64_t seed, int threads) const {
-  constexpr int kBatch = 20, kEnough = 10;
+  constexpr int kBatch = 20, kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
   std::vector<Evidence> out;
+  std::vector<double> statistics;
   int extreme = 0;
-  while (static_cast<int>(out.size()) < replicates && extreme < kEnough) {
-    const int first = static_cast<int>(out.size()), count = std::min(kBatch, replicates - first);
-    out.resize(first + count);
-    on_threads(count, threads, [&](int k) {
-      out[first + k] =
-          judge(ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k), nullptr, nullptr);
-    });
-    for (int r = first; r < first + count; ++r) extreme += out[r].statistic >= observed ? 1 : 0;
-  }
+  const auto simulate = [&](int most, int enough) {
+    while (static_cast<int>(out.size()) < most && extreme < enough) {
+      const int first = static_cast<int>(out.size()), count = std::min(kBatch, most - first);
+      out.resize(first + count);
+      on_threads(count, threads, [&](int k) {
+        out[first + k] =
+            judge(ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k), nullptr, nullptr);
+      });
+      for (int r = first; r < first + count; ++r) {
+        statistics.push_back(out[r].statistic);
+        extreme += out[r].statistic >= observed ? 1 : 0;
+      }
+    }
+  };
+  simulate(replicates.usual, kEnough);
+  if (is_near(tail_probability(observed, statistics), replicates.level))
+    simulate(kMoreNear * replicates.usual, kEnoughNear);
   return out;
 }
 
@@ -121,7 +137,7 @@ double tail_probability(double observed, std::vector<double> simulated) {
   std::sort(simulated.begin(), simulated.end());
   const auto above =
       static_cast<double>(simulated.end() - std::lower_bound(simulated.begin(), simulated.end(), observed));
-  const std::size_t tail = simulated.size() / 10;
+  const std::size_t tail = std::min<std::size_t>(simulated.size() / 10, 30);
   if (above >= 8 || tail < 10) return (above + 1) / (n + 1);
   const double from = simulated[simulated.size() - tail - 1];
   double mean = 0;

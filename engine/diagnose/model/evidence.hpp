@@ -27,6 +27,12 @@ struct Information {
   Vector u;
 };
 
+/// How many recordings without a mismatch are simulated.
+struct Replicates {
+  int usual = 0;
+  double level = 0;  ///< the p-value up to which there is a mismatch; 0: nothing is decided by it
+};
+
 class EvidenceSearch {
  public:
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
@@ -39,10 +45,11 @@ class EvidenceSearch {
   /// The belief that the machine's errors are rougher than the specification's ensemble, without any explanation.
   double rough() const { return rough_; }
 
-  /// Evidence of simulated recordings without mismatch, at most `replicates`: fewer once enough of them are
-  /// as extreme as `observed` to know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991). The
-  /// same for any number of threads.
-  std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, int replicates, std::uint64_t seed,
+  /// Evidence of simulated recordings without mismatch: as many as usual; fewer once enough of them are as extreme
+  /// as `observed` to know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991); and up to six times as
+  /// many where their p-value is so near the level that its own chance would decide. The same for any number of
+  /// threads.
+  std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, const Replicates&, std::uint64_t seed,
                                   int threads) const;
 
   /// Standardised residuals beside a block of any size: each row against its prediction from all others.
@@ -84,8 +91,8 @@ class EvidenceSearch {
   double rough_ = 0;
 };
 
-/// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the
-/// next value would be of the exponential law that the upper tenth of the simulated values follows.
+/// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the next
+/// value would be of the exponential law that the upper tenth of the simulated values, at most thirty, follows.
 double tail_probability(double observed, std::vector<double> simulated);
 
 /// Belief in what chance alone shows with probability p, believed with `prior` before: the most that a

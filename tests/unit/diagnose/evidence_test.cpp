@@ -172,7 +172,7 @@ TEST_CASE("p-values without a mismatch are uniform") {
     const EvidenceSearch search(m, h, all);
     const double observed = search.evidence().statistic;
     std::vector<double> simulated;
-    for (const Evidence& e : search.bootstrap(observed, {}, 300, 5, 2)) simulated.push_back(e.statistic);
+    for (const Evidence& e : search.bootstrap(observed, {}, {300, 0}, 5, 2)) simulated.push_back(e.statistic);
     const double p = tail_probability(observed, simulated);
     below1 += p < 0.01, below5 += p<0.05, above50 += p> 0.5;
   }
@@ -211,7 +211,8 @@ TEST_CASE("tails of the noise are no mismatch where they are simulated") {
     const NoiseLaw law(search.residuals_beside(spots.blocks[static_cast<std::size_t>(likeliest)]));
     const auto p = [&](const NoiseLaw& simulated_with) {
       std::vector<double> simulated;
-      for (const Evidence& e : search.bootstrap(observed, simulated_with, 200, 5, 2)) simulated.push_back(e.statistic);
+      for (const Evidence& e : search.bootstrap(observed, simulated_with, {200, 0}, 5, 2))
+        simulated.push_back(e.statistic);
       return tail_probability(observed, simulated);
     };
     alarms += p(law) < 0.01, alarms_of_normal += p({}) < 0.01;
@@ -226,8 +227,28 @@ TEST_CASE("simulated recordings do not depend on threads") {
   Hyperparameters h;
   h.noise = Vector::Ones(1);
   const EvidenceSearch search(m, h, all);
-  const auto one = search.bootstrap(1e9, {}, 30, 1, 1), two_threads = search.bootstrap(1e9, {}, 30, 1, 2);
+  const auto one = search.bootstrap(1e9, {}, {30, 0}, 1, 1), two_threads = search.bootstrap(1e9, {}, {30, 0}, 1, 2);
   for (std::size_t k = 0; k < one.size(); ++k) CHECK(one[k].statistic == two_threads[k].statistic);
+}
+
+TEST_CASE("where the decision is near, more recordings are simulated") {
+  const LinearModel m = noise_only(40, 3);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const EvidenceSearch search(m, h, two(40));
+  const auto number_at = [&](double observed, double level) {
+    return search.bootstrap(observed, {}, {300, level}, 1, 2).size();
+  };
+  std::vector<double> statistics;
+  for (const Evidence& e : search.bootstrap(1e9, {}, {3000, 0}, 1, 2)) statistics.push_back(e.statistic);
+  std::sort(statistics.begin(), statistics.end());
+  const double at1 = statistics[2970], middle = statistics[1500];
+  CHECK(number_at(at1, 0) == 300);
+  CHECK(number_at(at1, 0.01) > 1000);  // until 20 lie beyond, one in a hundred
+  CHECK(number_at(at1, 0.01) <= 1800);
+  CHECK(number_at(at1, 0.001) == 300);  // ten times as probable as the level
+  CHECK(number_at(middle, 0.01) < 100);
+  CHECK(number_at(1e3, 0.01) == 300);
 }
 
 TEST_CASE("far tails are extrapolated, near ones counted") {
