@@ -50,7 +50,7 @@ struct Carriage {
 /// z: cos and sin coefficient of each harmonic. Multiples of the angles by the recurrence of the
 /// cosine.
 Carriage carriage(double k, double x, double half_base, const double* z) {
-  constexpr double kRmsOfOneOverN = 1.2296269;  // sqrt(1 + 1/4 + ... + 1/49)
+  constexpr double kRmsOfOneOverN = 1.2295516;  // sqrt(1 + 1/4 + ... + 1/49)
   const double c1 = std::cos(k * x), s1 = std::sin(k * x), cb1 = std::cos(k * half_base), sb1 = std::sin(k * half_base);
   double c = 1, s = 0, cb = 1, sb = 0;
   Carriage sum;
