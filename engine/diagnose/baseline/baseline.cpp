@@ -124,14 +124,21 @@ void add_head(const RecordedTouches& t, const Machine& machine, Columns& random)
     qualified[{s.stylus.ordinal, s.stylus.head_a_rad, s.stylus.head_b_rad, s.qualification}].push_back(
         static_cast<int>(i));
   }
-  const auto sensitivity = [&](const std::vector<int>& rows, double sd_rad, Vec3 RecordedTouch::*per_rad) {
-    if (sd_rad <= 0) return;
-    Vector& column = random.add();
-    for (const int i : rows) column(i) = kUmPerMm * sd_rad * dot(t.touches[i].scene.normal, t.touches[i].*per_rad);
-  };
+  const auto along = [&](int i, const Vec3& shift_mm) { return kUmPerMm * dot(t.touches[i].scene.normal, shift_mm); };
   for (const auto& [visit, rows] : visits) {
-    sensitivity(rows, machine.head.sd_a_rad, &RecordedTouch::per_rad_a_mm);
-    sensitivity(rows, machine.head.sd_b_rad, &RecordedTouch::per_rad_b_mm);
+    std::vector<std::pair<double, Vec3 RecordedTouch::*>> angles;
+    if (machine.head.sd_a_rad > 0) angles.emplace_back(machine.head.sd_a_rad, &RecordedTouch::per_rad_a_mm);
+    if (machine.head.sd_b_rad > 0) angles.emplace_back(machine.head.sd_b_rad, &RecordedTouch::per_rad_b_mm);
+    if (rows.size() == 1 && !angles.empty()) {  // the two angles move one touch as one of their joint size does
+      double square = 0;
+      for (const auto& [sd, per_rad] : angles) square += std::pow(sd * along(rows[0], t.touches[rows[0]].*per_rad), 2);
+      random.add()(rows[0]) = std::sqrt(square);
+      continue;
+    }
+    for (const auto& [sd, per_rad] : angles) {
+      Vector& column = random.add();
+      for (const int i : rows) column(i) = sd * along(i, t.touches[i].*per_rad);
+    }
   }
   const double probe_um = kUmPerMm * norm(machine.probe.sd_mm) / std::sqrt(3.0);
   for (const auto& [which, rows] : qualified) {
