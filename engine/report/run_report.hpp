@@ -82,6 +82,7 @@ struct Influence {
 struct LostCharacteristic {
   int line = 0;
   std::string feature, reason;
+  bool operator==(const LostCharacteristic&) const = default;
 };
 
 struct RunReport {

@@ -232,7 +232,9 @@ class StudyRun {
         reason += fmt::format("; the first stopped at line {}: {}", traps.front().line, traps.front().reason);
       std::string features;
       for (const plan::FeatureId f : definition.features) features += (features.empty() ? "" : ", ") + plan_[f].label;
-      study_.report.lost.push_back({definition.line, features, reason});
+      LostCharacteristic lost{definition.line, features, reason};
+      std::vector<LostCharacteristic>& all = study_.report.lost;  // every turn of a loop loses it in the same words
+      if (std::find(all.begin(), all.end(), lost) == all.end()) all.push_back(std::move(lost));
     }
   }
 

@@ -129,8 +129,10 @@ TEST_CASE("a characteristic that next to no machine reaches is lost, with the re
                              plan::PushConstant{1e-9}, plan::Op2::less},
                             loop});
   b.evaluate({p, p}, "DISTB", distance());
+  b.append(b.plan.operations.back().action);  // once more, as in the next turn of a loop
   const Study study = run_study(b.plan, machine(), few(5), length_source());
   CHECK(study.report.characteristics.empty());
+  CHECK(study.result.samples.size() == 2);
   REQUIRE(study.report.lost.size() == 1);
   CHECK(study.report.lost[0].feature == "F0, F0");
   CHECK(study.report.lost[0].reason.starts_with("0 of 5 machines reached it; the first stopped at line"));
