@@ -106,6 +106,17 @@ class Traps(harness.Case):
         # about 10 touches in each of 6 recordings, whose logarithms have a standard deviation of 0.7: 0.09 of the mean
         self.assertLess(abs(sum(logs) / len(logs)), 3 * 0.09)
 
+    def test_a_step_at_a_place_is_anywhere_between_the_readings(self):
+        """298 and 529 mm are next to each other among those along x; a model with the step at one end would be as good and mislead."""
+        lengths = harness.ROOT / "examples/iso10360/e0.dmi"
+        self.abbe("record", lengths, "--machine", PORTAL, "--seed", 3, "-o", "e0.csv", "--with", "machine.step:amplitude_um=25,along=x,position_mm=420")
+        [step] = self.diagnosis(self.folder / "e0.csv", PORTAL)["effects"]
+        place = step["parameters"]["position_mm"]
+        self.assertEqual(step["members"], ["machine.step"])
+        self.assertAlmostEqual(place["value"], (298 + 529) / 2, delta=30)
+        self.assertAlmostEqual(place["u"], (529 - 298) / math.sqrt(12), delta=15)
+        self.assertTrue(298 - 10 < place["interval95"][0] < 310 and 515 < place["interval95"][1] < 529 + 10)
+
     def test_speeds_that_were_measured_are_those_that_were_commanded(self):
         """The machine is off along x as it goes faster, which no effect does; each touch logs its own speed."""
         said = []

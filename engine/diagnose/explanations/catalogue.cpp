@@ -179,14 +179,26 @@ class VariantColumns {
   std::vector<int> phases_;
 };
 
-/// Whether an earlier variant of the same explanation has the same columns: it turns on a parameter without
-/// influence here.
-bool repeats(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
+/// The earlier variant of the same explanation that has the same columns: the two differ in what has no influence
+/// here. -1: none.
+int repeated(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
   for (const int k : of.blocks) {
     const Matrix& other = blocks[k].signature;
-    if (other.cols() == block.signature.cols() && (other - block.signature).cwiseAbs().maxCoeff() < 1e-9) return true;
+    if (other.cols() == block.signature.cols() && (other - block.signature).cwiseAbs().maxCoeff() < 1e-9) return k;
   }
-  return false;
+  return -1;
+}
+
+/// A variant stands for what another one with the same columns stands for too, where nothing lies between: no touch
+/// tells the values apart.
+void cover(Block& block, const Block& same) {
+  if (block.change != same.change) return;
+  for (std::size_t p = 0; p < block.cells.size(); ++p)
+    if (!adjoin(block.cells[p], same.cells[p])) return;
+  for (std::size_t p = 0; p < block.cells.size(); ++p) {
+    block.cells[p].low = std::min(block.cells[p].low, same.cells[p].low);
+    block.cells[p].high = std::max(block.cells[p].high, same.cells[p].high);
+  }
 }
 
 /// In what an effect shows first: what it needs, the rarest covariate first.
@@ -242,7 +254,11 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   for (Block& block : with_changes(settings(effect, search), effect, later_runs(t, rows))) {
     block.explanation = static_cast<int>(out.list.size());
     variant.fill(block);
-    if (block.signature.cols() == 0 || repeats(block, explanation, out.blocks)) continue;
+    if (block.signature.cols() == 0) continue;
+    if (const int before = repeated(block, explanation, out.blocks); before >= 0) {
+      cover(out.blocks[static_cast<std::size_t>(before)], block);
+      continue;
+    }
     explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
     out.blocks.push_back(std::move(block));
   }
@@ -264,6 +280,11 @@ std::string_view name(Factor f) {
   constexpr std::string_view names[] = {"time",  "position", "direction", "head",        "sensor",
                                         "setup", "feature",  "run",       "temperature", "speed"};
   return names[static_cast<int>(f)];
+}
+
+bool adjoin(const Cell& a, const Cell& b) {
+  const double rounding = 1e-9 * (std::abs(a.low) + std::abs(a.high));
+  return a.low <= b.high + rounding && b.low <= a.high + rounding;
 }
 
 std::optional<std::size_t> moment_of(const Effect& effect) {

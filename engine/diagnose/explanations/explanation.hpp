@@ -38,6 +38,9 @@ struct Cell {
   double low = 0, high = 0;
 };
 
+/// Whether two cells overlap or touch.
+bool adjoin(const Cell&, const Cell&);
+
 /// How large the coefficients of a block are, in standard deviations of their prior, and how much that is
 /// believed before the data.
 struct Size {

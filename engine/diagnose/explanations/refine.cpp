@@ -42,16 +42,12 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
 /// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is
 /// that of the runs.
 bool neighbours(const Block& a, const Block& b, const Effect& effect) {
-  const auto touch = [](const Cell& x, const Cell& y) {
-    const double rounding = 1e-9 * (std::abs(x.low) + std::abs(x.high));
-    return x.low <= y.high + rounding && y.low <= x.high + rounding;
-  };
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
   if (a.change != b.change &&
-      !(of_runs && a.change.run > 0 && b.change.run > 0 && a.change.gone == b.change.gone && touch(a.runs, b.runs)))
+      !(of_runs && a.change.run > 0 && b.change.run > 0 && a.change.gone == b.change.gone && adjoin(a.runs, b.runs)))
     return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
-    if (!(of_runs && moment_of(effect) == p) && !touch(a.cells[p], b.cells[p])) return false;
+    if (!(of_runs && moment_of(effect) == p) && !adjoin(a.cells[p], b.cells[p])) return false;
   return true;
 }
 

@@ -19,24 +19,32 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// One variant's estimate of one figure.
+/// One variant's estimate of one figure: a normal distribution, or for a value that was sought an even one over the
+/// values that the variant stands for.
 struct MixtureTerm {
   double weight = 0, value = 0, u = 0;
+  bool even = false;
 };
 
 double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
-/// The quantile of a mixture of normals, by bisection.
+/// The share of a term below x.
+double below(const MixtureTerm& c, double x) {
+  if (c.u == 0) return x >= c.value ? 1 : 0;
+  const double t = (x - c.value) / c.u;
+  return c.even ? std::clamp(0.5 + t / std::sqrt(12.0), 0.0, 1.0) : normal_below(t);
+}
+
+/// The quantile of a mixture, by bisection.
 double quantile(const std::vector<MixtureTerm>& mixture, double p) {
   double low = 1e300, high = -1e300;
   for (const MixtureTerm& c : mixture)
     low = std::min(low, c.value - 10 * c.u - 1e-12), high = std::max(high, c.value + 10 * c.u + 1e-12);
   for (int step = 0; step < 80; ++step) {
     const double x = (low + high) / 2;
-    double below = 0;
-    for (const MixtureTerm& c : mixture)
-      below += c.weight * (c.u > 0 ? normal_below((x - c.value) / c.u) : (x >= c.value ? 1 : 0));
-    (below < p ? low : high) = x;
+    double share = 0;
+    for (const MixtureTerm& c : mixture) share += c.weight * below(c, x);
+    (share < p ? low : high) = x;
   }
   return (low + high) / 2;
 }
@@ -76,6 +84,27 @@ std::vector<MixtureTerm> spread_estimate(const Information& info, double unit) {
   const double total = log_sum_exp(logs);
   for (std::size_t k = 0; k < terms.size(); ++k) terms[k].weight = std::exp(logs[k] - total);
   return terms;
+}
+
+/// The mean of the values that follow on those of a cell without a gap. Between two touches all places of a step are
+/// as likely; two periods that both fit have nothing between them.
+double mean_beside(std::vector<MixtureTerm> mixture, const Cell& cell) {
+  constexpr double kRounding = 1e-9;
+  double low = cell.low, high = cell.high, weight = 0, sum = 0;
+  const auto half = [](const MixtureTerm& c) { return c.u * std::sqrt(3.0); };
+  for (bool longer = true; longer;) {
+    const auto beside = [&, rounding = kRounding * (std::abs(low) + std::abs(high))](const MixtureTerm& c) {
+      return c.value + half(c) >= low - rounding && c.value - half(c) <= high + rounding;
+    };
+    const auto rest = std::partition(mixture.begin(), mixture.end(), beside);
+    longer = rest != mixture.begin();
+    for (auto c = mixture.begin(); c != rest; ++c) {
+      low = std::min(low, c->value - half(*c)), high = std::max(high, c->value + half(*c));
+      weight += c->weight, sum += c->weight * c->value;
+    }
+    mixture.erase(mixture.begin(), rest);
+  }
+  return sum / weight;
 }
 
 class Estimator {
@@ -176,7 +205,8 @@ class Estimator {
     const double value = likeliest.block.theta[p];
     const bool standard = value == parameter.standard;
     if (search_[p].between && !(standard && search_[p].values.size() < 2)) {
-      out.push_back(summary(parameter, searched(p), value));
+      const std::vector<MixtureTerm> mixture = searched(p);
+      out.push_back(summary(parameter, mixture, mean_beside(mixture, likeliest.block.cells[p])));
       if (parameter.sought == Sought::moment) out.back().called = run_at(value);
     } else if (!parameter.choices.empty())
       out.push_back({.name = std::string(parameter.name),
@@ -285,8 +315,10 @@ class Estimator {
 
   std::vector<MixtureTerm> searched(std::size_t p) const {
     std::vector<MixtureTerm> mixture;
-    for (const Variant& v : variants_)
-      mixture.push_back({v.weight, v.block.theta[p], (v.block.cells[p].high - v.block.cells[p].low) / std::sqrt(12.0)});
+    for (const Variant& v : variants_) {
+      const Cell& cell = v.block.cells[p];
+      mixture.push_back({v.weight, (cell.low + cell.high) / 2, (cell.high - cell.low) / std::sqrt(12.0), true});
+    }
     return normalised(mixture);
   }
 
