@@ -65,6 +65,13 @@ class Plan(harness.Case):
         said = self.diagnosis(self.record("--with", "probe.tip_radius:amplitude_um=3"))
         self.assertGreater(len(said["effects"][0]["members"]), 1)
 
+    def test_what_is_named_is_seen_before(self):
+        for told in self.plan()["smallest_detectable"]:
+            self.assertGreater(told["detect"], 0)
+            if told["name"] is not None:
+                self.assertLessEqual(told["detect"], told["name"])
+                self.assertLessEqual(told["detect_um"], told["name_um"])
+
     def test_each_question_is_asked_once(self):
         asked = self.plan()["next_measurement"]
         self.assertGreaterEqual(len(asked), 2)

@@ -122,20 +122,27 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   return b;
 }
 
-Ensemble::Verdicts Ensemble::judge(const Vector& recording) const {
-  const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
-  const Matrix weighted = z.asDiagonal() * precision_;
+Ensemble::Seen Ensemble::seen(const Vector& recording) const {
+  const Vector y = rotated_.project(recording);
+  Seen out{rotated_.coordinates(y), {}, {}};
+  out.rest = rotated_.remainder(y, out.z);
+  out.u = (coordinates_.transpose() * Matrix(out.z.asDiagonal() * precision_)).colwise() +
+      Vector(remainder_.transpose() * out.rest);
+  return out;
+}
+
+Ensemble::Verdicts Ensemble::judge(const Seen& y, const std::vector<int>& blocks) const {
   Verdicts out;
-  out.squares = (weighted.transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
+  out.squares =
+      ((y.z.asDiagonal() * precision_).transpose() * y.z).array() + (y.rest.squaredNorm() + 2 * kPriorSquares);
   for (std::size_t j = 0; j < scales_.size(); ++j)
     out.alone.push_back(log_scale_[j] - shape_ * std::log(out.squares(static_cast<Eigen::Index>(j))));
-  const Matrix u = (coordinates_.transpose() * weighted).colwise() + Vector(remainder_.transpose() * rest);
-  for (const Prepared& b : blocks_) {
+  const auto add = [&](const Prepared& b) {
     std::vector<double> with, squares_with;
     for (std::size_t j = 0; j < scales_.size(); ++j) {
       const auto column = static_cast<Eigen::Index>(j);
       const Axes& axes = b.axes[j];
-      const Vector t = (axes.e.transpose() * u.col(column).segment(b.first, b.count)).array().square();
+      const Vector t = (axes.e.transpose() * y.u.col(column).segment(b.first, b.count)).array().square();
       std::vector<double> sizes, left;
       for (std::size_t s = 0; s < axes.sizes.size(); ++s) {
         const double s2 = axes.sizes[s].factor * axes.sizes[s].factor;
@@ -148,7 +155,9 @@ Ensemble::Verdicts Ensemble::judge(const Vector& recording) const {
     }
     out.with.push_back(std::move(with));
     out.squares_with.push_back(std::move(squares_with));
-  }
+  };
+  for (std::size_t k = 0; k < functions_; ++k) add(blocks_[k]);
+  for (const int b : blocks) add(of(b));
   return out;
 }
 

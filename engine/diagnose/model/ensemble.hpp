@@ -45,12 +45,22 @@ class Ensemble {
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {
     std::vector<double> alone;                      ///< without any block
-    std::vector<std::vector<double>> with;          ///< by error function, then by block
+    std::vector<std::vector<double>> with;          ///< by error function, then by block that was asked for
     Vector squares;                                 ///< what is left of the sum of squares alone
     std::vector<std::vector<double>> squares_with;  ///< likewise, at its best size
   };
+  /// What the family sees of a recording: that of a sum of recordings is the sum.
+  struct Seen {
+    Vector z, rest;  ///< by eigenvector, and off the model
+    Matrix u;        ///< H' P_g y of the columns of all blocks, by scale
+
+    Seen plus(const Seen& other, double times) const {
+      return {z + times * other.z, rest + times * other.rest, u + times * other.u};
+    }
+  };
   /// `y`: of a recording, um.
-  Verdicts judge(const Vector& y) const;
+  Seen seen(const Vector& y) const;
+  Verdicts judge(const Seen&, const std::vector<int>& blocks) const;
   /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
   Level level(const std::vector<double>& log_belief, const std::vector<double>& squares) const;
 

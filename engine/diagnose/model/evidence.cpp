@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/base/ids.hpp"
 #include "engine/base/on_threads.hpp"
@@ -44,15 +45,15 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.blocks);
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
-  if (!plan) evidence_ = judge(model_.y, &alone_, &with_);
+  if (!plan) evidence_ = judge(seen(model_.y), &alone_, &with_);
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
   ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
   if (model.rough.cols() == 0 || model_.y.squaredNorm() == 0) return 0;
   Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
-  const double harmonic = log_sum_exp(ensembles_.back().judge(model_.y).alone),
-               other = log_sum_exp(rough.judge(model_.y).alone);
+  const double harmonic = log_sum_exp(ensembles_.back().judge(ensembles_.back().seen(model_.y), {}).alone),
+               other = log_sum_exp(rough.judge(rough.seen(model_.y), {}).alone);
   if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   return 1 / (1 + std::exp(harmonic - other));
 }
@@ -64,38 +65,65 @@ void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) 
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
-  if (model_.y.squaredNorm() > 0) evidence_ = judge(model_.y, &alone_, &with_);
+  if (model_.y.squaredNorm() > 0) evidence_ = judge(seen(model_.y), &alone_, &with_);
 }
 
-Evidence EvidenceSearch::judge(const Vector& y, Baseline* alone, Baseline* with) const {
-  std::vector<Ensemble::Verdicts> verdicts;
-  for (const Ensemble& e : ensembles_) verdicts.push_back(e.judge(y));
-  std::vector<double> nulls, explained;
-  for (const auto& v : verdicts) nulls.push_back(log_sum_exp(v.alone));
-  for (std::size_t k = 0; k < verdicts[0].with.size(); ++k) {
+std::vector<Ensemble::Seen> EvidenceSearch::seen(const Vector& y) const {
+  std::vector<Ensemble::Seen> out;
+  for (const Ensemble& e : ensembles_) out.push_back(e.seen(y));
+  return out;
+}
+
+EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Seen>& y,
+                                              const std::vector<int>& blocks) const {
+  Weighed out;
+  for (std::size_t e = 0; e < ensembles_.size(); ++e) out.verdicts.push_back(ensembles_[e].judge(y[e], blocks));
+  for (const auto& v : out.verdicts) out.alone.push_back(log_sum_exp(v.alone));
+  for (std::size_t k = 0; k < functions_ + blocks.size(); ++k) {
     std::vector<double> logs;
-    for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[k]));
-    explained.push_back(log_sum_exp(logs));
+    for (const auto& v : out.verdicts) logs.push_back(log_sum_exp(v.with[k]));
+    out.log_bayes.push_back(log_sum_exp(logs));
   }
-  std::vector<double> no_mismatch{log_sum_exp(nulls) + std::log(functions_ > 0 ? 1 - kPriorUneven : 1)};
+  std::vector<double> no_mismatch{log_sum_exp(out.alone) + std::log(functions_ > 0 ? 1 - kPriorUneven : 1)};
   for (std::size_t k = 0; k < functions_; ++k)
-    no_mismatch.push_back(explained[k] + std::log(kPriorUneven / double(functions_)));
-  const double null = log_sum_exp(no_mismatch);
+    no_mismatch.push_back(out.log_bayes[k] + std::log(kPriorUneven / double(functions_)));
+  out.log_null = log_sum_exp(no_mismatch);
+  out.log_bayes.erase(out.log_bayes.begin(), out.log_bayes.begin() + static_cast<std::ptrdiff_t>(functions_));
+  for (double& x : out.log_bayes) x -= out.log_null;
+  return out;
+}
+
+double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<double>& by_own_block) const {
+  std::vector<double> variants;
+  for (std::size_t k = 0; k < x.blocks.size(); ++k)
+    variants.push_back(by_own_block[k] + log_weight_[static_cast<std::size_t>(x.blocks[k])]);
+  return log_sum_exp(variants);
+}
+
+double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& y, int explanation) const {
+  const Explanation& x = explanations_[static_cast<std::size_t>(explanation)];
+  return std::log(x.prior) + log_bayes_of(x, weigh(y, x.blocks).log_bayes);
+}
+
+Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const {
+  std::vector<int> blocks(log_weight_.size());
+  std::iota(blocks.begin(), blocks.end(), 0);
+  Weighed weighed = weigh(y, blocks);
   Evidence out;
-  out.log_null = null;
-  for (std::size_t k = functions_; k < explained.size(); ++k) out.block_log_bayes.push_back(explained[k] - null);
+  out.log_null = weighed.log_null;
+  out.block_log_bayes = std::move(weighed.log_bayes);
   std::vector<double> all;
   for (const Explanation& x : explanations_) {
-    std::vector<double> variants;
-    for (const int k : x.blocks)
-      variants.push_back(out.block_log_bayes[static_cast<std::size_t>(k)] + log_weight_[static_cast<std::size_t>(k)]);
-    out.log_bayes.push_back(log_sum_exp(variants));
+    std::vector<double> own;
+    for (const int k : x.blocks) own.push_back(out.block_log_bayes[static_cast<std::size_t>(k)]);
+    out.log_bayes.push_back(log_bayes_of(x, own));
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
   out.statistic = log_sum_exp(all);
   ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
   if (!alone) return out;
-  const std::size_t e = index_of_largest(nulls), block = index_of_largest(out.block_log_bayes);
+  const std::vector<Ensemble::Verdicts>& verdicts = weighed.verdicts;
+  const std::size_t e = index_of_largest(weighed.alone), block = index_of_largest(out.block_log_bayes);
   const Vector& squares = verdicts[e].squares;
   *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, {squares.begin(), squares.end()})};
   if (out.block_log_bayes[block] <= 0) return out;
@@ -118,7 +146,7 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw&
       out.resize(first + count);
       on_threads(count, threads, [&](int k) {
         out[first + k] =
-            judge(ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k), nullptr, nullptr);
+            judge(seen(ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k)), nullptr, nullptr);
       });
       for (int r = first; r < first + count; ++r) {
         statistics.push_back(out[r].statistic);

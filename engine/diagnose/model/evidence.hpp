@@ -52,6 +52,17 @@ class EvidenceSearch {
   std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, const Replicates&, std::uint64_t seed,
                                   int threads) const;
 
+  /// What the ensembles see of a recording, in their order; that of a sum of recordings is the sum.
+  std::vector<Ensemble::Seen> seen(const Vector& y) const;
+  /// The statistic of another recording than that of the search.
+  double statistic_of(const std::vector<Ensemble::Seen>& y) const { return judge(y, nullptr, nullptr).statistic; }
+  /// What one explanation has of it, as a logarithm.
+  double log_belief(const std::vector<Ensemble::Seen>& y, int explanation) const;
+  /// A recording of a machine in order, at the level of the recording beside its likeliest explanation.
+  Vector in_order(std::uint64_t seed, int replicate) const {
+    return likely().simulated(with_.level, {}, seed, replicate);
+  }
+
   /// Standardised residuals beside a block of any size: each row against its prediction from all others.
   Vector residuals_beside(const Block& b) const { return leave_one_out(with_free(model_, {&b.signature}), hyper_); }
 
@@ -77,7 +88,16 @@ class EvidenceSearch {
     std::size_t ensemble = 0;
     Level level;
   };
-  Evidence judge(const Vector& y, Baseline* alone, Baseline* with) const;
+  struct Weighed {
+    std::vector<Ensemble::Verdicts> verdicts;  ///< by ensemble
+    std::vector<double> alone;                 ///< likewise: log likelihood without any block
+    double log_null = 0;
+    std::vector<double> log_bayes;  ///< by block that was asked for
+  };
+  Weighed weigh(const std::vector<Ensemble::Seen>& y, const std::vector<int>& blocks) const;
+  /// Of the blocks of an explanation, averaged over them.
+  double log_bayes_of(const Explanation&, const std::vector<double>& by_own_block) const;
+  Evidence judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const;
   const Ensemble& likely() const { return ensembles_[with_.ensemble]; }
 
   LinearModel model_;

@@ -5,8 +5,9 @@
 // An effect has forms: its variants (which axis, which moment) and in each its columns. Each in turn counts
 // as what is there, at a signal-to-noise s, and goes through the evidence of all explanations as a recording
 // does: with the complexity that a rival pays for, so that a simple effect is named although a richer one
-// could imitate it. What is told is the median form: half of them are seen, or named, from that size on, with
-// a power of 80 %; "never" where the median form is not named at any size.
+// could imitate it. What is told is the median form: half of them are named from that size on, with a power of 80 %,
+// or, where the median form is not named at any size, are seen. From what size on it is seen, simulated recordings
+// say (model/power.hpp).
 #include "engine/diagnose/planning/design.hpp"
 
 #include <Eigen/Cholesky>
@@ -17,6 +18,7 @@
 #include <optional>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/model/power.hpp"
 
 namespace abbe::diagnose {
 
@@ -29,7 +31,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 /// One form of an effect: a column of a variant.
 struct Form {
   int block = 0;
-  Eigen::Index column = 0;
+  Eigen::Index column = 0, place = 0;  ///< in the block, and among the forms
   double per_snr = 0, um_per_snr = 0;  ///< size and largest displacement of a touch at a signal-to-noise of 1
   double named = kNever;               ///< signal-to-noise from which on it is named
 };
@@ -45,7 +47,8 @@ struct Judged {
 
 class Design {
  public:
-  Design(const Case& c, const EvidenceSearch& search) : all_(c.explanations), search_(search) {
+  Design(const Case& c, const EvidenceSearch& search, const Power& power)
+      : all_(c.explanations), search_(search), power_(power) {
     for (int b = 0; b < static_cast<int>(all_.blocks.size()); ++b) {
       const Matrix g = search.between(b, b);
       const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
@@ -74,10 +77,13 @@ class Design {
     std::vector<Eigen::Index> columns;
     for (const Form& f : forms) columns.push_back(blocks_[static_cast<std::size_t>(f.block)].first + f.column);
     const Matrix seen = search_.against_all(columns);
+    const auto shift_of_form = [&](const Form& f) {
+      return shift_of(seen.col(f.place) / std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column)));
+    };
     for (std::size_t i = 0; i < forms.size(); ++i) {
       Form& f = forms[i];
-      const Shift shift = shift_of(seen.col(static_cast<Eigen::Index>(i)) /
-                                   std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column)));
+      f.place = static_cast<Eigen::Index>(i);
+      const Shift shift = shift_of_form(f);
       f.named = named_from(k, shift);
       const std::vector<double> at = beliefs(k, shift, 2 * kDetects);
       for (std::size_t j = 0; j < at.size(); ++j) belief[j] += at[j] / double(forms.size());
@@ -89,10 +95,16 @@ class Design {
                  .name_um = {},
                  .confounded_with = {},
                  .only_new = only_new};
-    const Form detected = median_form(forms, [](const Form&f) { return f.um_per_snr; }),
-               named = median_form(forms, [](const Form&f) { return f.um_per_snr * f.named; });
-    d.detect = kDetects * detected.per_snr, d.detect_um = kDetects * detected.um_per_snr;
-    if (std::isfinite(named.named)) d.name = named.named * named.per_snr, d.name_um = named.named * named.um_per_snr;
+    Form told = median_form(forms, [](const Form& f) { return f.um_per_snr * f.named; });
+    const bool is_named = std::isfinite(told.named);
+    if (!is_named) told = median_form(forms, [](const Form& f) { return f.um_per_snr; });
+    const double seen_from = detected_from(told, k, shift_of_form(told));
+    if (std::isinf(seen_from)) return std::nullopt;
+    d.detect = seen_from * told.per_snr, d.detect_um = seen_from * told.um_per_snr;
+    if (is_named) {
+      const double from = std::max(told.named, seen_from);
+      d.name = from * told.per_snr, d.name_um = from * told.um_per_snr;
+    }
     d.confounded_with = likeliest(belief, k);
     return d;
   }
@@ -103,6 +115,21 @@ class Design {
     std::vector<std::vector<double>> gain;  ///< by block and size: nats
     std::vector<double> left;               ///< by explanation: the share of the information that it cannot imitate
   };
+
+  /// The signal-to-noise from which on a form is seen.
+  double detected_from(const Form& f, std::size_t explanation, const Shift& shift) const {
+    constexpr double kMost = 100;
+    const Block& block = all_.blocks[static_cast<std::size_t>(f.block)];
+    const Vector& information = diagonal_[static_cast<std::size_t>(f.block)];
+    if (block.joined)  // no other explanation makes all that may be drawn
+      return power_.detected_from(block.signature / std::sqrt(information.sum()), static_cast<int>(explanation), 1,
+                                  kMost);
+    std::vector<double> belief;
+    for (std::size_t j = 0; j < all_.list.size(); ++j) belief.push_back(log_belief(j, shift, kDetects));
+    return power_.detected_from(block.signature.col(f.column) / std::sqrt(information(f.column)),
+                                static_cast<int>(explanation), std::exp(belief[explanation] - log_sum_exp(belief)),
+                                kMost);
+  }
 
   /// The size that is told: of the column that shows most.
   int parameter_of(const Explanation& e) const {
@@ -143,8 +170,12 @@ class Design {
         if (information <= 1e-12 || (p >= 0 && p != told)) continue;
         const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical
                                          : block.columns[static_cast<std::size_t>(j)].unit;
-        const Form f{b, j, unit / std::sqrt(information),
-                     block.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
+        Form f{b, j, 0, unit / std::sqrt(information),
+               block.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
+        if (block.joined) {  // draws come together: all columns at the spread that is told
+          const double all = std::sqrt(diagonal_[static_cast<std::size_t>(b)].sum());
+          f.per_snr = unit / all, f.um_per_snr = block.signature.rowwise().norm().maxCoeff() / all;
+        }
         if (kDetects * f.um_per_snr <= kNothing_um) out.push_back(f);
       }
     }
@@ -245,6 +276,7 @@ class Design {
 
   const Explanations& all_;
   const EvidenceSearch& search_;
+  const Power& power_;
   std::vector<Judged> blocks_;
   std::vector<Vector> diagonal_;  ///< by block: the information on each column
 };
@@ -258,7 +290,15 @@ double chi2_above(double x, double n) {
 }  // namespace
 
 std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch& search) {
-  const Design design(c, search);
+  // A plan has no values that would say how rough the machine may be: those of a machine in order.
+  std::optional<EvidenceSearch> of_plan;
+  if (c.model.y.squaredNorm() == 0) {
+    LinearModel model = c.model;
+    model.y = search.in_order(c.options.seed, 0);
+    of_plan.emplace(model, c.hyper, c.explanations);
+  }
+  const Power power(of_plan ? *of_plan : search, c.options.seed, c.options.threads);
+  const Design design(c, search, power);
   std::vector<std::optional<Detectable>> of(c.explanations.list.size());
   on_threads(static_cast<int>(of.size()), c.options.threads, [&](int k) {
     const auto index = static_cast<std::size_t>(k);

@@ -36,7 +36,8 @@ constinit const Effect kResolution{
     .help =
         "Readings are rounded to a step, by the counter of a scale or by the software that "
         "writes them. That adds a uniform error of one step in width, with a standard deviation "
-        "of 0.29 steps.",
+        "of 0.29 steps. A simulation adds this error and keeps its digits: a diagnosis, which looks at the digits, "
+        "takes it for vibration.",
     .source = "JCGM 100:2008 F.2.2.1; Widrow & Kollar, Quantization Noise (2008)",
     .separate = "look at the digits: the readings fall on a grid; write more digits",
     .influence = "vibration and outliers",

@@ -1,0 +1,66 @@
+#include "engine/diagnose/model/power.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/base/on_threads.hpp"
+#include "engine/lanes/random.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr int kForAlarm = 100, kWithShift = 12;
+constexpr double kLevel = 0.01;  // of alarms of machines in order
+
+/// The value that a share of a law exceeds whose upper fifth is exponential.
+double exceeded_by(double share, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t tail = values.size() / 5;
+  const double from = values[values.size() - tail - 1];
+  double mean = 0;
+  for (std::size_t k = values.size() - tail; k < values.size(); ++k) mean += (values[k] - from) / double(tail);
+  return from + mean * std::log(double(tail) / double(values.size()) / share);
+}
+
+}  // namespace
+
+Power::Power(const EvidenceSearch& of, std::uint64_t seed, int threads) : search_(of), seed_(seed) {
+  std::vector<double> statistics(kForAlarm);
+  in_order_.resize(kWithShift);
+  on_threads(kForAlarm, threads, [&](int k) {
+    std::vector<Ensemble::Seen> seen = of.seen(of.in_order(seed, k));
+    statistics[static_cast<std::size_t>(k)] = of.statistic_of(seen);
+    if (k < kWithShift) in_order_[static_cast<std::size_t>(k)] = std::move(seen);
+  });
+  alarm_ = exceeded_by(kLevel, std::move(statistics));
+}
+
+double Power::detected_from(const Matrix& shift, int explanation, double share, double most) const {
+  constexpr double kPower = 0.84;  // standard deviations: 80 %
+  constexpr double kLeast = 0.5;
+  constexpr int kHalvings = 7;
+  const bool drawn = shift.cols() > 1;
+  std::vector<Ensemble::Seen> there = search_.seen(shift.col(0));
+  double sum = 0, squares = 0;
+  for (int k = 0; k < kWithShift; ++k) {
+    if (drawn) there = search_.seen(shift * standard_normal(shift.cols(), seed_, stream_of("diagnose.power"), k));
+    const auto is_seen = [&](double times) {
+      std::vector<Ensemble::Seen> y = in_order_[static_cast<std::size_t>(k)];
+      for (std::size_t e = 0; e < y.size(); ++e) y[e] = y[e].plus(there[e], times);
+      return search_.log_belief(y, explanation) - std::log(share) > alarm_;
+    };
+    if (!is_seen(most)) return std::numeric_limits<double>::infinity();
+    double low = kLeast, high = most;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = std::sqrt(low * high);
+      (is_seen(middle) ? high : low) = middle;
+    }
+    sum += high, squares += high * high;
+  }
+  const double n = kWithShift, mean = sum / n;
+  return mean + kPower * std::sqrt(std::max(0.0, squares - n * mean * mean) / (n - 1));
+}
+
+}  // namespace abbe::diagnose
