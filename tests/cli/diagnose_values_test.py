@@ -53,6 +53,20 @@ class Values(harness.Case):
         self.assertLess(abs(size["value"] - 800), 3 * size["u"])
         self.assertGreater(said["adequacy_p_value"], 0.05)
 
+    def test_the_size_of_what_bends_a_form_is_sought_beside_the_errors_of_a_machine(self):
+        """Forms and distances in space: what a machine's errors make of them and what lobing makes of them do not add up."""
+        program, machine = (harness.ROOT / "examples/iso10360" / name for name in ("form_and_size_5x25.dmi", "portal-2009.json"))
+        far = []
+        for seed in range(50, 58):
+            self.abbe("record", program, "--machine", machine, "--seed", seed, "--with", "probe.pretravel_lobing:amplitude_um=1", "-o", "touches.csv", "--dmo", "values.dmo")
+            said = self.diagnosis("values.dmo", "--program", program, "--machine", machine)
+            self.assertEqual({v["program"] for v in said["values"]}, {program.name})
+            size = said["effects"][0]["parameters"]["amplitude_um"]
+            far.append((size["value"] - 1) / size["u"])
+        # Of 8 squares of unit variance the sum is beyond 26 in 0.1 % of such tests, the mean beyond 1.17 in 0.1 %.
+        self.assertLess(sum(z * z for z in far), 26)
+        self.assertLess(abs(sum(far) / 8), 1.17)
+
     def test_what_no_effect_is_so_large_as_to_make_is_doubted(self):
         """All lengths too long by 2 parts in a thousand: no scale is so wrong."""
         program = BLOCKS / "x1_L.dmi"

@@ -49,17 +49,17 @@ double quantile(const std::vector<MixtureTerm>& mixture, double p) {
   return (low + high) / 2;
 }
 
-/// `value`: the one that stands for the mixture; without, its mean.
+/// `value`: the one that stands for the mixture, about which it spreads by u; without, its mean.
 DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<MixtureTerm>& mixture,
                            std::optional<double> value = {}) {
   DiagnosedParameter out{.name = std::string(parameter.name), .unit = std::string(parameter.unit)};
   double square = 0;
   for (const MixtureTerm& c : mixture) out.value += c.weight * c.value;
+  if (value) out.value = *value;
   for (const MixtureTerm& c : mixture) square += c.weight * (c.u * c.u + std::pow(c.value - out.value, 2));
   out.u = std::sqrt(square);
   out.low = quantile(mixture, 0.025);
   out.high = quantile(mixture, 0.975);
-  if (value) out.value = *value;
   out.plausible = out.high >= parameter.low && out.low <= parameter.high;
   return out;
 }
@@ -206,7 +206,9 @@ class Estimator {
     const bool standard = value == parameter.standard;
     if (search_[p].between && !(standard && search_[p].values.size() < 2)) {
       const std::vector<MixtureTerm> mixture = searched(p);
-      out.push_back(summary(parameter, mixture, mean_beside(mixture, likeliest.block.cells[p])));
+      // A size goes with a period or a time constant: told are those that fit together.
+      const bool place = parameter.sought == Sought::moment || parameter.sought == Sought::reading;
+      out.push_back(summary(parameter, mixture, place ? mean_beside(mixture, likeliest.block.cells[p]) : value));
       if (parameter.sought == Sought::moment) out.back().called = run_at(value);
     } else if (!parameter.choices.empty())
       out.push_back({.name = std::string(parameter.name),

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/median.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
 #include "engine/diagnose/values/value_search.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
@@ -30,6 +32,8 @@ constexpr double kLeast_um = 1e-3;  // what rounding leaves of a value that no e
 struct ValueCase {
   const ValueRecording* recording = nullptr;
   const std::vector<ValueProgram>* programs = nullptr;
+  const Machine* machine = nullptr;
+  const DiagnoseOptions* options = nullptr;
   ValueEnsemble ensemble;
   Vector deviation;
   Matrix calibration;  ///< one column for each artefact: a standard deviation of its calibration
@@ -58,9 +62,17 @@ ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueP
   if (n > kMostValues)
     throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n),
                                fmt::format("at most {} are judged together; split the file", kMostValues)));
-  ValueCase c{&recording, &programs, value_ensemble(recording, programs, machine, options, 2 * (kHalf + kPerValue * n)),
-              {},         {},        {},
-              {},         {},        {},
+  ValueCase c{&recording,
+              &programs,
+              &machine,
+              &options,
+              value_ensemble(recording, programs, machine, options, 2 * (kHalf + kPerValue * n)),
+              {},
+              {},
+              {},
+              {},
+              {},
+              {},
               {}};
   c.deviation.resize(n), c.calibration.setZero(n, n);
   for (int k = 0; k < n; ++k) {
@@ -98,18 +110,17 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
                                       [&](double s) { return std::abs(s - c.mean(at)) >= distance; });
     const double u = std::sqrt(c.covariance(at, at)), unit = v.reported();
     const auto point = [&](double p) { return simulated[static_cast<std::size_t>(p * (n - 1) + 0.5)] * unit; };
-    out.push_back({row.characteristic, row.program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value,
-                   v.reference, v.deviation * unit, u * unit, (v.deviation - c.mean(at)) / u,
-                   (double(beyond) + 1) / (n + 1), point(0.025), point(0.975)});
+    const SourceFile& source = *(*c.programs)[static_cast<std::size_t>(v.program)].source;
+    const std::string program =
+        row.program.empty() ? std::filesystem::path(source.name()).filename().string() : row.program;
+    out.push_back({row.characteristic, program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference,
+                   v.deviation * unit, u * unit, (v.deviation - c.mean(at)) / u, (double(beyond) + 1) / (n + 1),
+                   point(0.025), point(0.975)});
   }
   return out;
 }
 
-/// Mean and covariance of the coefficients of a block, under a prior so wide that it does not pull.
-struct Sizes {
-  Vector mean;
-  Matrix covariance;
-};
+/// Of the coefficients of a block, under a prior so wide that it does not pull.
 Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
   const auto info = search.information(block, deviation);
   constexpr double kWide = 30;  // typical sizes
@@ -120,7 +131,11 @@ Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
 std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Finding& f) {
   const Block& b = c.search->explanations().blocks[static_cast<std::size_t>(f.block)];
   const Effect& effect = *c.search->explanations().list[static_cast<std::size_t>(f.explanation)].effect;
-  const Sizes s = sizes_of(*c.search, f.block, c.deviation);
+  const Sizes alone = sizes_of(*c.search, f.block, c.deviation);
+  const Sizes s = sizes_beside_errors({c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation,
+                                       c.covariance, c.calibration},
+                                      effect, b, alone.mean)
+                      .value_or(alone);
   std::vector<DiagnosedParameter> out;
   for (std::size_t k = 0; k < b.columns.size(); ++k) {
     const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];

@@ -64,6 +64,16 @@ const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, c
 
 double engine_scale(bool angle) { return angle ? kUradPerRad : kUmPerMm; }
 
+RunOptions run_options(const ValueProgram& program, int repeat, const DiagnoseOptions& asked) {
+  RunOptions options;
+  options.seed = asked.seed;
+  options.threads = asked.threads;
+  options.repeat = repeat;
+  options.placement_mm = program.placement_mm;
+  options.workpiece = asked.workpiece;
+  return options;
+}
+
 /// One run of one program: which rows it fills.
 struct OneRun {
   int program = 0, repeat = 0;
@@ -102,13 +112,8 @@ class EnsembleRuns {
   }
 
   void add(const OneRun& run, const ValueProgram& program) {
-    RunOptions options;
-    options.seed = options_.seed;
-    options.threads = options_.threads;
-    options.repeat = run.repeat;
-    options.placement_mm = program.placement_mm;
-    options.workpiece = options_.workpiece;
-    const RunResult result = run_plan(*program.plan, machine_, machines_, options, *program.source);
+    const RunResult result =
+        run_plan(*program.plan, machine_, machines_, run_options(program, run.repeat, options_), *program.source);
     for (const int r : run.rows) add_row(r, run, program, result);
   }
 
@@ -174,6 +179,10 @@ class EnsembleRuns {
   std::set<std::tuple<int, int, int>> met_;  ///< repeat, characteristic, occurrence
 };
 
+}  // namespace
+
+double RecordedValue::reported() const { return angle ? 180 / std::numbers::pi / kUradPerRad : 1 / kUmPerMm; }
+
 Matrix complete_rows(const Matrix& m) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < m.rows(); ++i)
@@ -181,9 +190,27 @@ Matrix complete_rows(const Matrix& m) {
   return Matrix(m(kept, Eigen::all));
 }
 
-}  // namespace
-
-double RecordedValue::reported() const { return angle ? 180 / std::numbers::pi / kUradPerRad : 1 / kUmPerMm; }
+Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
+                        const Machine& machine, const VirtualMachines& machines, const DiagnoseOptions& options) {
+  Matrix out = Matrix::Constant(machines.size(), static_cast<Eigen::Index>(values.size()), std::nan(""));
+  std::map<int, int> programs_by_repeat;
+  for (const RecordedValue& v : values) programs_by_repeat[v.repeat] = v.program;
+  for (const auto& [repeat, p] : programs_by_repeat) {
+    const ValueProgram& program = programs[static_cast<std::size_t>(p)];
+    const RunResult result =
+        run_plan(*program.plan, machine, machines, run_options(program, repeat, options), *program.source);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const RecordedValue& v = values[k];
+      if (v.repeat != repeat) continue;
+      for (const Samples& s : result.samples)
+        if (s.characteristic == v.characteristic && s.occurrence == v.occurrence && s.reference)
+          for (std::size_t i = 0; i < s.value.size(); ++i)
+            out(static_cast<Eigen::Index>(s.machine[i]), static_cast<Eigen::Index>(k)) =
+                engine_scale(v.angle) * (s.value[i] - *s.reference);
+    }
+  }
+  return out;
+}
 
 ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
                              const Machine& machine, const DiagnoseOptions& options, int machines) {

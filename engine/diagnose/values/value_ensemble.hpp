@@ -4,6 +4,7 @@
 
 #include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/values/value_diagnosis.hpp"
+#include "engine/machine/screening.hpp"
 
 namespace abbe::diagnose {
 
@@ -29,5 +30,11 @@ struct ValueEnsemble {
 /// `machines` accepted machines; those that do not reach every value are left out.
 ValueEnsemble value_ensemble(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
                              const DiagnoseOptions&, int machines);
+
+/// The same values of other machines: machines x values, NaN where one does not reach a value.
+Matrix simulated_values(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
+                        const VirtualMachines&, const DiagnoseOptions&);
+/// The machines that reach every value.
+Matrix complete_rows(const Matrix&);
 
 }  // namespace abbe::diagnose

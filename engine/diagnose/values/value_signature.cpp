@@ -46,7 +46,7 @@ class Plantation {
   /// The deviations of all values; NaN where the planted machine does not get.
   Vector signature(const Planting& planting) const {
     Machine planted = machine_;
-    planted.effects = {setting(planting)};
+    planted.effects = {setting_of(*planting.effect, planting.theta)};
     Vector out = Vector::Constant(static_cast<Eigen::Index>(values_.size()), std::nan(""));
     for (std::size_t p = 0; p < programs_.size(); ++p) {
       RunOptions run;
@@ -67,18 +67,6 @@ class Plantation {
   }
 
  private:
-  static EffectSetting setting(const Planting& planting) {
-    EffectSetting s{std::string(planting.effect->name), {}};
-    for (std::size_t p = 0; p < planting.theta.size(); ++p) {
-      const EffectParameter& parameter = planting.effect->parameters[p];
-      EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
-      value.value = planting.theta[p];
-      if (!parameter.choices.empty())
-        value.word = parameter.choices[static_cast<std::size_t>(std::lround(planting.theta[p] - parameter.low))];
-    }
-    return s;
-  }
-
   const std::vector<RecordedValue>& values_;
   const std::vector<ValueProgram>& programs_;
   const Machine& machine_;
@@ -186,6 +174,18 @@ void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix sig
 }
 
 }  // namespace
+
+EffectSetting setting_of(const Effect& effect, const std::vector<double>& theta) {
+  EffectSetting s{std::string(effect.name), {}};
+  for (std::size_t p = 0; p < theta.size(); ++p) {
+    const EffectParameter& parameter = effect.parameters[p];
+    EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
+    value.value = theta[p];
+    if (!parameter.choices.empty())
+      value.word = parameter.choices[static_cast<std::size_t>(std::lround(theta[p] - parameter.low))];
+  }
+  return s;
+}
 
 Explanations value_explanations(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
                                 const Machine& machine, const VirtualMachines& machines,

@@ -181,13 +181,18 @@ std::string next_steps(const Diagnosis& d) {
   return out.empty() ? "" : "what to do next:\n" + out;
 }
 
+/// The characteristic, and which of its evaluations in one run of the program.
+std::string labelled(const JudgedValue& v) {
+  return v.occurrence > 1 ? fmt::format("{} ({})", v.characteristic, v.occurrence) : v.characteristic;
+}
+
 std::string value_table(const Diagnosis& d) {
   if (d.values.empty()) return "";
   std::string out = fmt::format("{:<28} {:<22} {:>3} {:>13} {:>12} {:>24} {:>6} {:>6}\n", "characteristic", "program",
                                 "run", "value", "deviation", "95 % of such machines", "z", "p");
   for (const JudgedValue& v : d.values)
     out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6.3f}  {}\n",
-                       v.characteristic, v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, v.p, v.unit);
+                       labelled(v), v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, v.p, v.unit);
   return out + "\n";
 }
 
