@@ -14,8 +14,8 @@
 
 namespace abbe::diagnose {
 
-/// Signal-to-noise at which a search over the whole catalogue detects, and names, with a power of 80 % at 1 %
-/// false alarms.
+/// Signal-to-noise at which a search over the whole catalogue detects about half, and names. Where it must be known
+/// more closely it is simulated (model/power.hpp).
 inline constexpr double kDetects = 4.5, kNames = 5.5;
 /// Share of the information beyond which nothing is left to tell two effects apart.
 inline constexpr double kInseparable = 0.03;
