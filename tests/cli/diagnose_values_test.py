@@ -111,6 +111,15 @@ class Values(harness.Case):
         self.refused("E0555", "diagnose", "good.dmo")
         self.refused("E0557", "diagnose", self.write("empty.dmo", "DMISOT/'nothing',4.0\nENDFIL\n"), "--program", program)
 
+    def test_of_several_evaluations_each_row_says_which(self):
+        twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "OUTPUT/FA(A),FA(B),TA(LEN)\nOUTPUT/FA(A),FA(B),TA(LEN)")
+        values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")
+        text = self.abbe("diagnose", values, "--program", self.write("twice.dmi", twice), "--report", "page.html").stdout
+        for said in (text, (self.folder / "page.html").read_text()):
+            self.assertIn("LEN (2)", said)
+            self.assertNotIn("LEN (1)", said)
+            self.assertIn("twice.dmi", said)
+
     def test_the_answer_does_not_depend_on_threads(self):
         values = self.recorded()
         self.assertEqual(*(self.abbe("diagnose", values, "--format", "json", "--threads", t).stdout for t in (1, 2)))

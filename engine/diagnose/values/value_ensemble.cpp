@@ -64,6 +64,7 @@ const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, c
 
 double engine_scale(bool angle) { return angle ? kUradPerRad : kUmPerMm; }
 
+/// How a program is run whose values are compared.
 RunOptions run_options(const ValueProgram& program, int repeat, const DiagnoseOptions& asked) {
   RunOptions options;
   options.seed = asked.seed;
@@ -191,14 +192,16 @@ Matrix complete_rows(const Matrix& m) {
 }
 
 Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vector<ValueProgram>& programs,
-                        const Machine& machine, const VirtualMachines& machines, const DiagnoseOptions& options) {
+                        const Machine& machine, const VirtualMachines& machines, const DiagnoseOptions& options,
+                        const Contributors& contributors) {
   Matrix out = Matrix::Constant(machines.size(), static_cast<Eigen::Index>(values.size()), std::nan(""));
   std::map<int, int> programs_by_repeat;
   for (const RecordedValue& v : values) programs_by_repeat[v.repeat] = v.program;
   for (const auto& [repeat, p] : programs_by_repeat) {
     const ValueProgram& program = programs[static_cast<std::size_t>(p)];
-    const RunResult result =
-        run_plan(*program.plan, machine, machines, run_options(program, repeat, options), *program.source);
+    RunOptions run = run_options(program, repeat, options);
+    run.contributors = contributors;
+    const RunResult result = run_plan(*program.plan, machine, machines, run, *program.source);
     for (std::size_t k = 0; k < values.size(); ++k) {
       const RecordedValue& v = values[k];
       if (v.repeat != repeat) continue;

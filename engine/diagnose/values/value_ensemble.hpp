@@ -5,6 +5,7 @@
 #include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/values/value_diagnosis.hpp"
 #include "engine/machine/screening.hpp"
+#include "engine/run/run.hpp"
 
 namespace abbe::diagnose {
 
@@ -33,7 +34,7 @@ ValueEnsemble value_ensemble(const ValueRecording&, const std::vector<ValueProgr
 
 /// The same values of other machines: machines x values, NaN where one does not reach a value.
 Matrix simulated_values(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
-                        const VirtualMachines&, const DiagnoseOptions&);
+                        const VirtualMachines&, const DiagnoseOptions&, const Contributors& = {});
 /// The machines that reach every value.
 Matrix complete_rows(const Matrix&);
 

@@ -41,36 +41,24 @@ class Plantation {
     one_.index = {machines.index.front()};
     one_.geometry = {machines.geometry.front()};
     one_.v = {machines.v.front()};
+    for (RecordedValue& v : values_) v.repeat = v.program;  // nothing is drawn: one repeat tells them all
+    options_.threads = 1;                                   // plantings are on threads
+    contributors_.effects = true;
   }
 
   /// The deviations of all values; NaN where the planted machine does not get.
   Vector signature(const Planting& planting) const {
     Machine planted = machine_;
     planted.effects = {setting_of(*planting.effect, planting.theta)};
-    Vector out = Vector::Constant(static_cast<Eigen::Index>(values_.size()), std::nan(""));
-    for (std::size_t p = 0; p < programs_.size(); ++p) {
-      RunOptions run;
-      run.contributors = Contributors::none();
-      run.contributors.effects = true;
-      run.placement_mm = programs_[p].placement_mm;
-      run.workpiece = options_.workpiece;
-      const RunResult result = run_plan(*programs_[p].plan, planted, one_, run, *programs_[p].source);
-      for (std::size_t k = 0; k < values_.size(); ++k) {
-        const RecordedValue& v = values_[k];
-        if (v.program != static_cast<int>(p)) continue;
-        for (const Samples& s : result.samples)
-          if (s.characteristic == v.characteristic && s.occurrence == v.occurrence && s.reference && !s.value.empty())
-            out(static_cast<Eigen::Index>(k)) = (v.angle ? kUradPerRad : kUmPerMm) * (s.value[0] - *s.reference);
-      }
-    }
-    return out;
+    return simulated_values(values_, programs_, planted, one_, options_, contributors_).row(0);
   }
 
  private:
-  const std::vector<RecordedValue>& values_;
+  std::vector<RecordedValue> values_;
   const std::vector<ValueProgram>& programs_;
   const Machine& machine_;
-  const DiagnoseOptions& options_;
+  DiagnoseOptions options_;
+  Contributors contributors_ = Contributors::none();
   VirtualMachines one_;
 };
 

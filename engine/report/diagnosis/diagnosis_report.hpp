@@ -14,6 +14,8 @@ std::string diagnosis_json(const Diagnosis&);
 std::string diagnosis_text(const Diagnosis&);
 /// Whether they agree, what it is, whether that is better.
 std::vector<std::string> diagnosis_sentences(const Diagnosis&);
+/// The characteristic, and which of its evaluations in one run of the program.
+std::string label(const JudgedValue&);
 /// `recording` and `machine`: what was compared, for the heading.
 std::string diagnosis_html(const Diagnosis&, const std::string& recording, const std::string& machine);
 /// The text of the machine file with what the diagnosis found in it: `effects` appended, or in the place of

@@ -115,13 +115,13 @@ std::string values(const Diagnosis& d) {
     for (const JudgedValue& v : d.values)
       if (v.unit == unit)
         plot.lines.push_back(
-            {fmt::format("{} {}{}", v.characteristic, v.program, v.run > 1 ? fmt::format(" run {}", v.run) : ""),
+            {fmt::format("{} {}{}", label(v), v.program, v.run > 1 ? fmt::format(" run {}", v.run) : ""),
              factor * v.low, factor * v.high, factor * v.deviation});
     if (!plot.lines.empty()) out += svg(plot) + "\n";
   }
   std::string rows = html_row({"characteristic", "program", "run", "value", "deviation", "u", "z", "p"}, "th");
   for (const JudgedValue& v : d.values)
-    rows += html_row({v.characteristic, v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit),
+    rows += html_row({label(v), v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit),
                       fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u), fmt::format("{:.2f}", v.z),
                       fmt::format("{:.3f}", v.p)});
   return out + html_table(rows);

@@ -181,18 +181,13 @@ std::string next_steps(const Diagnosis& d) {
   return out.empty() ? "" : "what to do next:\n" + out;
 }
 
-/// The characteristic, and which of its evaluations in one run of the program.
-std::string labelled(const JudgedValue& v) {
-  return v.occurrence > 1 ? fmt::format("{} ({})", v.characteristic, v.occurrence) : v.characteristic;
-}
-
 std::string value_table(const Diagnosis& d) {
   if (d.values.empty()) return "";
   std::string out = fmt::format("{:<28} {:<22} {:>3} {:>13} {:>12} {:>24} {:>6} {:>6}\n", "characteristic", "program",
                                 "run", "value", "deviation", "95 % of such machines", "z", "p");
   for (const JudgedValue& v : d.values)
     out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6.3f}  {}\n",
-                       labelled(v), v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, v.p, v.unit);
+                       label(v), v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, v.p, v.unit);
   return out + "\n";
 }
 
@@ -228,6 +223,10 @@ std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
   for (const std::string& sentence : {first_sentence(d), second_sentence(d), third_sentence(d)})
     if (!sentence.empty()) out.push_back(sentence);
   return out;
+}
+
+std::string label(const JudgedValue& v) {
+  return v.occurrence > 1 ? fmt::format("{} ({})", v.characteristic, v.occurrence) : v.characteristic;
 }
 
 std::string diagnosis_text(const Diagnosis& d) {
