@@ -112,7 +112,7 @@ class Values(harness.Case):
         self.refused("E0557", "diagnose", self.write("empty.dmo", "DMISOT/'nothing',4.0\nENDFIL\n"), "--program", program)
 
     def test_of_several_evaluations_each_row_says_which(self):
-        twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "OUTPUT/FA(A),FA(B),TA(LEN)\nOUTPUT/FA(A),FA(B),TA(LEN)")
+        twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")
         values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")
         text = self.abbe("diagnose", values, "--program", self.write("twice.dmi", twice), "--report", "page.html").stdout
         for said in (text, (self.folder / "page.html").read_text()):

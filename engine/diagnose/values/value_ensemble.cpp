@@ -36,19 +36,22 @@ const Samples& sample_of(const ValueRecording& recording, const ValueRow& row, c
                          const RunResult& result) {
   const std::vector<std::string> labels = abbe::labels_of(row.characteristic);
   std::vector<const Samples*> found;
-  std::set<std::string> names;
+  std::set<std::string> names, meant;
   int met = 0;
   for (const Samples& s : result.samples) {
     if (!s.reference) continue;
     const std::vector<std::string> of = labels_of(plan, s.characteristic);
-    names.insert(fmt::format("{}", fmt::join(of, " ")));
-    if (row.ordinal > 0 ? labels.back() == of.back() && ++met == row.ordinal
-                        : !labels.empty() && means(labels, of) && s.occurrence == row.occurrence)
-      found.push_back(&s);
+    const std::string& label = *names.insert(fmt::format("{}", fmt::join(of, " "))).first;
+    if (row.ordinal > 0) {
+      if (labels.back() == of.back() && ++met == row.ordinal) found.push_back(&s);
+    } else if (!labels.empty() && means(labels, of)) {
+      meant.insert(label);
+      if (++met == row.occurrence) found.push_back(&s);
+    }
   }
-  if (found.size() == 1) return *found.front();
+  if (found.size() == 1 && meant.size() <= 1) return *found.front();
   const std::vector<std::string_view> known(names.begin(), names.end());
-  if (!found.empty())
+  if (meant.size() > 1)
     throw UserError(diagnostic_at(recording.source, row.span, Code::E0550,
                                   fmt::format("the program evaluates '{}' of several features", row.characteristic),
                                   fmt::format("name the features too: {}", fmt::join(known, ", "))));
