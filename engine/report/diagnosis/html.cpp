@@ -61,8 +61,8 @@ std::string improvement(const Diagnosis& d) {
     return html_row({what, fmt::format("{:.3g}", before), fmt::format("{:.3g}", after)});
   };
   std::string out = fmt::format(
-      "<h2>What the explanation improves</h2>\n<p>On touches that the model had not seen ({}), the log score gains {:.1f} nats (standard error {:.1f})",
-      escaped(i.scheme), i.log_score_gain, i.se);
+      "<h2>What the explanation improves</h2>\n<p>On {} that the model had not seen ({}), the log score gains {:.1f} nats (standard error {:.1f})",
+      d.values.empty() ? "touches" : "values", escaped(i.scheme), i.log_score_gain, i.se);
   if (d.runner_up)
     out +=
         fmt::format("; with the runner-up, {}, {:.1f}",
