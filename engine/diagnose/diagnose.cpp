@@ -383,6 +383,8 @@ void add_rounding(double step_um, Case& c) {
 Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& machine, const DiagnoseOptions& options,
                     std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
   const Diagnosis before = out;
+  const auto at = [&](std::string_view step) { begins(options.progress, step); };
+  at("virtual machines of the specification");
   Case c = on_the_bench(recording, machine, options, surfaces, file, out);
   add_rounding(step_um, c);
   // What holds no error at all says no more than its plan.
@@ -398,6 +400,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   } else {
     mask_outliers(c);
   }
+  at("what each explanation would do to these touches");
   c.explanations = explanations_without_readings(c.touches, c.rows);
   EvidenceSearch first(c.model, c.hyper, c.explanations);
   const std::size_t without_readings = c.explanations.blocks.size();
@@ -405,6 +408,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   add_explanations_of_readings(c.touches, c.rows, c.step_um, c.explanations);
   first.extend(c.explanations, without_readings);
   out.cannot_judge = cannot_judge(c.explanations);
+  at("what this recording could detect");
   out.smallest_detectable = smallest_detectable(c, first);
   add_hidden(c, out);
   if (!out.smallest_detectable.empty()) add_smallest_scatter(c, out);
@@ -412,6 +416,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   if (plan) {
     out.baseline = summary(c, c.hyper, known);
     if (as_planned) return out;
+    at("the next measurement");
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
     return out;
   }
@@ -426,6 +431,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.baseline = summary(c, result.hyper, known);
   out.p_value = result.p_value;
   out.rivals = rivals(c, result.first);
+  at("touches that the model has not seen");
   show_improvement(c, result, out);
   tell_findings(c, result, out);
   if (!surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out)) {
@@ -443,6 +449,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
     out.messages.push_back(large_errors(out.baseline.geometry_scale, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
+  at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);
   if (options.keep_state) out.known_state = known_state_beside(c, result);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/progress.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/recording/recording.hpp"
 
@@ -205,6 +206,7 @@ struct DiagnoseOptions {
   bool design_only = false;
   bool keep_state = false;               ///< fill known_state
   const Workpiece* workpiece = nullptr;  ///< what is known of the part; none: as the recording says
+  Progress progress;
 };
 
 /// Judges a recording (several files joined) on a machine; `file` names it in messages. Throws UserError:

@@ -87,7 +87,7 @@ class StudyRun {
 
  private:
   void step(const std::string& what) const {
-    if (progress_) progress_(what);
+    begins(progress_, what);
   }
 
   RunResult run(const VirtualMachines& machines, const Contributors& contributors) const {

@@ -14,17 +14,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string_view>
 
+#include "engine/base/progress.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/report/run_report.hpp"
 
 namespace abbe {
-
-/// Called between the steps of a study with what begins now; may be empty.
-using Progress = std::function<void(std::string_view step)>;
 
 /// JCGM 101:2008, 7.9.4 b: M = max(J, 10^4), where J = 100/(1-p) = 2000.
 inline constexpr int kBlockMachines = 10'000;

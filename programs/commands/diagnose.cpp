@@ -205,8 +205,11 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   how.threads = thread_count(options.threads);
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
-  const auto [d, machine] =
-      are_values(read.recordings) ? of_values(options, read, how) : of_touches(options, read, how);
+  const auto [d, machine] = [&] {
+    ProgressLine line;
+    how.progress = [&](std::string_view step) { line.show(step); };
+    return are_values(read.recordings) ? of_values(options, read, how) : of_touches(options, read, how);
+  }();
   print_messages(d.messages);
   if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(machine), d));
   if (options.report)

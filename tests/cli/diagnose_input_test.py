@@ -2,6 +2,8 @@
 import json
 import math
 import os
+import pty
+import subprocess
 import threading
 
 import harness
@@ -201,6 +203,20 @@ class Outputs(Input):
         self.abbe("record", PROGRAM, "-o", "pipe", "--with", "probe.tip_radius:amplitude_um=4")
         reader.join()
         self.assertEqual(came, [self.recording.read_text()])
+
+    def test_who_waits_at_a_terminal_sees_the_step(self):
+        """Each step takes the place of the one before, and none stays; a file or a pipe gets none."""
+        terminal, stderr = pty.openpty()
+        done = subprocess.run([self.abbe_path, "diagnose", self.recording], stdout=subprocess.PIPE, stderr=stderr, timeout=120)
+        os.close(stderr)
+        shown = os.read(terminal, 65536).decode()
+        os.close(terminal)
+        self.assertEqual(done.returncode, 0)
+        *steps, rest = shown.split("\r\x1b[K")[1:]
+        for step in ("virtual machines of the specification ...", "simulated recordings without a mismatch ...", "the next measurement ..."):
+            self.assertIn(step, steps)
+        self.assertEqual(rest, "")
+        self.assertEqual(self.abbe("diagnose", self.recording).stderr, "")
 
 
 class Mistakes(Input):

@@ -96,6 +96,8 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   // Beside the likeliest explanation: a mismatch has tails too.
   const int likeliest = likeliest_block(c.explanations, r.evidence);
   const NoiseLaw law(search.residuals_beside(c.explanations.blocks[static_cast<std::size_t>(likeliest)]));
+  begins(c.options.progress,
+         number > 0 ? "simulated recordings without what was found" : "simulated recordings without a mismatch");
   r.null = search.bootstrap(r.evidence.statistic, law, {c.options.replicates, alarm_of(number)},
                             c.options.seed + static_cast<std::uint64_t>(number), c.options.threads);
   std::vector<double> simulated;

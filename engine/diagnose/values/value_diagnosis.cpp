@@ -352,16 +352,20 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
 
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
                           const Machine& machine, const DiagnoseOptions& options) {
+  begins(options.progress, "virtual machines of the specification, and every effect on them");
   const ValueCase c = on_the_bench(recording, programs, machine, options);
   Diagnosis out;
   out.judged = !options.design_only;
   doubt_calibrations(c, out.messages);
   out.cannot_judge = cannot_judge(c.search->explanations());
+  begins(options.progress, "what these values could detect");
   out.smallest_detectable = smallest_detectable(c);
   if (options.design_only) return out;
+  begins(options.progress, "simulated recordings without a mismatch");
   out.values = judge_each(c);
   out.p_value = chance_of(c, *c.search);
   if (out.p_value > kAlarm) return out;
+  begins(options.progress, "sizes of what was found");
   show_improvement(c, tell(c, out), out);
   const auto worst =
       std::max_element(out.values.begin(), out.values.end(),
