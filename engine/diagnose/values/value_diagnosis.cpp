@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -26,7 +27,13 @@ using namespace diagnose;
 namespace {
 
 constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
-constexpr double kLeast_um = 1e-3;  // what rounding leaves of a value that no error reaches
+
+/// Simulated machines that values are compared with.
+struct Judges {
+  Vector mean;        ///< of the first half
+  Matrix covariance;  ///< of these, with that of the calibrations
+  Matrix judged;      ///< the second half, with errors of calibration
+};
 
 /// The values on the bench.
 struct ValueCase {
@@ -37,10 +44,7 @@ struct ValueCase {
   ValueEnsemble ensemble;
   Vector deviation;
   Matrix calibration;  ///< one column for each artefact: a standard deviation of its calibration
-  Matrix judges;       ///< machines of the first half: mean and covariance
-  Matrix judged;       ///< of the second half, with errors of calibration: what the recording is compared with
-  Vector mean;
-  Matrix covariance;
+  Judges judges;
   std::optional<ValueSearch> search;
 };
 
@@ -56,43 +60,43 @@ Matrix with_calibration(Matrix m, const Matrix& calibration, std::uint64_t seed)
   return m;
 }
 
+/// `simulated`: machines x values, more than twice as many machines as values.
+Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64_t seed) {
+  const Eigen::Index half = simulated.rows() / 2;
+  Judges out;
+  out.judged = with_calibration(simulated.bottomRows(simulated.rows() - half), calibration, seed);
+  out.mean = simulated.topRows(half).colwise().mean();
+  const Matrix centred = simulated.topRows(half).rowwise() - out.mean.transpose();
+  out.covariance = centred.transpose() * centred / double(half - 1) + calibration * calibration.transpose();
+  out.covariance.diagonal().array() += kLeastOfValue_um * kLeastOfValue_um;
+  return out;
+}
+
+/// How many virtual machines judge so many values.
+int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
+bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }
+
 ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
                        const Machine& machine, const DiagnoseOptions& options) {
   const int n = static_cast<int>(recording.rows.size());
   if (n > kMostValues)
     throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n),
                                fmt::format("at most {} are judged together; split the file", kMostValues)));
-  ValueCase c{&recording,
-              &programs,
-              &machine,
-              &options,
-              value_ensemble(recording, programs, machine, options, 2 * (kHalf + kPerValue * n)),
-              {},
-              {},
-              {},
-              {},
-              {},
-              {},
-              {}};
+  ValueCase c;
+  c.recording = &recording, c.programs = &programs, c.machine = &machine, c.options = &options;
+  c.ensemble = value_ensemble(recording, programs, machine, options, machines_for(n));
   c.deviation.resize(n), c.calibration.setZero(n, n);
   for (int k = 0; k < n; ++k) {
     const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(k)];
     c.deviation(k) = v.deviation, c.calibration(k, v.artefact) = v.calibration;
   }
-  const Eigen::Index half = c.ensemble.simulated.rows() / 2;
-  if (half < n + 2)
+  if (!enough(c.ensemble.simulated))
     throw UserError(diagnostic(
         Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
         "`abbe run` says where they stop"));
-  c.judges = c.ensemble.simulated.topRows(half);
-  c.judged = with_calibration(c.ensemble.simulated.bottomRows(c.ensemble.simulated.rows() - half), c.calibration,
-                              options.seed);
-  c.mean = c.judges.colwise().mean();
-  const Matrix centred = c.judges.rowwise() - c.mean.transpose();
-  c.covariance = centred.transpose() * centred / double(half - 1) + c.calibration * c.calibration.transpose();
-  c.covariance.diagonal().array() += kLeast_um * kLeast_um;
-  add_value_patterns(c.covariance, c.ensemble.explanations);
-  c.search.emplace(c.mean, c.covariance, c.ensemble.explanations);
+  c.judges = judges_of(c.ensemble.simulated, c.calibration, options.seed);
+  add_value_patterns(c.judges.covariance, c.ensemble.explanations);
+  c.search.emplace(c.judges.mean, c.judges.covariance, c.ensemble.explanations);
   return c;
 }
 
@@ -103,39 +107,44 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
     const RecordedValue& v = c.ensemble.values[k];
     const ValueRow& row = c.recording->rows[k];
     const auto at = static_cast<Eigen::Index>(k);
-    std::vector<double> simulated(c.judged.col(at).begin(), c.judged.col(at).end());
+    std::vector<double> simulated(c.judges.judged.col(at).begin(), c.judges.judged.col(at).end());
     std::sort(simulated.begin(), simulated.end());
-    const double n = double(simulated.size()), distance = std::abs(v.deviation - c.mean(at));
+    const double n = double(simulated.size()), distance = std::abs(v.deviation - c.judges.mean(at));
     const auto beyond = std::count_if(simulated.begin(), simulated.end(),
-                                      [&](double s) { return std::abs(s - c.mean(at)) >= distance; });
-    const double u = std::sqrt(c.covariance(at, at)), unit = v.reported();
+                                      [&](double s) { return std::abs(s - c.judges.mean(at)) >= distance; });
+    const double u = std::sqrt(c.judges.covariance(at, at)), unit = v.reported();
     const auto point = [&](double p) { return simulated[static_cast<std::size_t>(p * (n - 1) + 0.5)] * unit; };
     const SourceFile& source = *(*c.programs)[static_cast<std::size_t>(v.program)].source;
     const std::string program =
         row.program.empty() ? std::filesystem::path(source.name()).filename().string() : row.program;
     out.push_back({row.characteristic, program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference,
-                   v.deviation * unit, u * unit, (v.deviation - c.mean(at)) / u, (double(beyond) + 1) / (n + 1),
+                   v.deviation * unit, u * unit, (v.deviation - c.judges.mean(at)) / u, (double(beyond) + 1) / (n + 1),
                    point(0.025), point(0.975)});
   }
   return out;
 }
 
-/// Of the coefficients of a block, under a prior so wide that it does not pull.
-Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
-  const auto info = search.information(block, deviation);
-  constexpr double kWide = 30;  // typical sizes
-  const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide));
-  return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
-}
+/// The search once more, beside the errors that a machine has.
+struct Closer {
+  ValueSearch search;
+  std::map<int, Sizes> sizes;  ///< by block, of the likeliest
 
-std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Finding& f) {
-  const Block& b = c.search->explanations().blocks[static_cast<std::size_t>(f.block)];
-  const Effect& effect = *c.search->explanations().list[static_cast<std::size_t>(f.explanation)].effect;
-  const Sizes alone = sizes_of(*c.search, f.block, c.deviation);
-  const Sizes s = sizes_beside_errors({c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation,
-                                       c.covariance, c.calibration},
-                                      effect, b, alone.mean)
-                      .value_or(alone);
+  explicit Closer(const ValueCase& c)
+      : search(*c.search),
+        sizes(linearise_likeliest(search,
+                                  {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation,
+                                   c.judges.covariance, c.calibration})) {}
+  const Block& block(const Finding& f) const { return search.explanations().blocks[static_cast<std::size_t>(f.block)]; }
+  const Explanation& explanation(const Finding& f) const {
+    return search.explanations().list[static_cast<std::size_t>(f.explanation)];
+  }
+};
+
+std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& closer, const Finding& f) {
+  const Block& b = closer.block(f);
+  const Effect& effect = *closer.explanation(f).effect;
+  const auto found = closer.sizes.find(f.block);
+  const Sizes s = found != closer.sizes.end() ? found->second : sizes_of(closer.search, f.block, c.deviation);
   std::vector<DiagnosedParameter> out;
   for (std::size_t k = 0; k < b.columns.size(); ++k) {
     const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];
@@ -154,11 +163,9 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Finding&
   return out;
 }
 
-void tell_pattern(const ValueCase& c, const Finding& f, Diagnosis& out) {
-  const Explanations& all = c.search->explanations();
-  const Explanation& e = all.list[static_cast<std::size_t>(f.explanation)];
-  const Sizes s = sizes_of(*c.search, f.block, c.deviation);
-  const Vector pattern = all.blocks[static_cast<std::size_t>(f.block)].signature * s.mean;
+void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
+  const Explanation& e = closer.explanation(f);
+  const Vector pattern = closer.block(f).signature * sizes_of(closer.search, f.block, c.deviation).mean;
   const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())),
                u = rms / std::sqrt(2.0 * double(pattern.size()));
   out.unexplained = Unexplained{
@@ -174,16 +181,16 @@ void tell_pattern(const ValueCase& c, const Finding& f, Diagnosis& out) {
   out.verdict = Verdict::unexplained;
 }
 
-void tell_name(const ValueCase& c, const Finding& f, double adequacy, Diagnosis& out) {
-  const Explanations& all = c.search->explanations();
+void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, double adequacy, Diagnosis& out) {
+  const Explanations& all = closer.search.explanations();
   DiagnosedEffect e;
   std::vector<std::string_view> titles;
   for (const int k : f.set) {
     e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
     titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
   }
-  const Effect& effect = *all.list[static_cast<std::size_t>(f.explanation)].effect;
-  e.parameters = parameters_of(c, f);
+  const Effect& effect = *closer.explanation(f).effect;
+  e.parameters = parameters_of(c, closer, f);
   const bool size = plausible(e.parameters);
   e.probability = believed(f.probability, adequacy < kInadequate || !size);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
@@ -208,18 +215,19 @@ std::vector<int> groups_of(const ValueCase& c, std::string& scheme) {
 }
 
 /// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula).
-void show_improvement(const ValueCase& c, const Finding& f, Diagnosis& out) {
+void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   Improvement i;
   const std::vector<int> group = groups_of(c, i.scheme);
-  const Explanations one = only(c.search->explanations(), {f.explanation});
-  const double complete = ValueSearch(c.mean, c.covariance, one).evidence(c.deviation).log_bayes[0];
+  const auto at = static_cast<std::size_t>(f.explanation);
+  const std::vector<int>& blocks = closer.explanation(f).blocks;
+  const double complete = closer.search.evidence(c.deviation).log_bayes[at];
   std::vector<double> gain;
   Vector predicted = Vector::Zero(c.deviation.size());
   for (const int g : std::set<int>(group.begin(), group.end())) {
     std::vector<char> dropped;
     for (const int k : group) dropped.push_back(k == g);
     std::vector<Eigen::Index> kept;
-    const ValueSearch search = search_without(c.mean, c.covariance, one, dropped, kept);
+    const ValueSearch search = closer.search.rest(f.explanation, dropped, kept);
     if (kept.empty()) return;
     const Vector rest = c.deviation(kept);
     const Evidence evidence = search.evidence(rest);
@@ -227,7 +235,8 @@ void show_improvement(const ValueCase& c, const Finding& f, Diagnosis& out) {
     const auto best =
         static_cast<int>(std::max_element(evidence.block_log_bayes.begin(), evidence.block_log_bayes.end()) -
                          evidence.block_log_bayes.begin());
-    const Vector all = one.blocks[static_cast<std::size_t>(best)].signature * sizes_of(search, best, rest).mean;
+    const int block = blocks[static_cast<std::size_t>(best)];
+    const Vector all = closer.search.predicted(block, sizes_of(search, best, rest).mean);
     for (std::size_t k = 0; k < group.size(); ++k)
       if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
   }
@@ -236,7 +245,7 @@ void show_improvement(const ValueCase& c, const Finding& f, Diagnosis& out) {
   double square = 0;
   for (const double g : gain) square += std::pow(g - i.log_score_gain / n, 2);
   i.se = n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
-  const Vector before = c.deviation - c.mean, after = before - predicted;
+  const Vector before = c.deviation - c.judges.mean, after = before - predicted;
   i.rms_before_um = std::sqrt(before.squaredNorm() / k), i.rms_after_um = std::sqrt(after.squaredNorm() / k);
   const Vector sense = predicted.array().sign();
   i.bias_before_um = before.dot(sense) / k, i.bias_after_um = after.dot(sense) / k;
@@ -298,35 +307,49 @@ std::vector<Detectable> smallest_detectable(const ValueCase& c) {
   return out;
 }
 
-/// How often virtual machines look as unusual to a search as the recording does.
-double chance_of(const ValueCase& c, const ValueSearch& search) {
+/// How often such machines look as unusual to a search as the recording does.
+double chance_of(const ValueCase& c, const ValueSearch& search, const Matrix& machines) {
   std::vector<double> simulated;
-  for (Eigen::Index i = 0; i < c.judged.rows(); ++i)
-    simulated.push_back(search.evidence(c.judged.row(i).transpose()).statistic);
+  for (Eigen::Index i = 0; i < machines.rows(); ++i)
+    simulated.push_back(search.evidence(machines.row(i).transpose()).statistic);
   return tail_probability(search.evidence(c.deviation).statistic, std::move(simulated));
 }
 
-/// How often chance leaves as much as a name does.
-double adequacy_of(const ValueCase& c, const Finding& name) {
-  const Explanations& all = c.search->explanations();
-  return name.explanation < 0
-      ? 1
-      : chance_of(c,
-                  ValueSearch(c.mean, c.covariance, all, all.blocks[static_cast<std::size_t>(name.block)].signature));
+/// How often chance leaves as much as a pattern does, or a name that no machine was simulated with.
+double left_by_chance(const ValueCase& c, const Closer& closer, const Finding& f) {
+  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), closer.block(f).signature);
+  return chance_of(c, without, c.judges.judged);
+}
+
+/// How often a machine with the effect that is named leaves as much as the recording does.
+double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name) {
+  if (name.explanation < 0) return 1;
+  const auto found = closer.sizes.find(name.block);
+  if (found == closer.sizes.end()) return left_by_chance(c, closer, name);
+  const Block& block = closer.block(name);
+  const Machine planted = with_effect(*c.machine, *closer.explanation(name).effect, block, found->second.mean);
+  const VirtualMachines machines =
+      screened_machines(*c.machine, c.options->seed, machines_for(c.deviation.size()), c.options->threads);
+  const Matrix simulated =
+      complete_rows(simulated_values(c.ensemble.values, *c.programs, planted, machines, *c.options));
+  if (!enough(simulated)) return left_by_chance(c, closer, name);
+  const Judges judges = judges_of(simulated, c.calibration, c.options->seed);
+  return chance_of(c, ValueSearch(judges.mean, judges.covariance, c.search->explanations(), block.signature),
+                   judges.judged);
 }
 
 /// A name, or what stands for none; what is told is returned.
-Finding tell(const ValueCase& c, Diagnosis& out) {
-  const Explanations& all = c.search->explanations();
-  const Evidence evidence = c.search->evidence(c.deviation);
+Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
+  const Explanations& all = closer.search.explanations();
+  const Evidence evidence = closer.search.evidence(c.deviation);
   const Finding name = finding_of(all, evidence, true), pattern = finding_of(all, evidence, false);
-  const double adequacy = adequacy_of(c, name);
-  const bool doubted = adequacy < kInadequate && leaves_less(adequacy_of(c, pattern), adequacy);
+  const double adequacy = adequacy_of(c, closer, name);
+  const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
   if (named)
-    tell_name(c, name, adequacy, out);
+    tell_name(c, closer, name, adequacy, out);
   else
-    tell_pattern(c, pattern, out);
+    tell_pattern(c, closer, pattern, out);
   return named ? name : pattern;
 }
 
@@ -335,9 +358,10 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
   constexpr double kTimes = 3;
   std::vector<double> times;
   for (Eigen::Index k = 0; k < c.deviation.size(); ++k) {
-    const double calibrated = c.calibration.row(k).norm(), of_both = std::sqrt(c.covariance(k, k));
-    times.push_back(calibrated /
-                    std::sqrt(std::max(of_both * of_both - calibrated * calibrated, kLeast_um * kLeast_um)));
+    const double calibrated = c.calibration.row(k).norm(), of_both = std::sqrt(c.judges.covariance(k, k));
+    times.push_back(
+        calibrated /
+        std::sqrt(std::max(of_both * of_both - calibrated * calibrated, kLeastOfValue_um * kLeastOfValue_um)));
   }
   const double middle = median(std::move(times));
   if (middle < kTimes) return;
@@ -363,10 +387,11 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   if (options.design_only) return out;
   begins(options.progress, "simulated recordings without a mismatch");
   out.values = judge_each(c);
-  out.p_value = chance_of(c, *c.search);
+  out.p_value = chance_of(c, *c.search, c.judges.judged);
   if (out.p_value > kAlarm) return out;
   begins(options.progress, "sizes of what was found");
-  show_improvement(c, tell(c, out), out);
+  const Closer closer(c);
+  show_improvement(c, closer, tell(c, closer, out), out);
   const auto worst =
       std::max_element(out.values.begin(), out.values.end(),
                        [](const JudgedValue& a, const JudgedValue& b) { return std::abs(a.z) < std::abs(b.z); });

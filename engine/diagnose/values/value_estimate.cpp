@@ -3,6 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "engine/diagnose/values/value_signature.hpp"
 
@@ -14,51 +16,144 @@ constexpr int kMachines = 200, kSteps = 4;
 constexpr double kWide = 30;       // typical sizes: a prior that does not pull
 constexpr double kSettled = 0.05;  // standard uncertainties
 constexpr double kMove = 0.1;      // typical sizes, for the derivatives; they are taken on the same machines
+constexpr std::size_t kFirst = 8, kMost = 24;  // blocks
+constexpr double kNear = 6;                    // nats
+
+struct BesideErrors {
+  Sizes sizes;
+  NearSizes near;
+};
+
+/// Sizes of the columns of a block that its effect can have, the nearest to `sizes`.
+Vector possible(const Effect& effect, const Block& block, Vector sizes) {
+  for (std::size_t k = 0; k < block.columns.size(); ++k) {
+    const EffectParameter& p = effect.parameters[static_cast<std::size_t>(block.columns[k].parameter)];
+    double& size = sizes(static_cast<Eigen::Index>(k));
+    size = std::clamp(size * block.columns[k].unit, p.low, p.high) / block.columns[k].unit;
+  }
+  return sizes;
+}
+
+/// Of few machines: what their number leaves open of the correlations is that of machines without the effect.
+Matrix covariance_of(const Matrix& machines, const ValueBench& b) {
+  const Matrix centred = machines.rowwise() - machines.colwise().mean();
+  const Matrix calibrated = b.calibration * b.calibration.transpose();
+  const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + calibrated;
+  const Vector by =
+      (seen.diagonal().array() + kLeastOfValue_um * kLeastOfValue_um).sqrt() / b.covariance.diagonal().array().sqrt();
+  const double share = double(machines.rows()) / double(machines.rows() + machines.cols());
+  return share * seen + (1 - share) * Matrix(by.asDiagonal() * b.covariance * by.asDiagonal());
+}
+
+class Estimator {
+ public:
+  explicit Estimator(const ValueBench& b)
+      : bench_(b),
+        machines_(screened_machines(b.machine, b.options.seed, kMachines, b.options.threads)),
+        without_(simulated_values(b.values, b.programs, b.machine, machines_, b.options)) {}
+
+  /// Nothing where hardly a machine with the effect reaches the values.
+  std::optional<BesideErrors> estimate(const Effect&, const Block&, const Vector& start) const;
+
+ private:
+  const ValueBench& bench_;
+  VirtualMachines machines_;
+  Matrix without_;  ///< machines x values: deviations without an effect
+};
+
+std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Block& block, const Vector& start) const {
+  const ValueBench& b = bench_;
+  const auto values_at = [&](const Vector& sizes) {
+    return simulated_values(b.values, b.programs, with_effect(b.machine, effect, block, sizes), machines_, b.options);
+  };
+  BesideErrors out;
+  out.sizes.mean = start;
+  for (int step = 0; step < kSteps; ++step) {
+    const Vector at = possible(effect, block, out.sizes.mean);
+    const Eigen::Index n = without_.cols(), columns = at.size();
+    Matrix together(without_.rows(), (columns + 2) * n);  // next to each other: without, with, beside each derivative
+    together << without_, values_at(at), Matrix(without_.rows(), columns * n);
+    Vector move(columns);  // inwards from the largest size
+    for (Eigen::Index k = 0; k < columns; ++k) {
+      const Vector beside = at + kMove * Vector::Unit(columns, k);
+      move(k) = possible(effect, block, beside) == beside ? kMove : -kMove;
+      together.middleCols((k + 2) * n, n) = values_at(at + move(k) * Vector::Unit(columns, k));
+    }
+    together = complete_rows(together);
+    if (together.rows() < kMachines / 4) return std::nullopt;
+    const Vector means = together.colwise().mean(), here = means.segment(n, n);
+    Matrix slopes(n, columns);
+    for (Eigen::Index k = 0; k < columns; ++k) slopes.col(k) = (means.segment((k + 2) * n, n) - here) / move(k);
+    const Matrix covariance = covariance_of(together.middleCols(n, n), b);
+    const Matrix weighted = Eigen::LLT<Matrix>(covariance).solve(slopes);
+    const Matrix information = slopes.transpose() * weighted + Matrix::Identity(columns, columns) / (kWide * kWide);
+    const Matrix gain = Eigen::LLT<Matrix>(information).solve(weighted.transpose());
+    out.sizes.covariance = gain * covariance * gain.transpose();
+    out.near = {slopes, here - means.head(n) - slopes * at, covariance};
+    out.sizes.mean = at + gain * (b.deviation - here);
+    const Vector change = possible(effect, block, out.sizes.mean) - at;
+    if ((change.array().abs() < kSettled * out.sizes.covariance.diagonal().array().sqrt()).all()) break;
+  }
+  return out;
+}
+
+/// Among the blocks that were not tried, the one to look at next: the best of each of the first explanations, then
+/// whatever may still be the likeliest; -1: none.
+int next_block(const ValueSearch& search, const Vector& deviation, const std::set<int>& tried) {
+  const Explanations& all = search.explanations();
+  const Evidence evidence = search.evidence(deviation);
+  std::set<int> seen;
+  for (const int b : tried) seen.insert(all.blocks[static_cast<std::size_t>(b)].explanation);
+  const auto log_belief = [&](std::size_t b) {
+    const Block& block = all.blocks[b];
+    return std::log(all.list[static_cast<std::size_t>(block.explanation)].prior * block.weight) +
+        evidence.block_log_bayes[b];
+  };
+  int next = -1;
+  double best = -std::numeric_limits<double>::infinity(), top = best;
+  for (std::size_t b = 0; b < all.blocks.size(); ++b) {
+    const int of = all.blocks[b].explanation;
+    top = std::max(top, log_belief(b));
+    if (!all.list[static_cast<std::size_t>(of)].effect || tried.contains(static_cast<int>(b))) continue;
+    if (seen.size() < kFirst && seen.contains(of)) continue;
+    if (log_belief(b) > best) best = log_belief(b), next = static_cast<int>(b);
+  }
+  return seen.size() < kFirst || best > top - kNear ? next : -1;
+}
+
+}  // namespace
+
+Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
+  const Information info = search.information(block, deviation);
+  const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide));
+  return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
+}
 
 Machine with_effect(const Machine& machine, const Effect& effect, const Block& block, const Vector& sizes) {
+  const Vector taken = possible(effect, block, sizes);
   std::vector<double> theta = block.theta;
-  for (std::size_t k = 0; k < block.columns.size(); ++k) {
-    const auto p = static_cast<std::size_t>(block.columns[k].parameter);
-    theta[p] = std::clamp(sizes(static_cast<Eigen::Index>(k)) * block.columns[k].unit, effect.parameters[p].low,
-                          effect.parameters[p].high);
-  }
+  for (std::size_t k = 0; k < block.columns.size(); ++k)
+    theta[static_cast<std::size_t>(block.columns[k].parameter)] =
+        taken(static_cast<Eigen::Index>(k)) * block.columns[k].unit;
   Machine planted = machine;
   planted.effects.push_back(setting_of(effect, theta));
   return planted;
 }
 
-}  // namespace
-
-std::optional<Sizes> sizes_beside_errors(const ValueBench& b, const Effect& effect, const Block& block,
-                                         const Vector& start) {
-  const VirtualMachines machines = screened_machines(b.machine, b.options.seed, kMachines, b.options.threads);
-  const auto values_at = [&](const Vector& sizes) {
-    return simulated_values(b.values, b.programs, with_effect(b.machine, effect, block, sizes), machines, b.options);
-  };
-  const Eigen::LLT<Matrix> weight(b.covariance);
-  Sizes out{start, {}};
-  for (int step = 0; step < kSteps; ++step) {
-    const Eigen::Index columns = start.size();
-    Matrix together = values_at(out.mean);  // next to each other: what is simulated here, and beside each derivative
-    const Eigen::Index n = together.cols();
-    for (Eigen::Index k = 0; k < columns; ++k) {
-      together.conservativeResize(Eigen::NoChange, (k + 2) * n);
-      together.rightCols(n) = values_at(out.mean + kMove * Vector::Unit(columns, k));
-    }
-    together = complete_rows(together);
-    if (together.rows() < kMachines / 4) return std::nullopt;
-    const Vector means = together.colwise().mean();
-    Matrix slopes(n, columns);
-    for (Eigen::Index k = 0; k < columns; ++k) slopes.col(k) = (means.segment((k + 1) * n, n) - means.head(n)) / kMove;
-    const Matrix weighted = weight.solve(slopes);
-    const Matrix information = slopes.transpose() * weighted + Matrix::Identity(columns, columns) / (kWide * kWide);
-    const Matrix gain = Eigen::LLT<Matrix>(information).solve(weighted.transpose());
-    const Matrix strayed = (together.leftCols(n).rowwise() - means.head(n).transpose()) * gain.transpose();
-    const Matrix calibration = gain * b.calibration;
-    out.covariance = strayed.transpose() * strayed / double(strayed.rows() - 1) + calibration * calibration.transpose();
-    const Vector change = gain * (b.deviation - means.head(n));
-    out.mean += change;
-    if ((change.array().abs() < kSettled * out.covariance.diagonal().array().sqrt()).all()) break;
+std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueBench& bench) {
+  const Estimator estimator(bench);
+  std::map<int, Sizes> out;
+  std::set<int> tried;
+  while (tried.size() < kMost) {
+    const int b = next_block(search, bench.deviation, tried);
+    if (b < 0) break;
+    tried.insert(b);
+    const Block& block = search.explanations().blocks[static_cast<std::size_t>(b)];
+    const Effect& effect = *search.explanations().list[static_cast<std::size_t>(block.explanation)].effect;
+    const auto found = estimator.estimate(effect, block, sizes_of(search, b, bench.deviation).mean);
+    if (!found) continue;
+    search.linearise(b, found->near);
+    out.emplace(b, found->sizes);
   }
   return out;
 }

@@ -1,10 +1,16 @@
-// The sizes of an effect that was named from values, on machines that have errors of their own. A form or a distance
-// in space is no sum of what the effect and the machine's errors make of it alone: so the programs run with both.
+// Effects on recorded values beside the errors that every machine has. A form or a distance in space is no sum of what
+// the effect and the machine's errors make of it alone: so the programs run with both.
 #pragma once
 
+#include <map>
+
 #include "engine/diagnose/values/value_ensemble.hpp"
+#include "engine/diagnose/values/value_search.hpp"
 
 namespace abbe::diagnose {
+
+/// What rounding leaves of a value that no error reaches.
+inline constexpr double kLeastOfValue_um = 1e-3;
 
 /// Mean and covariance of the sizes of the columns of a block, in units of the columns.
 struct Sizes {
@@ -12,7 +18,10 @@ struct Sizes {
   Matrix covariance;
 };
 
-/// What recorded values are compared with.
+/// Under a prior so wide that it does not pull.
+Sizes sizes_of(const ValueSearch&, int block, const Vector& deviation);
+
+/// What recorded values are compared with. All of it must outlive this.
 struct ValueBench {
   const std::vector<RecordedValue>& values;
   const std::vector<ValueProgram>& programs;
@@ -23,8 +32,13 @@ struct ValueBench {
   const Matrix& calibration;  ///< a column for each artefact: a standard deviation
 };
 
-/// Gauss-Newton steps from `start`, weighted by the covariance, with the mean of simulated machines as the model and
-/// their spread under the effect as the uncertainty. Nothing where hardly a machine with it reaches the values.
-std::optional<Sizes> sizes_beside_errors(const ValueBench&, const Effect&, const Block&, const Vector& start);
+/// Makes the likeliest blocks of the catalogue linear near the sizes that fit best (Gauss-Newton steps weighted by the
+/// covariance, with the mean of simulated machines as the model), so that their evidence is that beside errors.
+/// Returns the sizes by block, with the spread of the simulated machines under the effect as the uncertainty; a block
+/// that hardly any machine reaches all values with is left as it was.
+std::map<int, Sizes> linearise_likeliest(ValueSearch&, const ValueBench&);
+
+/// The machine with an effect of these sizes, in units of the columns of the block, or the nearest possible ones.
+Machine with_effect(const Machine&, const Effect&, const Block&, const Vector& sizes);
 
 }  // namespace abbe::diagnose

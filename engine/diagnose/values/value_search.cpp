@@ -15,9 +15,36 @@ constexpr double kSizes[] = {0.3, 1, 3, 10};
 }  // namespace
 
 ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations explanations, const Matrix& free)
-    : explanations_(std::move(explanations)), mean_(std::move(mean)), root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
+    : explanations_(std::move(explanations)),
+      mean_(std::move(mean)),
+      covariance_(covariance),
+      root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
   if (free.cols() > 0) free_ = independent(root_.triangularView<Eigen::Lower>().solve(free));
   for (const Block& b : explanations_.blocks) white_.push_back(whitened(b.signature));
+}
+
+void ValueSearch::linearise(int block, NearSizes near) {
+  const auto b = static_cast<std::size_t>(block);
+  const Matrix root = Eigen::LLT<Matrix>(near.covariance).matrixL();
+  explanations_.blocks[b].signature = near.slopes;
+  white_[b] = root.triangularView<Eigen::Lower>().solve(near.slopes);
+  near_.insert_or_assign(block, Near{std::move(near), root});
+}
+
+std::pair<Vector, double> ValueSearch::from_offset(int block, const Vector& deviation, const Vector& white) const {
+  const auto near = near_.find(block);
+  if (near == near_.end()) return {white, 0};
+  const Matrix& root = near->second.root;
+  const Vector w = root.triangularView<Eigen::Lower>().solve(deviation - mean_ - near->second.of.offset);
+  return {w,
+          0.5 * (white.squaredNorm() - w.squaredNorm()) + root_.diagonal().array().log().sum() -
+              root.diagonal().array().log().sum()};
+}
+
+Vector ValueSearch::predicted(int block, const Vector& sizes) const {
+  const Vector linear = explanations_.blocks[static_cast<std::size_t>(block)].signature * sizes;
+  const auto near = near_.find(block);
+  return near == near_.end() ? linear : Vector(linear + near->second.of.offset);
 }
 
 Matrix ValueSearch::whitened(const Matrix& columns) const {
@@ -28,14 +55,16 @@ Matrix ValueSearch::whitened(const Matrix& columns) const {
 Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
 
 Information ValueSearch::information(int block, const Vector& deviation) const {
-  const Matrix& h = white_[static_cast<std::size_t>(block)];
-  return {h.transpose() * h, h.transpose() * white(deviation)};
+  const Matrix& h = white(block);
+  return {h.transpose() * h, h.transpose() * from_offset(block, deviation, white(deviation)).first};
 }
 
 Evidence ValueSearch::evidence(const Vector& deviation) const {
-  const Vector w = white(deviation);
+  const Vector white_deviation = white(deviation);
   Evidence out;
-  for (const Matrix& h : white_) {
+  for (std::size_t b = 0; b < white_.size(); ++b) {
+    const Matrix& h = white_[b];
+    const auto [w, log_offset] = from_offset(static_cast<int>(b), deviation, white_deviation);
     const Matrix g = h.transpose() * h;
     const Vector u = h.transpose() * w;
     std::vector<double> sizes;
@@ -45,7 +74,7 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
       sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() -
                       std::log(double(std::size(kSizes))));
     }
-    out.block_log_bayes.push_back(log_sum_exp(sizes));
+    out.block_log_bayes.push_back(log_sum_exp(sizes) + log_offset);
   }
   std::vector<double> all;
   for (const Explanation& e : explanations_.list) {
@@ -60,12 +89,19 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
   return out;
 }
 
-ValueSearch search_without(const Vector& mean, const Matrix& covariance, const Explanations& all,
-                           const std::vector<char>& dropped, std::vector<Eigen::Index>& kept) {
+ValueSearch ValueSearch::rest(int explanation, const std::vector<char>& dropped,
+                              std::vector<Eigen::Index>& kept) const {
   kept.clear();
   for (std::size_t k = 0; k < dropped.size(); ++k)
     if (!dropped[k]) kept.push_back(static_cast<Eigen::Index>(k));
-  return ValueSearch(mean(kept), covariance(kept, kept), rows_of(all, kept));
+  ValueSearch out(mean_(kept), covariance_(kept, kept), rows_of(only(explanations_, {explanation}), kept));
+  const std::vector<int>& blocks = explanations_.list[static_cast<std::size_t>(explanation)].blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (const auto near = near_.find(blocks[b]); near != near_.end()) {
+      const NearSizes& all = near->second.of;
+      out.linearise(static_cast<int>(b), {all.slopes(kept, Eigen::all), all.offset(kept), all.covariance(kept, kept)});
+    }
+  return out;
 }
 
 }  // namespace abbe::diagnose

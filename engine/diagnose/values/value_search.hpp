@@ -2,12 +2,24 @@
 // is the covariance of the ensemble. For a block with signature H and a size s
 //     log B = -1/2 log|1 + s^2 G| + 1/2 s^2 u' (1 + s^2 G)^-1 u,      G = H' V^-1 H,  u = H' V^-1 y,
 // averaged over sizes and the blocks of an explanation; the statistic is the logarithm of the average over
-// explanations (MacKay 2003, ch. 28).
+// explanations (MacKay 2003, ch. 28). Of a block that is linear near one size only, values are normal about o + H s with
+// a covariance W of their own: y - o and W stand for y and V, and log N(y; o, W) - log N(y; 0, V) is added.
 #pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "engine/diagnose/model/evidence.hpp"
 
 namespace abbe::diagnose {
+
+/// What a block does near the sizes s that fit best: values are normal about offset + slopes s with `covariance`.
+struct NearSizes {
+  Matrix slopes;
+  Vector offset;
+  Matrix covariance;
+};
 
 class ValueSearch {
  public:
@@ -15,27 +27,37 @@ class ValueSearch {
   /// nothing is known.
   ValueSearch(Vector mean, const Matrix& covariance, Explanations, const Matrix& free = {});
 
+  /// Only where nothing is free.
+  void linearise(int block, NearSizes);
+
   Evidence evidence(const Vector& deviation) const;
   Information information(int block, const Vector& deviation) const;
-  /// H_a' V^-1 H_b.
-  Matrix between(int a, int b) const {
-    return white_[static_cast<std::size_t>(a)].transpose() * white_[static_cast<std::size_t>(b)];
-  }
+  /// H_a' V^-1 H_b, of blocks that are linear everywhere.
+  Matrix between(int a, int b) const { return white(a).transpose() * white(b); }
   /// The deviation in units in which it is uncorrelated, each of variance 1, without what the free columns can do.
   Vector white(const Vector& deviation) const;
+  /// What a block predicts with these sizes.
+  Vector predicted(int block, const Vector& sizes) const;
   const Explanations& explanations() const { return explanations_; }
+  /// Of one explanation alone, without the values of `dropped`; `kept`: the others.
+  ValueSearch rest(int explanation, const std::vector<char>& dropped, std::vector<Eigen::Index>& kept) const;
 
  private:
+  struct Near {
+    NearSizes of;
+    Matrix root;  ///< lower triangle of the covariance
+  };
   Explanations explanations_;
   Vector mean_;
+  Matrix covariance_;
   Matrix root_;                ///< lower triangle L of V = L L'
   Matrix free_;                ///< orthonormal basis of L^-1 times the free columns
   std::vector<Matrix> white_;  ///< L^-1 H by block, without them
+  std::map<int, Near> near_;   ///< by block
   Matrix whitened(const Matrix& columns) const;
+  const Matrix& white(int block) const { return white_[static_cast<std::size_t>(block)]; }
+  /// The deviation from the offset of a block in units of its covariance, and log N(y; o, W) - log N(y; 0, V).
+  std::pair<Vector, double> from_offset(int block, const Vector& deviation, const Vector& white) const;
 };
-
-/// Without the values of `dropped`.
-ValueSearch search_without(const Vector& mean, const Matrix& covariance, const Explanations&,
-                           const std::vector<char>& dropped, std::vector<Eigen::Index>& kept);
 
 }  // namespace abbe::diagnose
