@@ -117,6 +117,19 @@ class Traps(harness.Case):
         self.assertAlmostEqual(place["u"], (529 - 298) / math.sqrt(12), delta=15)
         self.assertTrue(298 - 10 < place["interval95"][0] < 310 and 515 < place["interval95"][1] < 529 + 10)
 
+    def test_a_part_grows_from_where_it_is_held(self):
+        """Logged temperatures rise by 3 K; the part is held at its left end, and grows by 15 ppm/K more than is compensated."""
+        def warm(row):
+            kelvin = float(row["time_s"]) / 114
+            grown = [15e-3 * kelvin * (float(row["t" + a]) - at) for a, at in zip("xyz", (700, 525, -600))]   # um
+            return farther(row, sum(g * float(row["n" + a]) for g, a in zip(grown, "xyz"))) | {"temp_part_C": f"{20 + kelvin:.3f}"}
+        said = self.diagnosis(self.changed(self.record("--seed", 5), warm))
+        [expansion] = said["effects"]
+        self.assertEqual(expansion["members"], ["thermal.part_expansion"])
+        cte, held = (expansion["parameters"][name] for name in ("cte_error_ppm_per_K", "held"))
+        self.assertLess(abs(cte["value"] - 15), 3 * cte["u"])
+        self.assertEqual(held["value"], "elsewhere")
+
     def test_speeds_that_were_measured_are_those_that_were_commanded(self):
         """The machine is off along x as it goes faster, which no effect does; each touch logs its own speed."""
         said = []

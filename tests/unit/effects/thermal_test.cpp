@@ -62,6 +62,16 @@ TEST_CASE("part expansion: isotropic from the part's origin, in the part's frame
   CHECK(reading_um(kPartExpansion, bore, {{"cte_error_ppm_per_K", 10}}) == doctest::Approx(-6));
 }
 
+TEST_CASE("part expansion: held elsewhere, the part's origin shifts with it") {
+  // Held 200 mm along x from its origin, 10 ppm/K and 3 K: what is held stands still, what is 100 mm beyond moves 3 um.
+  TouchScene held = touch_on_part({200, 0, 0}, {1, 0, 0}), beyond = touch_on_part({300, 0, 0}, {1, 0, 0});
+  held.temperature.part = beyond.temperature.part = 23;
+  const Parameters growth{{"cte_error_ppm_per_K", 10}, {"held", 1}, {"shift_x_um_per_K", -2}};
+  CHECK(reading_um(kPartExpansion, held, growth) == doctest::Approx(0));
+  CHECK(reading_um(kPartExpansion, beyond, growth) == doctest::Approx(3));
+  CHECK(reading_um(kPartExpansion, held, {{"shift_x_um_per_K", -2}}) == 0);
+}
+
 TEST_CASE("scale expansion: a warmer scale reads short on its own axis only") {
   TouchScene scene = touch_at({1000, 500, -400}, {});
   scene.temperature.scale[0] = 22;
