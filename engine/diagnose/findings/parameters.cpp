@@ -24,6 +24,7 @@ namespace {
 struct MixtureTerm {
   double weight = 0, value = 0, u = 0;
   bool even = false;
+  bool length = false;  ///< of a vector: never less than nothing
 };
 
 double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
@@ -59,6 +60,8 @@ DiagnosedParameter summary(const EffectParameter& parameter, const std::vector<M
   for (const MixtureTerm& c : mixture) square += c.weight * (c.u * c.u + std::pow(c.value - out.value, 2));
   out.u = std::sqrt(square);
   out.low = quantile(mixture, 0.025);
+  if (std::any_of(mixture.begin(), mixture.end(), [](const MixtureTerm& c) { return c.length; }))
+    out.low = std::max(0.0, out.low);
   out.high = quantile(mixture, 0.975);
   out.plausible = out.high >= parameter.low && out.low <= parameter.high;
   return out;
@@ -196,7 +199,7 @@ class Estimator {
       case Search::Kind::direction: return add_direction(p, out);
       case Search::Kind::phase:
         if (const auto phase = likeliest.estimate->phase_deg(of_phase(parameter.name)))
-          out.push_back(told(parameter, *phase));
+          out.push_back(summary(parameter, phases(of_phase(parameter.name), phase->value), phase->value));
         return;
       case Search::Kind::fixed: return;
       case Search::Kind::tried: break;
@@ -298,10 +301,48 @@ class Estimator {
       const auto size = v.estimate->size(p);
       if (!size) continue;
       total += v.weight;
-      mixture.push_back({v.weight, size->value, size->u});
+      mixture.push_back({v.weight, size->value, size->u, false, size->length});
     }
     for (MixtureTerm& c : mixture) c.weight /= total;
     return mixture;
+  }
+
+  /// The phases of a size, counted from `at`: none begins anew at a full turn.
+  std::vector<MixtureTerm> phases(int size, double at) const {
+    std::vector<MixtureTerm> mixture;
+    std::vector<double> period, half_width;
+    const std::size_t sought = of_period();
+    for (const Variant& v : variants_) {
+      const auto phase = v.estimate->phase_deg(size);
+      if (!phase) continue;
+      mixture.push_back({v.weight, at + std::remainder(phase->value - at, 360), phase->u});
+      period.push_back(sought < search_.size() ? v.block.theta[sought] : 0);
+      half_width.push_back(sought < search_.size() ? (v.block.cells[sought].high - v.block.cells[sought].low) / 2 : 0);
+    }
+    mixture = normalised(mixture);
+    // A longer period begins later to be the same in the middle of the recording: so within a cell, too.
+    double mean_period = 0, mean_phase = 0, square = 0, product = 0;
+    for (std::size_t k = 0; k < mixture.size(); ++k)
+      mean_period += mixture[k].weight * period[k], mean_phase += mixture[k].weight * mixture[k].value;
+    for (std::size_t k = 0; k < mixture.size(); ++k) {
+      const double beyond = period[k] - mean_period;
+      square += mixture[k].weight * beyond * beyond;
+      product += mixture[k].weight * beyond * (mixture[k].value - mean_phase);
+    }
+    if (square > 0)
+      for (std::size_t k = 0; k < mixture.size(); ++k)
+        mixture[k].u = std::hypot(mixture[k].u, product / square * half_width[k] / std::sqrt(3.0));
+    return mixture;
+  }
+
+  /// The parameter that a phase goes with; beyond all of them: none.
+  std::size_t of_period() const {
+    std::size_t p = 0;
+    const auto parameters = explanation_.effect->parameters;
+    while (p < parameters.size() && parameters[p].sought != Sought::period &&
+           parameters[p].sought != Sought::signal_period)
+      ++p;
+    return p;
   }
 
   std::vector<MixtureTerm> spread(const EffectParameter& parameter) const {

@@ -146,10 +146,12 @@ std::optional<Estimate> VariantEstimate::size(int parameter) const {
   if (!m) return std::nullopt;
   const double u = std::sqrt(variance(m->covariance, m->along, m->phase));
   if (directions_ * phases_ == 1) return Estimate{m->size * m->along(0), u};
-  // The length of an uncertain vector is biased upwards by what scatters across it.
+  // The length of an uncertain vector is biased upwards by what scatters across it. Taken out as a share, it leaves
+  // something of a length that the scatter could make alone.
   const double across =
       across_directions(m->covariance, m->along, m->phase) + across_phases(m->covariance, m->along, m->phase);
-  return Estimate{std::sqrt(std::max(0.0, m->size * m->size - across)), u};
+  const double square = m->size * m->size;
+  return Estimate{m->size * std::sqrt(square / (square + across)), u, true};
 }
 
 std::optional<SpannedDirection> VariantEstimate::direction() const {

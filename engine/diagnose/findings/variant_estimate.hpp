@@ -11,6 +11,7 @@ namespace abbe::diagnose {
 /// An estimate with its standard uncertainty, in the unit of its parameter.
 struct Estimate {
   double value = 0, u = 0;
+  bool length = false;  ///< of a vector: never less than nothing
 };
 
 /// A direction in the frame in which the effect names it, as a unit vector, and the standard uncertainty
