@@ -87,6 +87,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   check_data(once, machine, file);
   doubt_temperatures(once, file, messages);
   leave_out_partly_logged(once, file, messages);
+  continue_past_midnight(once, file, messages);
   count_from_first_touch(once, file, messages);
   return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
 }

@@ -43,6 +43,18 @@ class Columns(harness.Case):
         moment, later = (d["effects"][0]["parameters"]["t0_s"]["value"] for d in (said, late))
         self.assertLess(abs(moment - begin - later), 30)
 
+    def test_a_clock_of_the_day_goes_on_past_midnight(self):
+        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=12,t0_s=130,direction=x")
+        def at_night(row, begin=86300):
+            return row | {"time_s": f"{(begin + float(row['time_s'])) % 86400:.3f}"}
+        day = self.diagnosis(self.changed(whole, lambda row: at_night(row, 40000)))
+        night = self.diagnosis(self.changed(whole, at_night))
+        self.assertIn("N0727", self.codes(night))
+        self.assertNotIn("N0727", self.codes(day))
+        at_day, at_night = (d["effects"][0] for d in (day, night))
+        self.assertEqual(at_night["members"], at_day["members"])
+        self.assertAlmostEqual(at_night["parameters"]["t0_s"]["value"], at_day["parameters"]["t0_s"]["value"], places=3)
+
     def test_what_is_logged_in_part_is_left_out(self):
         whole = self.record("--seed", 4)
         gap = self.changed(whole, lambda row: row | ({"time_s": ""} if row["feature"] == "P2_13" else {"time_s": f"{float(row['time_s']) + 1.7e9:.3f}"}))

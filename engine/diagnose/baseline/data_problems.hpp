@@ -11,6 +11,9 @@ namespace abbe::diagnose {
 
 /// A recording without its exact copies of rows. Throws UserError: one touch with two values.
 Recording without_copies(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// A recording whose clock of the day falls back at midnight, with times that go on (N0727): what comes later in the file
+/// stands more than half a day before what comes first.
+void continue_past_midnight(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// A recording whose clock began long before its first touch, with times from that touch on (N0721).
 void count_from_first_touch(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// A recording without what was logged in some rows only: what is missing would be taken for its usual value, beside
