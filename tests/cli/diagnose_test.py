@@ -108,6 +108,15 @@ class Diagnose(harness.Case):
         self.assertEqual([e["name"] for e in loud], ["noise.vibration"])
         self.assertAlmostEqual(loud[0]["parameters"]["sd_um"]["value"], 13, delta=2)   # 12 found beside 5
 
+    def test_what_the_machine_file_scatters_and_rounds_is_no_mismatch(self):
+        dirty = self.record("--with", "noise.outliers:share=0.05,size_um=30", name="dirty.csv")
+        rounded = self.changed(self.record(), lambda row: row | {a: f"{float(row[a]):.3f}" for a in "xyz"} | {f"enc_{a}": "" for a in "xyz"})
+        for recording, name in ((dirty, "noise.outliers"), (rounded, "noise.resolution")):
+            first = json.loads(self.abbe("diagnose", recording, "--machine", MACHINE, "--model-out", "known.json", "--format", "json").stdout)
+            self.assertEqual([e["members"] for e in first["effects"]], [[name]])
+            again = json.loads(self.abbe("diagnose", recording, "--machine", "known.json", "--format", "json").stdout)
+            self.assertEqual((again["verdict"], again["baseline"]["outliers"]), ("no_mismatch", first["baseline"]["outliers"]))
+
     def test_steps_of_all_positions_are_located_nowhere(self):
         lines = self.record().read_text().splitlines()
         start = next(k for k, line in enumerate(lines) if not line.startswith("#"))

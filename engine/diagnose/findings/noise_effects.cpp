@@ -85,9 +85,20 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
   return best;
 }
 
+/// What the machine file says already; nothing where it does not have the effect.
+std::optional<EffectSetting::Value> in_file(const Case& c, std::string_view effect, const std::string& parameter) {
+  for (const EffectSetting& s : c.machine->effects)
+    if (const auto found = s.parameters.find(parameter); s.name == effect && found != s.parameters.end())
+      return found->second;
+  return std::nullopt;
+}
+
 std::optional<NoiseFinding> resolution(const Case& c) {
   constexpr double kStored_um = 1e-4;
+  constexpr double kSame = 1e-3;
   if (c.rounding_um == 0) return std::nullopt;
+  const auto known = in_file(c, "noise.resolution", "resolution_um");
+  if (known && std::abs(known->value - c.step_um) <= kSame * c.step_um) return std::nullopt;
   // That every one of so many numbers has this divisor by chance is out of the question.
   NoiseFinding f{find_effect("noise.resolution"), 1e-12, {figure("resolution_um", "um", c.step_um, kStored_um)}, {}};
   f.sentence = fmt::format("All recorded positions are multiples of {:g} um: the readings were rounded.", c.step_um);
@@ -168,7 +179,7 @@ Vector beyond_found(const Case& c, const SearchResult& result) {
   return beyond_prediction(with_free(compact(c.baseline.model), signatures), result.hyper, c.masked);
 }
 
-/// More touches beyond the limit of gross outliers than normal noise puts there, and far beyond it.
+/// More touches beyond the limit of gross outliers than normal noise and the machine file put there, and far beyond it.
 std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) {
   if (c.off_um.size() == 0) return std::nullopt;
   const Vector beyond = beyond_found(c, result);
@@ -186,7 +197,9 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
   }
   const auto n = static_cast<double>(out.size());
   const double all = static_cast<double>(c.masked.size()), share = n / all,
-               expected = all * std::erfc(kOutlier / std::sqrt(2.0));
+               by_noise = all * std::erfc(kOutlier / std::sqrt(2.0));
+  const auto known = in_file(c, "noise.outliers", "share");
+  const double expected = by_noise + (known ? all * (known->value + 2 * known->u) : 0);
   const double p = chance_of_outliers(n, expected);
   if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
   constexpr double kLogSpread = 0.7;  // of the effect
