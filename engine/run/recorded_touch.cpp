@@ -404,6 +404,7 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
   for (const TouchAim& aim : nominal.aims) frames.add(aim.X_MD);
   const Rigid X_PM = inverse(frames.most_used());
   std::vector<std::string> lost;
+  std::size_t paired = 0;
   for (RecordingRow& row : recording.rows) {
     const auto found = partner.find({upper(row.feature), row.touch});
     if (found == partner.end()) {
@@ -411,6 +412,7 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
         lost.push_back(fmt::format("line {}: '{}' touch {}", row.line, row.feature, row.touch));
       continue;
     }
+    ++paired;
     RecordingRow from = nominal.recording.rows[found->second];
     const TouchAim& aim = nominal.aims[found->second];
     row.feature = from.feature;  // labels are the same whatever their case
@@ -427,6 +429,10 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     fill(&RecordingRow::speed_mm_s), fill(&RecordingRow::accel_mm_s2), fill(&RecordingRow::travel);
   }
   recording.in_part_frame = false;
+  if (paired == 0 && lost.empty())
+    throw UserError(
+        diagnostic(Code::E0544, fmt::format("{}: no row is a touch of the program", file),
+                   "give the program that made the recording, or none: this recording has its own targets"));
   if (lost.empty()) return;
   const std::size_t all = lost.size();
   lost.resize(std::min<std::size_t>(all, 5));

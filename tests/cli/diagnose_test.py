@@ -217,6 +217,8 @@ class Diagnose(harness.Case):
         def renamed(row):
             return bare(row) | {"feature": "ELSEWHERE"}
         self.refused("E0544", "diagnose", self.changed(self.record(), renamed), "--program", PROGRAM, "--machine", MACHINE)
+        other = self.changed(self.record(), lambda row: row | {"feature": "ELSEWHERE"})   # with targets of its own
+        self.assertIn("or none", self.refused("E0544", "diagnose", other, "--program", PROGRAM, "--machine", MACHINE))
 
     def test_data_problems_are_recognised(self):
         recording = self.record()
