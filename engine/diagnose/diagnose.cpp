@@ -304,12 +304,26 @@ Diagnostic beyond_its_specification(const LengthError& e, const std::string& fil
       "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
 }
 
-Diagnostic large_errors(double times, const std::string& file) {
+/// By how much the touches deviate beside their noise, and such machines on average, um rms; the placements taken out.
+struct Deviations {
+  double recorded_um = 0, specified_um = 0;
+};
+Deviations deviations(const Case& c) {
+  const LinearModel& m = c.model;
+  const Matrix free = independent(m.free);
+  const Matrix random = m.random - free * (free.transpose() * m.random);
+  const Vector y = m.y - free * (free.transpose() * m.y);
+  const auto left = static_cast<double>(m.y.size() - free.cols());
+  const double noise = m.noise_um.squaredNorm() / double(m.y.size());
+  return {std::sqrt(std::max(0.0, y.squaredNorm() / left - noise)), std::sqrt(random.squaredNorm() / left)};
+}
+
+Diagnostic large_errors(double times, const Deviations& rms, const std::string& file) {
   return diagnostic(
       Code::W0723,
       fmt::format(
-          "{}: it agrees with a machine whose geometric errors are {:.1f} times those of its specification only", file,
-          times),
+          "{}: it agrees only with a machine whose geometric errors are {:.1f} times those of its specification, or rougher: the touches deviate by {:.2g} um rms, where such machines deviate by {:.2g} um",
+          file, times, rms.recorded_um, rms.specified_um),
       "a machine out of its specification, or an effect that looks like its geometry: measure calibrated lengths (ISO 10360-2), or the same part in another place");
 }
 
@@ -447,7 +461,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.verdict = verdict_of(c, result, out);
   if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   if (!known && out.verdict == Verdict::no_mismatch && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
-    out.messages.push_back(large_errors(out.baseline.geometry_scale, file));
+    out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c), file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
   at("the next measurement");
