@@ -14,6 +14,10 @@ std::string diagnosis_json(const Diagnosis&);
 std::string diagnosis_text(const Diagnosis&);
 /// Whether they agree, what it is, whether that is better.
 std::vector<std::string> diagnosis_sentences(const Diagnosis&);
+/// What to do beside another measurement.
+std::vector<std::string> further_steps(const Diagnosis&);
+/// What the machine does beside what was found, its noise, and the touches left out, in one line; "" of values.
+std::string baseline_in_words(const Diagnosis&);
 /// The characteristic, and which of its evaluations in one run of the program.
 std::string label(const JudgedValue&);
 /// `recording` and `machine`: what was compared, for the heading.

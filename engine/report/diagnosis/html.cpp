@@ -127,20 +127,25 @@ std::string values(const Diagnosis& d) {
   return out + html_table(rows);
 }
 
-std::string next_measurements(const Diagnosis& d) {
-  if (d.next_measurement.empty())
-    return d.otherwise.empty() ? "" : "<h2>What to do next</h2>\n<p>" + escaped(d.otherwise) + "</p>\n";
+std::string next_steps(const Diagnosis& d) {
+  std::string steps;
+  for (const std::string& step : further_steps(d)) steps += "<p>" + escaped(step) + "</p>\n";
+  if (d.next_measurement.empty()) return steps.empty() ? "" : "<h2>What to do next</h2>\n" + steps;
   std::string rows =
       html_row({"change", "what to do", "tells apart", "probability of the truth after it", "minutes"}, "th");
   for (const NextMeasurement& n : d.next_measurement)
     rows += html_row({n.change, n.instruction, fmt::format("{}", fmt::join(n.separates, ", ")),
                       fmt::format("{:.2f}", n.expected_probability), fmt::format("{:.0f}", std::ceil(n.minutes))});
-  std::string out = "<h2>What to measure next</h2>\n" + html_table(rows);
-  if (!d.otherwise.empty()) out += "<p>" + escaped(d.otherwise) + "</p>\n";
+  std::string out = "<h2>What to measure next</h2>\n" + html_table(rows) + steps;
   if (!d.next_measurement.front().program.empty())
     out += "<details><summary>DMIS program of the first</summary><pre>" + escaped(d.next_measurement.front().program) +
         "</pre></details>\n";
   return out;
+}
+
+std::string baseline(const Diagnosis& d) {
+  const std::string words = d.judged && d.judgeable ? baseline_in_words(d) : "";
+  return words.empty() ? "" : "<h2>The machine beside it</h2>\n<p>" + escaped(capitalised(words)) + ".</p>\n";
 }
 
 std::string detectable_effects(const Diagnosis& d) {
@@ -178,8 +183,8 @@ std::string diagnosis_html(const Diagnosis& d, const std::string& recording, con
                   escaped(machine), d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
   return html_page("Diagnosis of " + recording,
-                   body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_measurements(d) +
-                       detectable_effects(d) + open_questions(d) + messages(d));
+                   body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_steps(d) +
+                       baseline(d) + detectable_effects(d) + open_questions(d) + messages(d));
 }
 
 }  // namespace abbe

@@ -159,7 +159,7 @@ std::string cannot_judge(const Diagnosis& d) {
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
 
-std::string next_steps(const Diagnosis& d) {
+std::string what_next(const Diagnosis& d) {
   std::string out;
   for (const NextMeasurement& n : d.next_measurement)
     out += fmt::format("  {} ({:.0f} min): tells {} apart with probability {:.2f}\n    {}\n", n.change,
@@ -167,17 +167,7 @@ std::string next_steps(const Diagnosis& d) {
   if (!d.next_measurement.empty())
     out +=
         "  The first as a DMIS program: on the page of --report, and in next_measurement of --format json. Its paths are not checked for collision.\n";
-  if (!d.otherwise.empty()) out += "  " + d.otherwise + "\n";
-  if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
-    out +=
-        "  No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.\n";
-  if (!d.model_effects.empty()) {
-    const bool open =
-        std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });
-    out += fmt::format(
-        "  To reckon with it until it is mended: --model-out writes the machine file with it{}, and 'abbe run' on that machine gives uncertainties with it.\n",
-        open ? " (of several names, with the first)" : "");
-  }
+  for (const std::string& step : further_steps(d)) out += "  " + step + "\n";
   return out.empty() ? "" : "what to do next:\n" + out;
 }
 
@@ -202,26 +192,41 @@ std::string held_out_line(const Diagnosis& d) {
                      d.improvement->log_score_gain, d.improvement->se, beside);
 }
 
-std::string baseline_line(const Diagnosis& d) {
-  if (!d.values.empty()) return "";
-  const BaselineSummary& b = d.baseline;
-  std::string out = d.effects.empty() ? "" : "± is two standard uncertainties (95 %).\n";
-  out += fmt::format("baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale,
-                     b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification",
-                     b.noise_um);
-  if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
-  if (!b.outliers.empty())
-    out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",
-                       fmt::join(b.outliers, ", "));
-  return out + "\n";
-}
-
 }  // namespace
 
 std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
   std::vector<std::string> out;
   for (const std::string& sentence : {first_sentence(d), second_sentence(d), third_sentence(d)})
     if (!sentence.empty()) out.push_back(sentence);
+  return out;
+}
+
+std::string baseline_in_words(const Diagnosis& d) {
+  if (!d.values.empty()) return "";
+  const BaselineSummary& b = d.baseline;
+  std::string out = fmt::format(
+      "baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale,
+      b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification", b.noise_um);
+  if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
+  if (!b.outliers.empty())
+    out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",
+                       fmt::join(b.outliers, ", "));
+  return out;
+}
+
+std::vector<std::string> further_steps(const Diagnosis& d) {
+  std::vector<std::string> out;
+  if (!d.otherwise.empty()) out.push_back(d.otherwise);
+  if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
+    out.push_back(
+        "No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.");
+  if (!d.model_effects.empty()) {
+    const bool open =
+        std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });
+    out.push_back(fmt::format(
+        "To reckon with it until it is mended: --model-out writes the machine file with it{}, and 'abbe run' on that machine gives uncertainties with it.",
+        open ? " (of several names, with the first)" : ""));
+  }
   return out;
 }
 
@@ -235,9 +240,12 @@ std::string diagnosis_text(const Diagnosis& d) {
   if (d.judgeable)
     out += "\n" + value_table(d) +
         (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
-  out += next_steps(d);
+  out += what_next(d);
   out += cannot_judge(d);
-  return out + held_out_line(d) + baseline_line(d);
+  out += held_out_line(d);
+  if (!d.effects.empty() && d.values.empty()) out += "± is two standard uncertainties (95 %).\n";
+  const std::string baseline = baseline_in_words(d);
+  return baseline.empty() ? out : out + baseline + "\n";
 }
 
 }  // namespace abbe

@@ -50,6 +50,16 @@ TEST_CASE("that it is another machine comes first, in the text and on the page, 
   }
 }
 
+TEST_CASE("text and page say which touches were left out, and what to do with a model") {
+  Diagnosis d = named();
+  d.baseline.outliers = {"SPH1 touch 7 (setup 1, run 1)"};
+  d.model_effects = {{"machine.squareness", {}}};
+  for (const std::string& written : {diagnosis_text(d), diagnosis_html(d, "r.csv", "m.json")}) {
+    CHECK(says(written, "1 touch left out: SPH1 touch 7 (setup 1, run 1)"));
+    CHECK(says(written, "--model-out writes the machine file with it"));
+  }
+}
+
 TEST_CASE("each name of a set has its own probability and size") {
   Diagnosis d = named();
   d.verdict = Verdict::one_of;
