@@ -277,11 +277,15 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
       ->type_name("K.json");
   command->add_option("--report", o->report, "write the diagnosis as a page with figures, one HTML file")
       ->type_name("R.html");
-  command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")
-      ->type_name("I.json");
-  command->add_flag("--design-only", o->design_only,
-                    "say what such a recording could tell, without looking at its values");
-  command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");
+  CLI::Option* model_out =
+      command->add_option("--model-out", o->model_out, "write the machine file with what was found in it")
+          ->type_name("I.json");
+  CLI::Option* fail =
+      command->add_flag("--fail-on-mismatch", o->fail_on_mismatch, "exit with 1 when there is a mismatch");
+  command
+      ->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values")
+      ->excludes(model_out)
+      ->excludes(fail);
   add_number(command, "--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S");
   add_threads(command, o->threads);
   add_format(command, o->format, {"text", "json"});

@@ -223,6 +223,12 @@ class Mistakes(Input):
     """What is wrong with a file is said instead of being diagnosed."""
     PLACE = ("x", "y", "z")
 
+    def test_a_plan_finds_nothing_to_write_or_to_fail_on(self):
+        for option in (("--model-out", "out.json"), ("--fail-on-mismatch",)):
+            done = self.abbe("diagnose", self.recording, "--design-only", *option, code=2)
+            self.assertIn(option[0], done.stderr)
+        self.assertFalse((self.folder / "out.json").exists())
+
     def told(self, code, change, *args):
         return self.refused(code, "diagnose", self.changed(self.recording, change), *args)
 
