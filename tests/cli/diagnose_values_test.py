@@ -78,6 +78,19 @@ class Values(harness.Case):
         # Of 8 sets that hold the truth in 92 of 100, 4 or more miss it in 0.2 % of such tests.
         self.assertGreater(held, 4)
 
+    def test_what_values_can_detect_they_do(self):
+        """Beside the errors of a machine a position hides what it would show on a machine without errors."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        def recorded(seed, *options):
+            self.abbe("record", program, "--seed", seed, "-o", "touches.csv", "--dmo", "values.dmo", *options)
+            return self.diagnosis("values.dmo", "--program", program)
+        told = {d["effect"]: d for d in recorded(3)["smallest_detectable"]}
+        for effect, parameter in (("probe.pretravel_lobing", "amplitude_um"), ("machine.backlash", "backlash_um")):
+            self.assertEqual(told[effect]["parameter"], parameter)
+            alarms = sum(recorded(seed, "--with", f"{effect}:{parameter}={told[effect]['detect']}")["p_value"] <= 0.01 for seed in range(300, 310))
+            # Of 10 that alarm in 80 of 100, fewer than 5 do in 0.6 % of such tests.
+            self.assertGreaterEqual(alarms, 5, effect)
+
     def test_what_no_effect_is_so_large_as_to_make_is_doubted(self):
         """All lengths too long by 2 parts in a thousand: no scale is so wrong."""
         program = BLOCKS / "x1_L.dmi"

@@ -15,10 +15,10 @@
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/diagnose/values/value_estimate.hpp"
+#include "engine/diagnose/values/value_power.hpp"
 #include "engine/diagnose/values/value_search.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
-#include "engine/lanes/random.hpp"
 
 namespace abbe {
 
@@ -48,18 +48,6 @@ struct ValueCase {
   std::optional<ValueSearch> search;
 };
 
-/// Simulated machines as they would be recorded: each with its own errors of calibration.
-Matrix with_calibration(Matrix m, const Matrix& calibration, std::uint64_t seed) {
-  constexpr std::uint32_t stream = stream_of("diagnose.values.calibration");
-  for (Eigen::Index i = 0; i < m.rows(); ++i)
-    for (Eigen::Index k = 0; k < calibration.cols(); ++k)
-      m.row(i) +=
-          calibration.col(k).transpose() *
-          normal_quantile(
-              uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
-  return m;
-}
-
 /// `simulated`: machines x values, more than twice as many machines as values.
 Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64_t seed) {
   const Eigen::Index half = simulated.rows() / 2;
@@ -70,6 +58,10 @@ Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64
   out.covariance = centred.transpose() * centred / double(half - 1) + calibration * calibration.transpose();
   out.covariance.diagonal().array() += kLeastOfValue_um * kLeastOfValue_um;
   return out;
+}
+
+ValueBench bench_of(const ValueCase& c) {
+  return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.calibration};
 }
 
 /// How many virtual machines judge so many values.
@@ -254,65 +246,9 @@ void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f
   out.improvement = i;
 }
 
-/// What is left of the information on one column once a rival takes what it can, as a share.
-double left(const ValueSearch& s, int block, Eigen::Index column, int rival) {
-  const Vector cross = s.between(rival, block).col(column);
-  const Matrix g = s.between(rival, rival);
-  const double own = s.between(block, block)(column, column);
-  return 1 -
-      cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
-}
-
-std::vector<Detectable> smallest_detectable(const ValueCase& c) {
-  const ValueSearch& s = *c.search;
-  const Explanations& all = s.explanations();
-  std::vector<Detectable> out;
-  for (std::size_t k = 0; k < all.list.size(); ++k) {
-    if (!all.list[k].effect) continue;
-    int best = all.list[k].blocks.front();
-    Eigen::Index column = 0;
-    double most = 0;
-    for (const int b : all.list[k].blocks) {
-      Eigen::Index at = 0;
-      const double information = s.between(b, b).diagonal().maxCoeff(&at);
-      if (information > most) most = information, best = b, column = at;
-    }
-    if (most < 1e-12) continue;
-    const Block& block = all.blocks[static_cast<std::size_t>(best)];
-    const Column& of = block.columns[static_cast<std::size_t>(column)];
-    const EffectParameter& p = all.list[k].effect->parameters[static_cast<std::size_t>(of.parameter)];
-    const double largest = block.signature.col(column).cwiseAbs().maxCoeff(), size = kDetects / std::sqrt(most);
-    Detectable d{.effect = all.list[k].name,
-                 .parameter = std::string(p.name),
-                 .unit = std::string(p.unit),
-                 .name = {},
-                 .name_um = {},
-                 .confounded_with = {}};
-    d.detect = of.unit * size, d.detect_um = largest * size;
-    double least = 1;
-    for (std::size_t j = 0; j < all.list.size(); ++j) {
-      if (j == k || !all.list[j].effect) continue;
-      double share = 1;
-      for (const int b : all.list[j].blocks) share = std::min(share, left(s, best, column, b));
-      least = std::min(least, share);
-      if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4)
-        d.confounded_with.push_back(all.list[j].name);
-    }
-    if (least > kInseparable) {
-      const double named = kNames / std::sqrt(most * least);
-      d.name = of.unit * named, d.name_um = largest * named;
-    }
-    out.push_back(std::move(d));
-  }
-  return out;
-}
-
 /// How often such machines look as unusual to a search as the recording does.
 double chance_of(const ValueCase& c, const ValueSearch& search, const Matrix& machines) {
-  std::vector<double> simulated;
-  for (Eigen::Index i = 0; i < machines.rows(); ++i)
-    simulated.push_back(search.evidence(machines.row(i).transpose()).statistic);
-  return tail_probability(search.evidence(c.deviation).statistic, std::move(simulated));
+  return tail_probability(search.evidence(c.deviation).statistic, statistics_of(search, machines));
 }
 
 /// How often chance leaves as much as a pattern does, or a name that no machine was simulated with.
@@ -353,6 +289,15 @@ Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
   return named ? name : pattern;
 }
 
+/// What no possible size makes seen cannot be judged.
+void add_hidden(const ValueSearch& search, Diagnosis& out) {
+  for (const Explanation& e : search.explanations().list)
+    if (e.effect &&
+        std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(),
+                     [&](const Detectable& d) { return d.effect == e.name; }))
+      out.cannot_judge.push_back({e.name, {}});
+}
+
 /// Calibrations that say less of most values than any machine of the specification would.
 void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
   constexpr double kTimes = 3;
@@ -383,11 +328,12 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   doubt_calibrations(c, out.messages);
   out.cannot_judge = cannot_judge(c.search->explanations());
   begins(options.progress, "what these values could detect");
-  out.smallest_detectable = smallest_detectable(c);
+  const std::vector<double> in_order = statistics_of(*c.search, c.judges.judged);
+  out.smallest_detectable = smallest_detectable(*c.search, bench_of(c), in_order);
+  add_hidden(*c.search, out);
   if (options.design_only) return out;
-  begins(options.progress, "simulated recordings without a mismatch");
   out.values = judge_each(c);
-  out.p_value = chance_of(c, *c.search, c.judges.judged);
+  out.p_value = tail_probability(c.search->evidence(c.deviation).statistic, in_order);
   if (out.p_value > kAlarm) return out;
   begins(options.progress, "sizes of what was found");
   const Closer closer(c);

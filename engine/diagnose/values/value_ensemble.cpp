@@ -12,6 +12,7 @@
 
 #include "engine/base/letter_case.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
+#include "engine/lanes/random.hpp"
 #include "engine/recording/units.hpp"
 #include "engine/run/run.hpp"
 
@@ -216,6 +217,17 @@ Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vec
     }
   }
   return out;
+}
+
+Matrix with_calibration(Matrix m, const Matrix& calibration, std::uint64_t seed) {
+  constexpr std::uint32_t stream = stream_of("diagnose.values.calibration");
+  for (Eigen::Index i = 0; i < m.rows(); ++i)
+    for (Eigen::Index k = 0; k < calibration.cols(); ++k)
+      m.row(i) +=
+          calibration.col(k).transpose() *
+          normal_quantile(
+              uniform_pair({seed, static_cast<std::uint32_t>(i), stream, static_cast<std::uint32_t>(k), 0, 0}).a);
+  return m;
 }
 
 ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<ValueProgram>& programs,

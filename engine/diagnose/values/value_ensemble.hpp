@@ -37,5 +37,8 @@ Matrix simulated_values(const std::vector<RecordedValue>&, const std::vector<Val
                         const VirtualMachines&, const DiagnoseOptions&, const Contributors& = {});
 /// The machines that reach every value.
 Matrix complete_rows(const Matrix&);
+/// Simulated machines (rows) as they would be recorded: each with its own errors of calibration, of which every column is
+/// a standard deviation.
+Matrix with_calibration(Matrix machines, const Matrix& calibration, std::uint64_t seed);
 
 }  // namespace abbe::diagnose

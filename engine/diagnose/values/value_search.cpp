@@ -104,4 +104,11 @@ ValueSearch ValueSearch::rest(int explanation, const std::vector<char>& dropped,
   return out;
 }
 
+std::vector<double> statistics_of(const ValueSearch& search, const Matrix& machines) {
+  std::vector<double> out;
+  for (Eigen::Index i = 0; i < machines.rows(); ++i)
+    out.push_back(search.evidence(machines.row(i).transpose()).statistic);
+  return out;
+}
+
 }  // namespace abbe::diagnose

@@ -60,4 +60,7 @@ class ValueSearch {
   std::pair<Vector, double> from_offset(int block, const Vector& deviation, const Vector& white) const;
 };
 
+/// What a search says of each of some machines (rows).
+std::vector<double> statistics_of(const ValueSearch&, const Matrix& machines);
+
 }  // namespace abbe::diagnose

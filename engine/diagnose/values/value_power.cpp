@@ -1,0 +1,161 @@
+#include "engine/diagnose/values/value_power.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/base/on_threads.hpp"
+#include "engine/diagnose/case.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// One form of an effect: of a block, the column of which the values tell most.
+struct Form {
+  int block = 0;
+  Eigen::Index column = 0;
+  double information = 0;
+};
+
+/// Of the forms that show at all, by what the values tell of them, the one in the middle; of two, the one that shows less.
+std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
+  constexpr double kNone = 1e-12;
+  std::vector<Form> forms;
+  for (const int b : e.blocks) {
+    Eigen::Index at = 0;
+    const double information = s.between(b, b).diagonal().maxCoeff(&at);
+    if (information > kNone) forms.push_back({b, at, information});
+  }
+  if (forms.empty()) return std::nullopt;
+  const auto middle = forms.begin() + static_cast<std::ptrdiff_t>((forms.size() - 1) / 2);
+  std::nth_element(forms.begin(), middle, forms.end(),
+                   [](const Form& a, const Form& b) { return a.information < b.information; });
+  return *middle;
+}
+
+/// What is left of the information on one column once a rival takes what it can, as a share.
+double left(const ValueSearch& s, int block, Eigen::Index column, int rival) {
+  const Vector cross = s.between(rival, block).col(column);
+  const Matrix g = s.between(rival, rival);
+  const double own = s.between(block, block)(column, column);
+  return 1 -
+      cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
+}
+
+/// The statistic that so few machines in order reach.
+double alarm_of(std::vector<double> in_order) {
+  std::sort(in_order.begin(), in_order.end());
+  return in_order[static_cast<std::size_t>((1 - kAlarm) * double(in_order.size()))];
+}
+
+class Detection {
+ public:
+  Detection(const ValueSearch& search, const ValueBench& bench, double alarm)
+      : search_(search),
+        bench_(bench),
+        options_(bench.options),
+        alarm_(alarm),
+        machines_(screened_machines(bench.machine, bench.options.seed, kMachines, bench.options.threads)) {
+    options_.threads = 1;  // effects are on threads
+  }
+
+  /// In units of the column. Sought around the size that would show if it and a machine's errors added up; nothing where
+  /// no possible one is so large.
+  std::optional<double> from(const Effect& effect, const Form& of) const {
+    constexpr double kLeast = 0.5, kFar = 16;
+    constexpr int kHalvings = 6;
+    const Block& block = search_.explanations().blocks[static_cast<std::size_t>(of.block)];
+    const Column& column = block.columns[static_cast<std::size_t>(of.column)];
+    const double about = kDetects / std::sqrt(of.information),
+                 largest = effect.parameters[static_cast<std::size_t>(column.parameter)].high / column.unit;
+    double low = kLeast * about, high = std::min(kFar * about, largest);
+    const auto detected = [&](double size) {
+      return share_of_alarms(effect, block, size * Vector::Unit(block.signature.cols(), of.column)) >= kPower;
+    };
+    if (low >= high || !detected(high)) return std::nullopt;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = std::sqrt(low * high);
+      (detected(middle) ? high : low) = middle;
+    }
+    return high;
+  }
+
+ private:
+  static constexpr int kMachines = 25;
+  static constexpr double kPower = 0.8;
+
+  double share_of_alarms(const Effect& effect, const Block& block, const Vector& sizes) const {
+    const Machine with = with_effect(bench_.machine, effect, block, sizes);
+    const Matrix reached = complete_rows(simulated_values(bench_.values, bench_.programs, with, machines_, options_));
+    const std::vector<double> statistics =
+        statistics_of(search_, with_calibration(reached, bench_.calibration, options_.seed));
+    const auto alarms =
+        std::count_if(statistics.begin(), statistics.end(), [&](double statistic) { return statistic > alarm_; });
+    return double(alarms) / std::max(1.0, double(statistics.size()));
+  }
+
+  const ValueSearch& search_;
+  const ValueBench& bench_;
+  DiagnoseOptions options_;
+  double alarm_;
+  VirtualMachines machines_;
+};
+
+/// With what it is confounded, and from which size on it is named.
+void tell_apart(const ValueSearch& s, int explanation, const Form& of, double size, double largest, Detectable& d) {
+  const Explanations& all = s.explanations();
+  double least = 1;
+  for (int j = 0; j < static_cast<int>(all.list.size()); ++j) {
+    const Explanation& other = all.list[static_cast<std::size_t>(j)];
+    if (j == explanation || !other.effect) continue;
+    double share = 1;
+    for (const int b : other.blocks) share = std::min(share, left(s, of.block, of.column, b));
+    least = std::min(least, share);
+    if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4) d.confounded_with.push_back(other.name);
+  }
+  if (least <= kInseparable) return;
+  const double named = std::max(size, kNames / std::sqrt(of.information * least));
+  d.name = d.detect / size * named, d.name_um = largest * named;
+}
+
+}  // namespace
+
+std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBench& bench,
+                                            std::vector<double> in_order) {
+  const Detection detection(s, bench, alarm_of(std::move(in_order)));
+  const Explanations& all = s.explanations();
+  const int count = static_cast<int>(all.list.size());
+  std::vector<std::optional<Form>> form(all.list.size());
+  std::vector<std::optional<double>> from(all.list.size());
+  on_threads(count, bench.options.threads, [&](int k) {
+    const Explanation& e = all.list[static_cast<std::size_t>(k)];
+    const auto at = static_cast<std::size_t>(k);
+    if (e.effect) form[at] = middle_form(s, e);
+    if (form[at]) from[at] = detection.from(*e.effect, *form[at]);
+  });
+  std::vector<Detectable> out;
+  for (int k = 0; k < count; ++k) {
+    const std::optional<double>& size = from[static_cast<std::size_t>(k)];
+    if (!size) continue;
+    const Explanation& e = all.list[static_cast<std::size_t>(k)];
+    const Form& of = *form[static_cast<std::size_t>(k)];
+    const Block& block = all.blocks[static_cast<std::size_t>(of.block)];
+    const Column& column = block.columns[static_cast<std::size_t>(of.column)];
+    const EffectParameter& p = e.effect->parameters[static_cast<std::size_t>(column.parameter)];
+    const double largest = block.signature.col(of.column).cwiseAbs().maxCoeff();
+    Detectable d{.effect = e.name,
+                 .parameter = std::string(p.name),
+                 .unit = std::string(p.unit),
+                 .name = {},
+                 .name_um = {},
+                 .confounded_with = {}};
+    d.detect = column.unit * *size, d.detect_um = largest * *size;
+    tell_apart(s, k, of, *size, largest, d);
+    out.push_back(std::move(d));
+  }
+  return out;
+}
+
+}  // namespace abbe::diagnose
