@@ -86,9 +86,7 @@ class StudyRun {
   }
 
  private:
-  void step(const std::string& what) const {
-    begins(progress_, what);
-  }
+  void step(const std::string& what) const { begins(progress_, what); }
 
   RunResult run(const VirtualMachines& machines, const Contributors& contributors) const {
     RunOptions options;
