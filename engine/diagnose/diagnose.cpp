@@ -86,6 +86,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   Recording once = without_copies(recorded, file, messages);
   check_data(once, machine, file);
   doubt_temperatures(once, file, messages);
+  doubt_speeds(once, file, messages);
   leave_out_partly_logged(once, file, messages);
   continue_past_midnight(once, file, messages);
   count_from_first_touch(once, file, messages);

@@ -70,6 +70,14 @@ class Columns(harness.Case):
         self.assertIn("W0724", self.codes(self.diagnosis(warm)))
         self.assertNotIn("W0724", self.codes(self.diagnosis(self.changed(whole, lambda row: row | {"temp_part_C": "20.1"}))))
 
+    def test_sensors_that_were_not_read_and_speeds_per_minute_are_doubted(self):
+        whole = self.record("--seed", 4)
+        unread = self.changed(whole, lambda row: row | {"temp_part_C": "0" if row["feature"] == "P2_13" else "20.1"})
+        self.assertIn("W0724", self.codes(self.diagnosis(unread)))
+        self.assertNotIn("W0728", self.codes(self.diagnosis(unread)))
+        per_minute = self.changed(whole, lambda row: row | {"speed_mm_s": f"{60 * float(row['speed_mm_s']):g}"})
+        self.assertIn("W0728", self.codes(self.diagnosis(per_minute)))
+
     def test_errors_far_beyond_the_specification_are_told(self):
         """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
         said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))

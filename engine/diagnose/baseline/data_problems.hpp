@@ -21,6 +21,8 @@ void count_from_first_touch(Recording&, const std::string& file, std::vector<Dia
 void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Warns of temperatures that no measuring room has (W0724).
 void doubt_temperatures(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Warns of speeds at which no probe touches (W0728).
+void doubt_speeds(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Whether more than one stylus or orientation must have touched, and no row says which (W0725).
 bool styli_unlogged(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Throws UserError where the machine does not travel against the normals that it touches; `back` turns a setup onto

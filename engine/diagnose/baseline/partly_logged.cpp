@@ -35,15 +35,16 @@ void leave_out(Value RecordingRow::*, const std::string&, Recording&, const std:
 /// Doubts a column of temperatures that reaches further than a measuring room does.
 void doubt(std::optional<double> RecordingRow::*column, const std::string& name, const Recording& recording,
            const std::string& file, std::vector<Diagnostic>& messages) {
-  constexpr double kHot_C = 45, kFreezing_F = 32, kPerKelvin = 1.8;
+  constexpr double kCold_C = 5, kHot_C = 45, kFreezing_F = 32, kPerKelvin = 1.8;
   for (const RecordingRow& row : recording.rows) {
     const std::optional<double>& value = row.*column;
-    if (!value || *value < kHot_C) continue;
+    if (!value || (*value > kCold_C && *value < kHot_C)) continue;
     messages.push_back(diagnostic(
         Code::W0724,
         fmt::format("{}: {} is {:.1f} degrees C for '{}' touch {}", file, name, *value, row.feature, row.touch),
-        fmt::format("if these are degrees Fahrenheit, convert them: {:.1f} F are {:.1f} C", *value,
-                    (*value - kFreezing_F) / kPerKelvin)));
+        *value <= kCold_C ? "if the sensor was not read there, leave the field empty"
+                          : fmt::format("if these are degrees Fahrenheit, convert them: {:.1f} F are {:.1f} C", *value,
+                                        (*value - kFreezing_F) / kPerKelvin)));
     return;
   }
 }
@@ -55,6 +56,19 @@ void doubt_temperatures(const Recording& recording, const std::string& file, std
     const auto* const value = std::get_if<std::optional<double> RecordingRow::*>(&column.member);
     if (value && column.names[0].starts_with("temp_")) doubt(*value, name(column), recording, file, messages);
   }
+}
+
+void doubt_speeds(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kFast_mm_s = 100, kSecondsPerMinute = 60;
+  const auto fast = std::find_if(recording.rows.begin(), recording.rows.end(), [](const RecordingRow& row) {
+    return row.speed_mm_s && *row.speed_mm_s > kFast_mm_s;
+  });
+  if (fast == recording.rows.end()) return;
+  messages.push_back(diagnostic(
+      Code::W0728,
+      fmt::format("{}: speed_mm_s is {:g} for '{}' touch {}", file, *fast->speed_mm_s, fast->feature, fast->touch),
+      fmt::format("if these are mm/min, convert them: {:g} mm/min are {:g} mm/s", *fast->speed_mm_s,
+                  *fast->speed_mm_s / kSecondsPerMinute)));
 }
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
