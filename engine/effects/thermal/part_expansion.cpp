@@ -19,12 +19,6 @@
 namespace abbe {
 namespace {
 
-constexpr std::string_view kHeldChoices[] = {"origin", "elsewhere"};
-
-constexpr EffectParameter shift_parameter(std::string_view name, std::string_view help) {
-  return {.name = name, .unit = "um/K", .help = help, .typical = 1, .low = -50, .high = 50, .linear = true};
-}
-
 constexpr EffectParameter kPartExpansionParameters[] = {
     {.name = "cte_error_ppm_per_K",
      .unit = "ppm/K",
@@ -47,26 +41,18 @@ constexpr EffectParameter kPartExpansionParameters[] = {
      .low = -1,
      .high = 30,
      .standard = 11.5},
-    {.name = "held",
-     .unit = "code",
-     .help = "where the part is held; elsewhere than at its origin, the origin shifts as the part grows",
-     .high = 1,
-     .choices = kHeldChoices},
-    shift_parameter("shift_x_um_per_K",
-                    "shift of the origin along the part's x for each kelvin above 20 degrees C, "
-                    "if it is held elsewhere"),
-    shift_parameter("shift_y_um_per_K", "the same along y"),
-    shift_parameter("shift_z_um_per_K", "the same along z"),
+    kHeldParameter,
+    shift_parameter(
+        "shift_x_um_per_K", "um/K",
+        "shift of the origin along the part's x for each kelvin above 20 degrees C, if it is held elsewhere"),
+    shift_parameter("shift_y_um_per_K", "um/K", "the same along y"),
+    shift_parameter("shift_z_um_per_K", "um/K", "the same along z"),
 };
-
-constexpr int kOrigin = 0;  // of kHeldChoices
 
 Vec3 part_expansion(const TouchScene& scene, const double* theta, const double*) {
   const double above_K = scene.temperature.part - kReference_C;
-  const Vec3 growth = isotropic_growth(scene, kPpm * (theta[0] * above_K + theta[2] * theta[1]));
-  if (code(theta[3]) == kOrigin) return growth;
-  const Vec3 shift_mm = kUm * above_K * Vec3{theta[4], theta[5], theta[6]};
-  return growth + along_normal(scene, dot(scene.normal_on_part, shift_mm));
+  return isotropic_growth(scene, kPpm * (theta[0] * above_K + theta[2] * theta[1])) +
+      origin_shift(scene, theta[3], above_K * Vec3{theta[4], theta[5], theta[6]});
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // A part that has not yet taken the temperature that the compensation reckons with (catalogue T9).
 //
 //   Tw(t) = Tinf + (T0 - Tinf) exp(-t / tau)
-//   e = a (T0 - Tinf) exp(-t / tau) (c - c0),     r = n . e
+//   e = [ a (T0 - Tinf) (c - c0) + s ] exp(-t / tau),     r = n . e
 //
 // The part came warm (T0 > Tinf) or cold onto the machine; the compensation takes it as settled at
 // Tinf. Its size drifts while the machine's origin does not. c0 is the origin of the part's frame,
-// t counts from the start of the program.
+// which is off by s at the start where the part is held elsewhere; t counts from the start of the program.
 // Size: steel 11.5 um per metre and kelvin; 1 K left over 500 mm 5.75 um. A steel block of 40 mm in
 // moving air: tau of 2 h.
 // Source: linear expansion; lumped heat capacity (Newton's law of cooling).
@@ -39,11 +39,16 @@ constexpr EffectParameter kPartSoakParameters[] = {
      .low = -1,
      .high = 30,
      .standard = 11.5},
+    kHeldParameter,
+    shift_parameter("shift_x_um", "um", "shift of the origin along the part's x at the start, if it is held elsewhere"),
+    shift_parameter("shift_y_um", "um", "the same along y"),
+    shift_parameter("shift_z_um", "um", "the same along z"),
 };
 
 Vec3 part_soak(const TouchScene& scene, const double* theta, const double*) {
-  const double left_K = theta[0] * (1 - settled_share(scene.time_s, theta[1]));
-  return isotropic_growth(scene, kPpm * theta[2] * left_K);
+  const double left = 1 - settled_share(scene.time_s, theta[1]);
+  return isotropic_growth(scene, kPpm * theta[2] * theta[0] * left) +
+      origin_shift(scene, theta[3], left * Vec3{theta[4], theta[5], theta[6]});
 }
 
 }  // namespace
@@ -54,8 +59,8 @@ constinit const Effect kPartSoak{
     .help =
         "The part was put on the machine before it had the temperature of the room, and is taken "
         "as settled. Its lengths are wrong in proportion, and the error decays while the program "
-        "runs: the first features are worst. The place of the part on the machine does not "
-        "drift.",
+        "runs: the first features are worst. The place of the part on the machine drifts "
+        "only where it is held elsewhere than at its origin.",
     .source = "linear expansion with Newton's law of cooling",
     .separate = "repeat the first length at the end; wait; a sensor on the part",
     .influence = "part temperature",

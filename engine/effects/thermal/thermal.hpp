@@ -48,4 +48,22 @@ constexpr Vec3 isotropic_growth(const TouchScene& scene, double strain) {
   return along_normal(scene, strain * dot(scene.normal_on_part, scene.on_part));
 }
 
+/// Where a part is held that grows. Its origin stands still only where it is held there.
+inline constexpr std::string_view kHeldChoices[] = {"origin", "elsewhere"};
+inline constexpr EffectParameter kHeldParameter{
+    .name = "held",
+    .unit = "code",
+    .help = "where the part is held; elsewhere than at its origin, the origin shifts as the part grows",
+    .high = 1,
+    .choices = kHeldChoices};
+
+constexpr EffectParameter shift_parameter(std::string_view name, std::string_view unit, std::string_view help) {
+  return {.name = name, .unit = unit, .help = help, .typical = 1, .low = -50, .high = 50, .linear = true};
+}
+
+/// d of a part whose origin has shifted along the part's axes; `held`: a code of kHeldChoices.
+inline Vec3 origin_shift(const TouchScene& scene, double held, const Vec3& shift_um) {
+  return code(held) == 0 ? Vec3{} : along_normal(scene, kUm * dot(scene.normal_on_part, shift_um));
+}
+
 }  // namespace abbe

@@ -240,6 +240,9 @@ TEST_CASE("part soak: 1 K left over 500 mm of steel is 5.75 um at the start, and
   CHECK(reading_um(kPartSoak, end, warm) == doctest::Approx(5.75 * std::exp(-1)));
   end.time_s = 1e6;
   CHECK(reading_um(kPartSoak, end, warm) == doctest::Approx(0));
+  TouchScene held = touch_on_part({200, 0, 0}, {1, 0, 0});  // where it is held: 2.3 um of growth, and as much of shift
+  CHECK(reading_um(kPartSoak, held, {{"start_K", 1}, {"tau_s", 3600}, {"held", 1}, {"shift_x_um", -2.3}}) ==
+        doctest::Approx(0));
 }
 
 }  // namespace abbe
