@@ -121,11 +121,7 @@ struct Closer {
   ValueSearch search;
   std::map<int, Sizes> sizes;  ///< by block, of the likeliest
 
-  explicit Closer(const ValueCase& c)
-      : search(*c.search),
-        sizes(linearise_likeliest(search,
-                                  {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation,
-                                   c.judges.covariance, c.calibration})) {}
+  explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, bench_of(c))) {}
   const Block& block(const Finding& f) const { return search.explanations().blocks[static_cast<std::size_t>(f.block)]; }
   const Explanation& explanation(const Finding& f) const {
     return search.explanations().list[static_cast<std::size_t>(f.explanation)];
@@ -206,7 +202,8 @@ std::vector<int> groups_of(const ValueCase& c, std::string& scheme) {
   return program;
 }
 
-/// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula).
+/// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula). The point near
+/// which a block is linear is that of all values.
 void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   Improvement i;
   const std::vector<int> group = groups_of(c, i.scheme);
@@ -290,7 +287,7 @@ Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
 }
 
 /// What no possible size makes seen cannot be judged.
-void add_hidden(const ValueSearch& search, Diagnosis& out) {
+void tell_hidden(const ValueSearch& search, Diagnosis& out) {
   for (const Explanation& e : search.explanations().list)
     if (e.effect &&
         std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(),
@@ -330,7 +327,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   begins(options.progress, "what these values could detect");
   const std::vector<double> in_order = statistics_of(*c.search, c.judges.judged);
   out.smallest_detectable = smallest_detectable(*c.search, bench_of(c), in_order);
-  add_hidden(*c.search, out);
+  tell_hidden(*c.search, out);
   if (options.design_only) return out;
   out.values = judge_each(c);
   out.p_value = tail_probability(c.search->evidence(c.deviation).statistic, in_order);

@@ -25,7 +25,7 @@ struct BesideErrors {
 };
 
 /// Sizes of the columns of a block that its effect can have, the nearest to `sizes`.
-Vector possible(const Effect& effect, const Block& block, Vector sizes) {
+Vector possible_sizes(const Effect& effect, const Block& block, Vector sizes) {
   for (std::size_t k = 0; k < block.columns.size(); ++k) {
     const EffectParameter& p = effect.parameters[static_cast<std::size_t>(block.columns[k].parameter)];
     double& size = sizes(static_cast<Eigen::Index>(k));
@@ -69,14 +69,14 @@ std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Bloc
   BesideErrors out;
   out.sizes.mean = start;
   for (int step = 0; step < kSteps; ++step) {
-    const Vector at = possible(effect, block, out.sizes.mean);
+    const Vector at = possible_sizes(effect, block, out.sizes.mean);
     const Eigen::Index n = without_.cols(), columns = at.size();
     Matrix together(without_.rows(), (columns + 2) * n);  // next to each other: without, with, beside each derivative
     together << without_, values_at(at), Matrix(without_.rows(), columns * n);
     Vector move(columns);  // inwards from the largest size
     for (Eigen::Index k = 0; k < columns; ++k) {
       const Vector beside = at + kMove * Vector::Unit(columns, k);
-      move(k) = possible(effect, block, beside) == beside ? kMove : -kMove;
+      move(k) = possible_sizes(effect, block, beside) == beside ? kMove : -kMove;
       together.middleCols((k + 2) * n, n) = values_at(at + move(k) * Vector::Unit(columns, k));
     }
     together = complete_rows(together);
@@ -91,7 +91,7 @@ std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Bloc
     out.sizes.covariance = gain * covariance * gain.transpose();
     out.near = {slopes, here - means.head(n) - slopes * at, covariance};
     out.sizes.mean = at + gain * (b.deviation - here);
-    const Vector change = possible(effect, block, out.sizes.mean) - at;
+    const Vector change = possible_sizes(effect, block, out.sizes.mean) - at;
     if ((change.array().abs() < kSettled * out.sizes.covariance.diagonal().array().sqrt()).all()) break;
   }
   return out;
@@ -130,7 +130,7 @@ Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
 }
 
 Machine with_effect(const Machine& machine, const Effect& effect, const Block& block, const Vector& sizes) {
-  const Vector taken = possible(effect, block, sizes);
+  const Vector taken = possible_sizes(effect, block, sizes);
   std::vector<double> theta = block.theta;
   for (std::size_t k = 0; k < block.columns.size(); ++k)
     theta[static_cast<std::size_t>(block.columns[k].parameter)] =
