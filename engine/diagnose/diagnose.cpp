@@ -169,6 +169,15 @@ constexpr const char* kSamePhase =
     " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
     "same. Repeat it with the part moved by a third of the period.";
 
+/// Where no program says how the part lies, what an effect does there is told in coordinates that no other program shares.
+std::string whose_coordinates(const Case& c, const Effect& effect) {
+  const std::vector<RecordingRow>& rows = c.recording->rows;
+  const bool own = c.recording->in_part_frame ||
+      std::all_of(rows.begin(), rows.end(), [](const RecordingRow& row) { return row.on_part_mm.has_value(); });
+  if (own || (effect.needs & static_cast<unsigned>(Covariate::part_frame)) == 0) return "";
+  return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -198,7 +207,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) +
-        pattern_beside(c, f) + (same_phase ? kSamePhase : "") + in_file;
+        pattern_beside(c, f) + (same_phase ? kSamePhase : "") +
+        whose_coordinates(c, *c.explanations.list[f.explanation].effect) + in_file;
     if (change.run > 0 && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
@@ -303,20 +313,6 @@ Diagnostic beyond_its_specification(const LengthError& e, const std::string& fil
           "{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um",
           file, e.length_mm, kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
       "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
-}
-
-/// By how much the touches deviate beside their noise, and such machines on average, um rms; the placements taken out.
-struct Deviations {
-  double recorded_um = 0, specified_um = 0;
-};
-Deviations deviations(const Case& c) {
-  const LinearModel& m = c.model;
-  const Matrix free = independent(m.free);
-  const Matrix random = m.random - free * (free.transpose() * m.random);
-  const Vector y = m.y - free * (free.transpose() * m.y);
-  const auto left = static_cast<double>(m.y.size() - free.cols());
-  const double noise = m.noise_um.squaredNorm() / double(m.y.size());
-  return {std::sqrt(std::max(0.0, y.squaredNorm() / left - noise)), std::sqrt(random.squaredNorm() / left)};
 }
 
 Diagnostic large_errors(double times, const Deviations& rms, const std::string& file) {
@@ -462,7 +458,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.verdict = verdict_of(c, result, out);
   if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   if (!known && out.verdict == Verdict::no_mismatch && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
-    out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c), file));
+    out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model), file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
   at("the next measurement");

@@ -28,4 +28,11 @@ std::optional<LengthError> beyond_specification(const RecordedTouches&, const Ve
 /// Of a recording with such a length: larger errors of the machine than those of its specification are no explanation.
 void hold_to_specification(LinearModel&);
 
+/// By how much the touches deviate beside their noise, and machines of the specification on average, um rms; without
+/// what the placement of the setups makes of it.
+struct Deviations {
+  double recorded_um = 0, specified_um = 0;
+};
+Deviations deviations(const LinearModel&);
+
 }  // namespace abbe::diagnose
