@@ -171,10 +171,9 @@ constexpr const char* kSamePhase =
 
 /// Where no program says how the part lies, what an effect does there is told in coordinates that no other program shares.
 std::string whose_coordinates(const Case& c, const Effect& effect) {
-  const std::vector<RecordingRow>& rows = c.recording->rows;
-  const bool own = c.recording->in_part_frame ||
-      std::all_of(rows.begin(), rows.end(), [](const RecordingRow& row) { return row.on_part_mm.has_value(); });
-  if (own || (effect.needs & static_cast<unsigned>(Covariate::part_frame)) == 0) return "";
+  if (c.recording->in_part_frame || lies_as_planned(*c.recording) ||
+      (effect.needs & static_cast<unsigned>(Covariate::part_frame)) == 0)
+    return "";
   return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
 }
 
@@ -458,7 +457,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.verdict = verdict_of(c, result, out);
   if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   if (!known && out.verdict == Verdict::no_mismatch && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
-    out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model), file));
+    out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model, out.baseline.noise_um), file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
   at("the next measurement");

@@ -345,8 +345,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i),
                      *recording.rows[i].normal});
   const PartFrames part(aimed);
-  const bool planned = std::all_of(recording.rows.begin(), recording.rows.end(),
-                                   [](const RecordingRow& row) { return row.on_part_mm && row.normal_on_part; });
+  const bool planned = lies_as_planned(recording);
   for (const int i : order_of(recording)) {
     const RecordingRow& row = recording.rows[i];
     const Sensor& sensor = *sensor_of[i];
@@ -394,6 +393,11 @@ void carry(const Rigid& X_MD, RecordingRow& row) {
 }
 
 }  // namespace
+
+bool lies_as_planned(const Recording& recording) {
+  return std::all_of(recording.rows.begin(), recording.rows.end(),
+                     [](const RecordingRow& row) { return row.on_part_mm && row.normal_on_part; });
+}
 
 void complete_from_program(Recording& recording, const MachineRecord& nominal, const std::string& file) {
   std::map<std::pair<std::string, int>, std::size_t> partner;

@@ -44,6 +44,9 @@ struct RecordedTouches {
   std::vector<Diagnostic> messages;
 };
 
+/// Whether a program has said of every row where on the part it lies.
+bool lies_as_planned(const Recording&);
+
 /// Fills what rows lack (target, normal, sensor, times, ...) from what an error-free machine makes of their
 /// program, pairing rows by feature and touch. Targets are of the point that the recording states. Part
 /// coordinates, those of the program at each touch, become machine coordinates: the program says where the

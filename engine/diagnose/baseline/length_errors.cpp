@@ -80,13 +80,13 @@ void hold_to_specification(LinearModel& m) {
   m.uneven.clear();
 }
 
-Deviations deviations(const LinearModel& m) {
+Deviations deviations(const LinearModel& m, double noise_um) {
   const Matrix free = independent(m.free);
   const Matrix random = m.random - free * (free.transpose() * m.random);
   const Vector y = m.y - free * (free.transpose() * m.y);
   const auto left = static_cast<double>(m.y.size() - free.cols());
-  const double noise = m.noise_um.squaredNorm() / double(m.y.size());
-  return {std::sqrt(std::max(0.0, y.squaredNorm() / left - noise)), std::sqrt(random.squaredNorm() / left)};
+  return {std::sqrt(std::max(0.0, y.squaredNorm() / left - noise_um * noise_um)),
+          std::sqrt(random.squaredNorm() / left)};
 }
 
 }  // namespace abbe::diagnose

@@ -29,10 +29,10 @@ std::optional<LengthError> beyond_specification(const RecordedTouches&, const Ve
 void hold_to_specification(LinearModel&);
 
 /// By how much the touches deviate beside their noise, and machines of the specification on average, um rms; without
-/// what the placement of the setups makes of it.
+/// what the placement of the setups makes of it. `noise_um`: of the touches, as it was found.
 struct Deviations {
   double recorded_um = 0, specified_um = 0;
 };
-Deviations deviations(const LinearModel&);
+Deviations deviations(const LinearModel&, double noise_um);
 
 }  // namespace abbe::diagnose
