@@ -235,10 +235,11 @@ Vec3 lattice_direction(int n, int count) {
   return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-/// Directions all over the half sphere, about 10 degrees apart.
+constexpr int kLattice = 200;  ///< about 10 degrees apart
+
+/// Directions all over the half sphere.
 void add_lattice(std::vector<Vec3>& axes) {
-  constexpr int count = 200;
-  for (int i = 0; i < count; ++i) axes.push_back(lattice_direction(i, count));
+  for (int i = 0; i < kLattice; ++i) axes.push_back(lattice_direction(i, kLattice));
 }
 
 /// Rough points of a part of a torus have minima that no start near the points' own shape leads to: tori of
@@ -274,6 +275,20 @@ std::vector<Vec3> ring_axes(const Spread<Extended>& spread) {
   for (const double much : {0.4, 0.8, 1.2, 1.8})
     for (int turn = 0; turn < 12; ++turn)
       axes.push_back(unit(n + much * lean * (std::cos(kPi * turn / 6) * x + std::sin(kPi * turn / 6) * y)));
+  return axes;
+}
+
+/// A long thin element has another minimum wherever it tilts by its thickness over its length, and that may be
+/// far less than a step of the lattice. Here the lattice is stretched as the points are, by their spread along
+/// each principal direction: as much denser about the long one as they are thin.
+std::vector<Vec3> slender_axes(const Spread<Extended>& spread) {
+  std::vector<Vec3> axes;
+  for (int i = 0; i < kLattice; ++i) {
+    const Vec3 d = lattice_direction(i, kLattice);
+    Vec3 axis;
+    for (int k = 0; k < 3; ++k) axis += d[k] * double(spread.along[k]) * vec(spread.direction[k]);
+    axes.push_back(unit(axis));
+  }
   return axes;
 }
 
@@ -359,6 +374,7 @@ Starts cylinder_starts(const Points<double>& points, const Spread<Extended>& spr
   Starts kept;
   keep_best<CylinderProfile>(along_all(likely_axes(points, spread), points, cylinder_along), points, 8 * more,
                              0.2 / more, kept);
+  keep_best<CylinderProfile>(along_all(slender_axes(spread), points, cylinder_along), points, 8 * more, 0, kept);
   if (has_patch(points))
     for (const Placed<double>& shallow : shallow_cylinders(patch_of(points, spread))) kept.push_back(shallow);
   return kept;
@@ -369,6 +385,7 @@ Starts cone_starts(const Points<double>& points, const Spread<Extended>& spread)
   Starts kept;
   keep_best<ConeProfile>(along_all(likely_axes(points, spread), points, cone_along), points, 12 * more, 0.15 / more,
                          kept);
+  keep_best<ConeProfile>(along_all(slender_axes(spread), points, cone_along), points, 8 * more, 0, kept);
   return kept;
 }
 

@@ -22,10 +22,6 @@ std::string code_of(const FitProblem& problem) {
   return solution.error ? solution.error->code : "";
 }
 
-double between(std::string_view stream, int n, double low, double high) {
-  return low + (high - low) * random_at(stream, n);
-}
-
 template <class Profile>
 void check_derivatives() {
   constexpr int N = kUnknowns<Profile>;

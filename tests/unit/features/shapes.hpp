@@ -18,6 +18,10 @@ inline double random_at(std::string_view stream, int n) {
   return uniform_from_bits(bits.v[0], bits.v[1]);
 }
 
+inline double between(std::string_view stream, int n, double low, double high) {
+  return low + (high - low) * random_at(stream, n);
+}
+
 inline Element some_element(Shape shape) {
   Element e{.point = {120, -80, 45}, .direction = unit(Vec3{0.3, -0.5, 0.8}), .size = 20};
   if (shape == Shape::torus) e.size = 40, e.minor_size = 12;
