@@ -1,8 +1,9 @@
 // ANGL: the full angle of a cone. ANGLB: the angle between two features, planes by their normals,
 // others by their directions, a plane and an axis by 90 degrees minus the angle of normal and axis.
 //
-// Two features make an angle and its supplement; which one is meant is not written. It is the one
-// nearer to the nominal value (the middle of the limits with LIMIT), on every machine alike.
+// Two features make an angle and its supplement; which one is meant is not written. It is the one that in the
+// nominal geometry is nearer to the nominal value (the middle of the limits with LIMIT). The side is chosen there and
+// not from what was measured, or no machine would ever find more than 90 degrees where 90 are wanted.
 #include <cmath>
 
 #include "engine/tolerances/common.hpp"
@@ -37,13 +38,29 @@ double nominal_angle(const Arguments& arguments, Shapes, Elements) { return expe
 
 ToleranceLimits angle_limits(const Arguments& arguments, Elements) { return written_limits(arguments); }
 
+/// The angle of u and v as they point; of a plane and an axis the one that has no side, up to 90 degrees.
+double directed(const Vec3& u, const Vec3& v, bool plane_and_axis) {
+  const double sine = norm(cross(u, v)), cosine = dot(u, v);
+  return plane_and_axis ? std::atan2(std::fabs(cosine), sine) : std::atan2(sine, cosine);
+}
+
+Vec3 pointing_as(const Vec3& nominal, const Vec3& actual) { return dot(nominal, actual) < 0 ? -actual : actual; }
+
+/// Where the two are as near, the angle is meant, whatever the last digits are.
+bool supplement_is_meant(double nominal, double wanted) {
+  constexpr double kClearly = 1e-9;
+  return std::fabs(kPi - nominal - wanted) < std::fabs(nominal - wanted) - kClearly;
+}
+
 Outcome<double> angle_between(const Arguments& arguments, const EvaluationInput& in) {
-  const Vec3 &u = in.actual[0].direction, &v = in.actual[1].direction;
   const bool mixed = (in.shapes[0] == Shape::plane) != (in.shapes[1] == Shape::plane);
-  const double sine = norm(cross(u, v)), cosine = std::fabs(dot(u, v));
-  const double acute = mixed ? std::atan2(cosine, sine) : std::atan2(sine, cosine);
-  const double wanted = expected(arguments);
-  return {std::fabs(acute - wanted) <= std::fabs(kPi - acute - wanted) ? acute : kPi - acute};
+  const Vec3 &u = in.nominal[0].direction, &v = in.nominal[1].direction;
+  const double angle =
+      directed(pointing_as(u, in.actual[0].direction), pointing_as(v, in.actual[1].direction), mixed);
+  // -60 and 300 degrees are 60, written otherwise
+  const double wanted = expected(arguments), turns = 2 * kPi * std::round(wanted / (2 * kPi)), side = wanted - turns;
+  const double meant = supplement_is_meant(directed(u, v, mixed), std::fabs(side)) ? kPi - angle : angle;
+  return {turns + (side < 0 ? -meant : meant)};
 }
 
 }  // namespace

@@ -137,6 +137,33 @@ TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
         "a point or a sphere has no direction to make an angle with");
 }
 
+TEST_CASE("The side of an angle of 90 degrees is that of the nominals, on every machine alike") {
+  const double tilt = 1e-3;
+  // A plane that leans by `by` against one along x, and the same with its normal reported the other way round.
+  const auto found = [&](double by, double turned, double lower, double upper) {
+    Evaluation e("ANGLB");
+    return e.number("lower", lower)
+        .number("upper", upper)
+        .feature(Shape::plane, kUp)
+        .feature(Shape::plane, at({}, turned * Vec3{std::cos(by), 0, -std::sin(by)}), kAlongX)
+        .value();
+  };
+  for (const double turned : {1.0, -1.0})
+    for (const auto& [lower, upper] : {std::pair{kPi / 2, kPi / 2 + 0.1}, {kPi / 2 - 0.1, kPi / 2}, {kPi / 2 - 0.1, kPi / 2 + 0.1}}) {
+      CHECK(found(tilt, turned, lower, upper) == Approx(kPi / 2 + tilt).epsilon(1e-12));
+      CHECK(found(-tilt, turned, lower, upper) == Approx(kPi / 2 - tilt).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("An angle comes as its nominal is written") {
+  const Element at60 = at({}, {0.5, 0, std::sqrt(0.75)}), at61 = at({}, {std::cos(61 * kPi / 180), 0, std::sin(61 * kPi / 180)});
+  for (const auto& [nominal, expected] : {std::pair{60.0, 61.0}, {-60.0, -61.0}, {300.0, 299.0}, {420.0, 421.0}, {240.0, 241.0}, {120.0, 119.0}}) {
+    Evaluation e("ANGLB");
+    e.number("nominal", nominal * kPi / 180).feature(Shape::line, kAlongX).feature(Shape::line, at61, at60);
+    CHECK(e.value() * 180 / kPi == Approx(expected));
+  }
+}
+
 TEST_CASE("The zone of a median plane holds the touches of its faces where they lie on it") {
   // A slot 10 wide, 100 long and 10 deep whose median plane leans by 0.01 over its depth: the zone is 0.01
   // wide, and not 0.1, which it would be of a disc as long as the slot.
