@@ -50,6 +50,20 @@ void Flow::failed_control() {
   if (lowering_.flow_doubt.empty()) lowering_.flow_doubt = lowering_.blame();
 }
 
+/// The lines [begin, end) are not lowered, because the word that decides on them failed: what they evaluate is lost.
+void Flow::lose(int begin, int end) {
+  for (int at = begin; at < end; ++at) {
+    const Line& line = (*routine_)[at];
+    if (line.skipped || (line.raw.word != "OUTPUT" && line.raw.word != "EVAL")) continue;
+    std::string features;
+    for (const RawArgument& a : line.raw.arguments)
+      if (a.kind == RawArgument::Kind::label && a.label.kind == "FA")
+        features += (features.empty() ? "" : ", ") + a.label.name;
+    lowering_.out.lost.push_back(
+        {lowering_.place ? lowering_.place->second : line.raw.line, features, lowering_.flow_doubt});
+  }
+}
+
 /// Lowers the lines [begin, end), which are those of the block that line `level` opens. Returns where a jump
 /// leads to that leaves them.
 Flow::Jump Flow::range(int begin, int end, int level) {

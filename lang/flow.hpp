@@ -104,6 +104,7 @@ class Flow {
   void deepen();
   std::optional<Match> matched(const RawStatement&);
   void failed_control();
+  void lose(int begin, int end);
   void ordinary(const Line&);
   RawStatement with_labels(const RawStatement&);
   void resolve(LabelRef&, std::size_t begin);
@@ -117,6 +118,7 @@ class Flow {
   void finish_plan();
 
   // flow_blocks.cpp
+  Step lost(int at, int end);
   Step condition(int at);
   Step loop(int at);
   Jump written_out(int at, const std::string& variable, double first, double step, double last);

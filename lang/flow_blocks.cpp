@@ -51,11 +51,17 @@ void Flow::check_measurement(const State& other) {
   lowering_.measuring.reset();
 }
 
+/// The block from line `at` to `end` is left out.
+Flow::Step Flow::lost(int at, int end) {
+  lose(at + 1, end);
+  return {end + 1, std::nullopt};
+}
+
 Flow::Step Flow::condition(int at) {
   const Line& line = (*routine_)[at];
   const int end = routine_->end_of(at);
   const auto match = matched(line.raw);
-  if (!match) return {end + 1, std::nullopt};
+  if (!match) return lost(at, end);
   const Value condition = *match->find("condition")->value;
   const int other = line.partner;
   const Body then = [&, other] { return range(at + 1, other, at); };
@@ -84,7 +90,7 @@ Flow::Step Flow::loop(int at) {
   const Line& line = (*routine_)[at];
   const int end = line.partner;
   const auto match = matched(line.raw);
-  if (!match) return {end + 1, std::nullopt};
+  if (!match) return lost(at, end);
   const std::string variable = match->text("variable");
   if (!find_variable(lowering_, variable)) declare(lowering_, variable, Type::integer, 0, 0, false);
   const MatchedValue *first = match->find("first"), *limit = match->find("limit"), *step = match->find("step");
@@ -92,7 +98,7 @@ Flow::Step Flow::loop(int at) {
   if (by == 0 && !(step && step->column.valid())) {
     lowering_.error(Code::E0242, step->span, "a DO with a step of 0 never ends", "leave the step out for 1");
     failed_control();
-    return {end + 1, std::nullopt};
+    return lost(at, end);
   }
   const VariableNames names = assigned(at + 1, end);
   const bool known = !first->column.valid() && !limit->column.valid() && !(step && step->column.valid()) &&
@@ -178,7 +184,7 @@ void Flow::rolled(int at, const std::string& variable, const Match& match) {
 Flow::Step Flow::choice(int at) {
   const int end = routine_->end_of(at);
   const auto match = matched((*routine_)[at].raw);
-  if (!match) return {end + 1, std::nullopt};
+  if (!match) return lost(at, end);
   Value value = *match->find("value")->value;
   if (!value.known() && value.parts.size() == 1)
     value.parts[0] = {plan::PushColumn{lowering_.evaluated(value.parts[0])}};
@@ -199,7 +205,10 @@ Flow::Jump Flow::choose(const std::vector<int>& cases, std::size_t first, int fa
   for (; first < cases.size(); ++first) {
     const int at = cases[first];
     const auto condition = case_condition(at, value);
-    if (!condition) continue;
+    if (!condition) {
+      lose(at + 1, (*routine_)[at].partner);
+      continue;
+    }
     if (const double* known = plan::constant(*condition)) {
       if (*known != 0) return body(at);
       continue;
