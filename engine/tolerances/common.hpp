@@ -28,7 +28,7 @@ inline bool always(const Arguments&) { return true; }
 
 inline ToleranceLimits zone_limits(const Arguments& arguments, Elements) {
   const double zone = arguments.number("zone");
-  return zone > 0 ? ToleranceLimits{{}, zone} : ToleranceLimits{};
+  return zone != 0 ? ToleranceLimits{{}, zone} : ToleranceLimits{};
 }
 
 /// Limits of a value written as ABBE_LENGTH_LIMITS or ABBE_ANGLE_LIMITS.

@@ -53,6 +53,9 @@ void define_tolerance(Lowering& lowering, const RawStatement& raw, const Match& 
   if (const MatchedValue* unit = rest->find("unit_zone"))
     lowering.warn(Code::W0122, unit->span, "the zone per unit of area is not evaluated",
                   "the value and its uncertainty are of the flatness of the whole surface");
+  if (const MatchedValue* zone = rest->find("zone"); zone && !zone->column.valid() && zone->number < 0)
+    lowering.warn(Code::W0264, zone->span, "the zone is below 0: no value conforms",
+                  "a zone is a width without a sign; 0 asks for the value alone");
   const MatchedValue *low = rest->find("lower"), *high = rest->find("upper");
   if (low && high && !low->column.valid() && !high->column.valid() && low->number > high->number)
     lowering.warn(Code::W0262, low->span, "the lower limit is above the upper one: no value conforms",

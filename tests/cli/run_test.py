@@ -32,6 +32,13 @@ class Figures(harness.Case):
         self.assertIn("INTOL", status["ANY"])
         self.assertIn("OUTOL", status["SOME"])
 
+    def test_a_zone_below_0_is_met_by_no_value(self):
+        self.write("below.dmi", LENGTH.replace("ENDFIL\n", "T(BELOW)=TOL/POS,3D,-0.01,RFS\nOUTPUT/FA(B),TA(BELOW)\nENDFIL\n"))
+        report = self.run_json("below.dmi", "--machines", 20, "--dmo", "below.dmo")
+        self.assertEqual(report["characteristics"][1]["conformance_probability"], 0)
+        self.assertIn("W0264", [m["code"] for m in report["messages"]])
+        self.assertIn("OUTOL", next(line for line in (self.folder / "below.dmo").read_text().splitlines() if line.startswith("TA(BELOW)")))
+
     def test_the_result_file_has_the_name_of_filnam_and_repeats_what_output_names(self):
         self.abbe("run", "length.dmi", "--machines", 20, "--dmo", "plain.dmo")
         self.assertEqual((self.folder / "plain.dmo").read_text().splitlines()[0], "FILNAM/'a length'")
