@@ -32,7 +32,7 @@ bool in_label(char c) {
 class Compiler {
  public:
   Compiler(const SourceFile& source, Sink& sink, const CompileOptions& options)
-      : lowering_(source, sink), given_(options.answers) {
+      : lowering_(source, sink), given_(options.answers), impossible_(options.impossible) {
     for (const auto& [name, answer] : given_) lowering_.answers[upper(name)] = answer;
     lowering_.only_valid = options.only_valid;
   }
@@ -118,6 +118,10 @@ class Compiler {
   }
 
   void lower(const Statement& statement, const RawStatement& raw, const Match& match) {
+    const auto impossible = lowering_.place ? impossible_.end() : impossible_.find(raw.span.begin);
+    if (impossible != impossible_.end())
+      return lowering_.error(Code::E0304, raw.span, "not even an error-free machine can do this: " + impossible->second,
+                             "correct the statement, or what it works on");
     statement.lower(lowering_, raw, match);
     if (!lowering_.failed) settle(lowering_, raw);
     if (lowering_.failed || raw.arguments.empty() || raw.label) return;
@@ -226,7 +230,8 @@ class Compiler {
   }
 
   Lowering lowering_;
-  const std::map<std::string, std::string>& given_;  ///< CompileOptions::answers
+  const std::map<std::string, std::string>& given_;          ///< CompileOptions::answers
+  const std::map<std::uint32_t, std::string>& impossible_;  ///< likewise
   std::string meant_;
   std::map<std::string, std::string> meant_by_;
   bool after_end_reported_ = false;

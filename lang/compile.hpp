@@ -51,6 +51,8 @@ struct Compilation {
 struct CompileOptions {
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable in any case; they win over directives
   bool only_valid = false;  ///< what can only be guessed is lost too: default touches in the place of a scan
+  /// Statements of the program that no machine can carry out, by where they begin, and why: they are errors then.
+  std::map<std::uint32_t, std::string> impossible = {};
 };
 
 /// Never throws on a user's text: every mistake goes to the sink, and what can be used is used. Modules are

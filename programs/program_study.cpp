@@ -72,20 +72,49 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
   return in;
 }
 
-void leave_out_what_has_no_value(CompiledProgram& program, const StudyInputs& in) {
-  plan::Plan& plan = program.compilation.plan;
-  RunOptions options;
-  options.workpiece = in.workpiece ? &*in.workpiece : nullptr;
-  options.recorded = in.recording ? &*in.recording : nullptr;
-  while (const auto found = evaluation_without_value(plan, in.machine, options, program.source)) {
-    plan::Operation& operation = plan.operations[static_cast<std::size_t>(found->operation)];
-    const plan::CharacteristicDef& lost = plan[std::get<plan::Evaluate>(operation.action).characteristic];
-    std::vector<std::string> features;
-    for (const plan::FeatureId f : lost.features) features.push_back(plan[f].label);
-    program.compilation.lost.push_back({lost.line, fmt::format("{}", fmt::join(features, ", ")),
-                                        fmt::format("TA({}): {}", plan[lost.tolerance].label, found->reason)});
-    operation.action = plan::Jump{found->operation + 1};
+namespace {
+
+void compile_again(CompiledProgram& program, const lang::CompileOptions& options) {
+  Sink sink;
+  program.compilation = lang::compile(program.source, sink, options);
+  program.messages = sink.sorted();
+  program.has_errors = sink.has_errors();
+}
+
+/// The evaluation alone: the others of its statement stay.
+void leave_out_evaluation(lang::Compilation& compilation, const Impossible& found) {
+  plan::Plan& plan = compilation.plan;
+  plan::Operation& operation = plan.operations[static_cast<std::size_t>(found.operation)];
+  const plan::CharacteristicDef& lost = plan[std::get<plan::Evaluate>(operation.action).characteristic];
+  std::vector<std::string> features;
+  for (const plan::FeatureId f : lost.features) features.push_back(plan[f].label);
+  compilation.lost.push_back({lost.line, fmt::format("{}", fmt::join(features, ", ")),
+                              fmt::format("TA({}): {}", plan[lost.tolerance].label, found.reason)});
+  operation.action = plan::Jump{found.operation + 1};
+}
+
+}  // namespace
+
+std::vector<Diagnostic> leave_out_what_is_impossible(CompiledProgram& program, lang::CompileOptions options,
+                                                     const StudyInputs& in) {
+  RunOptions run;
+  run.workpiece = in.workpiece ? &*in.workpiece : nullptr;
+  run.recorded = in.recording ? &*in.recording : nullptr;
+  const auto next = [&] { return first_impossible(program.compilation.plan, in.machine, run, program.source); };
+  while (const auto found = next()) {
+    const plan::Operation& operation = program.compilation.plan.operations[static_cast<std::size_t>(found->operation)];
+    if (std::holds_alternative<plan::Evaluate>(operation.action)) {
+      leave_out_evaluation(program.compilation, *found);
+    } else {
+      // A word of control cannot be left out: the run itself then says what stops it.
+      if (!options.impossible.emplace(operation.span.begin, found->reason).second) break;
+      compile_again(program, options);
+    }
   }
+  std::vector<Diagnostic> messages;
+  for (const Diagnostic& d : program.messages)
+    if (d.code == Code::E0304) messages.push_back(d);
+  return messages;
 }
 
 Study study_program(const CompiledProgram& program, const StudySettings& settings, const StudyInputs& in,

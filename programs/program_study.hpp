@@ -75,8 +75,9 @@ struct StudyInputs {
 /// Reads each of them once. Throws UserError as read_machine, read_workpiece and read_recording do.
 StudyInputs read_inputs(const CompiledProgram&, const StudySettings&);
 
-/// Takes the evaluations out of the program that give no value even on an error-free machine; `lost` then says why.
-void leave_out_what_has_no_value(CompiledProgram&, const StudyInputs&);
+/// Takes out of the program what even an error-free machine cannot do, an evaluation by itself, any other statement with
+/// all that rests on it; `lost` then says why. Compiled with these options. Returns the messages about it.
+std::vector<Diagnostic> leave_out_what_is_impossible(CompiledProgram&, lang::CompileOptions, const StudyInputs&);
 
 /// Studies a compiled program. Throws UserError: the error-free machine cannot run the program.
 Study study_program(const CompiledProgram&, const StudySettings&, const StudyInputs&, const Progress& progress = {});

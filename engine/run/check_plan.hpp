@@ -11,14 +11,14 @@ namespace abbe {
 /// Throws UserError for what run_plan refuses of the error-free machine.
 void check_plan(const plan::Plan&, const Machine&, const RunOptions&, const SourceFile& source);
 
-/// An evaluation that gives no value even on an error-free machine: an operation of the plan, and why.
-struct NoValue {
+/// What even an error-free machine cannot do: an operation of the plan, and why.
+struct Impossible {
   int operation = 0;
   std::string reason;
 };
 
-/// The first one that the error-free machine comes to; nothing when it is stopped by nothing, or by something else.
-std::optional<NoValue> evaluation_without_value(const plan::Plan&, const Machine&, const RunOptions&,
-                                                const SourceFile& source);
+/// The first that it comes to; nothing when nothing stops it.
+std::optional<Impossible> first_impossible(const plan::Plan&, const Machine&, const RunOptions&,
+                                           const SourceFile& source);
 
 }  // namespace abbe

@@ -150,8 +150,8 @@ ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Mac
     const plan::Operation& stopped = plan.operations[lane.trap.operation];
     throw UserError(diagnostic_at(
         source, stopped.span, Code::E0304, "not even an error-free machine can go on here: " + lane.trap.reason,
-        evaluates(stopped) ? "correct the statement; `abbe run --only-valid` leaves this characteristic out"
-                           : "correct the statement"));
+        fmt::format("correct the statement; `abbe run --only-valid` leaves {} out",
+                    evaluates(stopped) ? "this characteristic" : "it and all that rests on it")));
   }
   check_travel(observed.stops, plan, machine, source);
   executor.know(std::move(observed.fits));
@@ -243,11 +243,11 @@ void check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions
   reference_run(executor, plan, machine, source);
 }
 
-std::optional<NoValue> evaluation_without_value(const plan::Plan& plan, const Machine& machine,
-                                                const RunOptions& options, const SourceFile& source) {
+std::optional<Impossible> first_impossible(const plan::Plan& plan, const Machine& machine, const RunOptions& options,
+                                           const SourceFile& source) {
   const LaneTrap trap = run_alone(Executor(plan, machine, options, source)).first.trap;
-  if (trap.reason.empty() || !evaluates(plan.operations[trap.operation])) return std::nullopt;
-  return NoValue{trap.operation, trap.reason};
+  if (trap.reason.empty()) return std::nullopt;
+  return Impossible{trap.operation, trap.reason};
 }
 
 MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one,

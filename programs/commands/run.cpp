@@ -27,13 +27,13 @@ void refuse_errors(const CompiledProgram& program) {
 
 int run_command(const RunCommandOptions& options) {
   const ReportWriter* writer = find_report_writer(options.format);
-  CompiledProgram program =
-      compile_program(options.request.program, {options.request.answers, options.request.only_valid});
+  const lang::CompileOptions as_asked{options.request.answers, options.request.only_valid};
+  CompiledProgram program = compile_program(options.request.program, as_asked);
   print_messages(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
   const StudyInputs inputs = read_inputs(program, options.request.settings);
   refuse_overwriting(inputs.files, files_given({options.report, options.csv, options.dmo}));
-  if (options.request.only_valid) leave_out_what_has_no_value(program, inputs);
+  if (options.request.only_valid) print_messages(leave_out_what_is_impossible(program, as_asked, inputs));
 
   ProgressLine line;
   const Study study =

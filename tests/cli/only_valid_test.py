@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """abbe run --only-valid: what can be evaluated is evaluated; what cannot is listed with the line, the reason, and the mistake at the end
 of the reason."""
+import json
+
 import harness
 from harness import LENGTH
 
@@ -79,6 +81,43 @@ class OnlyValid(harness.Case):
         # Nothing else changes: the lengths are those of the program without it.
         self.write("sound.dmi", LENGTH)
         self.assertEqual(report["characteristics"][0]["u"], self.run_json("sound.dmi", "--machines", 20)["characteristics"][0]["u"])
+
+    def test_what_stands_in_blocks_that_cannot_be_decided_is_lost(self):
+        blocks = "".join(f"{begin}\nOUTPUT/FA(A),FA(B),TA(LEN)\n{end}\n" for begin, end in
+                         (("IF/(VV .GT. 1)", "ENDIF"), ("DO/I,1,VV", "ENDDO"), ("DO/I,1,3,0", "ENDDO"), ("SELECT/VV\nCASE/1", "ENDCAS\nENDSEL"),
+                          ("SELECT/1\nCASE/'A'", "ENDCAS\nENDSEL")))
+        program = LENGTH.replace("ENDFIL\n", blocks + "ENDFIL\n")
+        self.write("blocks.dmi", program)
+        report = self.run_json("blocks.dmi", "--only-valid", "--machines", 20)
+        asked = [k + 1 for k, line in enumerate(program.splitlines()) if line.startswith("OUTPUT")]
+        self.assertEqual([c["line"] for c in report["characteristics"]], asked[:1])
+        self.assertEqual([lost["line"] for lost in report["lost"]], asked[1:])
+        for lost in report["lost"]:
+            self.assertEqual(lost["feature"], "A, B")
+            self.assertIn(f"line {self.first}: VV is no variable", lost["reason"])
+
+    def test_what_no_machine_can_construct_is_lost_with_what_rests_on_it(self):
+        face = "F({0})=FEAT/PLANE,CART,0,0,{1},0,0,1\nMEAS/PLANE,F({0}),3\n" + "".join(f"PTMEAS/CART,{x},{y},{{1}},0,0,1\n" for x, y in ((0, 0), (9, 0), (0, 9))) + "ENDMES\n"
+        edge = "F(E)=FEAT/LINE,UNBND,CART,0,0,0,1,0,0,0,0,1\nCONST/LINE,F(E),INTOF,FA(M),FA(N)\n"
+        program = LENGTH.replace("ENDFIL\n", face.format("M", 0) + face.format("N", -5) + edge + """T(AN)=TOL/ANGLB,NOMINL,0,-1,1
+OUTPUT/FA(E),FA(M),TA(AN)
+OUTPUT/FA(A),FA(B),TA(LEN)
+D(NEW)=ROTATE/ZAXIS,FA(E),XDIR
+OUTPUT/FA(A),FA(B),TA(LEN)
+RECALL/D(R)
+OUTPUT/FA(A),FA(B),TA(LEN)
+ENDFIL
+""")
+        self.write("parallel.dmi", program)
+        self.assertIn("--only-valid", self.refused("E0304", "run", "parallel.dmi", "--machines", 20))
+        done = self.abbe("run", "parallel.dmi", "--only-valid", "--machines", 20, "--format", "json")
+        report, line = json.loads(done.stdout), program[:program.index("CONST/LINE")].count("\n") + 1
+        self.assertIn(f"parallel.dmi:{line}:1: error E0304: not even an error-free machine can do this", done.stderr)
+        asked = [k + 1 for k, text in enumerate(program.splitlines()) if text.startswith("OUTPUT")]
+        self.assertEqual([c["line"] for c in report["characteristics"]], [asked[0], asked[2], asked[4]])
+        self.assertEqual([lost["line"] for lost in report["lost"]], [asked[1], asked[3]])
+        for lost in report["lost"]:
+            self.assertIn(f"line {line}: not even an error-free machine can do this: ", lost["reason"])
 
     def test_default_touches_do_not_stand_for_a_scan(self):
         scan = "P(1)=PATH/ARC,CART,0,0,0,0,0,1,25,0,360\nF(K)=FEAT/CIRCLE,INNER,CART,50,0,0,0,0,1,50\nMEAS/CIRCLE,F(K),40\nPAMEAS/P(1),0,0,-1\nENDMES\nT(N)=TOL/DIAM,-0.1,0.1\nOUTPUT/FA(K),TA(N)\nENDFIL\n"
