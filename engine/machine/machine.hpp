@@ -36,6 +36,10 @@ struct MachineAxis {
   int direction = 1;  ///< +1: readings run from 0 to travel; -1: from 0 to -travel
   Vec3 offset_mm;     ///< scale position: this axis' frame at home, in the frame that carries it (paper, Table 2)
   bool table_side = false;
+
+  double lowest_mm() const { return direction > 0 ? 0.0 : -travel_mm; }
+  double highest_mm() const { return direction > 0 ? travel_mm : 0.0; }
+  bool reaches(double reading_mm) const { return reading_mm >= lowest_mm() && reading_mm <= highest_mm(); }
 };
 
 /// How one error function is generated (paper eq. 13-16; physics.md section 2).

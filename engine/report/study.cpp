@@ -73,6 +73,7 @@ class StudyRun {
     const VirtualMachines machines = screened_machines(machine_, options_.seed, count, options_.threads);
     step("running the program");
     append(machines, run(machines, {}));
+    study_.report.messages = study_.result.warnings;
     std::vector<ContributorRun> alone;
     for (const NamedContributors& c : each_alone(machine_, options_.workpiece != nullptr)) {
       step(c.name + " alone");

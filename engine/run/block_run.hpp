@@ -93,6 +93,7 @@ class BlockRun {
   void put_on_part(const plan::Touch&, Lane& twin, int slot);
   void add_part(int machines);
   void observe_touch(const plan::Touch&, int slot);
+  void observe_measurement(plan::FeatureId);
   RecordingRow recording_row(const plan::Touch&, int slot) const;
   /// Where a touch of a pattern lies as this lane sees it: in the system in which it defined the feature; W.
   Outcome<Target> pattern_target(Lane&, const plan::Touch&);

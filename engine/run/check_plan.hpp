@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-/// Throws UserError for what run_plan refuses of the error-free machine.
-void check_plan(const plan::Plan&, const Machine&, const RunOptions&, const SourceFile& source);
+/// Throws UserError for what run_plan refuses of the error-free machine. What is suspect of what it does.
+std::vector<Diagnostic> check_plan(const plan::Plan&, const Machine&, const RunOptions&, const SourceFile& source);
 
 /// What even an error-free machine cannot do: an operation of the plan, and why.
 struct Impossible {

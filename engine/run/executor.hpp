@@ -51,10 +51,19 @@ class Executor {
     std::vector<Vec3> points;
     Element element;
   };
+  /// A feature that was measured, on the nominal part of the reference; W.
+  struct Measured {
+    int operation = 0;
+    plan::FeatureId feature;
+    Element nominal, actual;
+    std::vector<Target> targets;  ///< where the program put its surface
+    double radius_mm = 0;         ///< of the ball of the last touch
+  };
   struct Observed {
     std::vector<KnownFit> fits;         ///< of the twins
     std::vector<OutputRecord> outputs;  ///< of lane 0, which is the reference when there are no machines
     std::vector<Stop> stops;            ///< of the reference: where the program asks the machine to go
+    std::vector<Measured> measured;     ///< by the reference
     FrameCount frames;                  ///< of the reference: in which it touches
     CurvedFeatures curved;              ///< by what the reference touches
     std::vector<RecordingRow> rows;     ///< of lane 0: what it reported; coordinates of the program's machine system

@@ -332,6 +332,7 @@ void BlockRun::operator()(const plan::EndMeasure& end) {
   });
   keep_touches(end.feature);
   fit_twins(end.feature, end.criterion);
+  if (observed) observe_measurement(end.feature);
   std::set<std::size_t> counts;  // lanes may have taken different paths inside the measurement
   for (const int i : active)
     if (block.lanes[i].running) counts.insert(block.lanes[i].points.size());

@@ -8,6 +8,7 @@
 
 #include "engine/base/on_threads.hpp"
 #include "engine/run/executor.hpp"
+#include "engine/run/program_warnings.hpp"
 #include "engine/run/recorded_sensor.hpp"
 
 namespace abbe {
@@ -97,11 +98,6 @@ std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& 
   return results;
 }
 
-/// The range of readings of an axis.
-std::pair<double, double> range(const MachineAxis& axis) {
-  return axis.direction > 0 ? std::pair{0.0, axis.travel_mm} : std::pair{-axis.travel_mm, 0.0};
-}
-
 /// Every touch of the error-free machine must lie inside the travel.
 void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine,
                   const SourceFile& source) {
@@ -111,15 +107,14 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
   for (const Executor::Stop& stop : stops) {
     if (!stop.touch) continue;
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-      const auto [low, high] = range(machine[axis]);
       const double reading = stop.reading_mm[static_cast<int>(axis)];
-      if (reading >= low && reading <= high) continue;
+      if (machine[axis].reaches(reading)) continue;
       if (++outside > kShown) break;
       errors.push_back(diagnostic_at(
           source, plan.operations[stop.operation].span, Code::E0302,
           fmt::format(
               "this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
-              machine.name, "xyz"[static_cast<int>(axis)], reading, low, high),
+              machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(), machine[axis].highest_mm()),
           "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine"));
       break;
     }
@@ -131,6 +126,7 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
 struct ReferenceRun {
   Lane lane;
   std::vector<OutputRecord> outputs;
+  std::vector<Diagnostic> warnings;
 };
 
 /// Runs the error-free machine alone.
@@ -154,10 +150,11 @@ ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Mac
                     evaluates(stopped) ? "this characteristic" : "it and all that rests on it")));
   }
   check_travel(observed.stops, plan, machine, source);
+  std::vector<Diagnostic> warnings = program_warnings(observed, plan, machine, source);
   executor.know(std::move(observed.fits));
   executor.place_part(observed.frames.most_used());
   executor.find_curved(observed.curved);
-  return {std::move(lane), std::move(observed.outputs)};
+  return {std::move(lane), std::move(observed.outputs), std::move(warnings)};
 }
 
 /// The samples of a run in the making.
@@ -210,6 +207,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   result.machines = machines.size();
   result.acted.assign(machine.effects.size(), 0);
   result.reference_outputs = std::move(reference_ran.outputs);
+  result.warnings = std::move(reference_ran.warnings);
   result.cycle_time_s = reference.motion->time_s();
   std::set<Key> referenced;
   for (const Value& v : reference.values) referenced.insert({v.characteristic.value, v.visit});
@@ -238,9 +236,10 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   return result;
 }
 
-void check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions& options, const SourceFile& source) {
+std::vector<Diagnostic> check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions& options,
+                                   const SourceFile& source) {
   Executor executor(plan, machine, options, source);
-  reference_run(executor, plan, machine, source);
+  return reference_run(executor, plan, machine, source).warnings;
 }
 
 std::optional<Impossible> first_impossible(const plan::Plan& plan, const Machine& machine, const RunOptions& options,

@@ -101,6 +101,7 @@ struct RunResult {
   std::vector<Trap> traps;  ///< by machine
   int machines = 0;
   std::vector<OutputRecord> reference_outputs;  ///< of the error-free machine
+  std::vector<Diagnostic> warnings;             ///< of what it does (program_warnings.hpp)
   std::uint64_t touches = 0;                    ///< executed on virtual machines
   std::vector<char> acted;  ///< by effect of the machine file, 0 or 1: whether it moved one of them (EffectSet::Acted)
   double cycle_time_s = 0;  ///< of the program on the error-free machine (motion.hpp)

@@ -134,6 +134,17 @@ void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   observed->compensations.insert(block.lanes[lane].temperature_compensation);
 }
 
+void BlockRun::observe_measurement(plan::FeatureId feature) {
+  for (const int i : active) {
+    Lane& lane = block.lanes[i];
+    if (!block.is_nominal(i) || !lane.running || !lane.sensor.valid()) continue;
+    if (i != block.reference() && lane.twin != block.reference()) continue;
+    const FeatureState& of = state(lane, feature);
+    const double radius_mm = executor.sensors_[lane.sensor.value].radius_mm;
+    observed->measured.push_back({operation, feature, of.nominal, of.actual, lane.targets, radius_mm});
+  }
+}
+
 RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
   const Lane& lane = block.lanes[touch_batch.lane[slot]];
   const Lane& twin = block.lanes[lane.twin];

@@ -25,7 +25,9 @@ void add_at(const UserError& error, const SourceFile& source, Span directive, Si
 /// machine that the command line will name.
 void check_on_any_machine(const CompiledProgram& program, const RunOptions& options, Sink& sink) {
   try {
-    check_plan(program.compilation.plan, read_machine(kDefaultMachine), options, program.source);
+    for (const Diagnostic& d :
+         check_plan(program.compilation.plan, read_machine(kDefaultMachine), options, program.source))
+      if (d.code != Code::W0309) sink.add(d);
   } catch (const UserError& error) {
     for (const Diagnostic& d : error.diagnostics())
       if (d.code == Code::E0304) sink.add(d);
@@ -53,7 +55,7 @@ void check_on_machine(const CompiledProgram& program, Sink& sink) {
         asked.place_mm ? Placement{*asked.place_mm, {}} : find_placement(plan, machine, program.source);
     if (found.message) sink.add(*found.message);
     options.placement_mm = found.shift_mm;
-    check_plan(plan, machine, options, program.source);
+    for (const Diagnostic& d : check_plan(plan, machine, options, program.source)) sink.add(d);
   } catch (const UserError& error) {
     add_at(error, program.source, asked.machine_span, sink);
   }

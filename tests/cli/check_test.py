@@ -33,6 +33,25 @@ class Check(harness.Case):
         help_text = json.loads(self.abbe("check", "program.dmi", "--format", "json", code=1).stdout)["messages"][0]["help"]
         self.assertIn("--only-valid", help_text)
 
+    def test_moves_outside_the_travel_of_the_machine_that_it_names(self):
+        far = harness.LENGTH.replace("ENDFIL", "GOTO/99999,0,0\nGOTO/0,0,0\nENDFIL")
+        self.assertEqual(self.told("$$! machine coord3-mc16\n" + far, code=0), [("W0309", 18)])
+        self.assertEqual(self.told(far, code=0), [])
+
+    def test_touches_from_the_other_side(self):
+        bore = "F(C)=FEAT/CIRCLE,{0},CART,20,20,0,0,0,1,20\nMEAS/CIRCLE,F(C),3\n" + "".join(f"PTMEAS/CART,{20 + 10 * x},{20 + 10 * y},0,{-x},{-y},0\n" for x, y in ((1, 0), (0, 1), (-1, 0))) + "ENDMES\n"
+        face = "F(M)=FEAT/PLANE,CART,0,0,0,0,0,{0}\nMEAS/PLANE,F(M),3\n" + "".join(f"PTMEAS/CART,{x},{y},0,0,0,1\n" for x, y in ((0, 0), (9, 0), (0, 9))) + "ENDMES\n"
+        for feature, right, wrong in ((bore, "INNER", "OUTER"), (face, "1", "-1")):
+            self.assertEqual(self.told(harness.LENGTH.replace("ENDFIL\n", feature.format(right) + "ENDFIL\n"), code=0), [])
+            text = harness.LENGTH.replace("ENDFIL\n", feature.format(wrong) + "ENDFIL\n")
+            line = text[:text.rindex("ENDMES")].count("\n") + 1
+            self.assertEqual(self.told(text, code=0), [("W0310", line)])
+
+    def test_a_ball_that_does_not_fit(self):
+        bore = harness.LENGTH.replace("ENDFIL", "F(C)=FEAT/CIRCLE,INNER,CART,20,20,0,0,0,1,{}\nMEAS/CIRCLE,F(C),4\nENDMES\nENDFIL")
+        self.assertEqual(self.told(bore.format(4.5), code=0), [])
+        self.assertEqual(self.told(bore.format(3.9), code=0), [("W0311", 19)])
+
     def test_files_that_directives_name(self):
         self.assertEqual(self.told("$$ about it\n$$! machine coord3-mc61\n" + harness.LENGTH), [("E0411", 2)])
         self.assertEqual(self.told("$$! workpiece none.json\n" + harness.LENGTH), [("E0601", 1)])

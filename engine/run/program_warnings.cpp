@@ -1,0 +1,102 @@
+#include "engine/run/program_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/features/nominal_normal.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// Those of the first statements, each of which is named once however often it is run.
+class Warnings {
+ public:
+  Warnings(const plan::Plan& plan, const SourceFile& source) : plan_(plan), source_(source) {}
+
+  void add(int operation, Code code, std::string message, std::string help) {
+    const Span span = plan_.operations[static_cast<std::size_t>(operation)].span;
+    if (!named_.insert({code, span.begin}).second || ++count_[code] > kMost) return;
+    list_.push_back(diagnostic_at(source_, span, code, std::move(message), std::move(help)));
+  }
+  std::vector<Diagnostic> take() { return std::move(list_); }
+
+ private:
+  static constexpr std::size_t kMost = 10;  ///< of a kind
+  const plan::Plan& plan_;
+  const SourceFile& source_;
+  std::set<std::pair<Code, std::uint32_t>> named_;
+  std::map<Code, std::size_t> count_;
+  std::vector<Diagnostic> list_;
+};
+
+/// Touches outside are errors; where a move leads nothing is measured, but a real machine stops there.
+void warn_of_far_moves(const Executor::Observed& observed, const Machine& machine, Warnings& out) {
+  for (const Executor::Stop& stop : observed.stops) {
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+      const double reading = stop.reading_mm[static_cast<int>(axis)];
+      if (stop.touch || machine[axis].reaches(reading)) continue;
+      out.add(stop.operation, Code::W0309,
+              fmt::format("this move leads outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which "
+                          "runs from {:g} to {:g} mm",
+                          machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
+                          machine[axis].highest_mm()),
+              "correct the point, or move the part with a `$$! place dx dy dz` line");
+      break;
+    }
+  }
+}
+
+/// Whether all touches come from the side opposite to the nominal one.
+bool from_the_other_side(const plan::FeatureDef& def, const Executor::Measured& measured) {
+  constexpr double kOpposite = -0.9;  // a dummy nominal that stands askew says nothing
+  return !measured.targets.empty() &&
+      std::all_of(measured.targets.begin(), measured.targets.end(), [&](const Target& touch) {
+           const Outcome<Vec3> facing = nominal_normal(*def.kind, measured.nominal, def.inner, touch.point);
+           return facing && dot(facing.value, touch.normal) < kOpposite;
+         });
+}
+
+void warn_of_sides(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
+  for (const Executor::Measured& measured : observed.measured) {
+    const plan::FeatureDef& def = plan[measured.feature];
+    if (def.kind->spread == 0 || !from_the_other_side(def, measured)) continue;
+    if (def.kind->flat)
+      out.add(measured.operation, Code::W0310,
+              fmt::format("F({}) was touched from behind: its direction stays that of FEAT, into the material", def.label),
+              "turn the vector in FEAT round, or those in PTMEAS");
+    else
+      out.add(measured.operation, Code::W0310,
+              fmt::format("F({}) is {} in FEAT, and its touches come from {}: material conditions go by FEAT", def.label,
+                          def.inner ? "INNER" : "OUTER", def.inner ? "outside" : "inside"),
+              fmt::format("write {} in FEAT, or turn the vectors in PTMEAS", def.inner ? "OUTER" : "INNER"));
+  }
+}
+
+void warn_of_thick_balls(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
+  for (const Executor::Measured& measured : observed.measured) {
+    const plan::FeatureDef& def = plan[measured.feature];
+    const bool round = def.kind->shape == Shape::circle || def.kind->shape == Shape::cylinder ||
+        def.kind->shape == Shape::sphere;
+    if (!round || !def.inner || measured.radius_mm < measured.actual.size) continue;
+    out.add(measured.operation, Code::W0311,
+            fmt::format("a ball of {:g} mm does not fit into F({}), which is {:g} mm wide", 2 * measured.radius_mm,
+                        def.label, 2 * measured.actual.size),
+            "select a thinner stylus");
+  }
+}
+
+}  // namespace
+
+std::vector<Diagnostic> program_warnings(const Executor::Observed& observed, const plan::Plan& plan,
+                                         const Machine& machine, const SourceFile& source) {
+  Warnings out(plan, source);
+  warn_of_far_moves(observed, machine, out);
+  warn_of_sides(observed, plan, out);
+  warn_of_thick_balls(observed, plan, out);
+  return out.take();
+}
+
+}  // namespace abbe
