@@ -13,6 +13,23 @@ namespace abbe {
 
 namespace {
 
+/// What a machine file may have or leave out of what every simulation can hold.
+struct MachineInfluence {
+  std::string_view name;
+  bool (*acts)(const Machine&);
+};
+
+bool has_geometric_errors(const Machine& m) {
+  return m.squareness_cwy_rad != 0 || m.squareness_bwz_rad != 0 || m.squareness_awz_rad != 0 ||
+      std::any_of(m.components.begin(), m.components.end(), [](const ComponentSpec& c) { return c.e_max != 0; });
+}
+
+constexpr MachineInfluence kMachineInfluences[] = {
+    {"geometry", has_geometric_errors},
+    {"head indexing", [](const Machine& m) { return m.head.sd_a_rad > 0 || m.head.sd_b_rad > 0; }},
+    {"probe repeatability", [](const Machine& m) { return norm(m.probe.sd_mm) > 0; }},
+};
+
 /// What a workpiece file may describe of an influence.
 struct PartInfluence {
   std::string_view name;
@@ -28,7 +45,9 @@ constexpr PartInfluence kPartInfluences[] = {
 
 bool modelled(const InfluenceQuantity& quantity, const Machine& machine, const std::vector<char>& acted,
               const Workpiece* workpiece) {
-  if (quantity.always_modelled) return true;
+  const auto* own = std::find_if(std::begin(kMachineInfluences), std::end(kMachineInfluences),
+                                 [&](const MachineInfluence& i) { return i.name == quantity.name; });
+  if (own == std::end(kMachineInfluences) ? quantity.always_modelled : own->acts(machine)) return true;
   for (std::size_t k = 0; k < machine.effects.size(); ++k) {
     const Effect* effect = find_effect(machine.effects[k].name);
     if (acted[k] && effect && effect->influence == quantity.name) return true;

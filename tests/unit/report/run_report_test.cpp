@@ -182,9 +182,14 @@ TEST_CASE("influences are declared; an effect that acts makes its influence mode
     return std::string("missing");
   };
   Machine machine;
+  CHECK(status(machine, "number and place of the points") == "modelled");
+  for (const char* of_the_file : {"geometry", "head indexing", "probe repeatability"})
+    CHECK(status(machine, of_the_file) == "not modelled");
+  machine.components[5].e_max = 1e-6, machine.head.sd_b_rad = 4e-6, machine.probe.sd_mm.z = 1e-4;
+  for (const char* of_the_file : {"geometry", "head indexing", "probe repeatability"})
+    CHECK(status(machine, of_the_file) == "modelled");
+  machine.components[5].e_max = 0, machine.squareness_bwz_rad = 1e-5;
   CHECK(status(machine, "geometry") == "modelled");
-  CHECK(status(machine, "head indexing") == "modelled");
-  CHECK(status(machine, "probe repeatability") == "modelled");
   CHECK(status(machine, "operator") == "not modelled");
   CHECK(status(machine, "part temperature") == "not modelled");
   CHECK(status(machine, "vibration and outliers") == "not modelled");
