@@ -50,14 +50,15 @@ ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) 
   return {false, fmt::format("{} {}; {}", info(d.code).name, d.message, d.help)};
 }
 
-ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, std::optional<double> value) {
-  if (!value)
-    return {false,
-            fmt::format("{}: there is none, because {}", name,
-                        e.quantity == "conformance" ? "the tolerance has no limits"
-                                                    : "a condition sends the error-free machine past it")};
-  const bool inside = (!e.low || *value >= *e.low) && (!e.high || *value <= *e.high);
-  return {inside, fmt::format("{} = {:.6g}, {} {}", name, *value, inside ? "is" : "is not", bounds(e))};
+/// Why a characteristic has no such figure.
+const char* reason(const CharacteristicReport& c, const std::string& quantity) {
+  if (quantity != "conformance") return "a condition sends the error-free machine past it";
+  return c.varies ? "the tolerance has no limits" : "nothing that is modelled changes the value";
+}
+
+ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, double value) {
+  const bool inside = (!e.low || value >= *e.low) && (!e.high || value <= *e.high);
+  return {inside, fmt::format("{} = {:.6g}, {} {}", name, value, inside ? "is" : "is not", bounds(e))};
 }
 
 }  // namespace
@@ -68,8 +69,10 @@ ExpectationVerdict judge(const lang::Expectation& e, const RunReport& report) {
   std::optional<ExpectationVerdict> verdict;
   for (const CharacteristicReport& c : report.characteristics) {
     if (!names(e, c)) continue;
-    const ExpectationVerdict next =
-        compare(e, fmt::format("TA({}) {}", c.tolerance, e.quantity), figure(c, e.quantity));
+    const std::string name = fmt::format("TA({}) {}", c.tolerance, e.quantity);
+    const std::optional<double> value = figure(c, e.quantity);
+    if (!value) return {false, fmt::format("{}: there is none, because {}", name, reason(c, e.quantity))};
+    const ExpectationVerdict next = compare(e, name, *value);
     if (!next.passed) return next;
     if (!verdict) verdict = next;
   }

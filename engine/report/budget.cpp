@@ -9,10 +9,6 @@ namespace {
 
 using Line = CharacteristicReport::BudgetLine;
 
-/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that
-/// length, in rad.
-double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-9 : 1e-12; }
-
 double without_rounding(double u, Unit unit) { return u < smallest_u(unit) ? 0 : u; }
 
 /// The values of the machines that are in every one of three samples.

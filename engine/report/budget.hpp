@@ -14,6 +14,9 @@
 
 namespace abbe {
 
+/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that length, in rad.
+constexpr double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-9 : 1e-12; }
+
 /// An interaction below this share is left out.
 inline constexpr double kSmallestInteraction = 0.01;
 

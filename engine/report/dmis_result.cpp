@@ -98,7 +98,7 @@ class ResultText {
   void add_uncertainty(plan::CharacteristicId id, const std::string& label) {
     const int evaluation = ++written_[id.value];
     for (const CharacteristicReport& r : reports_) {
-      if (!r.reference || r.characteristic != id || r.evaluation != evaluation) continue;
+      if (!r.reference || !r.varies || r.characteristic != id || r.evaluation != evaluation) continue;
       text +=
           fmt::format("$$! u TA({}) {:.3g} lcl {:.3g} ucl {:.3g}", label, r.summary.u, r.lcl.value(), r.ucl.value());
       if (r.conformance_probability) text += fmt::format(" conforms {:.4g}", *r.conformance_probability);

@@ -83,6 +83,7 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   std::vector<double> values = samples.value;
   for (double& v : values) v *= factor;
   report.summary = summarize(values);
+  report.varies = report.summary.u >= factor * smallest_u(unit_of(*tolerance.kind, tolerance.arguments));
   report.histogram = histogram(values);
   if (report.reference) {
     report.lcl = report.summary.symmetric.low - *report.reference;
@@ -90,7 +91,7 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
   }
   report.lower = scaled(samples.limits.lower, factor);
   report.upper = scaled(samples.limits.upper, factor);
-  if (report.lower || report.upper) {
+  if (report.varies && (report.lower || report.upper)) {
     const std::vector<double> judged = against_common_limits(samples);
     report.conformance_probability = conformance_probability(judged, samples.limits.lower, samples.limits.upper);
     if (report.upper && report.reference) report.decision = decision_on(report, judged, factor);

@@ -32,6 +32,9 @@ struct CharacteristicReport {
   double nominal = 0;
   std::optional<double> reference;  ///< none where a condition sends the error-free machine elsewhere
   Summary summary;                  ///< of the values
+  /// false: nothing that is modelled changes the value, a circle through three touches has no form: its u is unknown and
+  /// not 0, and nothing is decided on it
+  bool varies = true;
   Histogram histogram;              ///< of the values
   std::optional<double> lcl, ucl;   ///< limits of the 95 % interval minus reference
   /// The interval of another coverage probability, of the values; none: not asked for.

@@ -213,6 +213,7 @@ class StudyRun {
     report.traps = study_.result.traps;
     add_unreached();
     warn_of_parting();
+    warn_of_fixed_values();
     warn_of_idle_effects();
     warn_of_few_machines();
     warn_of_screening();
@@ -253,6 +254,24 @@ class StudyRun {
     if (parted > kShown)
       message(Code::W0619, fmt::format("{} characteristics in all are conditional results", parted),
               "`abbe run --format json` says of each how many machines `evaluated` it");
+  }
+
+  /// Values that come out the same on every machine: their uncertainty is not known, and must not pass for 0.
+  void warn_of_fixed_values() {
+    constexpr int kShown = 10;
+    int fixed = 0;
+    for (const CharacteristicReport& c : study_.report.characteristics) {
+      if (c.varies || ++fixed > kShown) continue;
+      message(Code::W0621,
+              fmt::format("line {}: FA({}),TA({}): every machine finds the same value, because nothing that is modelled "
+                          "changes it: its uncertainty is not known",
+                          c.line, fmt::join(c.features, "),FA("), c.tolerance),
+              "a form shows only where more points were touched than settle the feature, as three settle a circle; what is "
+              "constructed of other features has none of its own");
+    }
+    if (fixed > kShown)
+      message(Code::W0621, fmt::format("{} characteristics in all come out the same on every machine", fixed),
+              "`abbe run --format json` has no conformance_probability for them");
   }
 
   /// Effects of the machine file of which nothing is in any figure: an expansion at 20 degrees C, a

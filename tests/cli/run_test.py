@@ -39,6 +39,18 @@ class Figures(harness.Case):
         self.assertIn("W0264", [m["code"] for m in report["messages"]])
         self.assertIn("OUTOL", next(line for line in (self.folder / "below.dmo").read_text().splitlines() if line.startswith("TA(BELOW)")))
 
+    def test_a_form_that_no_touch_can_show_is_not_certain(self):
+        circle = "F(C{0})=FEAT/CIRCLE,INNER,CART,0,0,0,0,0,1,50\nMEAS/CIRCLE,F(C{0}),{0}\nENDMES\nOUTPUT/FA(C{0}),TA(RO)\n"
+        self.write("three.dmi", LENGTH.replace("ENDFIL\n", "T(RO)=TOL/CIRLTY,0.0001\n" + circle.format(3) + circle.format(4) + "ENDFIL\n"))
+        report = self.run_json("three.dmi", "--machines", 200, "--dmo", "three.dmo")
+        _, three, four = report["characteristics"]
+        self.assertEqual((three["conformance_probability"], three["decision"]), (None, None))
+        self.assertLess(four["conformance_probability"], 0.5)
+        self.assertEqual([m["message"].split(":")[0] for m in report["messages"] if m["code"] == "W0621"], [f"line {three['line']}"])
+        rows = [line.split() for line in self.abbe("run", "three.dmi", "--machines", 200).stdout.splitlines() if " C3 " in line]
+        self.assertEqual([row[4:9] + [row[11]] for row in rows], [["mm", "0.0000", "-", "-", "-", "-"]])
+        self.assertEqual(len([line for line in (self.folder / "three.dmo").read_text().splitlines() if line.startswith("$$! u TA(RO)")]), 1)
+
     def test_the_result_file_has_the_name_of_filnam_and_repeats_what_output_names(self):
         self.abbe("run", "length.dmi", "--machines", 20, "--dmo", "plain.dmo")
         self.assertEqual((self.folder / "plain.dmo").read_text().splitlines()[0], "FILNAM/'a length'")

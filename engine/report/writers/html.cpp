@@ -30,9 +30,9 @@ std::string characteristics(const RunReport& r) {
                                    name_of(c),
                                    c.unit,
                                    decimal(c.reference, decimals),
-                                   decimal(c.summary.u, decimals),
-                                   decimal(c.lcl, decimals, true),
-                                   decimal(c.ucl, decimals, true),
+                                   decimal(known(c, c.summary.u), decimals),
+                                   decimal(known(c, c.lcl), decimals, true),
+                                   decimal(known(c, c.ucl), decimals, true),
                                    decimal(c.lower, decimals_of(c.lower)),
                                    decimal(c.upper, decimals_of(c.upper)),
                                    conforms(c)};

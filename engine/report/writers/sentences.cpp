@@ -64,6 +64,10 @@ std::string conforms(const CharacteristicReport& c) {
   return c.elsewhere > 0 ? fmt::format("{} of {}", share, c.evaluated) : share;
 }
 
+std::optional<double> known(const CharacteristicReport& c, std::optional<double> figure) {
+  return c.varies ? figure : std::nullopt;
+}
+
 int decimals_for(double u) {
   constexpr double kRounding = 1e-9;
   if (!(u >= kRounding)) return kFewestDecimals;
@@ -137,7 +141,7 @@ std::string report_header(const RunReport& r) {
 std::string report_legend(const RunReport& r) {
   double worst = 0;
   for (const auto& c : r.characteristics)
-    if (c.summary.u > 0) worst = std::max(worst, c.summary.u_error / c.summary.u);
+    if (c.varies) worst = std::max(worst, c.summary.u_error / c.summary.u);
   return fmt::format(
       "\nvalue: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
       "and 97.5 %) minus value;\n"

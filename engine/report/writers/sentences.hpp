@@ -12,6 +12,9 @@ namespace abbe {
 /// mm and degrees keep at least so many decimals, and have no more than so many.
 inline constexpr int kFewestDecimals = 4, kMostDecimals = 9;
 
+/// The figure, but nothing where no influence changes the value: what is not known is not 0.
+std::optional<double> known(const CharacteristicReport&, std::optional<double> figure);
+
 /// Decimals that show two significant digits of u. Below 1 pm it is the rounding of coordinates.
 int decimals_for(double u);
 

@@ -50,9 +50,9 @@ std::string characteristics_table(const RunReport& r) {
                                    tolerance_name(c),
                                    c.unit,
                                    aligned(c.reference, decimals, most),
-                                   aligned(c.summary.u, decimals, most),
-                                   aligned(c.lcl, decimals, most, true),
-                                   aligned(c.ucl, decimals, most, true),
+                                   aligned(known(c, c.summary.u), decimals, most),
+                                   aligned(known(c, c.lcl), decimals, most, true),
+                                   aligned(known(c, c.ucl), decimals, most, true),
                                    aligned(c.lower, decimals_of(c.lower), most_of_limits),
                                    aligned(c.upper, decimals_of(c.upper), most_of_limits),
                                    conforms(c)};

@@ -203,6 +203,19 @@ TEST_CASE("influences are declared; an effect that acts makes its influence mode
   CHECK(status(machine, "thermal drift") == "not modelled");
 }
 
+TEST_CASE("what is the same on every machine has no conformity, for its uncertainty is not known") {
+  const auto report = [](double spread) {
+    const RunResult run = run_of({samples(0, 500, {499.9, 500.1}, ramp(500, spread))}, 1000);
+    return characteristic_reports(length_and_angle(), run, {})[0];
+  };
+  CHECK(report(1e-6).varies);
+  CHECK(report(1e-6).conformance_probability);
+  CHECK(!report(0).varies);
+  CHECK(!report(1e-14).varies);
+  CHECK(!report(0).conformance_probability);
+  CHECK(!report(0).decision);
+}
+
 TEST_CASE("a coverage that is asked for gives its intervals beside those of 95 %") {
   const RunResult run = run_of({samples(0, 500, {}, ramp(500, 1e-3))}, 1000);
   CHECK(!characteristic_reports(length_and_angle(), run, {})[0].interval);
