@@ -113,11 +113,23 @@ bool JsonObject::flag_or(std::string_view key, bool otherwise) {
   return value ? value->number != 0 : otherwise;
 }
 
-std::vector<double> JsonObject::number_list(std::string_view key, const NumberRange& range) {
+std::vector<double> JsonObject::numbers_of(const JsonNode& list, std::string_view key, const NumberRange& range) {
   std::vector<double> out;
-  if (const JsonNode* list = ask(key, Kind::array)) {
-    for (const JsonNode& item : list->items)
-      if (check(item, key, Kind::number)) out.push_back(checked(item, key, range));
+  for (const JsonNode& item : list.items)
+    if (check(item, key, Kind::number)) out.push_back(checked(item, key, range));
+  return out;
+}
+
+std::vector<double> JsonObject::number_list(std::string_view key, const NumberRange& range) {
+  const JsonNode* list = ask(key, Kind::array);
+  return list ? numbers_of(*list, key, range) : std::vector<double>{};
+}
+
+std::vector<std::vector<double>> JsonObject::number_lists(std::string_view key, const NumberRange& range) {
+  std::vector<std::vector<double>> out;
+  if (const JsonNode* lists = ask(key, Kind::array)) {
+    for (const JsonNode& list : lists->items)
+      if (check(list, key, Kind::array)) out.push_back(numbers_of(list, key, range));
   }
   return out;
 }
@@ -167,14 +179,6 @@ std::vector<std::string> JsonObject::own_names() const {
   return out;
 }
 
-std::string JsonObject::raw(std::string_view key) {
-  const JsonNode* value = find(key);
-  if (!value) return node_ ? (reader_->asked_[node_].emplace_back(key), "") : "";
-  reader_->asked_[node_].emplace_back(key);
-  reader_->opaque_.push_back(value);
-  return std::string(reader_->source_.text(value->span));
-}
-
 Kind JsonObject::kind_of(std::string_view key) const {
   const JsonNode* value = find(key);
   return value ? value->kind : Kind::null;
@@ -208,7 +212,6 @@ void JsonReader::report(Span span, Code code, std::string message, std::string h
 }
 
 void JsonReader::report_unknown_keys(const JsonNode& node) {
-  if (std::find(opaque_.begin(), opaque_.end(), &node) != opaque_.end()) return;
   for (const JsonNode& item : node.items) report_unknown_keys(item);
   if (node.kind != Kind::object) return;
   const auto found = asked_.find(&node);

@@ -1,4 +1,4 @@
-// Strict reading of the JSON files that users write: machines, workpieces, known states.
+// Strict reading of the JSON files that users write: machines with their known states, workpieces.
 //
 // A file with a mistyped key must not run on a default. So every key that the caller did not ask
 // for is an error that names the key, its place and the nearest key that was asked for; so are
@@ -83,6 +83,8 @@ class JsonObject {
                                  const NumberRange& range = kAnyNumber);
   /// A list of any length.
   std::vector<double> number_list(std::string_view key, const NumberRange& range = kAnyNumber);
+  /// A list of such lists.
+  std::vector<std::vector<double>> number_lists(std::string_view key, const NumberRange& range = kAnyNumber);
   std::vector<std::string> text_list_or(std::string_view key, std::vector<std::string> otherwise);
   /// The object under `key`; an absent object when it is missing.
   JsonObject object(std::string_view key);
@@ -92,8 +94,6 @@ class JsonObject {
   /// The keys of an object whose keys are the user's own names (sensors, parameters), in the order
   /// of the file.
   std::vector<std::string> own_names() const;
-  /// Accepts whatever stands under `key` and returns it as written; "" when the key is missing.
-  std::string raw(std::string_view key);
   /// The kind of the value under `key`; null when it is missing. Does not count as asking for the
   /// key.
   JsonNode::Kind kind_of(std::string_view key) const;
@@ -117,6 +117,7 @@ class JsonObject {
   const JsonNode* require(std::string_view key, JsonNode::Kind kind);
   bool check(const JsonNode& node, std::string_view key, JsonNode::Kind kind);
   double checked(const JsonNode& node, std::string_view key, const NumberRange& range);
+  std::vector<double> numbers_of(const JsonNode& list, std::string_view key, const NumberRange& range);
   std::string path_to(std::string_view key) const;
 
   JsonReader* reader_;
@@ -144,7 +145,6 @@ class JsonReader {
   SourceFile source_;
   JsonNode root_;
   std::map<const JsonNode*, std::vector<std::string>> asked_;  ///< by object
-  std::vector<const JsonNode*> opaque_;                        ///< accepted whole
   Sink sink_;
 };
 

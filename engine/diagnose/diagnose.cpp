@@ -284,7 +284,7 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
       diagnostic(Code::W0710, fmt::format("{}: nothing can be judged: {}", file, why), out.otherwise));
   out.judgeable = false;
   out.verdict = Verdict::cannot_judge;
-  out.baseline = summary(c, c.hyper, !c.machine->known_state.empty());
+  out.baseline = summary(c, c.hyper, c.machine->known_state.has_value());
 }
 
 /// A placement is found where most touches lie well: the faces of a part may, and its bores not. Whether
@@ -363,7 +363,8 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (part)
     remove_expected(*part, c.touches),
         out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
-  const std::optional<KnownGeometry> known = read_known_state(machine);
+  std::optional<KnownGeometry> known;
+  if (machine.known_state) known = known_geometry(*machine.known_state);
   if (!surfaces && within_mm(c.touches, kHalfOfThem) > kBeyondMachines_mm) {
     surfaces = Surfaces::unknown;
     out.messages.push_back(not_its_targets(c.touches, kHalfOfThem, file));
@@ -423,7 +424,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   out.smallest_detectable = smallest_detectable(c, first);
   add_hidden(c, out);
   if (!out.smallest_detectable.empty()) add_smallest_scatter(c, out);
-  const bool known = !machine.known_state.empty();
+  const bool known = machine.known_state.has_value();
   if (plan) {
     out.baseline = summary(c, c.hyper, known);
     if (as_planned) return out;

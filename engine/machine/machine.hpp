@@ -114,6 +114,15 @@ struct EffectSetting {
   std::string option = {};                      ///< else what the command line says: "--with machine.scale"
 };
 
+/// What an earlier diagnosis learned of this machine ("known_state"): the coefficients of its error functions,
+/// component by component, have this mean and the covariance factor . factor^T.
+struct KnownState {
+  static constexpr std::string_view kSchema = "abbe.known_state/1";
+
+  std::vector<double> mean;
+  std::vector<std::vector<double>> factor;  ///< by column
+};
+
 struct Machine {
   std::string name;
   std::array<MachineAxis, 3> axes;                         ///< by Axis
@@ -132,7 +141,7 @@ struct Machine {
   std::map<std::string, NamedSensor> sensors;
   std::vector<EffectSetting> effects;
   std::vector<InfluenceBound> bounds;  ///< on influences that are not propagated
-  std::string known_state;             ///< JSON text of "known_state", as written; empty when the file has none
+  std::optional<KnownState> known_state;
 
   const MachineAxis& operator[](Axis a) const { return axes[static_cast<int>(a)]; }
   ComponentSpec& operator[](Component c) { return components[static_cast<int>(c)]; }

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/base/json_reader.hpp"
+#include "engine/machine/geometry.hpp"
 #include "engine/machine/machine.hpp"
 
 namespace abbe {
@@ -252,6 +253,37 @@ EffectSetting read_effect(JsonObject object, const std::shared_ptr<const SourceF
   return effect;
 }
 
+/// A list of the known state holds a number for every coefficient of the error functions.
+void check_coefficients(JsonObject& state, std::string_view key, std::size_t given, int harmonics) {
+  const std::size_t asked = static_cast<std::size_t>(kComponents) * basis_size(harmonics);
+  if (given != asked)
+    state.fault(key, Code::E0706,
+                fmt::format("the known_state has {} numbers in \"{}\", but the error functions of this file have {} "
+                            "coefficients",
+                            given, key, asked),
+                "it was made with another \"geometry.harmonics\": make it anew with "
+                "`abbe diagnose CALIBRATION.csv --machine M --model-out KNOWN.json`");
+}
+
+/// As `abbe diagnose --model-out` writes it (engine/diagnose/baseline/known_state.cpp).
+std::optional<KnownState> read_known_state(JsonObject state, int harmonics) {
+  constexpr NumberRange kCoefficient{-1e6, 1e6, true, true, "between -1e6 and 1e6"};
+  if (!state.present()) return std::nullopt;
+  if (const std::string schema = state.text("schema"); state.has("schema") && schema != KnownState::kSchema)
+    state.fault("schema", Code::E0407,
+                fmt::format("the schema is \"{}\", but a known state has \"{}\"", schema, KnownState::kSchema),
+                "make it anew with `abbe diagnose CALIBRATION.csv --machine M --model-out KNOWN.json`");
+  state.number_or("geometry_scale", 1, kNotNegative);  // for people; mean and factor hold it already
+  KnownState known{state.number_list("mean", kCoefficient), state.number_lists("factor", kCoefficient)};
+  for (const std::string_view key : {"mean", "factor"})
+    if (!state.has(key))
+      state.fault(key, Code::E0404, fmt::format("the known_state lacks \"{}\"", key),
+                  "copy the whole \"known_state\" that `abbe diagnose --model-out` wrote");
+  if (state.kind_of("mean") == JsonNode::Kind::array) check_coefficients(state, "mean", known.mean.size(), harmonics);
+  for (const std::vector<double>& column : known.factor) check_coefficients(state, "factor", column.size(), harmonics);
+  return known;
+}
+
 }  // namespace
 
 Machine parse_machine(const std::string& file, const std::string& text) {
@@ -280,7 +312,7 @@ Machine parse_machine(const std::string& file, const std::string& text) {
   const auto source = std::make_shared<const SourceFile>(file, text);
   for (const JsonObject& effect : root.object_list("effects")) machine.effects.push_back(read_effect(effect, source));
   machine.bounds = read_bounds(root);
-  machine.known_state = root.raw("known_state");
+  machine.known_state = read_known_state(root.object_or_absent("known_state"), machine.harmonics);
   reader.finish();
   return machine;
 }

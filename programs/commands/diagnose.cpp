@@ -181,7 +181,7 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
       options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
   Machine machine = read_machine(name);
-  if (options.known && machine.known_state.empty())
+  if (options.known && !machine.known_state)
     print_messages({diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name),
                                "`abbe diagnose --model-out` writes one; --machine takes a file without")});
   if (program) complete_from_program(recording, nominal_record(*program, machine), file);

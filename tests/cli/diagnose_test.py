@@ -301,11 +301,15 @@ class Diagnose(harness.Case):
         machine = json.loads(MACHINE.read_text())
         recording = self.record()
         good = {"schema": "abbe.known_state/1", "mean": [0] * 378, "factor": [[0] * 378]}
-        for state in ({"schema": 1}, {"schema": None}, {}, [], "abbe.known_state/1", 7, good | {"schema": "abbe.known_state/2"},
-                      good | {"mean": [1, 2]}, good | {"mean": None}, good | {"mean": ["0"] * 378}, good | {"factor": []}, good | {"factor": 1},
-                      good | {"factor": [1]}, good | {"means": 1}, good | {"factor": [[None] * 378]}, {k: v for k, v in good.items() if k != "factor"}):
+        self.write("length.dmi", harness.LENGTH)
+        for state, code in (({"a": 1}, "E0402"), (good | {"means": 1}, "E0402"), ({"schema": None}, "E0405"), ([], "E0405"), (7, "E0405"),
+                            (good | {"schema": "abbe.known_state/2"}, "E0407"), (good | {"mean": [1, 2]}, "E0706"), (good | {"factor": [[0]]}, "E0706"),
+                            (good | {"factor": [1]}, "E0405"), ({k: v for k, v in good.items() if k != "factor"}, "E0404")):
             machine["known_state"] = state
-            self.refused("E0706", "diagnose", recording, "--known", self.write("known.json", json.dumps(machine)))
+            path = self.write("known.json", json.dumps(machine))
+            self.refused(code, "diagnose", recording, "--known", path)
+            self.refused(code, "machine", "show", path)   # no command takes a file that says nothing known
+            self.refused(code, "run", "length.dmi", "--machine", path)
 
 
 if __name__ == "__main__":

@@ -3,18 +3,15 @@
 // functions, the covariance as a factor of low rank.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "engine/diagnose/baseline/baseline.hpp"
 
 namespace abbe::diagnose {
 
-/// The known state of a machine; nothing when its file has none. Throws UserError: not made for this
-/// machine's number of harmonics, a missing key, a row of another length.
-std::optional<KnownGeometry> read_known_state(const Machine&);
+KnownGeometry known_geometry(const KnownState&);
 
-/// JSON text for the key `known_state`.
+/// JSON text for the key `known_state`; the machine file is read in engine/machine/machine_file.cpp.
 std::string write_known_state(const KnownGeometry&, const Hyperparameters&);
 
 }  // namespace abbe::diagnose

@@ -104,7 +104,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
 
 Baseline baseline_of(const Case& c, const Longer& longer) {
   const KnownGeometry geometry{c.baseline.mean, c.baseline.factor};
-  const bool known = !c.machine->known_state.empty();
+  const bool known = c.machine->known_state.has_value();
   Baseline out = baseline_of(longer.touches, longer.machine,
                              {.surfaces = c.baseline.surfaces,
                               .known = known ? &geometry : nullptr,

@@ -120,7 +120,7 @@ TEST_CASE("what may be left out has the documented default") {
   CHECK(m.head.sd_a_rad == 0);
   CHECK(m.probe.sd_mm.x == doctest::Approx(0.5e-3));
   CHECK(m.motion.probing_speed_mm_s == 5);
-  CHECK(m.known_state.empty());
+  CHECK(!m.known_state);
 }
 
 TEST_CASE("values are converted to mm and rad") {
@@ -131,8 +131,7 @@ TEST_CASE("values are converted to mm and rad") {
     "head": {"l_r_mm": 45, "angle_sd_arcsec": {"A": 1, "B": 2}, "mounting": {"turn_deg": 90}},
     "sensors": {"S": {"tip_in_r_mm": [20, 5, -100], "diameter_mm": 3, "material": "ceramic"},
                 "T": {"head_deg": [90, -45], "tip_in_r_mm": [0, 0, -50], "diameter_mm": 2, "material": "own", "young_GPa": 100, "cte_ppm_per_K": 9}},
-    "effects": [{"name": "machine.scale", "parameters": {"scale_um_per_m": {"value": 2.5, "u": 0.5}, "axis": "x", "other": 3}}],
-    "known_state": {"anything": [1, 2]})"));
+    "effects": [{"name": "machine.scale", "parameters": {"scale_um_per_m": {"value": 2.5, "u": 0.5}, "axis": "x", "other": 3}}])"));
   CHECK(m.squareness_cwy_rad == doctest::Approx(12e-6));
   CHECK(m.squareness_bwz_rad == doctest::Approx(-3e-6));
   CHECK(m[Component::exy].e_max == doctest::Approx(4e-3));
@@ -147,7 +146,43 @@ TEST_CASE("values are converted to mm and rad") {
   CHECK(m.effects[0].parameters.at("scale_um_per_m").u == 0.5);
   CHECK(m.effects[0].parameters.at("axis").word == "x");
   CHECK(m.effects[0].parameters.at("other").value == 3);
-  CHECK(m.known_state == R"({"anything": [1, 2]})");
+}
+
+TEST_CASE("a known state is read as strictly as the rest of the file") {
+  const auto list = [](int size, const std::string& number) {
+    std::string out = "[" + number;
+    for (int k = 1; k < size; ++k) out += ", " + number;
+    return out + "]";
+  };
+  const int size = 18 * 5;  // coefficients of 18 error functions with one harmonic
+  const std::string schema = R"("schema": "abbe.known_state/1")", mean = R"("mean": )" + list(size, "0.5"),
+                    factor = R"("factor": [)" + list(size, "1e-20") + ", " + list(size, "-2") + "]";
+  const auto with = [&](const std::string& state) {
+    return small_file(R"("geometry": {"harmonics": 1}, "known_state": )" + state);
+  };
+  const Machine m =
+      parse_machine("m.json", with("{" + schema + R"(, "geometry_scale": 1.1, )" + mean + "," + factor + "}"));
+  REQUIRE(m.known_state);
+  CHECK(m.known_state->mean == std::vector<double>(size, 0.5));
+  REQUIRE(m.known_state->factor.size() == 2);
+  CHECK(m.known_state->factor[1] == std::vector<double>(size, -2.0));
+
+  const auto file = [&](const std::string& first, const std::string& second, const std::string& third) {
+    return with("{" + first + ", " + second + ", " + third + "}");
+  };
+  CHECK(faults(file(schema, mean, factor)).empty());
+  check_fault(with("3"), Code::E0405, "known_state");
+  check_fault(file(schema, mean, factor + R"(, "means": 1)"), Code::E0402, "means");
+  CHECK(faults(file(schema, mean, factor + R"(, "means": 1)"))[0].help == "did you mean \"mean\"?");
+  check_fault(with("{" + mean + "," + factor + "}"), Code::E0404, "schema");
+  check_fault(file(R"("schema": "abbe.known_state/2")", mean, factor), Code::E0407, "abbe.known_state/1");
+  check_fault(with("{" + schema + "," + mean + "}"), Code::E0404, "factor");
+  check_fault(file(schema, R"("mean": [1, 2])", factor), Code::E0706, "2 numbers");
+  check_fault(file(schema, R"("mean": null)", factor), Code::E0405, "known_state.mean");
+  CHECK(faults(file(schema, mean, R"("factor": [])")).empty());
+  check_fault(file(schema, mean, R"("factor": [1])"), Code::E0405, "known_state.factor");
+  check_fault(file(schema, mean, R"("factor": [[1]])"), Code::E0706, "1 numbers");
+  check_fault(file(schema, replaced(mean, "0.5", "1e7"), factor), Code::E0406, "known_state.mean");
 }
 
 TEST_CASE("impossible machines are refused at the place of the mistake") {
