@@ -22,4 +22,9 @@ std::string lower(std::string_view text);
 
 bool same_label(std::string_view a, std::string_view b);
 
+/// Of a map whose keys are labels.
+struct LabelOrder {
+  bool operator()(std::string_view a, std::string_view b) const { return upper(a) < upper(b); }
+};
+
 }  // namespace abbe

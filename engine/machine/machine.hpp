@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/letter_case.hpp"
 #include "engine/influences/influence.hpp"
 #include "engine/math/axis.hpp"
 #include "engine/math/vec.hpp"
@@ -138,7 +139,7 @@ struct Machine {
   HeadSpec head;
   ProbeSpec probe;
   MotionSpec motion;
-  std::map<std::string, NamedSensor> sensors;
+  std::map<std::string, NamedSensor, LabelOrder> sensors;
   std::vector<EffectSetting> effects;
   std::vector<InfluenceBound> bounds;  ///< on influences that are not propagated
   std::optional<KnownState> known_state;

@@ -231,6 +231,17 @@ NamedSensor read_sensor(JsonObject object) {
   return sensor;
 }
 
+void read_sensors(JsonObject sensors, Machine& machine) {
+  for (const std::string& name : sensors.own_names()) {
+    const auto [first, is_first] = machine.sensors.try_emplace(name, read_sensor(sensors.object(name)));
+    if (!is_first)
+      sensors.fault(name, Code::E0403,
+                    fmt::format("there are two sensors \"{}\": case does not matter, and one is called \"{}\"", name,
+                                first->first),
+                    "programs could not tell them apart: rename one of the two");
+  }
+}
+
 EffectSetting read_effect(JsonObject object, const std::shared_ptr<const SourceFile>& file) {
   EffectSetting effect;
   effect.file = file;
@@ -307,8 +318,7 @@ Machine parse_machine(const std::string& file, const std::string& text) {
   machine.motion.speed_mm_s = motion.number_or("speed_mm_s", 200, kPositive);
   machine.motion.probing_speed_mm_s = motion.number_or("probing_speed_mm_s", 5, kPositive);
   machine.motion.acceleration_mm_s2 = motion.number_or("acceleration_mm_s2", 500, kPositive);
-  JsonObject sensors = root.object_or_absent("sensors");
-  for (const std::string& key : sensors.own_names()) machine.sensors[key] = read_sensor(sensors.object(key));
+  read_sensors(root.object_or_absent("sensors"), machine);
   const auto source = std::make_shared<const SourceFile>(file, text);
   for (const JsonObject& effect : root.object_list("effects")) machine.effects.push_back(read_effect(effect, source));
   machine.bounds = read_bounds(root);

@@ -129,7 +129,7 @@ std::pair<std::string, std::string> sensor_line(const Sensor& s, const Machine& 
 
 void add_recorded_sensors(const Recording& recording, Machine& machine, const std::string& file,
                           std::vector<Diagnostic>& messages) {
-  std::map<std::string, NamedSensor> described;
+  std::map<std::string, NamedSensor, LabelOrder> described;
   for (const auto& [key, value] : recording.metadata) {
     if (!key.starts_with(kKey)) continue;
     const std::string name = key.substr(kKey.size());

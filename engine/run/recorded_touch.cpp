@@ -131,7 +131,8 @@ class Sensors {
 
   const Sensor& of(const RecordingRow& row, RecordedTouches& out) {
     const std::string name = row.sensor.value_or("");
-    const std::string key = fmt::format("{}|{}|{}", name, row.head_a_deg.value_or(1e9), row.head_b_deg.value_or(1e9));
+    const std::string key =
+        fmt::format("{}|{}|{}", upper(name), row.head_a_deg.value_or(1e9), row.head_b_deg.value_or(1e9));
     const auto found = known_.find(key);
     if (found != known_.end()) return found->second;
     Sensor sensor = resolve(name, row, out);
@@ -153,19 +154,17 @@ class Sensors {
     Sensor sensor = resolve_sensor(def, machine_, nowhere);
     if (!def.from_machine_file || !row.head_a_deg || !row.head_b_deg) return sensor;
     // The head may stand elsewhere than the machine file says of this stylus system.
-    const NamedSensor& named = machine_.sensors.at(machine_name(sensor.name));
     Machine turned = machine_;
-    NamedSensor& s = turned.sensors[machine_name(sensor.name)];
-    s = named;
+    NamedSensor& s = turned.sensors.at(sensor.name);
     s.head_a_rad = *row.head_a_deg * kPi / 180;
     s.head_b_rad = *row.head_b_deg * kPi / 180;
     return resolve_sensor(def, turned, nowhere);
   }
 
   void require_sensor(const std::string& label, const RecordingRow& row) const {
+    if (machine_.sensors.contains(label)) return;
     std::vector<std::string_view> names;
     for (const auto& [name, sensor] : machine_.sensors) names.push_back(name);
-    if (std::any_of(names.begin(), names.end(), [&](std::string_view name) { return same_label(name, label); })) return;
     const std::string near = nearest_word(label, names);
     throw UserError(diagnostic(
         Code::E0301,
@@ -176,16 +175,6 @@ class Sensors {
                   "add the line '# sensor {}: head_deg A B tip_in_r_mm x y z diameter_mm d', or the sensor to the machine file",
                   label)
             : fmt::format("did you mean '{}'?", near)));
-  }
-
-  std::string machine_name(const std::string& label) const {
-    std::vector<std::string_view> names;
-    for (const auto& [name, sensor] : machine_.sensors) {
-      if (name == label) return name;
-      names.push_back(name);
-    }
-    const std::string near = nearest_word(label, names);  // the same but for case: resolve_sensor has accepted it
-    return near.empty() ? label : near;
   }
 
   /// A recording that does not name its stylus: the machine's only one, or a usual one, straight down.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/letter_case.hpp"
 #include "engine/machine/head.hpp"
 
 namespace abbe {
@@ -13,11 +12,9 @@ namespace abbe {
 namespace {
 
 const NamedSensor& machine_sensor(const plan::SensorDef& def, const Machine& machine, const SourceFile& source) {
+  if (const auto found = machine.sensors.find(def.label); found != machine.sensors.end()) return found->second;
   std::vector<std::string_view> names;
-  for (const auto& [name, sensor] : machine.sensors) {
-    if (same_label(name, def.label)) return sensor;
-    names.push_back(name);
-  }
+  for (const auto& [name, sensor] : machine.sensors) names.push_back(name);
   const std::string near = nearest_word(def.label, names);
   throw UserError(diagnostic_at(
       source, def.span, Code::E0301, fmt::format("machine '{}' has no sensor '{}'", machine.name, def.label),

@@ -241,6 +241,9 @@ TEST_CASE("sensors are possible things") {
   check_fault(with(R"("tip_in_r_mm": [0, 0], "diameter_mm": 1)"), Code::E0406, "3");
   check_fault(with(R"("diameter_mm": 1)"), Code::E0404, "tip_in_r_mm");
   check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 1, "material": "cramic")"), Code::E0406, "cramic");
+  const std::string tip = R"({"tip_in_r_mm": [0, 0, -1], "diameter_mm": 1})";
+  check_fault(small_file(R"("sensors": {"TIP": )" + tip + R"(, "tip": )" + tip + "}"), Code::E0403, "\"tip\"");
+  CHECK(parse_machine("m.json", small_file(R"("sensors": {"Tip": )" + tip + "}")).sensors.contains("tIP"));
   check_fault(small_file(R"("probe": {"sd_um": [0.5, -0.5, 0.5]})"), Code::E0406, "sd_um");
   check_fault(small_file(R"("head": {"model": "PH10M"})"), Code::E0404, "angle_sd_arcsec");
 }

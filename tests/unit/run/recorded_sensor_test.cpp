@@ -70,7 +70,7 @@ TEST_CASE("a sensor line that says too little, too much or what cannot be is ref
 TEST_CASE("of one name the stylus of the recording counts, and another one is told") {
   const auto said = [](const std::string& tip) {
     Recording r;
-    r.metadata = {{"sensor T", "head_deg 90 0 tip_in_r_mm " + tip + " diameter_mm 4"}};
+    r.metadata = {{"sensor t", "head_deg 90 0 tip_in_r_mm " + tip + " diameter_mm 4"}};
     Machine machine;
     machine.sensors["T"].head_a_rad = kPi / 2, machine.sensors["T"].tip_in_r_mm = {0, 0, -150},
     machine.sensors["T"].radius_mm = 2;
