@@ -257,6 +257,9 @@ EffectSetting read_effect(JsonObject object, const std::shared_ptr<const SourceF
       parameter.u = value.number_or("u", 0, kNotNegative);
     } else if (parameters.kind_of(key) == JsonNode::Kind::text) {
       parameter.word = parameters.text(key);
+      if (parameter.word.empty())
+        parameters.fault(key, Code::E0406, fmt::format("\"{}\" is an empty text", key),
+                         "give a number or a word, or leave it out; `abbe explain EFFECT` lists what it may be");
     } else {
       parameter.value = parameters.number(key);
     }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/numbers.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/lanes/weighted_sum.hpp"
 #include "engine/machine/effect_names.hpp"
@@ -50,6 +51,10 @@ class Refusal {
     refuse(span, Code::E0307,
            fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
   }
+  [[noreturn]] void quoted_number(const EffectParameter& p, const std::string& word, Span span) const {
+    refuse(span, Code::E0405, fmt::format("{} is the text \"{}\", but must be a number", p.name, word),
+           fmt::format("leave out the quotes: \"{}\": {}", p.name, word));
+  }
   [[noreturn]] void uncertain_choice(const EffectParameter& p, Span span) const {
     refuse(span, Code::E0307, fmt::format("{} is a choice and has no uncertainty", p.name), "leave \"u\" out");
   }
@@ -76,6 +81,7 @@ double checked_value(const EffectParameter& p, const EffectSetting::Value& given
   double value = given.value;
   if (!given.word.empty()) {
     const auto found = std::find(p.choices.begin(), p.choices.end(), given.word);
+    if (p.choices.empty() && finite_number(given.word)) refusal.quoted_number(p, given.word, given.span);
     if (found == p.choices.end()) refusal.impossible(p, given.word, given.span);
     value = p.low + static_cast<double>(found - p.choices.begin());
   }

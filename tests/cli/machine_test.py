@@ -191,7 +191,10 @@ class Machine(harness.Case):
                                     ({"name": "machine.squareness", "parameters": {"which": "abc"}}, "E0307", "cwy, bwz, awz"),
                                     ({"name": "machine.scale", "parameters": {"axis": 1.5}}, "E0307", "x, y, z"),
                                     ({"name": "machine.scale", "parameters": {"axis": {"value": 1, "u": 1}}}, "E0307", "no uncertainty"),
-                                    ({"name": "probe.step", "parameters": {"tip": 0.5}}, "E0307", "whole number")):
+                                    ({"name": "probe.step", "parameters": {"tip": 0.5}}, "E0307", "whole number"),
+                                    ({"name": "machine.scale", "parameters": {"scale_um_per_m": "10"}}, "E0405", 'quotes: "scale_um_per_m": 10'),
+                                    ({"name": "machine.scale", "parameters": {"scale_um_per_m": "ten"}}, "E0307", "a number from"),
+                                    ({"name": "machine.scale", "parameters": {"scale_um_per_m": ""}}, "E0406", "empty")):
             path = self.write("mine.json", json.dumps(machine | {"effects": [{"name": "machine.scale"}, effect]}, indent=1))
             line = 1 + path.read_text().splitlines().index(f'   "name": "{effect["name"]}"' + ("," if "parameters" in effect else ""), path.read_text().splitlines().index(' "effects": [') + 4)
             for action in ("show", "screen"):
