@@ -23,9 +23,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   bool null() override { return scalar(JsonNode::Kind::null, 4); }
   bool boolean(bool value) override { return scalar(JsonNode::Kind::boolean, value ? 4 : 5, value ? 1 : 0); }
-  bool number_integer(number_integer_t value) override { return number(static_cast<double>(value), true); }
-  bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value), true); }
-  bool number_float(number_float_t value, const string_t&) override { return number(value, false); }
+  bool number_integer(number_integer_t value) override { return number(static_cast<double>(value)); }
+  bool number_unsigned(number_unsigned_t value) override { return number(static_cast<double>(value)); }
+  bool number_float(number_float_t value, const string_t&) override { return number(value); }
   bool string(string_t& value) override {
     JsonNode& node = place();
     node.kind = JsonNode::Kind::text;
@@ -102,14 +102,13 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     node.number = value;
     return true;
   }
-  bool number(double value, bool is_integer) {
+  bool number(double value) {
     const std::uint32_t begin = skip();
     const std::size_t end = std::min(text_.find_first_not_of("0123456789+-.eE", begin), text_.size());
     JsonNode& node = place();
     node.kind = JsonNode::Kind::number;
     node.span = token(end - begin);
     node.number = value;
-    node.is_integer = is_integer;
     return true;
   }
   bool open(JsonNode::Kind kind) {

@@ -91,7 +91,8 @@ double JsonObject::number_or(std::string_view key, double otherwise, const Numbe
 int JsonObject::integer_or(std::string_view key, int otherwise, int low, int high) {
   const JsonNode* value = ask(key, Kind::number);
   if (!value) return otherwise;
-  if (value->is_integer && value->number >= low && value->number <= high) return static_cast<int>(value->number);
+  if (value->number == std::floor(value->number) && value->number >= low && value->number <= high)
+    return static_cast<int>(value->number);
   reader_->report(value->span, Code::E0406,
                   fmt::format("\"{}\" is {}, but must be a whole number from {} to {}", path_to(key),
                               reader_->source_.text(value->span), low, high));

@@ -33,7 +33,6 @@ struct JsonNode {
   Kind kind = Kind::null;
   Span span;
   double number = 0;  ///< booleans: 0 or 1
-  bool is_integer = false;
   std::string text;
   std::vector<JsonNode> items;  ///< of an array
   std::vector<Member> members;  ///< of an object, in the order of the file
@@ -74,6 +73,7 @@ class JsonObject {
 
   double number(std::string_view key, const NumberRange& range = kAnyNumber);
   double number_or(std::string_view key, double otherwise, const NumberRange& range = kAnyNumber);
+  /// A whole number, however it is written: 7 or 7.0.
   int integer_or(std::string_view key, int otherwise, int low, int high);
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string otherwise);

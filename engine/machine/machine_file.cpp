@@ -25,15 +25,20 @@ constexpr std::string_view kAxisNames[3] = {"x", "y", "z"};
 
 Vec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
+int read_direction(JsonObject& axis) {
+  const double direction = axis.number_or("direction", 1);
+  if (std::abs(direction) != 1)
+    axis.fault("direction", Code::E0406, fmt::format("\"direction\" is {:g}, but must be 1 or -1", direction),
+               "1 when the readings grow from 0 to the travel, -1 when they fall from 0 to minus "
+               "the travel");
+  return direction < 0 ? -1 : 1;
+}
+
 void read_axes(JsonObject axes, Machine& machine) {
   for (int k = 0; k < 3; ++k) {
     JsonObject axis = axes.object(kAxisNames[k]);
     machine.axes[k].travel_mm = axis.number("travel_mm", kPositive);
-    machine.axes[k].direction = axis.integer_or("direction", 1, -1, 1);
-    if (machine.axes[k].direction == 0)
-      axis.fault("direction", Code::E0406, "\"direction\" is 0, but must be 1 or -1",
-                 "1 when the readings grow from 0 to the travel, -1 when they fall from 0 to minus "
-                 "the travel");
+    machine.axes[k].direction = read_direction(axis);
   }
 }
 

@@ -60,14 +60,14 @@ const char* failure_of(Op1 op) {
     case Op1::log10: return "the logarithm of a number that is not positive";
     case Op1::asin:
     case Op1::acos: return "the arc of a sine or cosine outside -1 to 1";
-    default: return "a result is too large";
+    default: return "a result that is too large";
   }
 }
 
 const char* failure_of(Op2 op, double b) {
   if ((op == Op2::divide || op == Op2::modulo) && b == 0) return "a division by zero";
   if (op == Op2::power) return "a power that has no value";
-  return "a result is too large";
+  return "a result that is too large";
 }
 
 }  // namespace

@@ -45,9 +45,10 @@ class Refusal {
            did_you_mean(name, names, fmt::format("it has: {}", fmt::join(names, ", "))));
   }
   [[noreturn]] void impossible(const EffectParameter& p, const std::string& value, Span span) const {
+    const std::string unit = p.unit == "1" ? "" : fmt::format(" {}", p.unit);
     const std::string help = !p.choices.empty() ? fmt::format("give one of: {}", fmt::join(p.choices, ", "))
         : p.is_code()                           ? fmt::format("give a whole number from {:g} to {:g}", p.low, p.high)
-                      : fmt::format("give a number from {:g} to {:g} {}", p.low, p.high, p.unit);
+                                                : fmt::format("give a number from {:g} to {:g}{}", p.low, p.high, unit);
     refuse(span, Code::E0307,
            fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
   }

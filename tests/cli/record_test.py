@@ -109,6 +109,7 @@ with tempfile.TemporaryDirectory() as folder:
                                   (["--with", "probe.tip_radius:amplitude_um=1e9"], "E0307", "not plausible"),
                                   (["--with", "probe.tip_radius:amplitude_um=nan"], "E0307", "nan"),
                                   (["--with", "machine.scale:axis=q"], "E0307", "x, y, z"),
+                                  (["--with", "noise.outliers:share=2"], "E0307", "a number from 0 to 0.5\n"),
                                   (["--with", "machine.scal"], "E0305", "--with machine.scal:"),
                                   (["--with", "machine.scale:axis=x,axis=y"], "E0610", "twice"),
                                   (["--with", "probe.tip_radius:amplitude_um"], "E0610", "parameter=value")):

@@ -37,11 +37,12 @@ const Questions kNothing = [](JsonObject) {};
 
 TEST_CASE("values of every type are read") {
   const std::string text =
-      R"({"n": -1.5e3, "i": 7, "t": "a\"b\\", "f": true, "v": [1, 2, 3], "w": ["p", "q"],
+      R"({"n": -1.5e3, "i": 7, "j": 8.0, "t": "a\"b\\", "f": true, "v": [1, 2, 3], "w": ["p", "q"],
     "o": {"k": 1}, "l": [{"k": 2}, {"k": 3}], "m": [[1, 2], [], [3]]})";
   CHECK(reading(text, [](JsonObject o) {
           CHECK(o.number("n") == -1500);
           CHECK(o.integer_or("i", 0, 1, 9) == 7);
+          CHECK(o.integer_or("j", 0, 1, 9) == 8);
           CHECK(o.text("t") == "a\"b\\");
           CHECK(o.flag_or("f", false));
           CHECK(o.numbers_or("v", {}, 3) == std::vector<double>{1, 2, 3});

@@ -189,8 +189,9 @@ TEST_CASE("impossible machines are refused at the place of the mistake") {
   check_fault(replaced(small_file(), "500", "-500"), Code::E0406, "axes.x.travel_mm");
   check_fault(replaced(small_file(), "500", "1e300"), Code::E0406, "axes.x.travel_mm");
   check_fault(replaced(small_file(), "500", "1e-200"), Code::E0406, "axes.x.travel_mm");
-  check_fault(replaced(small_file(), "-1", "0"), Code::E0406, "direction");
-  check_fault(replaced(small_file(), "-1", "2"), Code::E0406, "direction");
+  for (const char* direction : {"0", "2", "-0.5", "1.5"})
+    check_fault(replaced(small_file(), "-1", direction), Code::E0406, "must be 1 or -1");
+  CHECK(parse_machine("m.json", replaced(small_file(), "-1", "-1.0"))[Axis::z].direction == -1);
   check_fault(replaced(small_file(), "\"travel_mm\": 500", "\"travel\": 500, \"travel_mm\": 500"), Code::E0402,
               "travel");
   check_fault(small_file(R"("schema": "abbe.workpiece/1")"), Code::E0407, "abbe.workpiece/1");

@@ -40,3 +40,9 @@ TEST_CASE("arithmetic without a result is a failure, never NaN or infinity") {
   CHECK_FALSE(value_of({PushConstant{0}, Op1::ln}));
   CHECK_FALSE(value_of({PushConstant{2}, Op1::asin}));
 }
+
+TEST_CASE("the reason of a failure completes \"this is ...\"") {
+  CHECK(value_of({PushConstant{1000}, Op1::exp}).failure == std::string("a result that is too large"));
+  CHECK(value_of({PushConstant{1e300}, PushConstant{1e300}, Op2::multiply}).failure ==
+        std::string("a result that is too large"));
+}
