@@ -125,6 +125,17 @@ std::string effect_of(const SuggestedFactor& best) {
   return fmt::format("by {:.2g}, then about {:.0f} % are accepted", best.factor, 100 * best.share_accepted);
 }
 
+constexpr const char* kLetBetterPass =
+    "\"v_max\": \"unlimited\" in the specification lets machines pass however good they are";
+
+std::string way_out(const ScreeningCounts& counts, const std::optional<SuggestedFactor>& best) {
+  if (counts.too_small <= counts.failed_mpe)
+    return best ? "multiply every e_max " + effect_of(*best)
+                : "no factor on e_max helps: check the MPE, the offsets and the squarenesses of the machine file";
+  return best ? fmt::format("multiply every e_max {}; or else {}", effect_of(*best), kLetBetterPass)
+              : fmt::format("they are better than v_max allows, and no factor on e_max helps: {}", kLetBetterPass);
+}
+
 [[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts, int threads) {
   const auto best = suggest_e_max_factor(machine, seed, kSuggestionCandidates, threads);
   throw UserError(
@@ -134,9 +145,7 @@ std::string effect_of(const SuggestedFactor& best) {
                              counts.used, counts.generated, machine.name,
                              percent(double(counts.failed_mpe) / double(counts.generated)),
                              percent(double(counts.too_small) / double(counts.generated))),
-                 best ? "multiply every e_max " + effect_of(*best)
-                      : "no factor on e_max helps: check the MPE, the offsets and the "
-                        "squarenesses of the machine file"));
+                 way_out(counts, best)));
 }
 
 }  // namespace
@@ -198,8 +207,7 @@ std::optional<Diagnostic> screening_warning(const Machine& machine, const Screen
                                 percent(counts.share_accepted()), machine.name,
                                 percent(double(counts.failed_mpe) / double(counts.generated)),
                                 percent(double(counts.too_small) / double(counts.generated))),
-                    fmt::format("the e_max of the machine file fit its specification badly: {}",
-                                best ? "multiply every one " + effect_of(*best) : "no factor on them helps"));
+                    "the e_max of the machine file fit its specification badly: " + way_out(counts, best));
 }
 
 std::optional<SuggestedFactor> suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,

@@ -184,8 +184,17 @@ TEST_CASE("a specification that nothing satisfies is refused with the way out") 
     screened_machines(machine, 1, 10, 2);
     FAIL("error-free machines were accepted");
   } catch (const UserError& error) {
-    CHECK(error.diagnostics()[0].help.find("no factor") != std::string::npos);
+    CHECK(error.diagnostics()[0].help.find("\"v_max\": \"unlimited\"") != std::string::npos);
   }
+}
+
+TEST_CASE("machines that are too good are told of the way past v_max") {
+  Machine machine = read_machine("coord3-mc16");
+  for (ComponentSpec& component : machine.components) component.e_max *= 0.2;
+  const auto warning = screening_warning(machine, screened_machines(machine, 1, 200, 2).counts, 1, 2);
+  REQUIRE(warning.has_value());
+  CHECK(warning->help.find("multiply every e_max by") != std::string::npos);
+  CHECK(warning->help.find("\"v_max\": \"unlimited\"") != std::string::npos);
 }
 
 TEST_CASE(
@@ -196,6 +205,7 @@ TEST_CASE(
   REQUIRE(warning.has_value());
   CHECK(warning->code == Code::W0416);
   CHECK(warning->help.find("0.6") != std::string::npos);
+  CHECK(warning->help.find("unlimited") == std::string::npos);  // most are too bad
   CHECK(!screening_warning(fitting, screened_machines(fitting, 1, 500, 2).counts, 1, 2).has_value());
 }
 
