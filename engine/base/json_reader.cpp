@@ -101,6 +101,8 @@ int JsonObject::integer_or(std::string_view key, int otherwise, int low, int hig
 
 std::string JsonObject::text(std::string_view key) {
   const JsonNode* value = require(key, Kind::text);
+  if (value && value->text.empty())
+    fault(key, Code::E0406, fmt::format("\"{}\" is empty", path_to(key)), "write something between the quotes");
   return value ? value->text : "";
 }
 

@@ -75,6 +75,7 @@ class JsonObject {
   double number_or(std::string_view key, double otherwise, const NumberRange& range = kAnyNumber);
   /// A whole number, however it is written: 7 or 7.0.
   int integer_or(std::string_view key, int otherwise, int low, int high);
+  /// A text that is not empty.
   std::string text(std::string_view key);
   std::string text_or(std::string_view key, std::string otherwise);
   bool flag_or(std::string_view key, bool otherwise);

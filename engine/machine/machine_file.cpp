@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "engine/base/json_reader.hpp"
+#include "engine/base/limits.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/machine.hpp"
 
@@ -37,7 +38,7 @@ int read_direction(JsonObject& axis) {
 void read_axes(JsonObject axes, Machine& machine) {
   for (int k = 0; k < 3; ++k) {
     JsonObject axis = axes.object(kAxisNames[k]);
-    machine.axes[k].travel_mm = axis.number("travel_mm", kPositive);
+    machine.axes[k].travel_mm = axis.number("travel_mm", kLength_mm);
     machine.axes[k].direction = read_direction(axis);
   }
 }
@@ -77,7 +78,7 @@ void read_chain(JsonObject chain, Machine& machine) {
 void read_offsets(JsonObject offsets, Machine& machine) {
   const auto offset = [&](std::string_view key) {
     if (!offsets.present() || !offsets.has(key)) machine.offsets_not_given.emplace_back(key);
-    return vec3(offsets.numbers_or(key, {0, 0, 0}, 3));
+    return vec3(offsets.numbers_or(key, {0, 0, 0}, 3, kCoordinate_mm));
   };
   for (int k = 0; k < 3; ++k) machine.axes[k].offset_mm = offset(kAxisNames[k]);
   machine.mount_offset_mm = offset("mount");
@@ -193,11 +194,11 @@ void read_specification(JsonObject object, Specification& spec) {
 void read_head(JsonObject object, HeadSpec& head) {
   if (!object.present()) return;
   head.model = object.text_or("model", "");
-  head.l_r_mm = object.number_or("l_r_mm", 0, kNotNegative);
+  head.l_r_mm = object.number_or("l_r_mm", 0, kDistance_mm);
   JsonObject sd = object.object("angle_sd_arcsec");
   head.sd_a_rad = sd.number("A", kNotNegative) * kRadPerArcsec;
   head.sd_b_rad = sd.number("B", kNotNegative) * kRadPerArcsec;
-  head.mounting_rad = object.object_or_absent("mounting").number_or("turn_deg", 0) * kRadPerDegree;
+  head.mounting_rad = object.object_or_absent("mounting").number_or("turn_deg", 0, kTurn_deg) * kRadPerDegree;
 }
 
 struct Material {
@@ -212,16 +213,21 @@ constexpr Material kMaterials[] = {{"tungsten carbide", NamedSensor::kUsualYoung
 
 NamedSensor read_sensor(JsonObject object) {
   NamedSensor sensor;
-  const std::vector<double> head = object.numbers_or("head_deg", {0, 0}, 2);
+  const std::vector<double> head = object.numbers_or("head_deg", {0, 0}, 2, kTurn_deg);
   sensor.head_a_rad = head[0] * kRadPerDegree;
   sensor.head_b_rad = head[1] * kRadPerDegree;
   if (!object.has("tip_in_r_mm"))
     object.fault("tip_in_r_mm", Code::E0404, "a sensor needs \"tip_in_r_mm\", the centre of its tip seen from the head",
                  "a straight stylus of 100 mm is \"tip_in_r_mm\": [0, 0, -100]");
-  sensor.tip_in_r_mm = vec3(object.numbers_or("tip_in_r_mm", {0, 0, 0}, 3));
-  const double diameter_mm = object.number("diameter_mm", kPositive);
+  sensor.tip_in_r_mm = vec3(object.numbers_or("tip_in_r_mm", {0, 0, 0}, 3, kCoordinate_mm));
+  const double diameter_mm = object.number("diameter_mm", kLength_mm);
   sensor.radius_mm = diameter_mm / 2;
   sensor.shaft_diameter_mm = object.number_or("shaft_diameter_mm", diameter_mm / 2, kPositive);
+  if (diameter_mm > 0 && sensor.shaft_diameter_mm > diameter_mm)
+    object.fault(
+        "shaft_diameter_mm", Code::E0406,
+        fmt::format("the shaft is {:g} mm thick, but the ball only {:g} mm", sensor.shaft_diameter_mm, diameter_mm),
+        "such a stylus touches with its shaft: give the diameter of the shaft next to the ball");
   sensor.material = object.text_or("material", "tungsten carbide");
   std::vector<std::string_view> names;
   Material material = kMaterials[0];
@@ -262,9 +268,6 @@ EffectSetting read_effect(JsonObject object, const std::shared_ptr<const SourceF
       parameter.u = value.number_or("u", 0, kNotNegative);
     } else if (parameters.kind_of(key) == JsonNode::Kind::text) {
       parameter.word = parameters.text(key);
-      if (parameter.word.empty())
-        parameters.fault(key, Code::E0406, fmt::format("\"{}\" is an empty text", key),
-                         "give a number or a word, or leave it out; `abbe explain EFFECT` lists what it may be");
     } else {
       parameter.value = parameters.number(key);
     }
@@ -288,7 +291,7 @@ void check_coefficients(JsonObject& state, std::string_view key, std::size_t giv
 std::optional<KnownState> read_known_state(JsonObject state, int harmonics) {
   constexpr NumberRange kCoefficient{-1e6, 1e6, true, true, "between -1e6 and 1e6"};
   if (!state.present()) return std::nullopt;
-  if (const std::string schema = state.text("schema"); state.has("schema") && schema != KnownState::kSchema)
+  if (const std::string schema = state.text("schema"); !schema.empty() && schema != KnownState::kSchema)
     state.fault("schema", Code::E0407,
                 fmt::format("the schema is \"{}\", but a known state has \"{}\"", schema, KnownState::kSchema),
                 "make it anew with `abbe diagnose CALIBRATION.csv --machine M --model-out KNOWN.json`");

@@ -9,7 +9,7 @@ namespace abbe {
 
 std::span<const RecordingColumn> recording_columns() {
   using Row = RecordingRow;
-  constexpr double kCount = 1e8, kFar_mm = 1e9 /* not even in micrometres */, kTurn_deg = 360;
+  constexpr double kCount = 1e8, kFar_mm = 1e9 /* not even in micrometres */;
   constexpr double kFastest_mm_s = 1e5, kHardest_mm_s2 = 1e7, kHeaviest_kg = 1e6;
   const auto counted = [](std::string_view name, RecordingColumn::Member member) {
     return RecordingColumn{.names = {name}, .member = member, .low = 1, .high = kCount};
@@ -25,7 +25,8 @@ std::span<const RecordingColumn> recording_columns() {
         .names = names, .member = member, .low = -kFar_mm, .high = kFar_mm, .decimals = 9, .unit_vector = true};
   };
   const auto angle = [](std::string_view name, RecordingColumn::Member member) {
-    return RecordingColumn{.names = {name}, .member = member, .low = -kTurn_deg, .high = kTurn_deg, .decimals = 4};
+    return RecordingColumn{
+        .names = {name}, .member = member, .low = kTurn_deg.low, .high = kTurn_deg.high, .decimals = 4};
   };
   const auto temperature = [](std::string_view name, RecordingColumn::Member member) {
     return RecordingColumn{

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <vector>
 
-#include "engine/base/json_reader.hpp"
+#include "engine/base/limits.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/math/units.hpp"
 
@@ -26,12 +26,9 @@ struct SensorWord {
   NumberRange range = kAnyNumber;
   bool required = false;
 };
-constexpr SensorWord kWords[] = {{"head_deg", 2},
-                                 {"tip_in_r_mm", 3, kAnyNumber, true},
-                                 {"diameter_mm", 1, kPositive, true},
-                                 {"shaft_diameter_mm", 1, kPositive},
-                                 {"young_GPa", 1, kPositive},
-                                 {"cte_ppm_per_K", 1}};
+constexpr SensorWord kWords[] = {{"head_deg", 2, kTurn_deg},           {"tip_in_r_mm", 3, kCoordinate_mm, true},
+                                 {"diameter_mm", 1, kLength_mm, true}, {"shaft_diameter_mm", 1, kPositive},
+                                 {"young_GPa", 1, kPositive},          {"cte_ppm_per_K", 1}};
 
 /// One sensor line of a recording, read word by word.
 class SensorLine {
@@ -42,6 +39,7 @@ class SensorLine {
     for (std::string name; in >> name;) read(name, in);
     for (const SensorWord& word : kWords)
       if (word.required && !numbers_.contains(word.name)) refuse(fmt::format("{} is missing", word.name));
+    if (number_or("shaft_diameter_mm", 0) > number_or("diameter_mm", 0)) refuse("the shaft is thicker than the ball");
   }
 
   /// Nothing when the line does not say it.

@@ -17,7 +17,6 @@ constexpr double kMmPerUm = 1e-3, kPpm = 1e-6;
 constexpr int kMostUndulations = 500;
 constexpr NumberRange kTemperature{kColdest_C, kHottest_C, true, true, "between -50 and 150"};
 constexpr NumberRange kExpansion{-30, 100, true, true, "between -30 and 100"};
-constexpr NumberRange kTurn{-360, 360, true, true, "between -360 and 360"};
 
 void twice(JsonObject& object, std::string_view key, std::string_view other) {
   object.fault(key, Code::E0422, fmt::format("\"{}\" and {} say the same thing twice", key, other),
@@ -124,7 +123,7 @@ FormHarmonic read_harmonic(JsonObject object) {
   if (object.kind_of("phase_deg") == JsonNode::Kind::text) {
     object.one_of("phase_deg", object.text("phase_deg"), {"random"});
   } else {
-    h.phase_half_turns = object.number("phase_deg", kTurn) / 180;
+    h.phase_half_turns = object.number("phase_deg", kTurn_deg) / 180;
   }
   return h;
 }

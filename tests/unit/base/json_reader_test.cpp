@@ -94,6 +94,7 @@ TEST_CASE("what is wrong with a value is said at the value") {
   check_one(reading("{\"a\": [1, -1]}", [](JsonObject o) { o.number_list("a", kNotNegative); }), Code::E0406, {1, 11});
   check_one(reading("{\"a\": [1]}", [](JsonObject o) { o.object("a"); }), Code::E0405, {1, 7});
   check_one(reading("{\"o\": {}}", [](JsonObject o) { o.object("o").text("k"); }), Code::E0404, {1, 7});
+  check_one(reading("{\"a\": \"\"}", [](JsonObject o) { o.text("a"); }), Code::E0406, {1, 7});
   check_one(reading("{\"a\": [[1], 2]}", [](JsonObject o) { o.number_lists("a"); }), Code::E0405, {1, 13});
   const auto word = reading("{\"m\": \"steal\"}", [](JsonObject o) {
     o.one_of("m", o.text("m"), {"steel", "ceramic"});

@@ -188,6 +188,14 @@ TEST_CASE("a known state is read as strictly as the rest of the file") {
 TEST_CASE("impossible machines are refused at the place of the mistake") {
   check_fault(replaced(small_file(), "500", "-500"), Code::E0406, "axes.x.travel_mm");
   check_fault(replaced(small_file(), "500", "1e300"), Code::E0406, "axes.x.travel_mm");
+  check_fault(replaced(small_file(), "500", "1e12"), Code::E0406, "at most 100000");
+  check_fault(replaced(small_file(), "small", ""), Code::E0406, "name");
+  check_fault(small_file(R"("offsets_mm": {"x": [1e9, 0, 0]})"), Code::E0406, "offsets_mm.x");
+  check_fault(small_file(R"("offsets_mm": {"mount": [0, 0, -1e6]})"), Code::E0406, "offsets_mm.mount");
+  const std::string sd = R"("angle_sd_arcsec": {"A": 1, "B": 1})";
+  check_fault(small_file(R"("head": {"mounting": {"turn_deg": 400}, )" + sd + "}"), Code::E0406, "turn_deg");
+  check_fault(small_file(R"("head": {"l_r_mm": 1e7, )" + sd + "}"), Code::E0406, "l_r_mm");
+  CHECK(faults(small_file(R"("head": {"l_r_mm": 0, "mounting": {"turn_deg": -360}, )" + sd + "}")).empty());
   check_fault(replaced(small_file(), "500", "1e-200"), Code::E0406, "axes.x.travel_mm");
   for (const char* direction : {"0", "2", "-0.5", "1.5"})
     check_fault(replaced(small_file(), "-1", direction), Code::E0406, "must be 1 or -1");
@@ -241,6 +249,12 @@ TEST_CASE("sensors are possible things") {
   check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 0)"), Code::E0406, "sensors.S.diameter_mm");
   check_fault(with(R"("tip_in_r_mm": [0, 0], "diameter_mm": 1)"), Code::E0406, "3");
   check_fault(with(R"("diameter_mm": 1)"), Code::E0404, "tip_in_r_mm");
+  const std::string ball = R"("tip_in_r_mm": [0, 0, -100], "diameter_mm": 4)";
+  check_fault(with(ball + R"(, "shaft_diameter_mm": 50)"), Code::E0406, "thick");
+  CHECK(faults(with(ball + R"(, "shaft_diameter_mm": 4)")).empty());
+  check_fault(with(ball + R"(, "head_deg": [1000, 0])"), Code::E0406, "head_deg");
+  CHECK(faults(with(ball + R"(, "head_deg": [-360, 360])")).empty());
+  check_fault(with(R"("tip_in_r_mm": [0, 0, -1e6], "diameter_mm": 4)"), Code::E0406, "tip_in_r_mm");
   check_fault(with(R"("tip_in_r_mm": [0, 0, -1], "diameter_mm": 1, "material": "cramic")"), Code::E0406, "cramic");
   const std::string tip = R"({"tip_in_r_mm": [0, 0, -1], "diameter_mm": 1})";
   check_fault(small_file(R"("sensors": {"TIP": )" + tip + R"(, "tip": )" + tip + "}"), Code::E0403, "\"tip\"");
