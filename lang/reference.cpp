@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include "engine/features/construct.hpp"
 #include "engine/features/feature.hpp"
@@ -55,6 +56,26 @@ std::vector<Entry> entries() {
   return out;
 }
 
+/// Whether `word`, in upper case, is one of the words between the slash and the end of a form.
+bool has_argument_word(std::string_view form, std::string_view word) {
+  const auto in_word = [&](std::size_t at) {
+    return at < form.size() && (std::isalnum(static_cast<unsigned char>(form[at])) || form[at] == '_');
+  };
+  const std::size_t slash = form.find('/');
+  for (std::size_t at = form.find(word, slash); at < form.size(); at = form.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if (!in_word(at - 1) && !in_word(end) && form.substr(end, 1) != "(") return true;  // F(label) is no word
+  }
+  return false;
+}
+
+/// What a form is called in a sentence, and what `abbe explain` is asked for it.
+std::string name_of(const Entry& e) {
+  if (e.group == kFeatures) return fmt::format("FEAT/{}", e.word);
+  if (e.group == kTolerances) return fmt::format("TOL/{}", e.word);
+  return e.group == kConstructions ? fmt::format("CONST with {}", e.word) : std::string(e.word);
+}
+
 /// All words of the standard, by what becomes of them.
 std::string words_markdown() {
   constexpr std::string_view kNoOperatorNoFiles[] = {"PAUSE", "READ", "WRITE"};
@@ -96,6 +117,22 @@ std::optional<std::string> explain_word(std::string_view word) {
   if (out.empty() && is_standard_word(wanted))
     out = fmt::format("{}\n  a word of the standard that is not supported yet\n", wanted);
   return out.empty() ? std::nullopt : std::optional(out);
+}
+
+std::optional<std::string> explain_argument_word(std::string_view word) {
+  const std::string wanted = upper(word);
+  const auto of_a_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  if (wanted.empty() || !std::all_of(wanted.begin(), wanted.end(), of_a_word)) return std::nullopt;
+  std::vector<std::string> names;
+  std::string_view first;
+  for (const Entry& e : entries()) {
+    if (e.form.find('/') == std::string::npos || !has_argument_word(e.form, wanted)) continue;
+    if (names.empty()) first = e.word;
+    names.push_back(name_of(e));
+  }
+  if (names.empty()) return std::nullopt;
+  return fmt::format("{}\n  a word in the arguments of {}\n  `abbe explain {}` shows its place\n", wanted,
+                     fmt::join(names, ", "), first);
 }
 
 std::vector<std::string_view> explained_words() {

@@ -14,6 +14,10 @@ namespace abbe::lang {
 /// for any other word.
 std::optional<std::string> explain_word(std::string_view word);
 
+/// Where a word stands that has no help of its own: MMC, in the arguments of TOL/POS and others. Nothing for a
+/// word that no signature has.
+std::optional<std::string> explain_argument_word(std::string_view word);
+
 /// Every word that explain_word knows: for lists and suggestions.
 std::vector<std::string_view> explained_words();
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/base/ids.hpp"
@@ -18,19 +17,37 @@
 namespace abbe {
 namespace {
 
-/// What the messages of a range of codes are about (engine/base/diagnostic_codes.def).
-std::string_view subject(std::string_view code) {
-  constexpr std::pair<std::string_view, std::string_view> kSubjects[] = {{"01", "text and statements of a program"},
-                                                                         {"02", "meaning of a program"},
-                                                                         {"03", "running a program"},
-                                                                         {"04", "machine, workpiece and effects"},
-                                                                         {"05", "points, tables and recordings"},
-                                                                         {"06", "files and command line"},
-                                                                         {"07", "diagnosis of recordings"}};
-  const auto* const found = std::find_if(std::begin(kSubjects), std::end(kSubjects),
-                                         [&](const auto& s) { return s.first == code.substr(1, 2); });
-  ABBE_CHECK(found != std::end(kSubjects));
-  return found->second;
+/// What the messages of a range of codes have in common (engine/base/diagnostic_codes.def).
+struct CodeRange {
+  std::string_view digits;
+  std::string_view about, found_when, read;
+};
+constexpr CodeRange kRanges[] = {
+    {"01", "text and statements of a program",
+     "a statement is read, before anything is known of those around it: `abbe check` tells all of them",
+     "docs/language.md, and `abbe explain WORD` for the form of a statement"},
+    {"02", "meaning of a program",
+     "a statement is understood, but not together with the others: labels, units, features, tolerances, variables",
+     "docs/language.md, and `abbe explain WORD` for the form of a statement"},
+    {"03", "running a program",
+     "the program runs on a machine: its sensors, travels and effects, and what was measured",
+     "docs/language.md (\"What running means\"), docs/formats.md (\"Machine file\"), docs/physics.md (\"Effects\")"},
+    {"04", "machine, workpiece and effects",
+     "a JSON file is read, or its machines are screened against the specification",
+     "docs/formats.md (\"Machine file\", \"Workpiece file\"), docs/acceptance_tests.md (\"Screening\")"},
+    {"05", "points, tables and recordings", "a table (CSV) or a DMIS result file is read, with what belongs to it",
+     "docs/formats.md (\"Recordings\", \"Points\")"},
+    {"06", "files and command line", "a command is understood, and what it needs is found: settings, files, memory",
+     "docs/formats.md, and `abbe COMMAND --help`"},
+    {"07", "diagnosis of recordings", "a recording is compared with what the simulated machines may do",
+     "docs/diagnosis.md"},
+};
+
+const CodeRange& range_of(const CodeInfo& code) {
+  const auto* const found = std::find_if(std::begin(kRanges), std::end(kRanges),
+                                         [&](const CodeRange& r) { return r.digits == code.name.substr(1, 2); });
+  ABBE_CHECK(found != std::end(kRanges));
+  return *found;
 }
 
 std::string_view consequence(Severity severity) {
@@ -46,8 +63,9 @@ std::optional<std::string> explain_code(const std::string& word) {
   for (const CodeInfo& code : all_codes())
     if (code.name == word)
       return fmt::format(
-          "{}: {}\n  about: {}\n  {}\n  The message itself says where it is, what was found there, and the next step.\n",
-          code.name, code.title, subject(code.name), consequence(code.severity));
+          "{}: {}\n  about: {}\n  found when {}\n  {}: {}\n  read: {}\n  The message itself says where it is, what was found there, and the next step.\n",
+          code.name, code.title, range_of(code).about, range_of(code).found_when, code.name.front(),
+          consequence(code.severity), range_of(code).read);
   return std::nullopt;
 }
 
@@ -113,6 +131,7 @@ std::string text_of(const ExplainOptions& options) {
   std::optional<std::string> text = explain_code(upper(*options.word));
   if (!text) text = lang::explain_word(*options.word);
   if (!text) text = explain_effect(*options.word);
+  if (!text) text = lang::explain_argument_word(*options.word);
   if (!text) unknown(*options.word);
   return *text;
 }

@@ -32,6 +32,18 @@ class Usage(harness.Case):
             told = self.abbe("explain", code).stdout
             self.assertIn(f"{code}: {title}\n  about: ", told)
             self.assertIn(kinds[severity], told, code)
+            self.assertIn("\n  found when ", told)
+            for page, chapter in re.findall(r"(docs/\w+\.md)(?: \(\"([^\"]*)\")?", told.split("\n  read: ")[1]):
+                self.assertIn(chapter, (harness.ROOT / page).read_text(), code)
+
+    def test_a_word_in_arguments_says_in_which(self):
+        told = self.abbe("explain", "mmc").stdout
+        self.assertIn("MMC\n  a word in the arguments of TOL/", told)
+        for statement in ("TOL/POS", "TOL/PERP"):
+            self.assertIn(statement, told)
+        self.assertIn("FEAT/CIRCLE", self.abbe("explain", "INNER").stdout)
+        for no_word in ("F", "LABEL", "INNE", ",", ""):
+            self.refused("E0609", "explain", no_word)
 
     def test_only_effects_have_a_figure(self):
         self.assertIn('"reading of x, mm"', self.abbe("explain", "machine.scale", "--format", "vega").stdout)
