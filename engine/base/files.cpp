@@ -87,11 +87,18 @@ void refuse_read_only(const std::string& path) {
     fail(path, "replacing it");
 }
 
-/// A command with several outputs finds out before the first is written that another has no place.
-void refuse_without_folder(const std::string& path) {
+/// Names of no file: what an unset variable of the shell leaves, and what other programs take for standard output.
+void refuse_nameless(const std::string& path) {
   if (path.empty())
     throw UserError(
         diagnostic(Code::E0602, "the name of an output is empty", "give a file; is a shell variable unset?"));
+  if (path == "-")
+    throw UserError(diagnostic(Code::E0602, "the output '-' is no file",
+                               "standard output is /dev/stdout; a file that is really called so is ./-"));
+}
+
+/// A command with several outputs finds out before the first is written that another has no place.
+void refuse_without_folder(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   struct stat there {};
   if (folder.empty() || (::stat(folder.c_str(), &there) == 0 && S_ISDIR(there.st_mode))) return;
@@ -148,6 +155,7 @@ std::string followed(std::string path) {
 }  // namespace
 
 void write_whole(const std::string& path, std::string_view content) {
+  refuse_nameless(path);
   takes_content(path) ? write_into(path, content) : replace(followed(path), content);
 }
 
@@ -155,6 +163,7 @@ void refuse_overwriting(const std::vector<std::string>& inputs, const std::vecto
   std::map<std::string, std::string> taken;  // by place: the role of what stands there
   for (const std::string& input : inputs) taken.emplace(where(followed(input)), "which it reads");
   for (const std::string& output : outputs) {
+    refuse_nameless(output);
     if (takes_content(output)) continue;
     refuse_without_folder(output);
     refuse_read_only(output);

@@ -14,7 +14,7 @@ namespace abbe {
 void write_whole(const std::string& path, std::string_view content);
 
 /// Throws UserError when an output is one of the inputs, stands there twice, whatever the paths are called,
-/// or is read-only. Call it before the work.
+/// is read-only, or has the name "" or "-". Call it before the work.
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace abbe

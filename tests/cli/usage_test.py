@@ -63,6 +63,17 @@ class Usage(harness.Case):
             with open("/dev/full", "w") as full:
                 self.assertIn("E0602", self.abbe(*command, code=2, stdout=full).stderr, command)
 
+    def test_a_hyphen_is_no_output(self):
+        self.write("length.dmi", harness.LENGTH)
+        self.abbe("record", "length.dmi", "-o", "rec.csv")
+        diagnose = ("diagnose", "rec.csv", "--machine", "coord3-mc16")
+        run, record = ("run", "length.dmi", "--machines", 20), ("record", "length.dmi")
+        for command in ((*record, "-o", "-"), (*record, "-o", "r.csv", "--dmo", "-"), (*run, "--csv", "-"), (*run, "--dmo", "-"), (*run, "--report", "-"),
+                        (*diagnose, "--report", "-"), (*diagnose, "--model-out", "-"), ("test", "length.dmi", "--junit", "-")):
+            self.assertIn("/dev/stdout", self.refused("E0602", *command))
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["length.dmi", "rec.csv"])
+        self.assertTrue(self.abbe("record", "length.dmi", "-o", "/dev/stdout").stdout.endswith((self.folder / "rec.csv").read_text()[-100:]))
+
     def test_values_that_cannot_be_read(self):
         self.assertIn("abc", self.refused("E0609", "run", "x.dmi", "--machines", "abc"))
         self.assertIn("found -1", self.refused("E0609", "run", "x.dmi", "--seed", "-1"))
