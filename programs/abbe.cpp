@@ -1,6 +1,7 @@
 // The command `abbe`. Exit codes: commands/commands.hpp.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "programs/commands/commands.hpp"
 #include "programs/options.hpp"
@@ -11,6 +12,10 @@ int main(int argc, char** argv) {
     return abbe::parse_command_line(argc, argv)();
   } catch (const abbe::UserError& error) {
     abbe::print_messages(error.diagnostics());
+    return abbe::kUnusable;
+  } catch (const std::bad_alloc&) {
+    abbe::print_messages({abbe::diagnostic(abbe::Code::E0620, "the memory is not enough for this command",
+                                           "ask for fewer virtual machines (--machines), or give it less to read")});
     return abbe::kUnusable;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "abbe: internal fault: %s\nPlease report this with the command and its input files.\n",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/base/memory.hpp"
 #include "engine/base/on_threads.hpp"
 
 namespace abbe {
@@ -148,6 +149,17 @@ std::string way_out(const ScreeningCounts& counts, const std::optional<Suggested
                  way_out(counts, best)));
 }
 
+/// The coefficients of all accepted machines are kept: said before the hours of drawing them.
+void check_memory(const Machine& machine, int count) {
+  constexpr double kGigabyte = 1e9;
+  const double bytes = double(count) * kComponents * basis_size(machine.harmonics) * sizeof(double);
+  if (bytes > memory_bytes())
+    throw UserError(diagnostic(Code::E0620,
+                               fmt::format("{} virtual machines take {:.3g} GB of memory, and there are {:.3g} GB",
+                                           count, bytes / kGigabyte, memory_bytes() / kGigabyte),
+                               "ask for fewer: 1000 machines give u to about 2 %, and a million to 0.07 %"));
+}
+
 }  // namespace
 
 TestResult virtual_acceptance_test(const Machine& machine, const GeometryCoefficients& geometry) {
@@ -163,6 +175,7 @@ VirtualMachines screened_machines(const Machine& machine, std::uint64_t seed, in
 
 VirtualMachines more_screened_machines(const Machine& machine, std::uint64_t seed, int count, int threads,
                                        std::uint32_t first_candidate) {
+  check_memory(machine, count);
   const Lines lines = test_lines(machine);
   const LengthErrors none(lines.size());
   const Specification& spec = machine.specification;

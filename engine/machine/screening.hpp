@@ -38,7 +38,7 @@ struct VirtualMachines {
 
 /// Draws candidates 0, 1, 2, ... until `count` are accepted. The same for any number of threads. Throws
 /// UserError when fewer than one in ten thousand pass, naming the share and the factor on e_max that would
-/// fit.
+/// fit, and when there is no room for so many.
 VirtualMachines screened_machines(const Machine&, std::uint64_t seed, int count, int threads);
 /// Continues a screening: the next `count` accepted machines from `first_candidate` on (adaptive runs).
 VirtualMachines more_screened_machines(const Machine&, std::uint64_t seed, int count, int threads,

@@ -374,6 +374,25 @@ class Refusals(harness.Case):
         with open("/dev/full", "w") as full:
             self.assertIn("E0602", self.abbe("run", "length.dmi", "--machines", 20, code=2, stdout=full).stderr)
 
+    def test_more_memory_than_there_is(self):
+        self.write("length.dmi", LENGTH)
+        for command in (("run", "length.dmi"), ("machine", "screen", "coord3-mc16")):
+            said = self.refused("E0620", *command, "--machines", 2_000_000_000)   # 4.9 TB
+            self.assertIn("2000000000 virtual machines take", said)
+            self.assertIn("help: ask for fewer", said)
+
+        def limited(megabytes, machines):
+            def limit():
+                resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+            return subprocess.run([self.abbe_path, "run", "length.dmi", "--threads", "1", "--machines", str(machines)], cwd=self.folder, capture_output=True,
+                                  text=True, preexec_fn=limit)
+        for machines in (40_000_000, 100_000):   # seen before the work, and where the estimate does not see all that is needed
+            done = limited(250, machines)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertIn("E0620", done.stderr)
+            self.assertNotIn("Please report", done.stderr)
+        self.assertEqual(limited(250, 100).returncode, 0)
+
     def test_touches_outside_the_travel(self):
         self.write("outside.dmi", LENGTH.replace("XORIG,800", "XORIG,1550"))
         self.assertIn("outside.dmi:13:", self.refused("E0302", "run", "outside.dmi"))
