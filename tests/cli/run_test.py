@@ -51,6 +51,13 @@ class Figures(harness.Case):
         self.assertEqual([row[4:9] + [row[11]] for row in rows], [["mm", "0.0000", "-", "-", "-", "-"]])
         self.assertEqual(len([line for line in (self.folder / "three.dmo").read_text().splitlines() if line.startswith("$$! u TA(RO)")]), 1)
 
+    def test_a_line_without_ends_has_none_in_the_result_file(self):
+        line = "F({0})=FEAT/LINE,{1},0,0,1\nMEAS/LINE,F({0}),2\nPTMEAS/CART,0,0,0,0,0,1\nPTMEAS/CART,50,0,0,0,0,1\nENDMES\nOUTPUT/FA({0})\n"
+        self.write("lines.dmi", LENGTH.replace("ENDFIL\n", line.format("U", "UNBND,CART,0,0,0,1,0,0") + line.format("W", "BND,CART,0,0,0,50,0,0") + "ENDFIL\n"))
+        self.abbe("run", "lines.dmi", "--machines", 20, "--dmo", "lines.dmo")
+        forms = [row.split(" = ")[1].split(", ")[:2] for row in (self.folder / "lines.dmo").read_text().splitlines() if row.startswith(("FA(U) =", "FA(W) ="))]
+        self.assertEqual(forms, [["FEAT/LINE", "UNBND"], ["FEAT/LINE", "BND"]])
+
     def test_the_result_file_has_the_name_of_filnam_and_repeats_what_output_names(self):
         self.abbe("run", "length.dmi", "--machines", 20, "--dmo", "plain.dmo")
         self.assertEqual((self.folder / "plain.dmo").read_text().splitlines()[0], "FILNAM/'a length'")
