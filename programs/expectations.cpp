@@ -67,8 +67,10 @@ ExpectationVerdict judge(const lang::Expectation& e, const RunReport& report) {
   ABBE_CHECK(e.low || e.high);
   if (e.subject == "accepted") return compare(e, "accepted", report.machines.share_accepted());
   std::optional<ExpectationVerdict> verdict;
+  int evaluations = 0;
   for (const CharacteristicReport& c : report.characteristics) {
     if (!names(e, c)) continue;
+    ++evaluations;
     const std::string name = fmt::format("TA({}) {}", c.tolerance, e.quantity);
     const std::optional<double> value = figure(c, e.quantity);
     if (!value) return {false, fmt::format("{}: there is none, because {}", name, reason(c, e.quantity))};
@@ -76,7 +78,9 @@ ExpectationVerdict judge(const lang::Expectation& e, const RunReport& report) {
     if (!next.passed) return next;
     if (!verdict) verdict = next;
   }
-  return verdict ? *verdict : unknown(e, report);
+  if (!verdict) return unknown(e, report);
+  if (evaluations > 1) verdict->outcome += fmt::format(" (the first of {}; all are)", evaluations);
+  return *verdict;
 }
 
 }  // namespace abbe

@@ -26,6 +26,14 @@ class Expectations(harness.Case):
         self.program(f"TA(LEN) u95 between {half * 0.999999:.12f} {half * 1.000001:.12f}")
         self.abbe("test", "length.dmi")
 
+    def test_every_evaluation_of_the_tolerance_is_tested(self):
+        twice = LENGTH.replace("ENDFIL", "F(C)=FEAT/POINT,CART,400,0,0,1,0,0\nMEAS/POINT,F(C),1\nPTMEAS/CART,400,0,0,1,0,0\nENDMES\nOUTPUT/FA(A),FA(C),TA(LEN)\nENDFIL")
+        self.program("TA(LEN) u <= 1", "TA(LEN) value <= 399", "FA(B) TA(LEN) value <= 399", text=twice)
+        lines = self.abbe("test", "length.dmi", code=1).stdout.splitlines()
+        self.assertTrue(lines[0].endswith("is <= 1 (the first of 2; all are)"), lines[0])
+        self.assertTrue(lines[1].startswith("FAIL"), lines[1])
+        self.assertTrue(lines[2].endswith("is <= 399"), lines[2])
+
     def test_a_failure_is_exit_code_1(self):
         self.program("TA(LEN) u <= 0.000001", "TA(LEN) u >= 0")
         done = self.abbe("test", "length.dmi", code=1)
