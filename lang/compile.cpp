@@ -230,7 +230,7 @@ class Compiler {
   }
 
   Lowering lowering_;
-  const std::map<std::string, std::string>& given_;          ///< CompileOptions::answers
+  const std::map<std::string, std::string>& given_;         ///< CompileOptions::answers
   const std::map<std::uint32_t, std::string>& impossible_;  ///< likewise
   std::string meant_;
   std::map<std::string, std::string> meant_by_;

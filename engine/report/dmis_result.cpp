@@ -35,7 +35,8 @@ struct ArgumentText {
 /// In the form of FEAT: where the touches of a line without ends began and ended is chance.
 std::string feature_arguments(const plan::FeatureDef& def, Element e) {
   std::string out;
-  if (def.kind->shape == Shape::line && def.varying.empty() && def.nominal.begin == def.nominal.end) e.begin = e.end = 0;
+  if (def.kind->shape == Shape::line && def.varying.empty() && def.nominal.begin == def.nominal.end)
+    e.begin = e.end = 0;
   if (def.kind->signature.starts_with("side:")) out = def.inner ? ", INNER" : ", OUTER";
   for (const auto& argument : def.kind->written(e)) out += ", " + std::visit(ArgumentText{}, argument);
   return out;

@@ -35,8 +35,8 @@ struct CharacteristicReport {
   /// false: nothing that is modelled changes the value, a circle through three touches has no form: its u is unknown and
   /// not 0, and nothing is decided on it
   bool varies = true;
-  Histogram histogram;              ///< of the values
-  std::optional<double> lcl, ucl;   ///< limits of the 95 % interval minus reference
+  Histogram histogram;             ///< of the values
+  std::optional<double> lcl, ucl;  ///< limits of the 95 % interval minus reference
   /// The interval of another coverage probability, of the values; none: not asked for.
   struct CoverageInterval {
     double coverage = 0.95;

@@ -262,12 +262,13 @@ class StudyRun {
     int fixed = 0;
     for (const CharacteristicReport& c : study_.report.characteristics) {
       if (c.varies || ++fixed > kShown) continue;
-      message(Code::W0621,
-              fmt::format("line {}: FA({}),TA({}): every machine finds the same value, because nothing that is modelled "
-                          "changes it: its uncertainty is not known",
-                          c.line, fmt::join(c.features, "),FA("), c.tolerance),
-              "a form shows only where more points were touched than settle the feature, as three settle a circle; what is "
-              "constructed of other features has none of its own");
+      message(
+          Code::W0621,
+          fmt::format("line {}: FA({}),TA({}): every machine finds the same value, because nothing that is modelled "
+                      "changes it: its uncertainty is not known",
+                      c.line, fmt::join(c.features, "),FA("), c.tolerance),
+          "a form shows only where more points were touched than settle the feature, as three settle a circle; what is "
+          "constructed of other features has none of its own");
     }
     if (fixed > kShown)
       message(Code::W0621, fmt::format("{} characteristics in all come out the same on every machine", fixed),

@@ -38,12 +38,13 @@ void warn_of_far_moves(const Executor::Observed& observed, const Machine& machin
     for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
       const double reading = stop.reading_mm[static_cast<int>(axis)];
       if (stop.touch || machine[axis].reaches(reading)) continue;
-      out.add(stop.operation, Code::W0309,
-              fmt::format("this move leads outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which "
-                          "runs from {:g} to {:g} mm",
-                          machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
-                          machine[axis].highest_mm()),
-              "correct the point, or move the part with a `$$! place dx dy dz` line");
+      out.add(
+          stop.operation, Code::W0309,
+          fmt::format("this move leads outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which "
+                      "runs from {:g} to {:g} mm",
+                      machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
+                      machine[axis].highest_mm()),
+          "correct the point, or move the part with a `$$! place dx dy dz` line");
       break;
     }
   }
@@ -54,9 +55,9 @@ bool from_the_other_side(const plan::FeatureDef& def, const Executor::Measured& 
   constexpr double kOpposite = -0.9;  // a dummy nominal that stands askew says nothing
   return !measured.targets.empty() &&
       std::all_of(measured.targets.begin(), measured.targets.end(), [&](const Target& touch) {
-           const Outcome<Vec3> facing = nominal_normal(*def.kind, measured.nominal, def.inner, touch.point);
-           return facing && dot(facing.value, touch.normal) < kOpposite;
-         });
+        const Outcome<Vec3> facing = nominal_normal(*def.kind, measured.nominal, def.inner, touch.point);
+        return facing && dot(facing.value, touch.normal) < kOpposite;
+      });
 }
 
 void warn_of_sides(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
@@ -64,13 +65,14 @@ void warn_of_sides(const Executor::Observed& observed, const plan::Plan& plan, W
     const plan::FeatureDef& def = plan[measured.feature];
     if (def.kind->spread == 0 || !from_the_other_side(def, measured)) continue;
     if (def.kind->flat)
-      out.add(measured.operation, Code::W0310,
-              fmt::format("F({}) was touched from behind: its direction stays that of FEAT, into the material", def.label),
-              "turn the vector in FEAT round, or those in PTMEAS");
+      out.add(
+          measured.operation, Code::W0310,
+          fmt::format("F({}) was touched from behind: its direction stays that of FEAT, into the material", def.label),
+          "turn the vector in FEAT round, or those in PTMEAS");
     else
       out.add(measured.operation, Code::W0310,
-              fmt::format("F({}) is {} in FEAT, and its touches come from {}: material conditions go by FEAT", def.label,
-                          def.inner ? "INNER" : "OUTER", def.inner ? "outside" : "inside"),
+              fmt::format("F({}) is {} in FEAT, and its touches come from {}: material conditions go by FEAT",
+                          def.label, def.inner ? "INNER" : "OUTER", def.inner ? "outside" : "inside"),
               fmt::format("write {} in FEAT, or turn the vectors in PTMEAS", def.inner ? "OUTER" : "INNER"));
   }
 }
@@ -78,8 +80,8 @@ void warn_of_sides(const Executor::Observed& observed, const plan::Plan& plan, W
 void warn_of_thick_balls(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
   for (const Executor::Measured& measured : observed.measured) {
     const plan::FeatureDef& def = plan[measured.feature];
-    const bool round = def.kind->shape == Shape::circle || def.kind->shape == Shape::cylinder ||
-        def.kind->shape == Shape::sphere;
+    const bool round =
+        def.kind->shape == Shape::circle || def.kind->shape == Shape::cylinder || def.kind->shape == Shape::sphere;
     if (!round || !def.inner || measured.radius_mm < measured.actual.size) continue;
     out.add(measured.operation, Code::W0311,
             fmt::format("a ball of {:g} mm does not fit into F({}), which is {:g} mm wide", 2 * measured.radius_mm,

@@ -114,7 +114,8 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
           source, plan.operations[stop.operation].span, Code::E0302,
           fmt::format(
               "this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
-              machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(), machine[axis].highest_mm()),
+              machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
+              machine[axis].highest_mm()),
           "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine"));
       break;
     }

@@ -55,8 +55,7 @@ bool supplement_is_meant(double nominal, double wanted) {
 Outcome<double> angle_between(const Arguments& arguments, const EvaluationInput& in) {
   const bool mixed = (in.shapes[0] == Shape::plane) != (in.shapes[1] == Shape::plane);
   const Vec3 &u = in.nominal[0].direction, &v = in.nominal[1].direction;
-  const double angle =
-      directed(pointing_as(u, in.actual[0].direction), pointing_as(v, in.actual[1].direction), mixed);
+  const double angle = directed(pointing_as(u, in.actual[0].direction), pointing_as(v, in.actual[1].direction), mixed);
   // -60 and 300 degrees are 60, written otherwise
   const double wanted = expected(arguments), turns = 2 * kPi * std::round(wanted / (2 * kPi)), side = wanted - turns;
   const double meant = supplement_is_meant(directed(u, v, mixed), std::fabs(side)) ? kPi - angle : angle;

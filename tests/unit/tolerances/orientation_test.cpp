@@ -149,15 +149,18 @@ TEST_CASE("The side of an angle of 90 degrees is that of the nominals, on every 
         .value();
   };
   for (const double turned : {1.0, -1.0})
-    for (const auto& [lower, upper] : {std::pair{kPi / 2, kPi / 2 + 0.1}, {kPi / 2 - 0.1, kPi / 2}, {kPi / 2 - 0.1, kPi / 2 + 0.1}}) {
+    for (const auto& [lower, upper] :
+         {std::pair{kPi / 2, kPi / 2 + 0.1}, {kPi / 2 - 0.1, kPi / 2}, {kPi / 2 - 0.1, kPi / 2 + 0.1}}) {
       CHECK(found(tilt, turned, lower, upper) == Approx(kPi / 2 + tilt).epsilon(1e-12));
       CHECK(found(-tilt, turned, lower, upper) == Approx(kPi / 2 - tilt).epsilon(1e-12));
     }
 }
 
 TEST_CASE("An angle comes as its nominal is written") {
-  const Element at60 = at({}, {0.5, 0, std::sqrt(0.75)}), at61 = at({}, {std::cos(61 * kPi / 180), 0, std::sin(61 * kPi / 180)});
-  for (const auto& [nominal, expected] : {std::pair{60.0, 61.0}, {-60.0, -61.0}, {300.0, 299.0}, {420.0, 421.0}, {240.0, 241.0}, {120.0, 119.0}}) {
+  const Element at60 = at({}, {0.5, 0, std::sqrt(0.75)}),
+                at61 = at({}, {std::cos(61 * kPi / 180), 0, std::sin(61 * kPi / 180)});
+  for (const auto& [nominal, expected] :
+       {std::pair{60.0, 61.0}, {-60.0, -61.0}, {300.0, 299.0}, {420.0, 421.0}, {240.0, 241.0}, {120.0, 119.0}}) {
     Evaluation e("ANGLB");
     e.number("nominal", nominal * kPi / 180).feature(Shape::line, kAlongX).feature(Shape::line, at61, at60);
     CHECK(e.value() * 180 / kPi == Approx(expected));
