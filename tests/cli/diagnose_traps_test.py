@@ -2,6 +2,7 @@
 import itertools
 import json
 import math
+import random
 
 import harness
 
@@ -11,10 +12,9 @@ BALLS = ((0, 0, 0), (350, 0, 0), (0, 250, 0), (350, 250, 0), (180, 120, 150), (6
 RADIUS = 12.5
 
 
-def program():
-    """Six balls at round heights, the same touches on each, in three orientations of the head."""
+def program(orientations=((0, 0), (45, 90), (45, -90))):
+    """Six balls at round heights, the same touches on each, in these orientations of the head."""
     lines = ["DMISMN/'six balls',4.0", "UNITS/MM,ANGDEC", "SNSET/APPRCH,3", "SNSET/RETRCT,3", "FEDRAT/MESVEL,MMPS,4"]
-    orientations = ((0, 0), (45, 90), (45, -90))
     lines += [f"S(O{k})=SNSDEF/PROBE,INDEX,POL,{a},{b},0,0,-1,120,3" for k, (a, b) in enumerate(orientations)]
     lines.append("D(R)=TRANS/XORIG,700,YORIG,400,ZORIG,-550")
     rings = ((90, 1, 0), (55, 5, 0), (20, 6, 15))   # elevation, touches, azimuth of the first
@@ -34,6 +34,24 @@ def farther(row, um):
     """The touch `um` farther out, as its scales show it."""
     by = {a: um / 1000 * float(row["n" + a]) for a in "xyz"}
     return row | {a: f"{float(row[a]) + by[a]:.7f}" for a in "xyz"} | {f"enc_{a}": f"{float(row['enc_' + a]) + by[a]:.7f}" for a in "xyz"}
+
+
+def plate(displaced_mm, seed, clock=True, sd_um=0.5, digits=7):
+    """Twenty balls in a plane, nine touches on each with one stylus in one orientation, each displaced by a function of target and time."""
+    random_um, time_s = random.Random(seed), 10.0
+    steep = math.sqrt(0.5)
+    normals = [(0, 0, 1)] + [(math.cos(a) * c, math.sin(a) * c, s) for c, s, first in ((1, 0, 0), (steep, steep, 45)) for a in (math.radians(first + 90 * k) for k in range(4))]
+    lines = ["# sensor S1: head_deg 0 0 tip_in_r_mm 0 0 -150 diameter_mm 4 shaft_diameter_mm 2", "# surfaces: calibrated",
+             "feature,touch,x,y,z,tx,ty,tz,nx,ny,nz,sensor" + (",time_s" if clock else "")]
+    for i, j in itertools.product(range(5), range(4)):
+        for k, n in enumerate(normals):
+            target = [c + 12 * along for c, along in zip((300 + 120 * i, 200 + 120 * j, -500), n)]
+            out = sum(d * along for d, along in zip(displaced_mm(target, time_s), n)) + random_um.gauss(0, sd_um) / 1000
+            row = [f"B{i}{j}", k + 1, *(f"{t + out * along:.{digits}f}" for t, along in zip(target, n)), *(f"{v:.7f}" for v in (*target, *n)), "S1"]
+            lines.append(",".join(map(str, row + ([time_s] if clock else []))))
+            time_s += 4
+        time_s += 6
+    return "\n".join(lines) + "\n"
 
 
 class Traps(harness.Case):
@@ -82,6 +100,36 @@ class Traps(harness.Case):
             said = self.diagnosis(self.folder / "part.csv")
             self.assertEqual(said["verdict"], "no_mismatch")
             self.assertLess(said["p_value"], 0.03)
+
+    def test_what_cannot_be_told_apart_cannot_beside_another_effect_either(self):
+        """One stylus, one orientation, one placement: whatever jumps, all later touches do."""
+        path = self.write("plate.csv", plate(lambda t, time_s: (40e-6 * (t[0] - 300), 5e-3 * (time_s > 400), 0), seed=15))
+        said = self.diagnosis(path, PORTAL)
+        self.assertEqual([set(e["members"]) for e in said["effects"]], [{"part.shift", "probe.step", "machine.step"}, {"machine.scale"}])
+        self.assertTrue(said["effects"][1]["sentence"].startswith("What that leaves is explained by "))
+        self.assertNotEqual(said["next_measurement"], [])
+
+    def test_seconds_are_those_of_the_clock_or_doubted(self):
+        doubted = []
+        for clock in (True, False):
+            path = self.write("plate.csv", plate(lambda _, time_s: (0, 5e-3 * (time_s > 400), 0), seed=6, clock=clock))
+            doubted.append("log time_s" in self.diagnosis(path, PORTAL)["effects"][0]["sentence"])
+        self.assertEqual(doubted, [False, True])
+
+    def test_what_is_smaller_than_the_rounding_is_in_no_machine_file(self):
+        """One place on every ball is rounded alike, and looks like a period of the scale."""
+        path = self.write("plate.csv", plate(lambda *_: (0, 0, 0), seed=14, sd_um=0.2, digits=2))
+        said = json.loads(self.abbe("diagnose", path, "--machine", PORTAL, "--format", "json", "--model-out", "model.json").stdout)
+        self.assertGreater(len(said["effects"]), 1)
+        self.assertIn(["noise.resolution"], [e["members"] for e in said["effects"]])
+        for e in said["effects"][:-1]:
+            self.assertLessEqual(e["probability"], 0.5)
+            self.assertIn("record the digits that the machine has", e["sentence"])
+        self.assertEqual([e["name"] for e in json.loads((self.folder / "model.json").read_text())["effects"]], ["noise.resolution"])
+
+    def test_exchanged_columns_of_normals_are_refused(self):
+        swapped = self.changed(self.record("--seed", 5), lambda row: row | {"nx": row["ny"], "ny": row["nx"]})
+        self.assertIn("write the columns nx, ny, nz as they are now ny, nx, nz", self.refused("E0701", "diagnose", swapped, "--machine", MACHINE))
 
     def test_what_every_fifth_touch_does_no_room_does(self):
         for seed in (7, 8):

@@ -148,25 +148,25 @@ std::optional<Finding> first_of_two(const Case& c, std::vector<Finding> before, 
 }
 
 /// What the others leave for a finding to explain: the other names, and the pattern beside them.
-Evidence left_by_others(const Case& c, const std::vector<Finding>& all, std::size_t which,
-                        const std::optional<Finding>& beside) {
+EvidenceSearch left_by_others(const Case& c, const std::vector<Finding>& all, std::size_t which,
+                              const std::optional<Finding>& beside) {
   SearchResult others;
   others.findings = all;
   others.findings.erase(others.findings.begin() + static_cast<std::ptrdiff_t>(which));
   others.other = beside;
-  return rest_of(c, signatures_of(c, others)).evidence();
+  return rest_of(c, signatures_of(c, others));
 }
 
 /// Names a finding again, given what was found after it, which may have taken over part of it. Where a pattern
-/// is likelier now than any name, it is that pattern.
+/// is likelier now than any name, it is that pattern. The name of before has fine variants already; its rivals get
+/// theirs here, or it would be preferred to what does the same to these touches.
 struct Renamed {
   Finding finding;
   bool pattern = false;
 };
-Renamed renamed(const Case& c, const std::vector<Finding>& all, std::size_t which,
-                const std::optional<Finding>& beside) {
-  const Evidence evidence = left_by_others(c, all, which, beside);
-  Finding name = finding_of(c.explanations, evidence, true), pattern = finding_of(c.explanations, evidence, false);
+Renamed renamed(Case& c, const std::vector<Finding>& all, std::size_t which, const std::optional<Finding>& beside) {
+  EvidenceSearch rest = left_by_others(c, all, which, beside);
+  auto [name, pattern] = named_on_finer_grid(c, rest);
   return name.probability >= pattern.probability ? Renamed{std::move(name), false} : Renamed{std::move(pattern), true};
 }
 
@@ -264,7 +264,7 @@ void drop_needless(const Case& c, SearchResult& result) {
   while (result.findings.size() > 1) {
     std::vector<double> left;
     for (std::size_t k = 0; k < result.findings.size(); ++k)
-      left.push_back(left_by_others(c, result.findings, k, result.other).statistic);
+      left.push_back(left_by_others(c, result.findings, k, result.other).evidence().statistic);
     const auto least = std::min_element(left.begin(), left.end());
     if (*least > 0) return;
     result.findings.erase(result.findings.begin() + (least - left.begin()));
@@ -273,7 +273,7 @@ void drop_needless(const Case& c, SearchResult& result) {
 
 /// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is
 /// enough, but an effect and its change from one run to the next are two.
-void name_again(const Case& c, SearchResult& result) {
+void name_again(Case& c, SearchResult& result) {
   const std::vector<Finding> before = std::exchange(result.findings, {});
   for (std::size_t k = 0; k < before.size(); ++k) {
     auto [f, pattern] = renamed(c, before, k, result.other);
@@ -297,13 +297,16 @@ void name_again(const Case& c, SearchResult& result) {
 SearchResult search(Case& c, EvidenceSearch& first) {
   const std::size_t grid = c.explanations.blocks.size();
   SearchResult result = found_in_rounds(c, first);
-  result.refined = keep_variants(c, result.findings);
-  first.extend(c.explanations, grid);
-  result.first = first.evidence();
+  const auto keep = [&] {
+    result.refined = keep_variants(c, result.findings);
+    first.extend(c.explanations, grid);
+    result.first = first.evidence();
+  };
+  keep();
   drop_names_beside_a_pattern(c, result);
   const std::size_t found = result.findings.size();
   drop_needless(c, result);
-  if (found > 1) name_again(c, result);
+  if (found > 1) name_again(c, result), keep();
   if (result.findings.size() < found && !result.findings.empty())
     result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
   add_what_names_leave(c, result);
