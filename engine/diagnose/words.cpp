@@ -68,12 +68,13 @@ std::string with_interval(const DiagnosedParameter& p) {
 
 std::string explanation_sentence(const std::vector<std::string_view>& titles,
                                  const std::vector<DiagnosedParameter>& parameters, std::string_view data,
-                                 RunChange change, bool doubted) {
+                                 RunChange change, bool doubted, bool beside) {
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
   const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
-  const std::string it =
-      change.run == 0 ? "it" : fmt::format("what is {} in run {}", change.gone ? "gone" : "new", change.run);
+  const std::string it = change.run == 0
+      ? (beside ? "what that leaves" : "it")
+      : fmt::format("what is {} in run {}", change.gone ? "gone" : "new", change.run);
   if (titles.size() == 1)
     return fmt::format("{} {} {}{}{}.", capitalised(it), doubted ? "looks like" : "is explained by", titles.front(),
                        told.empty() ? "" : ": ", told);

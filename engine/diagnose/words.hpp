@@ -15,10 +15,11 @@ std::string with_uncertainty(const DiagnosedParameter&);
 std::string with_interval(const DiagnosedParameter&);
 
 /// What makes the mismatch, or what is new in a run: one title, or several that `data` ("this recording")
-/// cannot tell apart; `parameters` are those of the first. `doubted`: it may be something else.
+/// cannot tell apart; `parameters` are those of the first. `doubted`: it may be something else. `beside`: something else
+/// was told before.
 std::string explanation_sentence(const std::vector<std::string_view>& titles,
                                  const std::vector<DiagnosedParameter>& parameters, std::string_view data,
-                                 RunChange change = {}, bool doubted = false);
+                                 RunChange change = {}, bool doubted = false, bool beside = false);
 /// Its sizes in a table, and what they come to: "amplitude 0.0400 um (0.0324 to 0.0485); at most 1.4 um at a touch".
 std::string sizes_in_words(const std::vector<DiagnosedParameter>&, std::optional<double> largest_um);
 /// The names of an effect in a table: "machine.squareness, new in run 2"

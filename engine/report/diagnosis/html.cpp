@@ -65,7 +65,7 @@ std::string improvement(const Diagnosis& d) {
       d.values.empty() ? "touches" : "values", escaped(i.scheme), i.log_score_gain, i.se);
   if (d.runner_up)
     out +=
-        fmt::format("; with the runner-up, {}, {:.1f}",
+        fmt::format("; with the runner-up{}, {}, {:.1f}", d.effects.size() > 1 ? " alone in the place of all" : "",
                     escaped(fmt::format("{}", fmt::join(d.runner_up->members, " or "))), d.runner_up->log_score_gain);
   return out + ".</p>\n" +
       html_table(html_row({"there", "before", "after"}, "th") +

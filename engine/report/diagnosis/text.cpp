@@ -185,8 +185,8 @@ std::string value_table(const Diagnosis& d) {
 std::string held_out_line(const Diagnosis& d) {
   if (!d.improvement) return "";
   const std::string beside = d.runner_up
-      ? fmt::format("; with the runner-up, {}, {:+.1f}", fmt::join(d.runner_up->members, " or "),
-                    d.runner_up->log_score_gain)
+      ? fmt::format("; with the runner-up{}, {}, {:+.1f}", d.effects.size() > 1 ? " alone in the place of all" : "",
+                    fmt::join(d.runner_up->members, " or "), d.runner_up->log_score_gain)
       : "";
   return fmt::format("held out ({}): log score {:+.1f} nats, standard error {:.1f}{}\n", d.improvement->scheme,
                      d.improvement->log_score_gain, d.improvement->se, beside);

@@ -38,6 +38,8 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
   CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording") ==
         "It is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"outliers"}, {}, "this recording") == "It is explained by outliers.");
+  CHECK(explanation_sentence({"outliers"}, {}, "this recording", {}, false, true) ==
+        "What that leaves is explained by outliers.");
   CHECK(
       explanation_sentence({"trigger delay", "tip radius"}, sizes, "this recording") ==
       "One of these explains it, and this recording cannot tell which: trigger delay; tip radius. As the first: delay 1.20 ± 0.10 ms.");
