@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -115,12 +116,14 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
         "multiply x, y, z, tx, ty, tz by 1000");
 }
 
+/// The axes in another order.
+constexpr std::array<std::array<int, 3>, 5> kOrders = {{{1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
+
+Vec3 in_order(const Vec3& v, const std::array<int, 3>& o) { return {v[o[0]], v[o[1]], v[o[2]]}; }
+
 void check_axes(const Recording& r, const std::string& file, double gross) {
-  constexpr std::array<std::array<int, 3>, 5> orders = {{{1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
-  for (const auto& o : orders)
-    if (left_by(r, [&](const RecordingRow& row) {
-          return Vec3{row.position_mm[o[0]], row.position_mm[o[1]], row.position_mm[o[2]]};
-        }) < kMends * gross)
+  for (const auto& o : kOrders)
+    if (left_by(r, [&](const RecordingRow& row) { return in_order(row.position_mm, o); }) < kMends * gross)
       refuse(
           file, "the axes of the recorded positions are swapped",
           fmt::format("write the columns x, y, z as they are now {}, {}, {}", "xyz"[o[0]], "xyz"[o[1]], "xyz"[o[2]]));
@@ -132,6 +135,56 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
         }) < kMends * gross)
       refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]),
              "correct the sign in the recording");
+}
+
+/// The middle of the ball on which all points lie; nothing where they lie on none, or on many.
+std::optional<Vec3> middle_of_ball(const std::vector<Vec3>& points) {
+  constexpr double kOn_mm = 0.02;  // targets come rounded
+  constexpr double kFlat = 1e-4;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Vec3 mean;
+  for (const Vec3& p : points) mean += (1 / double(n)) * p;
+  Eigen::MatrixX4d a(n, 4);  // 2 c . p + k = p . p
+  Eigen::VectorXd square(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vec3 p = points[static_cast<std::size_t>(i)] - mean;
+    a.row(i) << 2 * p.x, 2 * p.y, 2 * p.z, 1;
+    square(i) = dot(p, p);
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixX4d> qr(a);
+  qr.setThreshold(kFlat);
+  if (n < 5 || qr.rank() < 4) return std::nullopt;
+  const Eigen::Vector4d found = qr.solve(square);
+  const Vec3 middle = mean + Vec3{found(0), found(1), found(2)};
+  const double radius = norm(points.front() - middle);
+  const bool on_it = std::all_of(points.begin(), points.end(),
+                                 [&](const Vec3& p) { return std::abs(norm(p - middle) - radius) < kOn_mm; });
+  return on_it ? std::optional(middle) : std::nullopt;
+}
+
+/// Normals of a ball stand on it; where only those in another order do, their columns are exchanged.
+void check_axes_of_normals(const Recording& r, const std::string& file) {
+  constexpr double kStands = 0.99;  // cosine
+  std::map<std::pair<int, std::string>, std::vector<const RecordingRow*>> features;
+  for (const RecordingRow& row : r.rows) features[{row.setup, row.feature}].push_back(&row);
+  std::vector<std::pair<Vec3, Vec3>> out_and_normal;
+  for (const auto& [of, rows] : features) {
+    std::vector<Vec3> targets;
+    for (const RecordingRow* row : rows) targets.push_back(*row->target_mm);
+    if (const std::optional<Vec3> middle = middle_of_ball(targets))
+      for (const RecordingRow* row : rows) out_and_normal.emplace_back(unit(*row->target_mm - *middle), *row->normal);
+  }
+  const auto stand = [&](const std::array<int, 3>& order) {
+    return std::all_of(out_and_normal.begin(), out_and_normal.end(), [&](const auto& pair) {
+      return std::abs(dot(pair.first, unit(in_order(pair.second, order)))) > kStands;
+    });
+  };
+  if (out_and_normal.empty() || stand({0, 1, 2})) return;
+  for (const auto& o : kOrders)
+    if (stand(o))
+      refuse(file, "the axes of the normals are swapped: as they are, they do not stand on the balls of the targets",
+             fmt::format("write the columns nx, ny, nz as they are now n{}, n{}, n{}", "xyz"[o[0]], "xyz"[o[1]],
+                         "xyz"[o[2]]));
 }
 
 /// Angles of the head in radians: none above a full turn, and each a usual one once it is taken for degrees.
@@ -199,6 +252,7 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   check_units(r, machine, file);
   check_readings(r, file);
   check_head(r, file);
+  check_axes_of_normals(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross > kGross_mm) check_axes(r, file, gross);
 }
