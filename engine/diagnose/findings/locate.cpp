@@ -92,8 +92,9 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     for (std::size_t k = 0; k < c.rows.size(); ++k)
       first = std::min(first, value(scene(static_cast<int>(k)))),
       last = std::max(last, value(scene(static_cast<int>(k))));
-    if (high - low < kNearlyEverywhere * (last - first))
-      out.emplace_back(name, fmt::format("{:.0f} to {:.0f}{}", low, high, unit));
+    if (high - low >= kNearlyEverywhere * (last - first)) return;
+    const std::string from = fmt::format("{:.0f}", low), to = fmt::format("{:.0f}", high);
+    out.emplace_back(name, (from == to ? from : from + " to " + to) + unit);
   };
   Places out;
   const auto label = [&](auto value) {

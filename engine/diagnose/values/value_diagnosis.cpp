@@ -157,7 +157,7 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
   const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())),
                u = rms / std::sqrt(2.0 * double(pattern.size()));
   out.unexplained = Unexplained{
-      std::string(name(e.factor)),
+      std::string(name(Factor::feature)),  // where it is located; of values no more is known
       e.shape,
       rms,
       u,
@@ -166,6 +166,8 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
       e.shape == "single values"
           ? "No effect of the catalogue explains it: single values stray (the table says which)."
           : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
+  out.otherwise =
+      "Values hold too little to tell an effect on all lengths from a machine out of its specification: measure calibrated lengths along each axis, or give the touches themselves, with x, y, z of each.";
   out.verdict = Verdict::unexplained;
 }
 
@@ -283,6 +285,9 @@ Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
     tell_name(c, closer, name, adequacy, out);
   else
     tell_pattern(c, closer, pattern, out);
+  if (!named && name.explanation >= 0)
+    out.unexplained->sentence +=
+        fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
   return named ? name : pattern;
 }
 
