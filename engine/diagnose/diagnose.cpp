@@ -177,6 +177,21 @@ std::string whose_coordinates(const Case& c, const Effect& effect) {
   return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
 }
 
+/// Without a clock, moments and rates are those of the motion model.
+std::string whose_clock(const Case& c, const Effect& effect) {
+  const auto time = static_cast<unsigned>(Covariate::time);
+  if ((effect.needs & time) == 0 || (c.touches.known & time) != 0) return "";
+  return " The recording has no time_s: seconds are those of a machine that moves as its file says; log time_s.";
+}
+
+/// Whether it displaces no touch by as much as the step to which positions are rounded, where that counts for more than
+/// the noise of the probe. One point touched again is rounded alike each time.
+bool may_be_rounding(const Case& c, const std::optional<double>& largest_um) {
+  const Vec3& probe = c.machine->probe.sd_mm;
+  return largest_um && *largest_um < c.step_um &&
+      c.step_um / std::sqrt(12.0) > kUmPerMm * std::max({probe.x, probe.y, probe.z});
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -194,20 +209,26 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.parameters = std::move(size.parameters);
     e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
-    const std::string in_file = change.gone
-        ? " It is gone: the machine file needs nothing of it."
+    const bool rounding = may_be_rounding(c, e.largest_um);
+    const std::string in_file = change.gone ? " It is gone: the machine file needs nothing of it."
+        : rounding
+        ? fmt::format(
+              " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
+              c.step_um)
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     const bool same_phase = same_phase_in_same_direction(c, f);
-    const bool doubted =
-        something_else || c.styli_unlogged || same_phase || !judged(c, f) || !possible || !shown(out.improvement);
+    const bool doubted = something_else || rounding || c.styli_unlogged || same_phase || !judged(c, f) || !possible ||
+        !shown(out.improvement);
     e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
-    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, e.probability < kTold) +
+    const bool unsure = e.probability < kTold;
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
         pattern_beside(c, f) + (same_phase ? kSamePhase : "") +
-        whose_coordinates(c, *c.explanations.list[f.explanation].effect) + in_file;
+        whose_coordinates(c, *c.explanations.list[f.explanation].effect) +
+        whose_clock(c, *c.explanations.list[f.explanation].effect) + in_file;
     if (change.run > 0 && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";

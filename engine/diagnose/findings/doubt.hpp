@@ -18,6 +18,7 @@ inline constexpr double kTold = 0.9;
 /// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
 /// - on a covariate that was not logged or did not change: other functions of it would look the same;
 /// - where touches are of several styli or orientations that were not logged;
+/// - where it is smaller than the steps to which positions are rounded;
 /// - of the period of a scale, where touches of the same direction are at the same phase;
 /// - where it does not predict touches better that it was not fitted to;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
