@@ -12,6 +12,7 @@
 #include "engine/diagnose/baseline/outliers.hpp"
 #include "engine/diagnose/baseline/own_noise.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
+#include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
@@ -154,42 +155,6 @@ RunChange change_of(const Block& variant, const Block& found) {
   const bool holds = found.change.run > 0 && variant.change.gone == found.change.gone &&
       variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
   return holds ? found.change : variant.change;
-}
-
-/// A pattern without a name that explains a finding as well; else nothing.
-std::string pattern_beside(const Case& c, const Finding& f) {
-  const Finding pattern = finding_of(c.explanations, f.evidence, false);
-  if (pattern.explanation < 0 || kAsWell * pattern.probability < f.probability) return "";
-  const Explanation& e = c.explanations.list[static_cast<std::size_t>(pattern.explanation)];
-  return fmt::format(" A pattern over {} ({}) that no single effect of the catalogue makes would explain it as well.",
-                     abbe::diagnose::name(e.factor), e.shape);
-}
-
-constexpr const char* kSamePhase =
-    " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
-    "same. Repeat it with the part moved by a third of the period.";
-
-/// Where no program says how the part lies, what an effect does there is told in coordinates that no other program shares.
-std::string whose_coordinates(const Case& c, const Effect& effect) {
-  if (c.recording->in_part_frame || lies_as_planned(*c.recording) ||
-      (effect.needs & static_cast<unsigned>(Covariate::part_frame)) == 0)
-    return "";
-  return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
-}
-
-/// Without a clock, moments and rates are those of the motion model.
-std::string whose_clock(const Case& c, const Effect& effect) {
-  const auto time = static_cast<unsigned>(Covariate::time);
-  if ((effect.needs & time) == 0 || (c.touches.known & time) != 0) return "";
-  return " The recording has no time_s: seconds are those of a machine that moves as its file says; log time_s.";
-}
-
-/// Whether it displaces no touch by as much as the step to which positions are rounded, where that counts for more than
-/// the noise of the probe. One point touched again is rounded alike each time.
-bool may_be_rounding(const Case& c, const std::optional<double>& largest_um) {
-  const Vec3& probe = c.machine->probe.sd_mm;
-  return largest_um && *largest_um < c.step_um &&
-      c.step_um / std::sqrt(12.0) > kUmPerMm * std::max({probe.x, probe.y, probe.z});
 }
 
 /// Findings as effects of the answer and as settings of a machine file.

@@ -1,0 +1,37 @@
+#include "engine/diagnose/findings/caveats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace abbe::diagnose {
+
+std::string pattern_beside(const Case& c, const Finding& f) {
+  const Finding pattern = finding_of(c.explanations, f.evidence, false);
+  if (pattern.explanation < 0 || kAsWell * pattern.probability < f.probability) return "";
+  const Explanation& e = c.explanations.list[static_cast<std::size_t>(pattern.explanation)];
+  return fmt::format(" A pattern over {} ({}) that no single effect of the catalogue makes would explain it as well.",
+                     name(e.factor), e.shape);
+}
+
+std::string whose_coordinates(const Case& c, const Effect& effect) {
+  if (c.recording->in_part_frame || lies_as_planned(*c.recording) ||
+      (effect.needs & static_cast<unsigned>(Covariate::part_frame)) == 0)
+    return "";
+  return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
+}
+
+std::string whose_clock(const Case& c, const Effect& effect) {
+  const auto time = static_cast<unsigned>(Covariate::time);
+  if ((effect.needs & time) == 0 || (c.touches.known & time) != 0) return "";
+  return " The recording has no time_s: seconds are those of a machine that moves as its file says; log time_s.";
+}
+
+bool may_be_rounding(const Case& c, const std::optional<double>& largest_um) {
+  const Vec3& probe = c.machine->probe.sd_mm;
+  return largest_um && *largest_um < c.step_um &&
+      c.step_um / std::sqrt(12.0) > kUmPerMm * std::max({probe.x, probe.y, probe.z});
+}
+
+}  // namespace abbe::diagnose

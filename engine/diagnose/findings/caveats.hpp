@@ -1,0 +1,29 @@
+// What is said beside a name for those who might take it for more than the recording tells: sentences with a blank in
+// front, "" where there is nothing to say.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "engine/diagnose/findings/search.hpp"
+
+namespace abbe::diagnose {
+
+/// A pattern without a name explains the finding as well.
+std::string pattern_beside(const Case&, const Finding&);
+
+/// Where no program says how the part lies, what an effect does there is told in coordinates that no other program shares.
+std::string whose_coordinates(const Case&, const Effect&);
+
+/// Without a clock, moments and rates are those of the motion model.
+std::string whose_clock(const Case&, const Effect&);
+
+inline constexpr const char* kSamePhase =
+    " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "
+    "same. Repeat it with the part moved by a third of the period.";
+
+/// Whether what displaces touches by `largest_um` at most may be the rounding of positions: by less than their step, where
+/// that counts for more than the noise of the probe. One point touched again is rounded alike each time.
+bool may_be_rounding(const Case&, const std::optional<double>& largest_um);
+
+}  // namespace abbe::diagnose
