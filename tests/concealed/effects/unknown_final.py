@@ -2,7 +2,7 @@
 
 from portable import np
 
-from .base import Change, Effect, unit, vector
+from .base import Change, Effect, vector
 
 UNKNOWN = {}
 
@@ -11,158 +11,201 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_ruby(scene, rng):
+def draw_crane(scene, rng):
+    count, turn = int(rng.integers(4, 7)), rng.uniform(0, 2 * np.pi)
     return {
         "amplitude_um": 1.0,
-        "turns": rng.choice([-1.0, 1.0]) * rng.uniform(0.7, 1.6),
+        "way": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
+        "passes_s": np.quantile(scene.time, (np.arange(count) + rng.uniform(0.2, 0.8, count)) / count),
+        "senses": rng.choice([-1.0, 1.0], count),
+        "near_s": rng.uniform(25, 55),
+    }
+
+
+def change_crane(scene, p):
+    """A heavy crane drives through the hall, past the machine, and back some time later. The floor leans towards it,
+    the slender bridge follows: first to where the crane comes from, then across, then to where it goes. Amplitude
+    across, when the crane is nearest."""
+    way = np.asarray(p["way"])
+    across = np.array([-way[1], way[0], 0.0])
+    place = (scene.time[:, None] - np.asarray(p["passes_s"])) * np.asarray(p["senses"]) / p["near_s"]
+    lean = 1 / (1 + place**2) ** 1.5
+    return Change(tip=p["amplitude_um"] * (vector(across, np.sum(lean, 1)) + vector(way, np.sum(place * lean, 1))))
+
+
+def draw_commutation(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "axis": int(rng.integers(2)),
+        "poles_mm": rng.uniform(45, 80),
         "phase": rng.uniform(0, 2 * np.pi),
     }
 
 
-def change_ruby(scene, p):
-    """The ruby has come loose in its glue. It is oval across the shank, and every touch from the side turns it on a
-    little about its stem, the long tip as well as the short one: the side that stands out wanders round the tip in the
-    course of the run. Amplitude from the mean radius to the longest, and turns of the ruby that is used most."""
+def change_commutation(scene, p):
+    """A linear motor is commutated wrongly, and its carriage goes now faster, now slower than the controller commands,
+    from pole to pole of the magnets. The delay of the probe is taken off for the commanded speed: in between, a touch
+    along this axis comes too early, at the poles too late, from either side. Amplitude at 8 mm/s along the axis."""
+    i = p["axis"]
+    faster = np.sin(2 * np.pi * scene.reading[:, i] / p["poles_mm"] + p["phase"])
+    return Change(tip=vector(np.eye(3)[i], p["amplitude_um"] * faster * scene.travel[:, i] * scene.speed / 8))
+
+
+def draw_swarf(scene, rng):
+    count = int(rng.integers(4, 6))
     push = -np.einsum("nji,nj->ni", scene.head, scene.normal)
-    around, aside = np.arctan2(push[:, 1], push[:, 0]), 1 - push[:, 2] ** 2
-    turned = np.zeros(scene.size)
-    for tip in np.unique(scene.length):
-        mine = scene.length == tip
-        turned[mine] = np.cumsum(aside[mine]) - aside[mine]
-    turned *= 2 * np.pi * p["turns"] / turned.max()
-    return Change(along=p["amplitude_um"] * aside * np.cos(2 * (around - turned) + p["phase"]))
-
-
-def draw_hunting(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "period_s": rng.uniform(16, 36)}
-
-
-def change_hunting(scene, p):
-    """A motor holds the head at its angle A against friction, and hunts: its controller winds up until the head breaks
-    loose, which then sticks as far on the other side, and so on from every indexing. The tip goes to and fro by its
-    lever, up and down when it lies. Amplitude to either side, at the longest stylus."""
-    first = np.array([scene.time[scene.visit == v].min() for v in scene.visit])
-    side = np.where(np.mod((scene.time - first) / p["period_s"], 1) < 0.5, 1.0, -1.0)
-    axis = np.column_stack([np.sin(scene.b), -np.cos(scene.b), np.zeros(scene.size)])
-    return Change(tip=p["amplitude_um"] * side[:, None] * np.cross(axis, scene.arm / scene.length.max()))
-
-
-def draw_stale(scene, rng):
-    waves = rng.normal(size=(4, 2))
+    places = (np.arange(count)[:, None] + np.sort(rng.uniform(0, 1, (count, 2)), 1) * [0.3, 0.2] + [0, 0.75]) / count
+    picked = [int(k) for k in places[:, 0] * scene.size]
+    lost = [int(k) for k in places[:, 1] * scene.size]
     return {
         "amplitude_um": 1.0,
+        "picked_up_s": [float(scene.time[k]) + 0.5 for k in picked],
+        "lost_s": [float(scene.time[k]) + 0.5 for k in lost],
+        "towards": [push[int(rng.integers(a + 1, b + 1))].tolist() for a, b in zip(picked, lost)],
+        "length_mm": [float(scene.length[a + 1]) for a in picked],
+        "width_deg": rng.uniform(28, 42),
+        "squeezed": rng.uniform(0.02, 0.06),
+    }
+
+
+def change_swarf(scene, p):
+    """A curl of swarf clings to the tip and goes with it from ball to ball: who touches with this side of the tip
+    touches too early. It is squeezed flatter by every such touch, falls off at last, and some time later the next one
+    clings to another side. Amplitude of fresh swarf."""
+    push = -np.einsum("nji,nj->ni", scene.head, scene.normal)
+    proud = np.zeros(scene.size)
+    for since, until, towards, length in zip(p["picked_up_s"], p["lost_s"], p["towards"], p["length_mm"]):
+        mine = (scene.time >= since) & (scene.time < until) & (scene.length == length)
+        angle = np.degrees(np.arccos(np.clip(push[mine] @ np.asarray(towards), -1, 1)))
+        here = np.exp(-0.5 * (angle / p["width_deg"]) ** 2)
+        proud[mine] = here * (1 - p["squeezed"]) ** (np.cumsum(here) - here)
+    return Change(along=p["amplitude_um"] * proud)
+
+
+def draw_vacuum(scene, rng):
+    return {
+        "amplitude_um": rng.choice([-1.0, 1.0]),
+        "period_s": rng.uniform(110, 320),
+        "first_s": rng.uniform(0, 320),
+        "pumping": rng.uniform(0.1, 0.25),
+        "ridge_deg": rng.uniform(0, 180),
+        "ridge": rng.uniform(-0.4, 0.4),
+        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+    }
+
+
+def change_vacuum(scene, p):
+    """The part is held down by a vacuum which leaks: slowly the plate springs up in its middle, until the pump starts
+    and draws it flat again within a short while, and so on. The certificate is right half way. Amplitude from there to
+    either end, at half the size of the part."""
+    q = np.mod((scene.time - p["first_s"]) / p["period_s"], 1)
+    leaked = np.where(q < 1 - p["pumping"], q / (1 - p["pumping"]), (1 - q) / p["pumping"])
+    u, v, z = scene.part_point.T / p["half_size_mm"]
+    a = np.radians(p["ridge_deg"])
+    c, s = p["ridge"] * np.cos(2 * a), p["ridge"] * np.sin(2 * a)
+    rise = (1 + c) * u**2 + (1 - c) * v**2 + 2 * s * u * v
+    slope_u, slope_v = 2 * (1 + c) * u + 2 * s * v, 2 * (1 - c) * v + 2 * s * u
+    moved = np.column_stack([-z * slope_u, -z * slope_v, rise - rise.mean()])
+    return Change(along=-p["amplitude_um"] * (2 * leaked - 1) * np.sum(moved * scene.part_normal, 1))
+
+
+def draw_baked(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "rises_at": rng.uniform(0, 2 * np.pi),
+        "goes": rng.choice([-1.0, 1.0]) * np.radians(rng.uniform(40, 90)),
+        "height": np.radians(rng.uniform(15, 40)),
+        "clouds_s": np.quantile(scene.time, (np.arange(7) + rng.uniform(0.1, 0.9, 7)) / 7),
+        "tau_s": rng.uniform(15, 40),
+    }
+
+
+def change_baked(scene, p):
+    """Through a window the sun shines on the stylus from one side, and this side grows: the stylus curls away from the
+    sun, by the square of its length, and not when it points at the sun. Clouds come and go, and the sun goes on in the
+    course of the run. Amplitude of the longest, across the sun."""
+    turn = p["rises_at"] + p["goes"] * scene.time / scene.duration
+    low = np.cos(p["height"])
+    sun = np.column_stack([low * np.cos(turn), low * np.sin(turn), np.full(scene.size, np.sin(p["height"]))])
+    since = scene.time[:, None] - np.asarray(p["clouds_s"])
+    warm = np.sum((1 - np.exp(-np.maximum(since, 0) / p["tau_s"])) * [1, -1, 1, -1, 1, -1, 1], 1)
+    aside = sun - scene.shank * np.sum(sun * scene.shank, 1, keepdims=True)
+    return Change(tip=p["amplitude_um"] * aside * (warm * (scene.length / scene.length.max()) ** 2)[:, None])
+
+
+def draw_address(scene, rng):
+    table = rng.normal(size=(9, 5))
+    return {
+        "amplitude_um": 1.0,
+        "axis": int(rng.integers(2)),
         "coordinate": int(rng.integers(3)),
-        "numbers": rng.uniform(-1.2, 1.2, (4, 2)),
-        "waves": waves / np.sqrt(np.sum(waves**2) / 2),
-        "period_s": rng.uniform(22, 45),
-        "first_s": rng.uniform(0, 20),
+        "bit": int(rng.choice([2, 4])),
+        "table": (table / np.sqrt(np.mean(table**2))).tolist(),
     }
 
 
-def change_stale(scene, p):
-    """The controller works out the correction of its guides in a slow task, which comes round only now and then, and
-    takes it for the place where the machine is at this moment. After the way to another ball the touches still get the
-    correction of the ball before, until the task comes round again. Amplitude of the correction where its waves add
-    up."""
-    done = p["first_s"] + np.floor((scene.time - p["first_s"]) / p["period_s"]) * p["period_s"]
-    then = np.maximum(np.searchsorted(scene.time, done, side="right") - 1, 0)
+def change_address(scene, p):
+    """One line of the address bus of the controller is broken, and a bit of the row number always reads nought: of the
+    correction table over x and y, some rows are right, and in place of the others it takes rows from farther down. It
+    interpolates between whatever it gets. Amplitude is the root of the mean square of the table."""
+    i, table = p["axis"], np.asarray(p["table"])
     low = scene.reading[:, :2].min(0)
-    q = 2 * np.pi * ((scene.reading[:, :2] - low) / np.ptp(scene.reading[:, :2], axis=0)) @ np.asarray(p["numbers"]).T
-    correction = np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * np.cos(q), 1)
-    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * (correction[then] - correction)))
+    share = (scene.reading[:, :2] - low) / np.ptp(scene.reading[:, :2], axis=0)
+    u, v = 8 * share[:, i], 4 * share[:, 1 - i]
+    row, column = np.minimum(u.astype(int), 7), np.minimum(v.astype(int), 3)
+    u, v = u - row, v - column
+
+    def entry(k, j):
+        return table[k & ~p["bit"], j] - table[k, j]
+
+    near = (1 - v) * entry(row, column) + v * entry(row, column + 1)
+    far = (1 - v) * entry(row + 1, column) + v * entry(row + 1, column + 1)
+    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * ((1 - u) * near + u * far)))
 
 
-def draw_matched(scene, rng):
-    turned = rng.normal(size=(len(scene.styli), 3))
-    turned -= turned.mean(0)
-    return {"amplitude_um": 1.0, "turned": turned / np.sqrt(np.mean(turned**2))}
+def fetched(scene):
+    """How often a module with another length of stylus has been fetched from the rack."""
+    return np.cumsum(np.diff(scene.length, prepend=scene.length[0]) != 0)
 
 
-def change_matched(scene, p):
-    """The operator has matched the orientations of the head on three spheres at the edges of the table, not on one. The
-    software therefore gives every orientation a whole coordinate system, each turned a little otherwise about the
-    middle, and all of the part is turned with it. Amplitude at the end of the part, the root of the mean square of the
-    turns."""
-    away = scene.target - scene.target.mean(0)
-    away = away / np.linalg.norm(away, axis=1).max()
-    return Change(tip=p["amplitude_um"] * np.cross(np.asarray(p["turned"])[scene.sensor], away))
-
-
-def draw_seams(scene, rng):
+def draw_burr(scene, rng):
+    count, turn, lean = int(fetched(scene).max()) + 1, rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(15, 50))
     return {
         "amplitude_um": 1.0,
-        "axes": {str(f): unit(rng) for f in np.unique(scene.feature)},
-        "width_deg": rng.uniform(6, 11),
+        "astride": [bool(k) for k in rng.permutation(count) < round(0.45 * count)],
+        "moves": [float(np.cos(lean) * np.cos(turn)), float(np.cos(lean) * np.sin(turn)), float(np.sin(lean))],
     }
 
 
-def change_seams(scene, p):
-    """The balls are sintered in two halves, and were polished too little: around each runs a seam, on the great circle
-    where its mould was parted, and each is screwed on as it came. The certificate has the mean diameter. Amplitude on
-    the crest."""
-    axes = np.array([p["axes"][f] for f in scene.feature])
-    aside = np.degrees(np.arcsin(np.clip(np.sum(scene.part_normal * axes, 1), -1, 1))) / p["width_deg"]
-    seam = np.exp(-0.5 * aside**2)
-    return Change(along=p["amplitude_um"] * (seam - seam.mean()))
+def change_burr(scene, p):
+    """One of the seats to which the modules of the styli snap has a burr. A module that is fetched from the rack finds
+    home or sits astride the burr, as it happens, until the next one is fetched: astride it is lifted and leans to the
+    same side of the head in all orientations, a long stylus farther. Amplitude at the longest, if it only leaned."""
+    astride = np.asarray(p["astride"], float)[fetched(scene)]
+    aside, lifted = np.asarray(p["moves"]) * [1, 1, 0], np.asarray(p["moves"]) * [0, 0, 1]
+    moved = np.outer(scene.length / scene.length.max(), aside) + lifted
+    return Change(tip=p["amplitude_um"] * astride[:, None] * np.einsum("nij,nj->ni", scene.head, moved))
 
 
-def draw_clocks(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "period_s": rng.uniform(150, 450), "phase": rng.uniform()}
+def draw_oil(scene, rng):
+    air = scene.temperature["air"]
+    return {"amplitude_um": 1.0, "set_at_C": float((air.min() + air.max()) / 2 + rng.uniform(-0.4, 0.4))}
 
 
-def change_clocks(scene, p):
-    """The interface of the probe writes down the time of each touch, and the controller looks up where it was then. The
-    two clocks do not run alike, and are set equal again every few minutes: meanwhile the touch is looked up later and
-    later, in proportion to the speed. The qualification has taken the mean. Amplitude from this mean to the worst, at
-    8 mm/s."""
-    apart = 2 * np.mod(scene.time / p["period_s"] + p["phase"], 1) - 1
-    return Change(tip=scene.travel * (p["amplitude_um"] * apart * scene.speed / 8)[:, None])
+def change_oil(scene, p):
+    """A measuring probe is damped with silicone oil, which is thick in the cold and thin in the warm: its reading limps
+    behind the tip by more or less than the software takes off, in proportion to the speed. Along the stylus the probe
+    has no oil. Amplitude for 1 K colder, at 8 mm/s across the stylus."""
+    across = scene.travel - scene.shank * np.sum(scene.travel * scene.shank, 1, keepdims=True)
+    thick = p["set_at_C"] - scene.temperature["air"]
+    return Change(tip=-across * (p["amplitude_um"] * thick * scene.speed / 8)[:, None])
 
 
-def draw_butted(scene, rng):
-    axis = int(rng.integers(2))
-    return {
-        "amplitude_um": 1.0,
-        "axis": axis,
-        "far_side": rng.choice([-1.0, 1.0]),
-        "gap_mm": float(np.quantile(scene.reading[:, axis], rng.uniform(0.35, 0.65))),
-    }
-
-
-def change_butted(scene, p):
-    """A scale is made of two pieces with a gap between them, and each piece is held at its outer end: warm, they grow
-    towards each other and the gap closes. The software corrects one long scale that is held at the near end. Before the
-    gap it is right, beyond it all is off by the growth of the whole length. Amplitude for 1 K away from 20 degrees."""
-    beyond = p["far_side"] * (scene.reading[:, p["axis"]] - p["gap_mm"]) > 0
-    warmer = scene.temperature["xyz"[p["axis"]]] - 20
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["far_side"] * p["amplitude_um"] * warmer * beyond))
-
-
-def draw_spray(scene, rng):
-    turn, half = rng.uniform(0, 2 * np.pi), float(np.abs(scene.part_point[:, :2]).max())
-    away = rng.uniform(1.8, 2.6) * half
-    return {
-        "amplitude_um": 1.0,
-        "placement": int(rng.choice(np.unique(scene.setup))),
-        "nozzle_mm": [float(away * np.cos(turn)), float(away * np.sin(turn)), float(rng.uniform(0.8, 1.6) * half)],
-    }
-
-
-def change_spray(scene, p):
-    """For an optical scanner the part has been sprayed with white powder, and one placement is measured before it is
-    wiped. The layer is thick on the side of each ball that faced the can, thin where the spray came aslant, none
-    behind, and less on the balls that stood farther away. Amplitude where it is thickest."""
-    way = np.asarray(p["nozzle_mm"]) - scene.part_point
-    far = np.linalg.norm(way, axis=1)
-    layer = np.clip(np.sum(way * scene.part_normal, 1) / far, 0, None) * (far.min() / far) ** 2
-    return Change(along=p["amplitude_um"] * layer * (scene.setup == p["placement"]))
-
-
-unknown("rolling_ruby", draw_ruby, change_ruby, ["direction", "time", "sensor", "head"])
-unknown("hunting_head", draw_hunting, change_hunting, ["time", "head", "sensor"])
-unknown("stale_correction", draw_stale, change_stale, ["time", "position", "feature"])
-unknown("matched_frames", draw_matched, change_matched, ["head", "sensor", "position", "feature"])
-unknown("moulded_seams", draw_seams, change_seams, ["feature", "direction"])
-unknown("drifting_clocks", draw_clocks, change_clocks, ["time", "speed"])
-unknown("butted_scale", draw_butted, change_butted, ["temperature", "position", "feature", "setup"], "D")
-unknown("matting_spray", draw_spray, change_spray, ["setup", "direction", "feature"], "D")
+unknown("passing_crane", draw_crane, change_crane, ["time"])
+unknown("wrong_commutation", draw_commutation, change_commutation, ["position", "direction", "speed", "feature"])
+unknown("clinging_swarf", draw_swarf, change_swarf, ["direction", "time", "sensor", "head"])
+unknown("leaking_vacuum", draw_vacuum, change_vacuum, ["time", "feature", "position"])
+unknown("baked_stylus", draw_baked, change_baked, ["time", "head", "sensor"])
+unknown("broken_address", draw_address, change_address, ["position", "feature"])
+unknown("burred_module", draw_burr, change_burr, ["time", "sensor", "head"], "D")
+unknown("damping_oil", draw_oil, change_oil, ["temperature", "speed", "direction"], "D")
