@@ -86,7 +86,8 @@ def restyled(stylus, what, value):
     if what == "length":
         return dataclasses.replace(stylus, name=f"{stylus.name}L{value:g}", length=value)
     if what == "ball":
-        return dataclasses.replace(stylus, name=f"{stylus.name}D{value:g}", diameter=value)
+        thin = min(stylus.shaft, 0.75 * value)  # a shaft is thinner than its ball
+        return dataclasses.replace(stylus, name=f"{stylus.name}D{value:g}", diameter=value, shaft=thin)
     a, b = stylus.head[0], (stylus.head[1] + value + 180) % 360 - 180
     return dataclasses.replace(stylus, name=f"{stylus.name}B{b:g}", head=(a, b))
 

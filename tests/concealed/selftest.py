@@ -291,6 +291,13 @@ class Rounds(unittest.TestCase):
             second = world.Baseline(scene, s.geometry, seal.generator("selftest", 3), *s.noise, before=s.base)
             self.assertGreater(np.abs(second.offsets - s.base.offsets).max(), 0)
 
+    def test_a_smaller_ball_has_a_thinner_shaft(self):
+        s = stage("C")
+        scene = follow.second_scene(s.scene, {"ball": 2.0}, seal.generator("selftest", "ball"))
+        for stylus in scene.styli:
+            self.assertEqual(stylus.diameter, 2.0)
+            self.assertLess(stylus.shaft, 2.0)
+
     def test_wishes_are_understood(self):
         self.assertEqual(follow.understood("repeat with probing speed 15 mm/s"), {"speed": 15.0})
         self.assertEqual(follow.understood("repeat the whole sequence once more"), {"again": 0.0})
