@@ -98,7 +98,7 @@ std::string third_sentence(const Diagnosis& d) {
   constexpr double kClear = 3;  // nats
   const bool clear = std::abs(i.log_score_gain) > std::max(kClear, 2 * i.se), better = clear && i.log_score_gain > 0;
   const std::string says = better && i.rms_after_um > i.rms_before_um
-      ? "it is right that something is there, but its size does not carry over from the others"
+      ? "something is there too, but not of the size that it has on the others"
       : better               ? "it predicts better"
       : clear                ? "it predicts worse"
       : i.log_score_gain > 0 ? "it predicts better, though not beyond doubt"
