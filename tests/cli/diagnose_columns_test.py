@@ -78,6 +78,18 @@ class Columns(harness.Case):
         per_minute = self.changed(whole, lambda row: row | {"speed_mm_s": f"{60 * float(row['speed_mm_s']):g}"})
         self.assertIn("W0728", self.codes(self.diagnosis(per_minute)))
 
+    def test_readings_that_were_commanded_are_not_used(self):
+        """They hold no touch's own deviation: predicted from them, a touch would predict itself."""
+        whole = self.record("--seed", 4)
+        commanded = lambda row: row | {f"enc_{a}": f"{float(row['enc_' + a]) - float(row[a]) + float(row['t' + a]):.7f}" for a in "xyz"}
+        none = lambda row: row | {f"enc_{a}": "" for a in "xyz"}
+        coarse = lambda row: row | {a: f"{float(row[a]):.2f}" for a in "xyz"}
+        said, without = (self.diagnosis(self.changed(whole, change)) for change in (commanded, none))
+        self.assertIn("W0729", self.codes(said))
+        self.assertEqual((said["verdict"], said["p_value"]), ("no_mismatch", without["p_value"]))
+        for read in (whole, self.changed(whole, coarse)):
+            self.assertNotIn("W0729", self.codes(self.diagnosis(read)))
+
     def test_errors_far_beyond_the_specification_are_told(self):
         """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
         said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))

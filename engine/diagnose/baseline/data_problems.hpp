@@ -23,6 +23,10 @@ void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Di
 void doubt_temperatures(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Warns of speeds at which no probe touches (W0728).
 void doubt_speeds(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+
+/// Takes readings of the scales out that follow the targets and not the touches (W0729): effects of the readings would
+/// take each touch's own deviation from them.
+void leave_out_commanded_readings(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Whether more than one stylus or orientation must have touched, and no row says which (W0725).
 bool styli_unlogged(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Throws UserError where the machine does not travel against the normals that it touches; `back` turns a setup onto
