@@ -50,13 +50,15 @@ bool other_each_time(const Case& c, const Residuals& r, const Vector& in, double
   return pairs.size() >= kEnoughRepeats && common < kInCommon * share * squares;
 }
 
+/// The interval ends at 0: none of these changes its sign.
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u) {
+  const double low = value - 1.96 * u, high = value + 1.96 * u;
   return {.name = name,
           .unit = unit,
           .value = value,
           .u = u,
-          .low = std::max(0.0, value - 1.96 * u),
-          .high = value + 1.96 * u};
+          .low = value < 0 ? low : std::max(0.0, low),
+          .high = value < 0 ? std::min(0.0, high) : high};
 }
 
 /// Touches of one kind that scatter more than the others; `in`: which they are.
