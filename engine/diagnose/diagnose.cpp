@@ -89,6 +89,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   doubt_temperatures(once, file, messages);
   doubt_speeds(once, file, messages);
   leave_out_partly_logged(once, file, messages);
+  leave_out_commanded_readings(once, file, messages);
   continue_past_midnight(once, file, messages);
   count_from_first_touch(once, file, messages);
   return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
@@ -203,7 +204,10 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
 
 /// What no effect explains, and the pattern that a machine file may carry for it.
 void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out) {
-  out.unexplained = describe_unexplained(c, result);
+  const bool as_well =
+      out.improvement && out.runner_up && out.runner_up->log_score_gain >= out.improvement->log_score_gain;
+  out.unexplained = describe_unexplained(
+      c, result, as_well ? fmt::format("{}", fmt::join(out.runner_up->members, " or ")) : std::string());
   for (EffectSetting& setting : empirical_model(c, result)) {
     out.unexplained->model = setting.name;
     out.model_effects.push_back(std::move(setting));

@@ -88,7 +88,10 @@ class Traps(harness.Case):
             way = -along + math.sqrt(along ** 2 - sum(a * a for a in arm) + (radius + error) ** 2)
             return row | {a: f"{float(row['t' + a]) + way * n:.7f}" for a, n in zip("xyz", normal)}
         for change in (met, lambda row: row | {a: f"{float(row[a]) + s:.7f}" for a, s in zip("xyz", shift)}):
-            said = self.diagnosis(self.changed(self.folder / "sphere.csv", change), PORTAL)
+            def read(row):
+                moved = change(row)
+                return moved | {f"enc_{a}": f"{float(row['enc_' + a]) + float(moved[a]) - float(row[a]):.7f}" for a in "xyz"}
+            said = self.diagnosis(self.changed(self.folder / "sphere.csv", read), PORTAL)
             self.assertEqual(said["verdict"], "no_mismatch")
             self.assertIn("1.50 mm beside its targets and turned by 0.000 degrees", said["messages"][0]["message"])
 
@@ -108,6 +111,29 @@ class Traps(harness.Case):
         self.assertEqual([set(e["members"]) for e in said["effects"]], [{"part.shift", "probe.step", "machine.step"}, {"machine.scale"}])
         self.assertTrue(said["effects"][1]["sentence"].startswith("What that leaves is explained by "))
         self.assertNotEqual(said["next_measurement"], [])
+
+    def test_a_change_in_the_middle_of_a_ball_makes_no_dirt(self):
+        """The fewer touches of that ball, on one side of the moment, contradict the others by as much as the change."""
+        for moment, um, seed in ((238, 8, 2), (400, 8, 2), (556, 20, 1)):
+            path = self.write("plate.csv", plate(lambda t, time_s: (0, um / 1000 * (time_s > moment), 0), seed=seed))
+            said = self.diagnosis(path, PORTAL)
+            self.assertEqual([set(e["members"]) for e in said["effects"]], [{"part.shift", "probe.step", "machine.step"}])
+            self.assertEqual(said["baseline"]["outliers"], [])
+            low, high = said["effects"][0]["parameters"]["t0_s"]["interval95"]
+            self.assertTrue(low <= moment <= high and high - low < 20, (low, high))
+
+    def test_dirt_that_makes_readings_shorter_has_a_size_below_0(self):
+        said = self.diagnosis(self.record("--seed", 5, "--with", "noise.outliers:share=0.06,size_um=-15"))
+        size, = [e["parameters"]["size_um"] for e in said["effects"] if e["members"] == ["noise.outliers"]]
+        low, high = size["interval95"]
+        self.assertTrue(low < size["value"] < high <= 0, size)
+
+    def test_a_pattern_is_as_large_as_what_shows_of_it(self):
+        """The placement of the plate takes up most of what follows one axis, whatever size that has."""
+        path = self.write("plate.csv", plate(lambda t, _: (0, 4e-3 * (2 * (t[0] / 137 % 1) - 1), 0), seed=2))
+        amplitude = self.diagnosis(path, PORTAL)["unexplained"]["amplitude_um"]
+        self.assertLess(amplitude["value"], 2)   # before anything is taken up, the sawtooth has 1.3 um rms along the normals
+        self.assertGreater(amplitude["interval95"][0], 0.2)
 
     def test_seconds_are_those_of_the_clock_or_doubted(self):
         doubted = []

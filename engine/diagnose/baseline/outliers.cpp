@@ -1,7 +1,7 @@
 // Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers.
 // They are left out, or they would spoil the fit. Dirt strikes single touches by chance, though: touches next
 // to each other, of one stylus one after the other, or of one place again and again, that are all off, are a
-// mismatch with a cause, and stay in.
+// mismatch with a cause, and so are those that a sudden change puts where they are: they stay in.
 #include "engine/diagnose/baseline/outliers.hpp"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/diagnose/baseline/sudden_change.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 
@@ -99,7 +100,9 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
 
 void mask_outliers(Case& c) {
   mask(c, std::vector<char>(c.touches.touches.size(), 0));
-  const std::vector<char> kept = systematic(c.touches, c.recording->rows.data(), c.masked);
+  std::vector<char> kept = systematic(c.touches, c.recording->rows.data(), c.masked);
+  const std::vector<char> changed = put_there_by_a_sudden_change(c);
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] |= changed[i];
   if (std::count(kept.begin(), kept.end(), 1) > 0) mask(c, kept);
   if (std::count(c.masked.begin(), c.masked.end(), 1) > 0)
     c.off_um = beyond_prediction(compact(c.baseline.model), c.hyper, c.masked);

@@ -225,16 +225,17 @@ std::string listed(const Explanations& all, const std::vector<int>& set) {
 
 }  // namespace
 
-Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
+Unexplained describe_unexplained(const Case& c, const SearchResult& result, const std::string& predicts_as_well) {
   const Finding& f = *result.other;
-  const EvidenceSearch search(with_free(c.model, signatures_of(c, result.findings)), result.hyper, c.explanations);
+  const LinearModel rest = with_free(c.model, signatures_of(c, result.findings));
+  const EvidenceSearch search(rest, result.hyper, c.explanations);
   const Explanation& e = c.explanations.list[f.explanation];
   const Block& block = c.explanations.blocks[f.block];
   const Pattern pattern = pattern_of(search, block, f.block);
   Unexplained u;
   u.factor = std::string(abbe::diagnose::name(e.factor));
   u.shape = e.shape;
-  u.amplitude_um = std::sqrt(pattern.values.squaredNorm() / double(pattern.values.size()));
+  u.amplitude_um = std::sqrt(beside_free(rest, pattern.values).squaredNorm() / double(pattern.values.size()));
   // The relative uncertainty of an amplitude is one over its signal-to-noise.
   u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
   u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
@@ -243,9 +244,12 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result) {
       fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording", u.factor, u.shape, u.amplitude_um);
   const Finding name = finding_of(c.explanations, f.evidence, true);
   const bool as_good = kAsWell * name.probability >= f.probability;
-  u.sentence += !as_good ? " that no single effect of the catalogue makes."
-                         : fmt::format(". {} would explain it as well as what the catalogue does not have.",
-                                       listed(c.explanations, name.set));
+  u.sentence += as_good ? fmt::format(". {} would explain it as well as what the catalogue does not have.",
+                                      listed(c.explanations, name.set))
+      : !predicts_as_well.empty()
+      ? fmt::format(". {} predicts what the model had not seen as well, but explains the whole less well.",
+                    predicts_as_well)
+      : " that no single effect of the catalogue makes.";
   if (result.nearest) {
     u.sentence += fmt::format(" {} comes nearest, but leaves more than chance does (p = {:.1f} %).",
                               c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name,

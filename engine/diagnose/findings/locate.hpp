@@ -10,6 +10,7 @@ namespace abbe::diagnose {
 Factor shown_in(const Case&, const Explanation&);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
-Unexplained describe_unexplained(const Case&, const SearchResult&);
+/// `predicts_as_well`: an effect that predicts the touches left out as well as the pattern does; "" when none does.
+Unexplained describe_unexplained(const Case&, const SearchResult&, const std::string& predicts_as_well);
 
 }  // namespace abbe::diagnose

@@ -230,6 +230,11 @@ Vector beyond_prediction(LinearModel m, const Hyperparameters& h, const std::vec
   return out;
 }
 
+Matrix precision(const LinearModel& m, const Hyperparameters& h) {
+  const Vector weight = weights(m, h);
+  return weight.asDiagonal() * Rotated(m, h).precision() * weight.asDiagonal();
+}
+
 Matrix squared_correlation(const LinearModel& m, const Hyperparameters& h) {
   const Matrix p = Rotated(m, h).precision();
   const Vector variance = p.diagonal().cwiseMax(1e-9);
@@ -253,6 +258,13 @@ LinearModel compact(const LinearModel& m) {
 }
 
 LinearModel rougher(const LinearModel& m) { return with_ensemble(m, m.rough); }
+
+Vector beside_free(const LinearModel& m, const Vector& displacement) {
+  const Vector weight = m.noise_um.cwiseInverse();
+  const Matrix free = independent(weight.asDiagonal() * m.free);
+  const Vector white = weight.cwiseProduct(displacement);
+  return m.noise_um.cwiseProduct(white - free * (free.transpose() * white));
+}
 
 LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped) {
   std::vector<Eigen::Index> kept;

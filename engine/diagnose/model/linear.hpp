@@ -72,6 +72,9 @@ Vector leave_one_out(const LinearModel&, const Hyperparameters&);
 /// row's noise beside it has nothing to do with the recording.
 Vector expected_noise(const LinearModel&, const Hyperparameters&);
 
+/// The inverse covariance K of the touches, free of what X can do: (K y)_i / sqrt(K_ii) are these residuals.
+Matrix precision(const LinearModel&, const Hyperparameters&);
+
 /// Squares of the correlations of these residuals, by pair of rows, when the model is right.
 Matrix squared_correlation(const LinearModel&, const Hyperparameters&);
 
@@ -83,6 +86,9 @@ LinearModel rougher(const LinearModel&);
 
 /// Orthonormal columns that span the same space: touches of few directions leave parts of a placement open.
 Matrix independent(const Matrix& columns);
+
+/// What of this displacement of the rows, um, shows beside all that X can do.
+Vector beside_free(const LinearModel&, const Vector&);
 
 /// The model without some rows.
 LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);

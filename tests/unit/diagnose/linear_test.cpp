@@ -72,6 +72,22 @@ TEST_CASE("residuals predicted from all other rows are those of the dense formul
       CHECK(squared(i, j) == doctest::Approx(p(i, j) * p(i, j) / (p(i, i) * p(j, j))).epsilon(1e-6));
 }
 
+TEST_CASE("the precision of the touches is that of the dense formula") {
+  const LinearModel m = model_of(60, 1, 1, 0, 5);
+  Hyperparameters h;
+  h.scale = 1.3, h.noise = Vector::Constant(1, 0.8);
+  CHECK((precision(m, h) - dense_precision(m, h)).cwiseAbs().maxCoeff() < 1e-8);
+}
+
+TEST_CASE("of a displacement that X makes nothing shows, and of another what is beside it") {
+  const LinearModel m = model_of(60, 1, 1, 0, 6);
+  const Vector made = m.free * Vector::Constant(3, 20.0), other = random_matrix(60, 1, 9'000'000).col(0);
+  CHECK(beside_free(m, made).cwiseAbs().maxCoeff() < 1e-9);
+  const Vector shows = beside_free(m, made + other);
+  CHECK((m.free.transpose() * shows).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK((beside_free(m, other) - shows).cwiseAbs().maxCoeff() < 1e-9);
+}
+
 TEST_CASE("a touch is left out itself, not its difference from the touch before") {
   LinearModel m = model_of(60, 1, 1, 0.5, 21);
   m.follows[30] = 0;
