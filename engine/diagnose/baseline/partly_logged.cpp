@@ -81,6 +81,8 @@ void leave_out_commanded_readings(Recording& recording, const std::string& file,
   // From the scales to the tip is one vector for each stylus and orientation, but for what the controller corrects. Where
   // this vector varies as touches deviate from their targets, the scales were not read at the touch.
   constexpr double kAlike = 0.5;  // share of its squares that the deviations leave; 1 or more of scales that were read
+  // By so much, positions are in another frame than the scales: the part stood elsewhere.
+  constexpr double kElsewhere_mm = 0.02;
   if (recording.in_part_frame) return;
   struct Tip {
     std::vector<Vec3> from_scales, from_targets;
@@ -104,10 +106,10 @@ void leave_out_commanded_readings(Recording& recording, const std::string& file,
       square += dot(tip.from_scales[i], tip.from_scales[i]), left += dot(between, between);
     }
   }
-  const double step = common_step_mm(recording),
-               rounded = 3 * step * step / 12 *
-      double(recording.rows.size());  // positions that were, beside scales that were not
-  if (left >= kAlike * square || square <= 2 * rounded) return;
+  // Positions may be rounded where scales are not.
+  const double step = common_step_mm(recording), rows = double(recording.rows.size()),
+               rounded = 3 * step * step / 12 * rows;
+  if (left >= kAlike * square || square <= 2 * rounded || square > kElsewhere_mm * kElsewhere_mm * rows) return;
   messages.push_back(diagnostic(
       Code::W0729,
       fmt::format("{}: enc_x, enc_y, enc_z do not hold by how much the touches miss their targets: they are not used",
