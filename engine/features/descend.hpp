@@ -125,6 +125,8 @@ T displaced_distance(const Real (&q)[3], const T (&unknown)[kUnknowns<Profile>],
   if constexpr (Profile::kTilt) tilt[0] = unknown[k], tilt[1] = unknown[k + 1], k += 2;
   T sizes[2] = {T(size[0]) + unknown[k], T(size[1])};
   if constexpr (Profile::kSizes == 2) sizes[1] = sizes[1] + unknown[k + 1];
+  // Without a tilt the axis is z, and derivatives of products with 0 would be most of the work.
+  if constexpr (!Profile::kTilt) return Profile::distance(w[0] * w[0] + w[1] * w[1], w[2], sizes);
   // Cross and dot product with the axis (a, b, 1), whose squared length is 1 + a^2 + b^2.
   const T length2 = T(1) + tilt[0] * tilt[0] + tilt[1] * tilt[1];
   const T cx = w[1] - w[2] * tilt[1], cy = w[2] * tilt[0] - w[0], cz = w[0] * tilt[1] - w[1] * tilt[0];
