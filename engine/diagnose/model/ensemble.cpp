@@ -35,7 +35,7 @@ std::vector<double> scales_between(double estimated, double largest) {
 }
 
 /// What one error function may have more than its share: as much again, or twice.
-std::vector<Size> larger(double scale) { return {{scale, std::log(0.5)}, {2 * scale, std::log(0.5)}}; }
+const std::vector<Size> kLarger = {{1, std::log(0.5)}, {2, std::log(0.5)}};
 
 }  // namespace
 
@@ -55,13 +55,14 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
   shape_ = kPriorShape + 0.5 * double(rotated_.rank() + rotated_.rest_dof());
   precision_.resize(rotated_.rank(), static_cast<Eigen::Index>(scales_.size()));
   const double density = log_density(model, at_scale_one(h));
+  log_scale_.resize(precision_.cols());
   std::vector<double> prior;
   for (const double g : scales_) prior.push_back(-0.5 * std::pow(std::log(g) / model.scale_spread, 2));
   for (std::size_t j = 0; j < prior.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     precision_.col(column) = precision(scales_[j]);
-    log_scale_.push_back(log_prior + density + prior[j] - log_sum_exp(prior) +
-                         0.5 * precision_.col(column).array().log().sum());
+    log_scale_(column) =
+        log_prior + density + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum();
   }
 }
 
@@ -106,69 +107,96 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   b.count = count;
   const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
   const Matrix outside = rest.transpose() * rest;
-  b.sizes = block && !block->sizes.empty()
-      ? block->sizes
-      : sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
+  if (!block)
+    b.sizes = kLarger;
+  else if (!block->sizes.empty())
+    b.sizes = block->sizes;
+  else
+    b.sizes = sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
+  const auto sizes = static_cast<Eigen::Index>(b.sizes.size());
+  b.log_weight.resize(sizes, precision_.cols());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(a.transpose() * precision_.col(j).asDiagonal() * a + outside);
-    Axes axes{solver.eigenvectors(),
-              solver.eigenvalues().cwiseMax(0),
-              block ? b.sizes : larger(scales_[static_cast<std::size_t>(j)]),
-              {}};
-    for (const Size& s : axes.sizes)
-      axes.log_weight.push_back(s.log_prior - 0.5 * (1 + s.factor * s.factor * axes.d.array()).log().sum());
+    const Vector d = solver.eigenvalues().cwiseMax(0);
+    Axes axes{solver.eigenvectors().transpose(), Matrix(sizes, count)};
+    for (Eigen::Index s = 0; s < sizes; ++s) {
+      const auto& [factor, log_prior] = b.sizes[static_cast<std::size_t>(s)];
+      const double size = block ? factor : factor * scales_[static_cast<std::size_t>(j)], s2 = size * size;
+      axes.share.row(s) = s2 / (1 + s2 * d.array());
+      b.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
+    }
     b.axes.push_back(std::move(axes));
   }
   return b;
 }
 
-Ensemble::Seen Ensemble::seen(const Vector& recording) const {
-  const Vector y = rotated_.project(recording);
-  Seen out{rotated_.coordinates(y), {}, {}};
-  out.rest = rotated_.remainder(y, out.z);
-  out.u = (coordinates_.transpose() * Matrix(out.z.asDiagonal() * precision_)).colwise() +
-      Vector(remainder_.transpose() * out.rest);
+std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
+  const Matrix y = rotated_.project(recordings), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+  const Eigen::Index scales = precision_.cols();
+  Matrix weighted(z.rows(), z.cols() * scales);
+  for (Eigen::Index r = 0; r < z.cols(); ++r)
+    weighted.middleCols(r * scales, scales) = z.col(r).asDiagonal() * precision_;
+  const Matrix within = coordinates_.transpose() * weighted, beside = remainder_.transpose() * rest;
+  std::vector<Seen> out;
+  for (Eigen::Index r = 0; r < z.cols(); ++r)
+    out.push_back({z.col(r), rest.col(r), within.middleCols(r * scales, scales).colwise() + beside.col(r)});
   return out;
 }
 
 Ensemble::Verdicts Ensemble::judge(const Seen& y, const std::vector<int>& blocks) const {
-  Verdicts out;
+  const Eigen::Index scales = precision_.cols(), asked = static_cast<Eigen::Index>(functions_ + blocks.size());
+  Verdicts out{{}, Matrix(scales, asked), {}, Matrix(scales, asked)};
   out.squares =
       ((y.z.asDiagonal() * precision_).transpose() * y.z).array() + (y.rest.squaredNorm() + 2 * kPriorSquares);
-  for (std::size_t j = 0; j < scales_.size(); ++j)
-    out.alone.push_back(log_scale_[j] - shape_ * std::log(out.squares(static_cast<Eigen::Index>(j))));
-  const auto add = [&](const Prepared& b) {
-    std::vector<double> with, squares_with;
-    for (std::size_t j = 0; j < scales_.size(); ++j) {
-      const auto column = static_cast<Eigen::Index>(j);
-      const Axes& axes = b.axes[j];
-      const Vector t = (axes.e.transpose() * y.u.col(column).segment(b.first, b.count)).array().square();
-      std::vector<double> sizes, left;
-      for (std::size_t s = 0; s < axes.sizes.size(); ++s) {
-        const double s2 = axes.sizes[s].factor * axes.sizes[s].factor;
-        left.push_back(out.squares(column) - (s2 * t.array() / (1 + s2 * axes.d.array())).sum());
-        sizes.push_back(axes.log_weight[s] - shape_ * std::log(left.back()));
+  out.alone = log_scale_.array() - shape_ * out.squares.array().log();
+  // Most of a diagnosis is spent here: loops without a sum that waits for itself, and no memory asked for.
+  Eigen::ArrayXXd left, logs;
+  std::vector<double> along;
+  const auto judge = [&](const Prepared& b, Eigen::Index column) {
+    const Eigen::Index sizes = b.log_weight.rows();
+    left.resize(sizes, scales);
+    for (Eigen::Index j = 0; j < scales; ++j) {
+      const Axes& axes = b.axes[static_cast<std::size_t>(j)];
+      const double* const u = y.u.col(j).data() + b.first;
+      along.assign(static_cast<std::size_t>(b.count), 0.0);
+      for (Eigen::Index k = 0; k < b.count; ++k) {
+        const double* const e = axes.e.col(k).data();
+        for (Eigen::Index i = 0; i < b.count; ++i) along[i] += e[i] * u[k];
       }
-      with.push_back(log_scale_[j] + log_sum_exp(sizes));
-      squares_with.push_back(
-          left[static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin())]);
+      double* const left_by_size = left.col(j).data();
+      std::fill_n(left_by_size, sizes, out.squares(j));
+      for (Eigen::Index i = 0; i < b.count; ++i) {
+        const double* const share = axes.share.col(i).data();
+        const double square = along[i] * along[i];
+        for (Eigen::Index s = 0; s < sizes; ++s) left_by_size[s] -= share[s] * square;
+      }
     }
-    out.with.push_back(std::move(with));
-    out.squares_with.push_back(std::move(squares_with));
+    logs = b.log_weight.array() - shape_ * left.log();
+    for (Eigen::Index j = 0; j < scales; ++j) {
+      Eigen::Index best = 0;
+      out.with(j, column) = logs.col(j).maxCoeff(&best);
+      out.squares_with(j, column) = left(best, j);
+      for (Eigen::Index s = 0; s < sizes; ++s) logs(s, j) -= out.with(j, column);
+    }
+    logs = logs.exp();
+    out.with.col(column).array() += log_scale_.array() + logs.colwise().sum().transpose().log();
   };
-  for (std::size_t k = 0; k < functions_; ++k) add(blocks_[k]);
-  for (const int b : blocks) add(of(b));
+  for (Eigen::Index k = 0; k < asked; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    judge(at < functions_ ? blocks_[at] : of(blocks[at - functions_]), k);
+  }
   return out;
 }
 
-Level Ensemble::level(const std::vector<double>& log_belief, const std::vector<double>& squares) const {
+Level Ensemble::level(const Vector& log_belief, const Vector& squares) const {
   const double total = log_sum_exp(log_belief);
   Level l{0, 0};
   double log_g = 0;
   for (std::size_t j = 0; j < scales_.size(); ++j) {
-    const double p = std::exp(log_belief[j] - total);
+    const auto row = static_cast<Eigen::Index>(j);
+    const double p = std::exp(log_belief(row) - total);
     log_g += p * std::log(scales_[j]);
-    l.s2 += p * squares[j] / (2 * shape_);
+    l.s2 += p * squares(row) / (2 * shape_);
   }
   l.g2 = l.s2 * std::exp(2 * log_g);
   return l;

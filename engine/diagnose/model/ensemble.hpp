@@ -44,10 +44,10 @@ class Ensemble {
 
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {
-    std::vector<double> alone;                      ///< without any block
-    std::vector<std::vector<double>> with;          ///< by error function, then by block that was asked for
-    Vector squares;                                 ///< what is left of the sum of squares alone
-    std::vector<std::vector<double>> squares_with;  ///< likewise, at its best size
+    Vector alone;         ///< without any block
+    Matrix with;          ///< a column for each error function, then for each block that was asked for
+    Vector squares;       ///< what is left of the sum of squares alone
+    Matrix squares_with;  ///< likewise, with each of them at its best size
   };
   /// What the family sees of a recording: that of a sum of recordings is the sum.
   struct Seen {
@@ -58,11 +58,11 @@ class Ensemble {
       return {z + times * other.z, rest + times * other.rest, u + times * other.u};
     }
   };
-  /// `y`: of a recording, um.
-  Seen seen(const Vector& y) const;
+  /// Of recordings, um, one a column: several at once take less time than one after the other.
+  std::vector<Seen> seen(const Matrix& recordings) const;
   Verdicts judge(const Seen&, const std::vector<int>& blocks) const;
   /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
-  Level level(const std::vector<double>& log_belief, const std::vector<double>& squares) const;
+  Level level(const Vector& log_belief, const Vector& squares) const;
 
   /// A recording of such a machine, um, without what nothing is known of.
   Vector simulated(const Level&, const NoiseLaw&, std::uint64_t seed, int replicate) const;
@@ -77,17 +77,16 @@ class Ensemble {
   Eigen::Index first_column(int block) const { return of(block).first; }
 
  private:
-  /// What a block asks of the family at one scale: H' P_g H = E diag(d) E'.
+  /// What a block asks of the family at one scale, where H' P_g H = E diag(d) E'.
   struct Axes {
-    Matrix e;
-    Vector d;
-    std::vector<Size> sizes;  ///< of an explanation the same at every scale, of an error function in proportion to it
-    std::vector<double> log_weight;  ///< by size: its prior and the determinant
+    Matrix e;      ///< E'
+    Matrix share;  ///< s^2 / (1 + s^2 d): of a square of E' u, what the block takes; one row for each size
   };
   struct Prepared {
     Eigen::Index first = 0, count = 0;  ///< columns
-    std::vector<Size> sizes;
-    std::vector<Axes> axes;  ///< by scale
+    std::vector<Size> sizes;            ///< of an error function at the scale 1: they are in proportion to it
+    std::vector<Axes> axes;             ///< by scale
+    Matrix log_weight;                  ///< by size and scale: prior and determinant
   };
   /// `blocks`: whose signatures they are; none: error functions of the machine.
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Block>* blocks);
@@ -100,7 +99,7 @@ class Ensemble {
   double shape_ = 0;                ///< a + n / 2
   std::vector<double> scales_;      ///< g
   Matrix precision_;                ///< 1 / (g^2 lambda + 1), one column for each scale
-  std::vector<double> log_scale_;   ///< log prior of family and scale, and its determinant
+  Vector log_scale_;                ///< log prior of family and scale, and its determinant
   Matrix coordinates_, remainder_;  ///< of all columns: U' h, h - U U' h
   std::size_t functions_ = 0;       ///< of the machine; blocks follow them
   std::vector<Prepared> blocks_;

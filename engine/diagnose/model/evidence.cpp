@@ -21,9 +21,17 @@ constexpr double kPriorCorrelated = 0.5;
 /// Nats below the better ensemble from which on the other makes no difference.
 constexpr double kOutOfQuestion = 8;
 
-template <class T>
-std::size_t index_of_largest(const std::vector<T>& v) {
-  return static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+std::size_t index_of_largest(const Vector& v) {
+  Eigen::Index at = 0;
+  v.maxCoeff(&at);
+  return static_cast<std::size_t>(at);
+}
+
+/// Of every column.
+Vector log_sums_exp(const Matrix& logs) {
+  const Eigen::ArrayXXd top = logs.colwise().maxCoeff(),
+                        sum = (logs.array() - top.replicate(logs.rows(), 1)).exp().colwise().sum();
+  return (top + sum.log()).transpose();
 }
 
 /// Whether more simulated recordings could carry a p-value over the level. Downwards that is further: the few
@@ -52,8 +60,8 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
   ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
   if (model.rough.cols() == 0 || model_.y.squaredNorm() == 0) return 0;
   Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
-  const double harmonic = log_sum_exp(ensembles_.back().judge(ensembles_.back().seen(model_.y), {}).alone),
-               other = log_sum_exp(rough.judge(rough.seen(model_.y), {}).alone);
+  const double harmonic = log_sum_exp(ensembles_.back().judge(ensembles_.back().seen(model_.y).front(), {}).alone),
+               other = log_sum_exp(rough.judge(rough.seen(model_.y).front(), {}).alone);
   if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   return 1 / (1 + std::exp(harmonic - other));
 }
@@ -68,28 +76,34 @@ void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) 
   if (model_.y.squaredNorm() > 0) evidence_ = judge(seen(model_.y), &alone_, &with_);
 }
 
-std::vector<Ensemble::Seen> EvidenceSearch::seen(const Vector& y) const {
-  std::vector<Ensemble::Seen> out;
-  for (const Ensemble& e : ensembles_) out.push_back(e.seen(y));
+std::vector<std::vector<Ensemble::Seen>> EvidenceSearch::seen_of_each(const Matrix& recordings) const {
+  std::vector<std::vector<Ensemble::Seen>> out(static_cast<std::size_t>(recordings.cols()));
+  for (const Ensemble& e : ensembles_) {
+    std::vector<Ensemble::Seen> seen = e.seen(recordings);
+    for (std::size_t r = 0; r < out.size(); ++r) out[r].push_back(std::move(seen[r]));
+  }
   return out;
 }
 
 EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Seen>& y,
                                               const std::vector<int>& blocks) const {
   Weighed out;
-  for (std::size_t e = 0; e < ensembles_.size(); ++e) out.verdicts.push_back(ensembles_[e].judge(y[e], blocks));
-  for (const auto& v : out.verdicts) out.alone.push_back(log_sum_exp(v.alone));
-  for (std::size_t k = 0; k < functions_ + blocks.size(); ++k) {
-    std::vector<double> logs;
-    for (const auto& v : out.verdicts) logs.push_back(log_sum_exp(v.with[k]));
-    out.log_bayes.push_back(log_sum_exp(logs));
+  const auto families = static_cast<Eigen::Index>(ensembles_.size()), functions = static_cast<Eigen::Index>(functions_);
+  Matrix with(families, functions + static_cast<Eigen::Index>(blocks.size()));
+  out.alone.resize(families);
+  for (Eigen::Index e = 0; e < families; ++e) {
+    const auto at = static_cast<std::size_t>(e);
+    const Ensemble::Verdicts& v = out.verdicts.emplace_back(ensembles_[at].judge(y[at], blocks));
+    out.alone(e) = log_sum_exp(v.alone);
+    with.row(e) = log_sums_exp(v.with);
   }
-  std::vector<double> no_mismatch{log_sum_exp(out.alone) + std::log(functions_ > 0 ? 1 - kPriorUneven : 1)};
-  for (std::size_t k = 0; k < functions_; ++k)
-    no_mismatch.push_back(out.log_bayes[k] + std::log(kPriorUneven / double(functions_)));
+  const Vector log_bayes = log_sums_exp(with);
+  Vector no_mismatch(functions + 1);
+  no_mismatch << log_sum_exp(out.alone) + std::log(functions > 0 ? 1 - kPriorUneven : 1),
+      log_bayes.head(functions).array() + std::log(kPriorUneven / double(std::max<Eigen::Index>(functions, 1)));
   out.log_null = log_sum_exp(no_mismatch);
-  out.log_bayes.erase(out.log_bayes.begin(), out.log_bayes.begin() + static_cast<std::ptrdiff_t>(functions_));
-  for (double& x : out.log_bayes) x -= out.log_null;
+  const Vector of_blocks = log_bayes.tail(log_bayes.size() - functions).array() - out.log_null;
+  out.log_bayes.assign(of_blocks.begin(), of_blocks.end());
   return out;
 }
 
@@ -123,20 +137,22 @@ Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* a
   ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
   if (!alone) return out;
   const std::vector<Ensemble::Verdicts>& verdicts = weighed.verdicts;
-  const std::size_t e = index_of_largest(weighed.alone), block = index_of_largest(out.block_log_bayes);
-  const Vector& squares = verdicts[e].squares;
-  *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, {squares.begin(), squares.end()})};
-  if (out.block_log_bayes[block] <= 0) return out;
-  std::vector<double> logs;
-  for (const auto& v : verdicts) logs.push_back(log_sum_exp(v.with[functions_ + block]));
+  const std::size_t e = index_of_largest(weighed.alone);
+  *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, verdicts[e].squares)};
+  const auto best = std::max_element(out.block_log_bayes.begin(), out.block_log_bayes.end());
+  if (*best <= 0) return out;
+  const Eigen::Index block = static_cast<Eigen::Index>(functions_) + (best - out.block_log_bayes.begin());
+  Vector logs(weighed.alone.size());
+  for (Eigen::Index k = 0; k < logs.size(); ++k)
+    logs(k) = log_sum_exp(Vector(verdicts[static_cast<std::size_t>(k)].with.col(block)));
   const std::size_t f = index_of_largest(logs);
-  *with = {f, ensembles_[f].level(verdicts[f].with[functions_ + block], verdicts[f].squares_with[functions_ + block])};
+  *with = {f, ensembles_[f].level(verdicts[f].with.col(block), verdicts[f].squares_with.col(block))};
   return out;
 }
 
 std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, const Replicates& replicates,
                                                 std::uint64_t seed, int threads) const {
-  constexpr int kBatch = 20, kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
+  constexpr int kBatch = 20, kTogether = 5, kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
   std::vector<Evidence> out;
   std::vector<double> statistics;
   int extreme = 0;
@@ -144,9 +160,13 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw&
     while (static_cast<int>(out.size()) < most && extreme < enough) {
       const int first = static_cast<int>(out.size()), count = std::min(kBatch, most - first);
       out.resize(first + count);
-      on_threads(count, threads, [&](int k) {
-        out[first + k] =
-            judge(seen(ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, first + k)), nullptr, nullptr);
+      on_threads((count + kTogether - 1) / kTogether, threads, [&](int group) {
+        const int begin = first + group * kTogether, end = std::min(begin + kTogether, first + count);
+        Matrix recordings(model_.y.size(), end - begin);
+        for (int r = begin; r < end; ++r)
+          recordings.col(r - begin) = ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, r);
+        const auto seen = seen_of_each(recordings);
+        for (int r = begin; r < end; ++r) out[r] = judge(seen[static_cast<std::size_t>(r - begin)], nullptr, nullptr);
       });
       for (int r = first; r < first + count; ++r) {
         statistics.push_back(out[r].statistic);
@@ -182,11 +202,13 @@ double most_believed(double p, double prior) {
   return prior / (prior + (1 - prior) * chance);
 }
 
-double log_sum_exp(const std::vector<double>& v) {
+double log_sum_exp(std::span<const double> v) {
   const double top = *std::max_element(v.begin(), v.end());
   double sum = 0;
   for (const double x : v) sum += std::exp(x - top);
   return top + std::log(sum);
 }
+
+double log_sum_exp(const Vector& v) { return log_sum_exp(std::span(v.data(), static_cast<std::size_t>(v.size()))); }
 
 }  // namespace abbe::diagnose

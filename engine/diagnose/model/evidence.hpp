@@ -9,6 +9,8 @@
 // so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
 #pragma once
 
+#include <span>
+
 #include "engine/diagnose/model/ensemble.hpp"
 
 namespace abbe::diagnose {
@@ -40,6 +42,8 @@ class EvidenceSearch {
   /// Judges a list whose blocks are new after the first `same`; a plan has nothing to judge.
   void extend(const Explanations&, std::size_t same);
 
+  /// Touches of a recording.
+  Eigen::Index rows() const { return model_.y.size(); }
   /// Of the recording.
   const Evidence& evidence() const { return evidence_; }
   /// The belief that the machine's errors are rougher than the specification's ensemble, without any explanation.
@@ -53,7 +57,9 @@ class EvidenceSearch {
                                   int threads) const;
 
   /// What the ensembles see of a recording, in their order; that of a sum of recordings is the sum.
-  std::vector<Ensemble::Seen> seen(const Vector& y) const;
+  std::vector<Ensemble::Seen> seen(const Vector& y) const { return seen_of_each(y).front(); }
+  /// The same of several recordings, one a column.
+  std::vector<std::vector<Ensemble::Seen>> seen_of_each(const Matrix& recordings) const;
   /// The statistic of another recording than that of the search.
   double statistic_of(const std::vector<Ensemble::Seen>& y) const { return judge(y, nullptr, nullptr).statistic; }
   /// What one explanation has of it, as a logarithm.
@@ -90,7 +96,7 @@ class EvidenceSearch {
   };
   struct Weighed {
     std::vector<Ensemble::Verdicts> verdicts;  ///< by ensemble
-    std::vector<double> alone;                 ///< likewise: log likelihood without any block
+    Vector alone;                              ///< likewise: log likelihood without any block
     double log_null = 0;
     std::vector<double> log_bayes;  ///< by block that was asked for
   };
@@ -120,6 +126,7 @@ double tail_probability(double observed, std::vector<double> simulated);
 /// The American Statistician 55 (2001), eq. 2]
 double most_believed(double p, double prior);
 
-double log_sum_exp(const std::vector<double>&);
+double log_sum_exp(std::span<const double>);
+double log_sum_exp(const Vector&);
 
 }  // namespace abbe::diagnose

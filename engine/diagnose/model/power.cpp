@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kForAlarm = 100, kWithShift = 12;
+constexpr int kForAlarm = 100, kTogether = 5, kWithShift = 12;
 constexpr double kLevel = 0.01;  // of alarms of machines in order
 
 /// The value that a share of a law exceeds whose upper fifth is exponential.
@@ -29,10 +29,15 @@ double exceeded_by(double share, std::vector<double> values) {
 Power::Power(const EvidenceSearch& of, std::uint64_t seed, int threads) : search_(of), seed_(seed) {
   std::vector<double> statistics(kForAlarm);
   in_order_.resize(kWithShift);
-  on_threads(kForAlarm, threads, [&](int k) {
-    std::vector<Ensemble::Seen> seen = of.seen(of.in_order(seed, k));
-    statistics[static_cast<std::size_t>(k)] = of.statistic_of(seen);
-    if (k < kWithShift) in_order_[static_cast<std::size_t>(k)] = std::move(seen);
+  on_threads(kForAlarm / kTogether, threads, [&](int group) {
+    Matrix recordings(of.rows(), kTogether);
+    for (int k = 0; k < kTogether; ++k) recordings.col(k) = of.in_order(seed, group * kTogether + k);
+    auto seen = of.seen_of_each(recordings);
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const std::size_t at = static_cast<std::size_t>(group) * kTogether + k;
+      statistics[at] = of.statistic_of(seen[k]);
+      if (at < kWithShift) in_order_[at] = std::move(seen[k]);
+    }
   });
   alarm_ = exceeded_by(kLevel, std::move(statistics));
 }
@@ -42,10 +47,16 @@ double Power::detected_from(const Matrix& shift, int explanation, double share, 
   constexpr double kLeast = 0.5;
   constexpr int kHalvings = 7;
   const bool drawn = shift.cols() > 1;
-  std::vector<Ensemble::Seen> there = search_.seen(shift.col(0));
+  Matrix shifts = shift;
+  if (drawn) {
+    shifts.resize(shift.rows(), kWithShift);
+    for (int k = 0; k < kWithShift; ++k)
+      shifts.col(k) = shift * standard_normal(shift.cols(), seed_, stream_of("diagnose.power"), k);
+  }
+  const auto all_there = search_.seen_of_each(shifts);
   double sum = 0, squares = 0;
   for (int k = 0; k < kWithShift; ++k) {
-    if (drawn) there = search_.seen(shift * standard_normal(shift.cols(), seed_, stream_of("diagnose.power"), k));
+    const std::vector<Ensemble::Seen>& there = all_there[drawn ? static_cast<std::size_t>(k) : 0];
     const auto is_seen = [&](double times) {
       std::vector<Ensemble::Seen> y = in_order_[static_cast<std::size_t>(k)];
       for (std::size_t e = 0; e < y.size(); ++e) y[e] = y[e].plus(there[e], times);
