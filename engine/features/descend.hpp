@@ -125,8 +125,6 @@ T displaced_distance(const Real (&q)[3], const T (&unknown)[kUnknowns<Profile>],
   if constexpr (Profile::kTilt) tilt[0] = unknown[k], tilt[1] = unknown[k + 1], k += 2;
   T sizes[2] = {T(size[0]) + unknown[k], T(size[1])};
   if constexpr (Profile::kSizes == 2) sizes[1] = sizes[1] + unknown[k + 1];
-  // Without a tilt the axis is z, and derivatives of products with 0 would be most of the work.
-  if constexpr (!Profile::kTilt) return Profile::distance(w[0] * w[0] + w[1] * w[1], w[2], sizes);
   // Cross and dot product with the axis (a, b, 1), whose squared length is 1 + a^2 + b^2.
   const T length2 = T(1) + tilt[0] * tilt[0] + tilt[1] * tilt[1];
   const T cx = w[1] - w[2] * tilt[1], cy = w[2] * tilt[0] - w[0], cz = w[0] * tilt[1] - w[1] * tilt[0];
@@ -138,7 +136,7 @@ T displaced_distance(const Real (&q)[3], const T (&unknown)[kUnknowns<Profile>],
 
 /// Newton's equations H x = -g of half the sum of squares, H exact.
 template <class Profile, class Real>
-SymmetricSystem<Real, kUnknowns<Profile>> newton_equations(const Points<Real>& points, const Placed<Real>& s) {
+SymmetricSystem<Real, kUnknowns<Profile>> newton_equations_by_jets(const Points<Real>& points, const Placed<Real>& s) {
   constexpr int N = kUnknowns<Profile>;
   SymmetricSystem<Real, N> system;
   Jet<Real, N> zero[N];
@@ -156,6 +154,48 @@ SymmetricSystem<Real, kUnknowns<Profile>> newton_equations(const Points<Real>& p
     }
   }
   return system;
+}
+
+/// The same of what has no axis, a circle or a sphere: of |q| - r only the second derivatives by a shift, (1 - n n') / |q|,
+/// are not 0. Ten times as quick as by jets.
+template <class Profile, class Real>
+SymmetricSystem<Real, kUnknowns<Profile>> newton_equations_of_ball(const Points<Real>& points, const Placed<Real>& s) {
+  constexpr int N = kUnknowns<Profile>, D = kHolds<Profile>;
+  static_assert(!Profile::kTilt && N == D + 1);
+  SymmetricSystem<Real, N> system;
+  const Hold<Profile, Real> hold(s);
+  Real curvature[D][D] = {};
+  for (const auto& point : points) {
+    Real q[3], row[N + 1], n[D], away2 = 0;
+    s.coordinates(point.data(), q);
+    for (int i = 0; i < D; ++i) away2 += q[i] * q[i];
+    const Real away = std::sqrt(away2), d = away - s.size[0];
+    for (int i = 0; i < D; ++i) n[i] = q[i] / away, row[i] = -n[i];
+    row[D] = -1, row[N] = d;
+    hold.apply(row);
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j <= i; ++j) system.a[i][j] += row[i] * row[j];
+      system.b[i] -= row[i] * d;
+    }
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j) curvature[i][j] += d / away * (Real(i == j) - n[i] * n[j]);
+  }
+  for (int i = 0; i < D; ++i) {  // with the size goes the shift that holds the surface
+    for (int j = 0; j <= i; ++j) system.a[i][j] += curvature[i][j];
+    for (int j = 0; j < D; ++j) {
+      system.a[D][i] += curvature[i][j] * hold.shift[j];
+      system.a[D][D] += hold.shift[i] * curvature[i][j] * hold.shift[j];
+    }
+  }
+  return system;
+}
+
+template <class Profile, class Real>
+SymmetricSystem<Real, kUnknowns<Profile>> newton_equations(const Points<Real>& points, const Placed<Real>& s) {
+  if constexpr (Profile::kTilt)
+    return newton_equations_by_jets<Profile>(points, s);
+  else
+    return newton_equations_of_ball<Profile>(points, s);
 }
 
 /// How far a step moves the surface at the points, unknown by unknown, mm.

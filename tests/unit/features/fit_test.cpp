@@ -40,7 +40,26 @@ void check_derivatives() {
   }
 }
 
+template <class Profile>
+void check_second_derivatives() {
+  Placed<double> s;
+  s.p[0] = 3, s.p[1] = -2, s.p[2] = 1, s.size[0] = 5;
+  Points<double> points;
+  for (int n = 0; n < 20; ++n)
+    points.push_back({between("x", n, -20, 20), between("y", n, -20, 20), between("z", n, -20, 20)});
+  const auto jets = newton_equations_by_jets<Profile>(points, s), ball = newton_equations_of_ball<Profile>(points, s);
+  for (int i = 0; i < kUnknowns<Profile>; ++i) {
+    CHECK(ball.b[i] == doctest::Approx(jets.b[i]).epsilon(1e-12));
+    for (int j = 0; j <= i; ++j) CHECK(ball.a[i][j] == doctest::Approx(jets.a[i][j]).epsilon(1e-12));
+  }
+}
+
 }  // namespace
+
+TEST_CASE("second derivatives of a circle and a sphere equal those of the definition") {
+  check_second_derivatives<CircleProfile>();
+  check_second_derivatives<SphereProfile>();
+}
 
 TEST_CASE("derivatives written by hand equal those of the definition") {
   check_derivatives<CircleProfile>();
