@@ -143,11 +143,12 @@ std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
   return out;
 }
 
-Ensemble::Verdicts Ensemble::judge(const Seen& y, const std::vector<int>& blocks) const {
+Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& blocks) const {
   const Eigen::Index scales = precision_.cols(), asked = static_cast<Eigen::Index>(functions_ + blocks.size());
   Verdicts out{{}, Matrix(scales, asked), {}, Matrix(scales, asked)};
-  out.squares =
-      ((y.z.asDiagonal() * precision_).transpose() * y.z).array() + (y.rest.squaredNorm() + 2 * kPriorSquares);
+  Vector z = y.of.z, rest = y.of.rest;
+  if (y.added) z += y.times * y.added->z, rest += y.times * y.added->rest;
+  out.squares = ((z.asDiagonal() * precision_).transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
   out.alone = log_scale_.array() - shape_ * out.squares.array().log();
   // Most of a diagnosis is spent here: loops without a sum that waits for itself, and no memory asked for.
   Eigen::ArrayXXd left, logs;
@@ -157,11 +158,13 @@ Ensemble::Verdicts Ensemble::judge(const Seen& y, const std::vector<int>& blocks
     left.resize(sizes, scales);
     for (Eigen::Index j = 0; j < scales; ++j) {
       const Axes& axes = b.axes[static_cast<std::size_t>(j)];
-      const double* const u = y.u.col(j).data() + b.first;
+      const double *const of = y.of.u.col(j).data() + b.first,
+                          *const added = y.added ? y.added->u.col(j).data() + b.first : nullptr;
       along.assign(static_cast<std::size_t>(b.count), 0.0);
       for (Eigen::Index k = 0; k < b.count; ++k) {
         const double* const e = axes.e.col(k).data();
-        for (Eigen::Index i = 0; i < b.count; ++i) along[i] += e[i] * u[k];
+        const double u = added ? of[k] + y.times * added[k] : of[k];
+        for (Eigen::Index i = 0; i < b.count; ++i) along[i] += e[i] * u;
       }
       double* const left_by_size = left.col(j).data();
       std::fill_n(left_by_size, sizes, out.squares(j));

@@ -49,18 +49,20 @@ class Ensemble {
     Vector squares;       ///< what is left of the sum of squares alone
     Matrix squares_with;  ///< likewise, with each of them at its best size
   };
-  /// What the family sees of a recording: that of a sum of recordings is the sum.
+  /// What the family sees of a recording.
   struct Seen {
     Vector z, rest;  ///< by eigenvector, and off the model
     Matrix u;        ///< H' P_g y of the columns of all blocks, by scale
-
-    Seen plus(const Seen& other, double times) const {
-      return {z + times * other.z, rest + times * other.rest, u + times * other.u};
-    }
+  };
+  /// A recording, and some of another added to it: what is seen of them adds up.
+  struct Sum {
+    const Seen& of;
+    const Seen* added = nullptr;
+    double times = 0;
   };
   /// Of recordings, um, one a column: several at once take less time than one after the other.
   std::vector<Seen> seen(const Matrix& recordings) const;
-  Verdicts judge(const Seen&, const std::vector<int>& blocks) const;
+  Verdicts judge(const Sum&, const std::vector<int>& blocks) const;
   /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
   Level level(const Vector& log_belief, const Vector& squares) const;
 

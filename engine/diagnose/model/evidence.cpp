@@ -60,8 +60,8 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
   ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
   if (model.rough.cols() == 0 || model_.y.squaredNorm() == 0) return 0;
   Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
-  const double harmonic = log_sum_exp(ensembles_.back().judge(ensembles_.back().seen(model_.y).front(), {}).alone),
-               other = log_sum_exp(rough.judge(rough.seen(model_.y).front(), {}).alone);
+  const double harmonic = log_sum_exp(ensembles_.back().judge({ensembles_.back().seen(model_.y).front()}, {}).alone),
+               other = log_sum_exp(rough.judge({rough.seen(model_.y).front()}, {}).alone);
   if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   return 1 / (1 + std::exp(harmonic - other));
 }
@@ -85,7 +85,7 @@ std::vector<std::vector<Ensemble::Seen>> EvidenceSearch::seen_of_each(const Matr
   return out;
 }
 
-EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Seen>& y,
+EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& y,
                                               const std::vector<int>& blocks) const {
   Weighed out;
   const auto families = static_cast<Eigen::Index>(ensembles_.size()), functions = static_cast<Eigen::Index>(functions_);
@@ -114,15 +114,20 @@ double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<doub
   return log_sum_exp(variants);
 }
 
-double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& y, int explanation) const {
+double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
+                                  double times, int explanation) const {
   const Explanation& x = explanations_[static_cast<std::size_t>(explanation)];
+  std::vector<Ensemble::Sum> y;
+  for (std::size_t e = 0; e < of.size(); ++e) y.push_back({of[e], &added[e], times});
   return std::log(x.prior) + log_bayes_of(x, weigh(y, x.blocks).log_bayes);
 }
 
 Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const {
   std::vector<int> blocks(log_weight_.size());
   std::iota(blocks.begin(), blocks.end(), 0);
-  Weighed weighed = weigh(y, blocks);
+  std::vector<Ensemble::Sum> whole;
+  for (const Ensemble::Seen& seen : y) whole.push_back({seen});
+  Weighed weighed = weigh(whole, blocks);
   Evidence out;
   out.log_null = weighed.log_null;
   out.block_log_bayes = std::move(weighed.log_bayes);

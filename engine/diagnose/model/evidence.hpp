@@ -56,14 +56,15 @@ class EvidenceSearch {
   std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, const Replicates&, std::uint64_t seed,
                                   int threads) const;
 
-  /// What the ensembles see of a recording, in their order; that of a sum of recordings is the sum.
+  /// What the ensembles see of a recording, in their order.
   std::vector<Ensemble::Seen> seen(const Vector& y) const { return seen_of_each(y).front(); }
   /// The same of several recordings, one a column.
   std::vector<std::vector<Ensemble::Seen>> seen_of_each(const Matrix& recordings) const;
   /// The statistic of another recording than that of the search.
   double statistic_of(const std::vector<Ensemble::Seen>& y) const { return judge(y, nullptr, nullptr).statistic; }
-  /// What one explanation has of it, as a logarithm.
-  double log_belief(const std::vector<Ensemble::Seen>& y, int explanation) const;
+  /// What one explanation has of a recording with some of another added to it, as a logarithm.
+  double log_belief(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added, double times,
+                    int explanation) const;
   /// A recording of a machine in order, at the level of the recording beside its likeliest explanation.
   Vector in_order(std::uint64_t seed, int replicate) const {
     return likely().simulated(with_.level, {}, seed, replicate);
@@ -100,7 +101,7 @@ class EvidenceSearch {
     double log_null = 0;
     std::vector<double> log_bayes;  ///< by block that was asked for
   };
-  Weighed weigh(const std::vector<Ensemble::Seen>& y, const std::vector<int>& blocks) const;
+  Weighed weigh(const std::vector<Ensemble::Sum>& y, const std::vector<int>& blocks) const;
   /// Of the blocks of an explanation, averaged over them.
   double log_bayes_of(const Explanation&, const std::vector<double>& by_own_block) const;
   Evidence judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const;
