@@ -447,7 +447,8 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
   if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
-  if (!known && out.verdict == Verdict::no_mismatch && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
+  const bool only_noise = result.findings.empty() && !result.other;
+  if (!known && only_noise && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
     out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model, out.baseline.noise_um), file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
