@@ -34,7 +34,7 @@ class Columns(harness.Case):
         self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], 5)
 
     def test_a_clock_may_begin_anywhere(self):
-        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=12,t0_s=130,direction=x")
+        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=25,t0_s=130,direction=x")
         said = self.diagnosis(whole)
         late = self.diagnosis(self.changed(whole, lambda row: row | {"time_s": f"{float(row['time_s']) + 1.7e9:.3f}"}))
         self.assertIn("N0721", self.codes(late))
@@ -44,7 +44,7 @@ class Columns(harness.Case):
         self.assertLess(abs(moment - begin - later), 30)
 
     def test_a_clock_of_the_day_goes_on_past_midnight(self):
-        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=12,t0_s=130,direction=x")
+        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=25,t0_s=130,direction=x")
         def at_night(row, begin=86300):
             return row | {"time_s": f"{(begin + float(row['time_s'])) % 86400:.3f}"}
         day = self.diagnosis(self.changed(whole, lambda row: at_night(row, 40000)))
@@ -96,6 +96,27 @@ class Columns(harness.Case):
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertGreater(said["baseline"]["geometry_scale"], 2)
         self.assertIn("W0723", self.codes(said))
+        scattered = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x", "--with", "noise.unequal:ratio=5,group=1"))
+        self.assertEqual([e["members"] for e in scattered["effects"]], [["noise.unequal"]])
+        self.assertIn("W0723", self.codes(scattered))
+
+    def test_the_last_digits_of_readings_have_no_name(self):
+        """Positions that were corrected and readings that were not: at one height, what a scale makes of the readings is what a touch deviates,
+        ten thousand times smaller."""
+        faces = (("TOP", (500, -5, 0), (0, 0, 1), [(100 * k / 3, y, 0) for y in (-5, -35) for k in range(31)]),
+                 ("FRONT", (500, 0, -5), (0, 1, 0), [(100 * k / 3, 0, z) for z in (-5, -25) for k in range(31)]))
+        lines = ["DMISMN/'a straightedge',4.0", "UNITS/MM,ANGDEC", "SNSET/APPRCH,3", "SNSET/RETRCT,3", "FEDRAT/MESVEL,MMPS,5",
+                 "S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,150,4", "SNSLCT/S(P)", "D(R)=TRANS/XORIG,300,YORIG,500,ZORIG,-498"]
+        words = lambda v: ",".join(f"{c:.4f}" for c in v)
+        for name, at, normal, points in faces:
+            lines += [f"F({name})=FEAT/PLANE,CART,{words(at)},{words(normal)}", f"MEAS/PLANE,F({name}),{len(points)}", f"GOTO/CART,0,{60 * normal[1]},{60 * normal[2]}"]
+            lines += [f"PTMEAS/CART,{words(p)},{words(normal)}" for p in points] + ["ENDMES", "GOTO/CART,1000,60,60"]
+        bar = self.record("--seed", 3, program=self.write("bar.dmi", "\n".join([*lines, "ENDFIL", ""])))
+        def corrected(row):
+            return row | {"z": f"{float(row['z']) + 0.003 * float(row['nz']) * (2 * (float(row['tx']) / 137 % 1) - 1):.7f}"}
+        for e in self.diagnosis(self.changed(bar, corrected))["effects"]:
+            self.assertNotIn("machine.map_scallops", e["members"])
+            self.assertGreater(e["largest_um"], 1)
 
     def test_what_an_unknown_size_hides_is_listed(self):
         sized = self.write("sized.csv", "# surfaces: unknown_size\n" + self.record("--seed", 4).read_text())

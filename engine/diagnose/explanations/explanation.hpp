@@ -47,6 +47,9 @@ struct Size {
   double factor = 1;
   double log_prior = 0;
 };
+/// What shows less than the noise even at so many times what is typical of an effect is the last digits of readings, which
+/// hold the touch's own error: it tells nothing of the effect.
+inline constexpr double kWidest = 30;
 
 struct Block {
   int explanation = 0;

@@ -13,16 +13,14 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kWide = 30;  // prior standard deviations
-
 /// The part of the information on some columns that others do not share, of the whole; none where there is no
 /// information.
 double own_share(const Matrix& g, const std::vector<Eigen::Index>& columns, const std::vector<Eigen::Index>& others) {
   const Matrix all = g(columns, columns);
-  if (all.trace() * kWide * kWide < 1) return 0;  // nothing beside what it is believed to be before
+  if (all.trace() * kWidest * kWidest < 1) return 0;  // nothing beside what it is believed to be before
   if (others.empty()) return 1;
   const Matrix cross = g(others, columns), theirs = g(others, others);
-  const Matrix wide = theirs + Matrix::Identity(theirs.rows(), theirs.cols()) / (kWide * kWide);
+  const Matrix wide = theirs + Matrix::Identity(theirs.rows(), theirs.cols()) / (kWidest * kWidest);
   return (all - cross.transpose() * Eigen::LLT<Matrix>(wide).solve(cross)).trace() / all.trace();
 }
 
@@ -81,7 +79,7 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const
     directions_ = std::max(directions_, c.part % 3 > 0 ? 3 : 1), phases_ = std::max(phases_, c.part / 3 + 1);
   const std::vector<Eigen::Index> kept = telling(block, info.g);
   const auto count = static_cast<Eigen::Index>(kept.size());
-  const Eigen::LLT<Matrix> llt(info.g(kept, kept) + Matrix::Identity(count, count) / (kWide * kWide));
+  const Eigen::LLT<Matrix> llt(info.g(kept, kept) + Matrix::Identity(count, count) / (kWidest * kWidest));
   mean_(kept) = Vector(llt.solve(Vector(info.u(kept))));
   covariance_(kept, kept) = Matrix(llt.solve(Matrix::Identity(count, count)));
 }

@@ -107,22 +107,22 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   b.count = count;
   const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
   const Matrix outside = rest.transpose() * rest;
-  if (!block)
-    b.sizes = kLarger;
-  else if (!block->sizes.empty())
-    b.sizes = block->sizes;
-  else
-    b.sizes = sizes_of((a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace());
+  const double information = (a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace();
+  const bool own_sizes = block && block->sizes.empty(),
+             tells_nothing = own_sizes && information * kWidest * kWidest < 1;
+  b.sizes = !block ? kLarger : own_sizes ? sizes_of(information) : block->sizes;
   const auto sizes = static_cast<Eigen::Index>(b.sizes.size());
   b.log_weight.resize(sizes, precision_.cols());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(a.transpose() * precision_.col(j).asDiagonal() * a + outside);
+    Matrix g = a.transpose() * precision_.col(j).asDiagonal() * a + outside;
+    if (tells_nothing) g.setZero();
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
     const Vector d = solver.eigenvalues().cwiseMax(0);
     Axes axes{solver.eigenvectors().transpose(), Matrix(sizes, count)};
     for (Eigen::Index s = 0; s < sizes; ++s) {
       const auto& [factor, log_prior] = b.sizes[static_cast<std::size_t>(s)];
       const double size = block ? factor : factor * scales_[static_cast<std::size_t>(j)], s2 = size * size;
-      axes.share.row(s) = s2 / (1 + s2 * d.array());
+      axes.share.row(s) = (tells_nothing ? 0 : s2) / (1 + s2 * d.array());
       b.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
     }
     b.axes.push_back(std::move(axes));
