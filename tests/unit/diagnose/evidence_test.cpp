@@ -85,6 +85,19 @@ TEST_CASE("the Bayes factor is that of the definition") {
   CHECK(search.evidence().log_bayes[0] > search.evidence().log_bayes[1] + 3);
 }
 
+TEST_CASE("what shows less than the noise even at thirty times what is typical explains nothing") {
+  const int n = 100;
+  LinearModel m = noise_only(n, 1);
+  Explanations all = two(n);
+  m.y += 5 * all.blocks[1].signature.col(0);
+  all.blocks[0].signature = 1e-4 * m.y;  // the touches' own deviations, in the last digits of their readings
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  const EvidenceSearch search(m, h, all);
+  CHECK(search.evidence().log_bayes[0] <= 0);
+  CHECK(search.evidence().log_bayes[1] > 3);
+}
+
 TEST_CASE("an ensemble of larger errors does not swallow an effect") {
   // The parabola is nearly within the span of the ensemble. Estimated alone, the ensemble would have to be
   // twenty times as large.
