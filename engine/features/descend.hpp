@@ -157,7 +157,7 @@ SymmetricSystem<Real, kUnknowns<Profile>> newton_equations_by_jets(const Points<
 }
 
 /// The same of what has no axis, a circle or a sphere: of |q| - r only the second derivatives by a shift, (1 - n n') / |q|,
-/// are not 0. Ten times as quick as by jets.
+/// are not 0.
 template <class Profile, class Real>
 SymmetricSystem<Real, kUnknowns<Profile>> newton_equations_of_ball(const Points<Real>& points, const Placed<Real>& s) {
   constexpr int N = kUnknowns<Profile>, D = kHolds<Profile>;
@@ -171,7 +171,7 @@ SymmetricSystem<Real, kUnknowns<Profile>> newton_equations_of_ball(const Points<
     for (int i = 0; i < D; ++i) away2 += q[i] * q[i];
     const Real away = std::sqrt(away2), d = away - s.size[0];
     for (int i = 0; i < D; ++i) n[i] = q[i] / away, row[i] = -n[i];
-    row[D] = -1, row[N] = d;
+    row[D] = -1;
     hold.apply(row);
     for (int i = 0; i < N; ++i) {
       for (int j = 0; j <= i; ++j) system.a[i][j] += row[i] * row[j];

@@ -157,7 +157,7 @@ Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* a
 
 std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, const Replicates& replicates,
                                                 std::uint64_t seed, int threads) const {
-  constexpr int kBatch = 20, kTogether = 5, kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
+  constexpr int kBatch = 20, kEnough = 10, kEnoughNear = 20, kMoreNear = 6;
   std::vector<Evidence> out;
   std::vector<double> statistics;
   int extreme = 0;

@@ -37,6 +37,9 @@ struct Replicates {
 
 class EvidenceSearch {
  public:
+  /// How many simulated recordings are seen at once. Their last bits depend on it, so no number of threads changes it.
+  static constexpr int kTogether = 5;
+
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
   /// Judges a list whose blocks are new after the first `same`; a plan has nothing to judge.

@@ -11,7 +11,8 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kForAlarm = 100, kTogether = 5, kWithShift = 12;
+constexpr int kForAlarm = 100, kTogether = EvidenceSearch::kTogether, kWithShift = 12;
+static_assert(kForAlarm % kTogether == 0);
 constexpr double kLevel = 0.01;  // of alarms of machines in order
 
 /// The value that a share of a law exceeds whose upper fifth is exponential.
