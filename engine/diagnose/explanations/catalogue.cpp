@@ -217,15 +217,11 @@ Factor factor_of(const Effect& effect) {
   return Factor::direction;
 }
 
-/// Belief before the data that what is found is new in a later run, of what may be in all.
-constexpr double kPriorChange = 0.1;
-
-/// The names share their belief equally, and so do the patterns, but for those that only a change between runs makes.
+/// The names share their belief, and so do the patterns.
 void share_priors(Explanations& all) {
-  const auto weight = [](const Explanation& e) { return !e.effect && e.factor == Factor::run ? kPriorChange : 1; };
   double named = 0, patterns = 0;
-  for (const Explanation& e : all.list) (e.effect ? named : patterns) += weight(e);
-  for (Explanation& e : all.list) e.prior = weight(e) * (e.effect ? kPriorCatalogue / named : kPriorOther / patterns);
+  for (const Explanation& e : all.list) (e.effect ? named : patterns) += e.share;
+  for (Explanation& e : all.list) e.prior = e.share * (e.effect ? kPriorCatalogue / named : kPriorOther / patterns);
 }
 
 /// Effects of the noise change no mean: they are judged by the variance (findings/noise_effects.cpp).

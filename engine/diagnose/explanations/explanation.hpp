@@ -75,6 +75,7 @@ struct Explanation {
   Factor factor = Factor::position;
   std::string shape;           ///< of OTHER: "smooth", "quick", ...
   bool of_one_factor = false;  ///< of OTHER: a function of its factor alone, which an empirical effect can follow
+  double share = 1;            ///< of the belief in all effects, or in all patterns: so many times that of most
   double prior = 0;            ///< probability among all explanations
   unsigned missing = 0;        ///< covariates that are absent or constant: it cannot be judged
   std::vector<int> blocks;
@@ -92,6 +93,8 @@ struct Explanations {
 
 /// The shares of belief before the data: that a mismatch is in the catalogue, and that it is not.
 inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
+/// Belief before the data that what is found is new in a later run, of what may be in all.
+inline constexpr double kPriorChange = 0.1;
 /// Every explanation for these touches but those that look at raw readings, which are added once the readings
 /// are free of noise (own_noise.cpp); `rows`: which touches take part.
 Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);

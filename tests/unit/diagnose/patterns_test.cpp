@@ -106,7 +106,7 @@ TEST_CASE("the form of one ball is a pattern of the direction, and counts once")
     return std::count_if(all.list.begin(), all.list.end(),
                          [](const Explanation& e) { return e.factor == Factor::position; });
   };
-  CHECK(over_position() == 6);
+  CHECK(over_position() == 7);
   for (RecordedTouch& touch : t.touches)
     touch.scene.point = touch.scene.reading = Vec3{200, 300, 100} + 12.5 * touch.scene.normal;
   CHECK(over_position() == 3);
@@ -134,7 +134,7 @@ TEST_CASE("patterns over two factors are seen where they lie") {
   CHECK(likeliest(t, [&](const TouchScene& s) {
           return (s.stylus.head_b_rad - 1) * Vec3{0.02 * (s.point.y - middle.y), 0, 0};
         }) == "OTHER head, over position");
-  CHECK(likeliest(t, [](const TouchScene& s) { return (std::fmod(double(s.time_s), 700) / 350 - 1) * 2 * s.normal; }) ==
+  CHECK(likeliest(t, [](const TouchScene& s) { return (std::fmod(double(s.time_s), 2500) / 1250 - 1) * s.normal; }) ==
         "OTHER time, size along the sequence");
   CHECK(likeliest(t, [](const TouchScene& s) {
           return Vec3{3.0 * (s.feature == 1), -3.0 * (s.feature == 3), 3.0 * (s.feature == 4)};
@@ -145,6 +145,21 @@ TEST_CASE("patterns over two factors are seen where they lie") {
   CHECK(likeliest(t, [&](const TouchScene& s) {
           return (s.setup == 1 ? -1 : 1) * std::sqrt(clamped(s)) * cross(Vec3{0.04, 0, 0}, s.point - middle);
         }) == "OTHER setup, settling");
+}
+
+TEST_CASE("what no two factors tell is found over more of them") {
+  const RecordedTouches t = scattered(300);
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return Vec3{3 * std::sin(s.time_s / 40), 0, 0};
+        }) == "OTHER time, from touch to touch");
+  CHECK(likeliest(t, [](const TouchScene& s) {  // swarf on one side of a tip, until it falls off
+          const double around = s.visit * s.visit;
+          const Vec3 side{std::cos(around), std::sin(around), 0.3};
+          return 6 * std::exp(-std::pow(norm(transpose(s.stylus.R_WR) * s.normal - side), 2)) * s.normal;
+        }) == "OTHER direction, sides of tips in time");
+  CHECK(likeliest(t, [](const TouchScene& s) {
+          return 15 * std::cos(s.time_s / 900) * std::cos(s.point.x / 160) * s.normal.x * s.normal.y * s.normal;
+        }) == "OTHER position, with direction");
 }
 
 TEST_CASE("what is wrong at one place or on one spot is found there") {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
 
@@ -37,6 +38,18 @@ std::vector<Matrix> skidding(const TouchFactors& f) {
   return out;
 }
 
+/// What comes and goes on one side of a tip, of each stylus by itself.
+std::vector<Matrix> sides_of_tips(const TouchFactors& f) {
+  constexpr int kMost = 150;
+  constexpr std::pair<double, double> kWithin[] = {{0.15, 0.8}, {0.05, 0.5}, {0.02, 0.8}};  // time, direction
+  std::vector<Matrix> out;
+  for (const auto& [time, direction] : kWithin)
+    out.push_back(smooth_over(
+        {{f.touch, stretch(f, time, 4)}, {as_points(f.normal_on_probe), direction}, {as_points(f.sensor), 0.7}},
+        kMost));
+  return out;
+}
+
 }  // namespace
 
 void over_direction(const TouchFactors& f, Family& family) {
@@ -45,6 +58,7 @@ void over_direction(const TouchFactors& f, Family& family) {
   family.add_joint("in time", products(smooth(normal, 0.9, 8), smooth(f.time, 0.2, 8)));
   family.add_joint("over position", products(smooth(normal, 0.9, 8), linear(f.place)));
   family.add_joint("of the touch before", after_the_touch_before(f));
+  family.add_any("sides of tips in time", sides_of_tips(f));
   if (f.oblique) {
     family.add_joint("of travel", smooth(as_points(f.travel), 0.6, 40));
     family.add_joint("of oblique approaches", skidding(f));

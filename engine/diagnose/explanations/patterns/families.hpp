@@ -24,9 +24,15 @@ class Family {
   /// The same, but functions of something else too, or of what another recording does not share.
   void add_joint(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants, false); }
   void add_joint(std::string shape, const Matrix& columns) { append(std::move(shape), {columns}, false); }
+  /// Any function of several factors, quick ones too: it stands for more kinds of physics than the others, and is
+  /// believed kOfAny times as much.
+  void add_any(std::string shape, const std::vector<Matrix>& variants) {
+    append(std::move(shape), variants, false, kOfAny);
+  }
 
  private:
-  void append(std::string shape, const std::vector<Matrix>& variants, bool of_one_factor);
+  static constexpr double kOfAny = 4;
+  void append(std::string shape, const std::vector<Matrix>& variants, bool of_one_factor, double share = 1);
 
   Factor factor_;
   Explanations& out_;

@@ -28,7 +28,38 @@ Matrix functions(const Points& points, const Points& at, Covariance covariance) 
   return kernel(points, at) * solver.operatorInverseSqrt();
 }
 
+auto exponential(double length) {
+  return [length](double d2) { return std::exp(-std::sqrt(d2) / length); };
+}
+
+/// The factors side by side, each divided by its length.
+Points joined(const std::vector<Within>& factors) {
+  Points out(factors.front().points.size());
+  for (const Within& f : factors)
+    for (std::size_t i = 0; i < out.size(); ++i)
+      for (const double v : f.points[i]) out[i].push_back(v / f.length);
+  return out;
+}
+
+/// The largest principal components of columns that are drawn together.
+Matrix principal(const Matrix& columns, int most) {
+  if (columns.cols() <= most) return columns;
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(columns.transpose() * columns));
+  return columns * solver.eigenvectors().rightCols(most);
+}
+
+constexpr int kCentres = 3;  // for each principal function
+
 }  // namespace
+
+Matrix smooth_over(const std::vector<Within>& factors, int most) {
+  return principal(smooth(joined(factors), 1, kCentres * most), most);
+}
+
+Matrix rugged_over(const std::vector<Within>& factors, int most) {
+  const Points points = joined(factors);
+  return principal(functions(points, centres(points, 0.5, kCentres * most), exponential(1)), most);
+}
 
 Matrix smooth(const Points& points, double length, int most) {
   return functions(points, centres(points, length, most),
@@ -36,8 +67,7 @@ Matrix smooth(const Points& points, double length, int most) {
 }
 
 Matrix rugged(const Points& points, double length, int most) {
-  return functions(points, centres(points, 4.0 / most, most),
-                   [&](double d2) { return std::exp(-std::sqrt(d2) / length); });
+  return functions(points, centres(points, 4.0 / most, most), exponential(length));
 }
 
 Points centres(const Points& points, double length, int most) {
@@ -108,6 +138,16 @@ std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions& dire
     for (Eigen::Index i = 0; i < field.rows(); ++i)
       share(i) = dot(directions[static_cast<std::size_t>(i)], d) / norm(d);
     out.push_back(share.asDiagonal() * field);
+  }
+  return out;
+}
+
+Points as_points(const std::vector<int>& group) {
+  const Matrix in = indicator(group) / std::sqrt(2.0);
+  Points out(group.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Vector row = in.row(static_cast<Eigen::Index>(i));
+    out[i].assign(row.begin(), row.end());
   }
   return out;
 }

@@ -19,6 +19,19 @@ using Directions = std::vector<Vec3>;
 Matrix smooth(const Points&, double length, int most);
 Matrix rugged(const Points&, double length, int most);
 
+/// The points of one factor of several, and the length within which what happens is alike.
+struct Within {
+  Points points;
+  double length = 1;
+};
+/// What is alike where all these factors are: functions of all of them with a squared-exponential covariance, or an
+/// exponential one, which may jump. So many points would need more columns than they have rows: the `most` principal
+/// ones of the process (Rasmussen & Williams 2006, 8.1).
+Matrix smooth_over(const std::vector<Within>&, int most);
+Matrix rugged_over(const std::vector<Within>&, int most);
+/// Groups as points, each at a distance of 1 from the others.
+Points as_points(const std::vector<int>& group);
+
 /// Points spread over all: each the one farthest from those before, until all are nearer than half a length, or `most`.
 Points centres(const Points&, double length, int most);
 /// One column: 1 at the centre, falling to exp(-1/2) at the distance `width`.

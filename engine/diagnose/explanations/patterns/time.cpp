@@ -63,6 +63,21 @@ std::vector<Matrix> sizes_along_the_sequence(const TouchFactors& f) {
   return out;
 }
 
+/// Along one axis of the machine or of the probe, or in size, from a few touches to the next.
+std::vector<Matrix> from_touch_to_touch(const TouchFactors& f) {
+  constexpr int kMost = 80;
+  std::vector<Matrix> out;
+  for (const Matrix& course :
+       {rugged_over({{f.touch, stretch(f, 0.03, 6)}}, kMost), smooth_over({{f.touch, stretch(f, 0.01, 3)}}, kMost)}) {
+    out.push_back(course);
+    for (int k = 0; k < 3; ++k) {
+      out.push_back(component(f.normal, k).asDiagonal() * course);
+      if (several(f.orientation)) out.push_back(component(f.normal_on_probe, k).asDiagonal() * course);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 void over_time(const TouchFactors& f, Family& family) {
@@ -73,6 +88,7 @@ void over_time(const TouchFactors& f, Family& family) {
   family.add_joint("leaning", leaning(f));
   family.add_joint("turning to and fro", turning(f));
   family.add_joint("size along the sequence", sizes_along_the_sequence(f));
+  family.add_any("from touch to touch", from_touch_to_touch(f));
   if (several(f.orientation)) family.add_joint("on the probe", on_the_probe(f));
 }
 

@@ -135,6 +135,10 @@ bool differ(const Vector& temperature) {
   return temperature.maxCoeff() - temperature.minCoeff() > kDiffers_K;
 }
 
+double stretch(const TouchFactors& f, double share, int touches) {
+  return std::max(share, touches / double(f.touch.size()));
+}
+
 Matrix trend(const TouchFactors& f) {
   Matrix m(f.time.size(), 2);
   for (std::size_t i = 0; i < f.time.size(); ++i) {

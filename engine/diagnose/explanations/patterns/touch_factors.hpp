@@ -41,6 +41,8 @@ bool several(const std::vector<int>& group);
 /// Whether temperatures differ so much that something can be seen of it.
 bool differ(const Vector& temperature);
 
+/// A share of the sequence of touches, but so many of them at least.
+double stretch(const TouchFactors&, double share, int touches);
 /// What changes slowly in time: a straight line and a parabola.
 Matrix trend(const TouchFactors&);
 /// Functions of a time since: a straight line, and one that slows down.
