@@ -31,7 +31,7 @@ class Unexplained(harness.Case):
     def diagnosis(self, *args):
         return json.loads(self.abbe("diagnose", *args, "--format", "json").stdout)
 
-    def box(self):
+    def box(self, seed=2):
         """Nine touches on each of five faces of a box, with a scale that reads long: that is one face that is elsewhere."""
         faces = [("TOP", (200, 150, 0), (0, 0, 1)), ("FRONT", (200, 0, -60), (0, -1, 0)), ("RIGHT", (400, 150, -60), (1, 0, 0)),
                  ("BACK", (200, 300, -60), (0, 1, 0)), ("LEFT", (0, 150, -60), (-1, 0, 0))]
@@ -43,11 +43,11 @@ class Unexplained(harness.Case):
             above = [f"GOTO/{x + 40 * n[0]},{y + 40 * n[1]},60\nGOTO/{x + 40 * n[0]},{y + 40 * n[1]},{z + 20 * n[2]}\n"
                      f"PTMEAS/CART,{x},{y},{z},{n[0]},{n[1]},{n[2]}\nGOTO/{x + 40 * n[0]},{y + 40 * n[1]},60\n" for x, y, z in points]
             text += f"F({label})=FEAT/PLANE,CART,{at[0]},{at[1]},{at[2]},{n[0]},{n[1]},{n[2]}\nMEAS/PLANE,F({label}),9\n" + "".join(above) + "ENDMES\n"
-        self.abbe("record", self.write("box.dmi", text + "ENDFIL\n"), "--seed", 2, "--with", "machine.scale:scale_um_per_m=60,axis=x", "-o", "box.csv")
+        self.abbe("record", self.write("box.dmi", text + "ENDFIL\n"), "--seed", seed, "--with", "machine.scale:scale_um_per_m=60,axis=x", "-o", "box.csv")
         return self.folder / "box.csv"
 
     def test_what_explains_it_as_well_is_told(self):
-        said = self.diagnosis(self.box())
+        said = self.diagnosis(self.box(seed=4))
         self.assertEqual(said["verdict"], "one_of")
         self.assertIn("machine.scale", said["effects"][0]["members"])
         self.assertIn("A pattern over", said["effects"][0]["sentence"])

@@ -77,13 +77,10 @@ class SmallRound(unittest.TestCase):
     def test_a_stranger_is_not_named(self):
         self.assertEqual(self.rows["0006"]["verdict"], "unexplained")
 
-    def test_a_name_that_leaves_something_is_doubted(self):
-        """A stranger of the fourth final round: the room's cycle comes nearest, and had been its name. It leaves something, and so does the
-        pattern that mirrors it: it is told by half, with that something else is at work."""
+    def test_a_stranger_does_not_get_the_nearest_name(self):
+        """Of the fourth final round: the room's cycle comes nearest, and had been its name."""
         said = self.answer("final a440d084911db323c16f92486047d783", "0188", Spec("unknown", "busy_motor", 16.0))
-        self.assertLess(said["adequacy_p_value"], 0.01)
-        self.assertEqual([(e["members"], e["probability"]) for e in said["effects"]], [(["thermal.cycle"], 0.5)])
-        self.assertIn("It looks like", said["effects"][0]["sentence"])
+        self.assertEqual((said["verdict"], said["effects"]), ("unexplained", []))
 
     def test_the_form_of_a_ball_is_no_geometry_beyond_the_specification(self):
         """A single of the eleventh final round: errors of 9.7 times the specification had explained it. What is left out of one ball is not

@@ -159,7 +159,7 @@ TEST_CASE("what no two factors tell is found over more of them") {
         }) == "OTHER direction, sides of tips in time");
   CHECK(likeliest(t, [](const TouchScene& s) {
           return 15 * std::cos(s.time_s / 900) * std::cos(s.point.x / 160) * s.normal.x * s.normal.y * s.normal;
-        }) == "OTHER position, with direction");
+        }) == "OTHER time, over place and direction");
 }
 
 TEST_CASE("what is wrong at one place or on one spot is found there") {

@@ -30,20 +30,6 @@ std::vector<Matrix> one_place(const TouchFactors& f) {
   return out;
 }
 
-/// Over the place and the direction there: finely, or as time goes on, for all styli and speeds alike or not.
-std::vector<Matrix> with_direction(const TouchFactors& f) {
-  constexpr int kMost = 100;
-  const Within direction{as_points(f.normal), 0.9};
-  return {rugged_over({{f.place, 0.1}, direction}, kMost),
-          smooth_over({{f.place, 0.5}, direction, {f.touch, stretch(f, 0.15, 4)}}, kMost),
-          smooth_over({{f.place, 0.6},
-                       direction,
-                       {f.touch, stretch(f, 0.05, 4)},
-                       {as_points(f.sensor), 0.7},
-                       {as_points(f.dynamics), 0.7}},
-                      kMost)};
-}
-
 }  // namespace
 
 void over_position(const TouchFactors& f, Family& family) {
@@ -51,7 +37,7 @@ void over_position(const TouchFactors& f, Family& family) {
   family.add("one place", one_place(f));
   family.add_joint("in time", along(products(smooth(f.place, 0.6, 8), trend(f)), f.normal));
   if (f.one_round) return;  // what is smooth over the place is smooth over the direction there, and counts once
-  family.add_any("with direction", with_direction(f));
+  family.add_joint("with direction", rugged_over({{f.place, 0.1}, {as_points(f.normal), 0.9}}, 100));
   family.add("smooth", along(smooth(f.place, 0.6, 14), f.normal));
   family.add("patch", along(smooth(f.place, 0.25, 26), f.normal));
   family.add("height", smooth(f.place, 0.4, 24));

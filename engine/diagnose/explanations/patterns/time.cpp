@@ -78,6 +78,19 @@ std::vector<Matrix> from_touch_to_touch(const TouchFactors& f) {
   return out;
 }
 
+/// Over place and direction, for all styli and speeds alike or not.
+std::vector<Matrix> over_place_and_direction(const TouchFactors& f) {
+  constexpr int kMost = 100;
+  const Within direction{as_points(f.normal), 0.9};
+  return {smooth_over({{f.touch, stretch(f, 0.15, 4)}, {f.place, 0.5}, direction}, kMost),
+          smooth_over({{f.touch, stretch(f, 0.05, 4)},
+                       {f.place, 0.6},
+                       direction,
+                       {as_points(f.sensor), 0.7},
+                       {as_points(f.dynamics), 0.7}},
+                      kMost)};
+}
+
 }  // namespace
 
 void over_time(const TouchFactors& f, Family& family) {
@@ -89,6 +102,7 @@ void over_time(const TouchFactors& f, Family& family) {
   family.add_joint("turning to and fro", turning(f));
   family.add_joint("size along the sequence", sizes_along_the_sequence(f));
   family.add_any("from touch to touch", from_touch_to_touch(f));
+  if (!f.one_round) family.add_any("over place and direction", over_place_and_direction(f));
   if (several(f.orientation)) family.add_joint("on the probe", on_the_probe(f));
 }
 
