@@ -316,8 +316,12 @@ SearchResult search(Case& c, EvidenceSearch& first) {
 }
 
 Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
+  constexpr double kSaysNothing = 0.4;  // nats: what is free already does as much
   const std::vector<double> p = probabilities(all, evidence);
-  const std::vector<int> order = likeliest_first(all, p, catalogue);
+  std::vector<int> order = likeliest_first(all, p, catalogue);
+  std::erase_if(order, [&](int k) {
+    return k != order.front() && evidence.log_bayes[static_cast<std::size_t>(k)] < kSaysNothing;
+  });
   double total = 0;
   for (const int k : order) total += p[static_cast<std::size_t>(k)];
   Finding f;

@@ -22,7 +22,7 @@ Finding found(const std::vector<double>& names, double pattern, bool catalogue) 
     e.blocks = {static_cast<int>(all.blocks.size())};
     all.blocks.emplace_back();
     all.list.push_back(e);
-    evidence.log_bayes.push_back(0);
+    evidence.log_bayes.push_back(5);  // nats: the recording speaks for all
     evidence.block_log_bayes.push_back(0);
   };
   for (const double probability : names) add(find_effect("machine.scale"), probability);
@@ -31,6 +31,22 @@ Finding found(const std::vector<double>& names, double pattern, bool catalogue) 
 }
 
 }  // namespace
+
+TEST_CASE("what the recording does not speak for is in no set") {
+  Explanations all;
+  Evidence evidence;
+  for (const double log_bayes : {3.0, 2.0, 0.1}) {
+    Explanation e;
+    e.effect = find_effect("machine.scale");
+    e.prior = 1.0 / 3;
+    e.blocks = {static_cast<int>(all.blocks.size())};
+    all.blocks.emplace_back();
+    all.list.push_back(e);
+    evidence.log_bayes.push_back(log_bayes);
+    evidence.block_log_bayes.push_back(log_bayes);
+  }
+  CHECK(finding_of(all, evidence, true).set == std::vector<int>{0, 1});
+}
 
 TEST_CASE("a set of names ends where it holds 92 % of what the names have") {
   const Finding sure = found({0.02, 0.93, 0.05}, 0, true);
