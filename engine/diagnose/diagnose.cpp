@@ -153,8 +153,8 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
 /// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
 /// finding, it is that.
 RunChange change_of(const Block& variant, const Block& found) {
-  const bool holds = found.change.run > 0 && variant.change.gone == found.change.gone &&
-      variant.runs.low <= found.runs.low && found.runs.high <= variant.runs.high;
+  const bool holds = variant.change.is_like(found.change) && variant.runs.low <= found.runs.low &&
+      found.runs.high <= variant.runs.high;
   return holds ? found.change : variant.change;
 }
 
@@ -176,7 +176,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
     const bool rounding = may_be_rounding(c, e.largest_um);
-    const std::string in_file = change.gone ? " It is gone: the machine file needs nothing of it."
+    const std::string in_file = change.gone() ? " It is gone: the machine file needs nothing of it."
         : rounding
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
@@ -195,7 +195,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         pattern_beside(c, f) + (same_phase ? kSamePhase : "") +
         whose_coordinates(c, *c.explanations.list[f.explanation].effect) +
         whose_clock(c, *c.explanations.list[f.explanation].effect) + in_file;
-    if (change.run > 0 && stays_in_its_setup(c))
+    if (change.any() && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
     out.effects.push_back(std::move(e));

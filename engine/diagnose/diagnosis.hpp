@@ -41,8 +41,17 @@ struct LengthError {
 
 /// How something differs between runs: it acts from this run on, or is gone from it on. Run 0: it is the same in all.
 struct RunChange {
-  int run = 0;
-  bool gone = false;
+  int from = 0, until = 0;
+  bool any() const { return from > 0 || until > 0; }
+  bool gone() const { return until > 0; }
+  bool acts_in(int run) const { return run >= from && (until == 0 || run < until); }
+  /// The run that comes first.
+  int& first() { return from > 0 ? from : until; }
+  int first() const { return from > 0 ? from : until; }
+  /// Whether both are changes that differ in nothing but that.
+  bool is_like(const RunChange& other) const {
+    return any() && other.any() && (from > 0) == (other.from > 0) && (from == 0 || until == other.until);
+  }
   bool operator==(const RunChange&) const = default;
 };
 

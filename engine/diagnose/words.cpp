@@ -41,6 +41,14 @@ std::string without_uncertainty(const DiagnosedParameter& p, int decimals) {
 
 std::string remark(const DiagnosedParameter& p) { return p.called.empty() ? "" : " (" + p.called + ")"; }
 
+/// "new in run 2, and gone in run 3"
+std::string in_words(const RunChange& change) {
+  std::vector<std::string> ends;
+  if (change.from > 0) ends.push_back(fmt::format("new in run {}", change.from));
+  if (change.until > 0) ends.push_back(fmt::format("gone in run {}", change.until));
+  return fmt::format("{}", fmt::join(ends, " and "));
+}
+
 std::string in_word(const DiagnosedParameter& p) { return plain_name(p) + " " + p.word + remark(p); }
 
 }  // namespace
@@ -72,9 +80,7 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_uncertainty(p));
   const std::string told = sizes.empty() ? "" : fmt::format("{}", fmt::join(sizes, ", "));
-  const std::string it = change.run == 0
-      ? (beside ? "what that leaves" : "it")
-      : fmt::format("what is {} in run {}", change.gone ? "gone" : "new", change.run);
+  const std::string it = change.any() ? "what is " + in_words(change) : beside ? "what that leaves" : "it";
   if (titles.size() == 1)
     return fmt::format("{} {} {}{}{}.", capitalised(it), doubted ? "looks like" : "is explained by", titles.front(),
                        told.empty() ? "" : ": ", told);
@@ -93,8 +99,7 @@ std::string sizes_in_words(const std::vector<DiagnosedParameter>& parameters, st
 std::vector<std::string> in_words(const DiagnosedEffect& e) {
   std::vector<std::string> names = e.members;
   for (std::size_t m = 0; m < e.change.size(); ++m)
-    if (e.change[m].run > 0)
-      names[m] += fmt::format(", {} in run {}", e.change[m].gone ? "gone" : "new", e.change[m].run);
+    if (e.change[m].any()) names[m] += ", " + in_words(e.change[m]);
   return names;
 }
 

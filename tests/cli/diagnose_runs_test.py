@@ -107,6 +107,20 @@ class DiagnoseRuns(harness.Case):
         self.assertIn("what is gone in run 2", found["sentence"].lower())
         self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
 
+    def test_what_came_and_went_is_one_thing(self):
+        """The machine file was told two effects, one in the place of the other, of a machine that had neither any more."""
+        program = harness.ROOT / "examples/programs/sphere_25_points.dmi"
+        recordings = []
+        for run in (1, 2, 3):
+            dirty = ["--with", "probe.pretravel_lobing:amplitude_um=1.5"] if run == 2 else []
+            self.abbe("record", program, "--machine", MACHINE, "--run", run, "-o", f"run{run}.csv", *dirty)
+            recordings.append(f"run{run}.csv")
+        said = self.diagnosis(*recordings, "--model-out", "now.json")
+        self.assertEqual([(e["members"], e["new_in_run"], e["gone_in_run"]) for e in said["effects"]],
+                         [(["probe.pretravel_lobing"], [2], [3])])
+        self.assertIn("What is new in run 2 and gone in run 3 is explained by", said["effects"][0]["sentence"])
+        self.assertEqual(json.loads((self.folder / "now.json").read_text()).get("effects", []), [])
+
     def test_of_many_runs_it_is_found_in_which_something_is_new(self):
         """Nine later runs are judged in eight stretches first; the tenth run begins none of them."""
         program = harness.ROOT / "examples/programs/sphere_25_points.dmi"

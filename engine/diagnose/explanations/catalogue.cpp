@@ -50,7 +50,7 @@ class Evaluation {
     Vector r = Vector::Zero(static_cast<Eigen::Index>(scenes_.size()));
     const std::vector<double> none(draws.size(), 0.0);
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
-      if ((scenes_[i].run >= change.run) == change.gone) continue;
+      if (!change.acts_in(scenes_[i].run)) continue;
       const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
       r(static_cast<Eigen::Index>(i)) =
           kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
@@ -92,28 +92,31 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
 }
 
 /// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
-constexpr std::size_t kMostChanges = 8, kMostGone = 4;
+constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
 
 /// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after
-/// a crash, a mend or a change of the weather, and what is gone, a dirty tip that was cleaned. What happens
-/// at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new
-/// by itself.
+/// a crash, a mend or a change of the weather; what is gone, a dirty tip that was cleaned; and what came and went. What
+/// happens at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by
+/// itself.
 std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::vector<LaterRun>& later) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
   const std::vector<Block> in_all = list;
-  const auto add = [&](const LaterRun& at, bool gone) {
+  const auto add = [&](const LaterRun& at, RunChange change) {
     for (Block block : in_all) {
       if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
       if (moment) block.theta[*moment] = at.between_s(), block.cells[*moment] = at.gap_s;
-      block.change = {at.from_run, gone};
+      block.change = change;
       block.runs = at.runs;
       list.push_back(std::move(block));
     }
   };
-  for (const LaterRun& at : in_stretches(later, kMostChanges)) add(at, false);
-  for (const LaterRun& at : in_stretches(later, moment ? 0 : kMostGone)) add(at, true);
+  for (const LaterRun& at : in_stretches(later, kMostChanges)) add(at, {.from = at.from_run});
+  for (const LaterRun& at : in_stretches(later, moment ? 0 : kMostGone)) add(at, {.until = at.from_run});
+  const std::vector<LaterRun> ends = in_stretches(later, kMostBetween);
+  for (std::size_t k = 0; k < ends.size(); ++k)
+    for (std::size_t j = k + 1; j < ends.size(); ++j) add(ends[k], {ends[k].from_run, ends[j].from_run});
   return list;
 }
 
@@ -325,15 +328,15 @@ Block variant_at(const Effect& effect, const std::vector<double>& theta, RunChan
 
 void share_belief(const Explanation& e, std::vector<Block>& blocks) {
   double constant = 0, changing = 0;
-  const auto weight = [](const Block& b) { return b.change.gone ? 0.5 : 1; };
+  const auto weight = [](const Block& b) { return b.change.gone() ? 0.5 : 1; };
   for (const int k : e.blocks) {
     const Block& b = blocks[static_cast<std::size_t>(k)];
-    (b.change.run > 0 ? changing : constant) += weight(b);
+    (b.change.any() ? changing : constant) += weight(b);
   }
   const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
   for (const int k : e.blocks) {
     Block& b = blocks[static_cast<std::size_t>(k)];
-    b.weight = weight(b) * (b.change.run > 0 ? share / changing : (1 - share) / constant);
+    b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
   }
 }
 

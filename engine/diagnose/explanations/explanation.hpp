@@ -57,8 +57,8 @@ struct Block {
   /// by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is
   /// possible
   std::vector<Cell> cells;
-  RunChange change;     ///< what changed between runs
-  Cell runs;            ///< of a change: the stretch of later runs that its run stands for, as places in their order
+  RunChange change;  ///< what changed between runs
+  Cell runs;         ///< of a change: the stretch of later runs that its first one stands for, as places in their order
   double weight = 1;    ///< belief before the data in this variant, among those of its explanation
   bool finest = false;  ///< no touch tells the values within its cells apart
   std::vector<Column> columns;

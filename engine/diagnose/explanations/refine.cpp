@@ -43,9 +43,7 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
 /// that of the runs.
 bool neighbours(const Block& a, const Block& b, const Effect& effect) {
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
-  if (a.change != b.change &&
-      !(of_runs && a.change.run > 0 && b.change.run > 0 && a.change.gone == b.change.gone && adjoin(a.runs, b.runs)))
-    return false;
+  if (a.change != b.change && !(of_runs && a.change.is_like(b.change) && adjoin(a.runs, b.runs))) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
     if (!(of_runs && moment_of(effect) == p) && !adjoin(a.cells[p], b.cells[p])) return false;
   return true;
@@ -107,11 +105,12 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
     if (c.runs.low >= whole.runs.low && c.runs.high <= whole.runs.high) stretch.push_back(c);
   const std::vector<LaterRun> parts = of_several_runs(whole)
       ? in_stretches(stretch, kParts)
-      : std::vector<LaterRun>{{whole.change.run, whole.runs, {}}};
+      : std::vector<LaterRun>{{whole.change.first(), whole.runs, {}}};
   std::vector<Block> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
-    list[k].change = {parts[k].from_run, whole.change.gone};
+    list[k].change = whole.change;
+    if (whole.change.any()) list[k].change.first() = parts[k].from_run;
     list[k].runs = parts[k].runs;
     list[k].weight = whole.weight / double(parts.size());
   }
@@ -121,9 +120,9 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
 /// What happens between runs happens at the moment of the change that stands for them.
 void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& changes) {
   const std::optional<std::size_t> moment = moment_of(effect);
-  if (!moment || part.change.run == 0) return;
+  if (!moment || !part.change.any()) return;
   for (const LaterRun& c : changes)
-    if (c.from_run == part.change.run) part.theta[*moment] = c.between_s(), part.cells[*moment] = c.gap_s;
+    if (c.from_run == part.change.first()) part.theta[*moment] = c.between_s(), part.cells[*moment] = c.gap_s;
 }
 
 /// The cell in thirds along every parameter that it has an extent in, and along its runs.

@@ -167,7 +167,7 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
     const int block = best_block(all, static_cast<int>(k), evidence);
-    const bool changes = all.blocks[static_cast<std::size_t>(block)].change.run > 0;
+    const bool changes = all.blocks[static_cast<std::size_t>(block)].change.any();
     out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k]);
   }
   return out;

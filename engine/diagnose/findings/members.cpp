@@ -27,7 +27,7 @@ double weight_of_all(const Case& c, const Finding& f) {
 /// Whether a machine can have what was found of the first member: where its file has the effect already, both together.
 bool possible(const Case& c, const Finding& f, const std::vector<DiagnosedParameter>& found) {
   const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
-  if (c.explanations.blocks[static_cast<std::size_t>(f.block)].change.gone) return plausible(found);
+  if (c.explanations.blocks[static_cast<std::size_t>(f.block)].change.gone()) return plausible(found);
   const auto known = known_effect(*c.machine, effect, abbe::diagnose::setting_of(std::string(effect.name), found));
   if (!known) return plausible(found);
   return known->gone || plausible(effect, nearest_possible(effect, known->now));

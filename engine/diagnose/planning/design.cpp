@@ -152,7 +152,7 @@ class Design {
     std::vector<int> blocks;
     for (const int b : e.blocks)
       if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12 &&
-          (all_.blocks[static_cast<std::size_t>(b)].change.run > 0) == changing)
+          (all_.blocks[static_cast<std::size_t>(b)].change.any()) == changing)
         blocks.push_back(b);
     std::stable_sort(blocks.begin(), blocks.end(), [&](int a, int b) {
       return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff();

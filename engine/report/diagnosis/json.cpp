@@ -30,20 +30,23 @@ Json parameters(const std::vector<DiagnosedParameter>& list) {
 }
 
 Json effect(const DiagnosedEffect& e) {
-  const auto in_run = [&](bool gone) {
+  const auto in_run = [&](int RunChange::*end) {
     Json list = Json::array();
     for (std::size_t m = 0; m < e.members.size(); ++m)
-      list.push_back(m < e.change.size() && e.change[m].run > 0 && e.change[m].gone == gone ? Json(e.change[m].run)
-                                                                                            : Json());
+      list.push_back(m < e.change.size() && e.change[m].*end > 0 ? Json(e.change[m].*end) : Json());
     return list;
   };
   Json by_member = Json::array();
   for (const DiagnosedMember& m : e.by_member)
     by_member.push_back({{"probability", number(m.probability)}, {"parameters", parameters(m.parameters)}});
-  return {{"members", e.members},        {"probability", number(e.probability)},
-          {"by_member", by_member},      {"parameters", parameters(e.parameters)},
-          {"sentence", e.sentence},      {"new_in_run", in_run(false)},
-          {"gone_in_run", in_run(true)}, {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
+  return {{"members", e.members},
+          {"probability", number(e.probability)},
+          {"by_member", by_member},
+          {"parameters", parameters(e.parameters)},
+          {"sentence", e.sentence},
+          {"new_in_run", in_run(&RunChange::from)},
+          {"gone_in_run", in_run(&RunChange::until)},
+          {"largest_um", e.largest_um ? number(*e.largest_um) : Json()}};
 }
 
 Json location(const Location& l) {

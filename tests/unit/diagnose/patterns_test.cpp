@@ -222,11 +222,13 @@ TEST_CASE("many runs make no more variants than few") {
   std::vector<int> rows(t.touches.size());
   std::iota(rows.begin(), rows.end(), 0);
   const Explanations all = explanations_without_readings(t, rows);
-  std::set<int> tried, gone;
+  std::set<std::pair<int, int>> fresh, gone, passing;
   for (const Block& b : all.blocks)
-    if (b.change.run > 0) (b.change.gone ? gone : tried).insert(b.change.run);
-  CHECK(tried.size() == 8);
+    if (b.change.any())
+      (b.change.until == 0 ? fresh : b.change.from == 0 ? gone : passing).emplace(b.change.from, b.change.until);
+  CHECK(fresh.size() == 8);
   CHECK(gone.size() == 4);
+  CHECK(passing.size() == 3);
   for (const Explanation& e : all.list)
     if (e.factor == Factor::run || e.factor == Factor::feature)
       for (const int b : e.blocks) CHECK(all.blocks[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);

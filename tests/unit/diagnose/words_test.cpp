@@ -49,7 +49,7 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
         "One of these may explain it, and this recording cannot tell which: trigger delay; tip radius.");
   CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, false}) ==
         "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, true}) ==
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {.until = 2}) ==
         "What is gone in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {3, false}) ==
         "One of these explains what is new in run 3, and this recording cannot tell which: trigger delay; tip radius.");
@@ -60,8 +60,10 @@ TEST_CASE("a name says in which run it is new") {
   e.members = {"probe.tip_radius", "machine.step"};
   e.change = {{2, false}, {}};
   CHECK(in_words(e) == std::vector<std::string>{"probe.tip_radius, new in run 2", "machine.step"});
-  e.change = {{3, true}, {2, false}};
+  e.change = {{.until = 3}, {.from = 2}};
   CHECK(in_words(e) == std::vector<std::string>{"probe.tip_radius, gone in run 3", "machine.step, new in run 2"});
+  e.change = {{.from = 2, .until = 3}, {}};
+  CHECK(in_words(e).front() == "probe.tip_radius, new in run 2 and gone in run 3");
   e.change.clear();
   CHECK(in_words(e) == e.members);
 }
