@@ -107,6 +107,7 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
     ++rows(g);
   }
   b.noise_um = std::sqrt(square.sum() / rows.sum());
+  b.stated_noise_um = std::sqrt(c.model.noise_um.squaredNorm() / rows.sum());
   for (std::size_t g = 0; g < c.baseline.noise_names.size(); ++g) {
     const auto k = static_cast<Eigen::Index>(g);
     if (!c.baseline.noise_names[g].empty() && rows(k) > 0)
@@ -181,6 +182,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
               c.step_um)
+        : belief_in_first(c, f) < kCarried
+        ? " It is one of so many that no machine file carries it."
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     const bool same_phase = same_phase_in_same_direction(c, f);
@@ -208,7 +211,11 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
       out.improvement && out.runner_up && out.runner_up->log_score_gain >= out.improvement->log_score_gain;
   out.unexplained = describe_unexplained(
       c, result, as_well ? fmt::format("{}", fmt::join(out.runner_up->members, " or ")) : std::string());
-  for (EffectSetting& setting : empirical_model(c, result)) {
+  EmpiricalModel model = empirical_model(c, result);
+  if (model.follows &&
+      model.follows->name != c.explanations.list[static_cast<std::size_t>(result.other->explanation)].name)
+    out.unexplained->model_follows = abbe::diagnose::name(model.follows->factor);
+  for (EffectSetting& setting : model.settings) {
     out.unexplained->model = setting.name;
     out.model_effects.push_back(std::move(setting));
   }

@@ -39,7 +39,7 @@ struct LengthError {
   double length_mm = 0, error_mm = 0, mpe_mm = 0;
 };
 
-/// How something differs between runs: it acts from this run on, or is gone from it on. Run 0: it is the same in all.
+/// How something differs between runs: it is new in one, or gone from one on, or both. 0: neither; it is the same in all.
 struct RunChange {
   int from = 0, until = 0;
   bool any() const { return from > 0 || until > 0; }
@@ -90,6 +90,8 @@ struct Unexplained {
   double low_um = 0, high_um = 0;  ///< 95 % interval of the amplitude
   std::string sentence;
   std::string model = {};  ///< the effect in `model_effects` that stands for it; empty: none was made
+  /// the factor of which that is a function, where the pattern is one of several; else empty
+  std::string model_follows = {};
 };
 
 struct Improvement {
@@ -137,6 +139,7 @@ struct BaselineSummary {
   bool known = false;
   double geometry_scale = 1;
   double noise_um = 0;
+  double stated_noise_um = 0;  ///< the same of the machine file, with the rounding of positions
   std::vector<std::pair<std::string, double>> noise_by_sensor;
   double correlation = 0;
   std::vector<std::string> outliers;  ///< "SPH1 touch 7"

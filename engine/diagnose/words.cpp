@@ -122,10 +122,17 @@ Headline headline(const Diagnosis& d) {
 
 bool doubtful(const Diagnosis& d) { return d.adequacy_p && *d.adequacy_p < kInadequate && !d.unexplained; }
 
-std::string in_words(const Location& l) {
-  std::vector<std::string> where;
-  for (const auto& [key, value] : l.where) where.push_back(key + " " + value);
-  return fmt::format("located in {}{}{}", l.factor, where.empty() ? "" : "; strongest at ", fmt::join(where, ", "));
+std::string located_in_words(const Diagnosis& d) {
+  constexpr double kNearlyAsWell = 0.85;
+  if (d.location.empty()) return "";
+  const Location& first = d.location.front();
+  std::vector<std::string> where, others;
+  for (const auto& [key, value] : first.where) where.push_back(key + " " + value);
+  for (std::size_t k = 1; d.unexplained && k < d.location.size(); ++k)
+    if (d.location[k].share >= kNearlyAsWell * first.share) others.push_back(d.location[k].factor);
+  return fmt::format("located in {}{}{}{}{}", first.factor, where.empty() ? "" : "; strongest at ",
+                     fmt::join(where, ", "), others.empty() ? "" : "; nearly as well in ",
+                     fmt::join(others, " or in "));
 }
 
 }  // namespace abbe

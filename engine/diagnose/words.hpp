@@ -46,7 +46,8 @@ Headline headline(const Diagnosis&);
 /// Whether the names leave more than chance does, and no pattern says what.
 bool doubtful(const Diagnosis&);
 
-/// "located in time; strongest at time_s 10 to 60 s"
-std::string in_words(const Location&);
+/// "located in time; strongest at time_s 10 to 60 s"; of a pattern without a name also which other factors do nearly as
+/// well, as place and time where every feature was touched once. Empty where nothing was located.
+std::string located_in_words(const Diagnosis&);
 
 }  // namespace abbe

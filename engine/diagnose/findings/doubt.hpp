@@ -28,6 +28,9 @@ inline double believed(double probability, bool doubted) {
   return doubted ? std::min(probability, kDoubted) : probability;
 }
 
+/// Of several names the machine file gets the first, but not one that is believed less than this.
+inline constexpr double kCarried = 0.1;
+
 /// Whether held-out touches are predicted better by more than the standard error of the gain.
 inline bool shown(const std::optional<Improvement>& i) { return i && i->log_score_gain > i->se; }
 

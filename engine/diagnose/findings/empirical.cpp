@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "engine/effects/empirical/empirical.hpp"
 #include "engine/math/units.hpp"
@@ -157,7 +158,7 @@ const Explanation* carried(const Case& c, const Finding& f) {
 
 }  // namespace
 
-std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& result) {
+EmpiricalModel empirical_model(const Case& c, const SearchResult& result) {
   if (!result.other) return {};
   const Explanation& found = c.explanations.list[static_cast<std::size_t>(result.other->explanation)];
   if (of_the_occasion(found.factor)) return {};
@@ -181,7 +182,7 @@ std::vector<EffectSetting> empirical_model(const Case& c, const SearchResult& re
     const auto i = static_cast<Eigen::Index>(k);
     settings[at].parameters[std::string(pieces[at].effect->parameters[p].name)] = {fit.value(i), fit.u(i), {}};
   }
-  return settings;
+  return {std::move(settings), e};
 }
 
 }  // namespace abbe::diagnose

@@ -9,7 +9,11 @@
 
 namespace abbe::diagnose {
 
-/// Settings of empirical effects; empty: no pattern that the recording speaks for has one.
-std::vector<EffectSetting> empirical_model(const Case&, const SearchResult&);
+struct EmpiricalModel {
+  /// of empirical effects; empty: no pattern that the recording speaks for has one
+  std::vector<EffectSetting> settings;
+  const Explanation* follows = nullptr;  ///< the pattern that they follow
+};
+EmpiricalModel empirical_model(const Case&, const SearchResult&);
 
 }  // namespace abbe::diagnose

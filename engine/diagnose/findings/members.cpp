@@ -66,6 +66,10 @@ bool judged(const Case& c, const Finding& f) {
   return open < kMostly * weight_of_all(c, f);
 }
 
+double belief_in_first(const Case& c, const Finding& f) {
+  return f.probability * weight(c, f, f.set.front()) / weight_of_all(c, f);
+}
+
 void put_judged_members_first(const Case& c, SearchResult& result) {
   const auto can_be = [&](int m) { return !c.explanations.list[static_cast<std::size_t>(m)].missing; };
   for (Finding& f : result.findings) {

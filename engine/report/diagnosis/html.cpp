@@ -50,7 +50,7 @@ std::string explanations(const Diagnosis& d) {
                       fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um,
                                   d.unexplained->low_um, d.unexplained->high_um)});
   std::string out = "<h2>Explanation</h2>\n" + html_table(rows);
-  if (!d.location.empty()) out += "<p>" + escaped(capitalised(in_words(d.location.front()))) + ".</p>\n";
+  if (!d.location.empty()) out += "<p>" + escaped(capitalised(located_in_words(d))) + ".</p>\n";
   return out;
 }
 

@@ -96,13 +96,13 @@ std::string third_sentence(const Diagnosis& d) {
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
   constexpr double kClear = 3;  // nats
-  const bool clear = std::abs(i.log_score_gain) > std::max(kClear, 2 * i.se), better = clear && i.log_score_gain > 0;
-  const std::string says = better && i.rms_after_um > i.rms_before_um
-      ? "something is there too, but not of the size that it has on the others"
-      : better               ? "it predicts better"
-      : clear                ? "it predicts worse"
-      : i.log_score_gain > 0 ? "it predicts better, though not beyond doubt"
-                             : "it does not predict better";
+  const bool clear = std::abs(i.log_score_gain) > std::max(kClear, 2 * i.se), gains = i.log_score_gain > 0,
+             closer = i.rms_after_um <= i.rms_before_um;
+  const std::string says = clear && gains
+      ? (closer ? "it predicts better" : "something is there too, but not of the size that it has on the others")
+      : clear           ? "it predicts worse"
+      : gains && closer ? "it predicts better, though not beyond doubt"
+                        : "it does not predict better";
   return fmt::format(
       "On {} that the model had not seen {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
       d.values.empty() ? "touches" : "values", says, i.rms_before_um, i.rms_after_um, i.bias_before_um,
@@ -132,7 +132,7 @@ std::string mismatch_table(const Diagnosis& d) {
     out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n",
                        "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "",
                        d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
-  if (!d.location.empty()) out += "  " + in_words(d.location.front()) + "\n";
+  if (!d.location.empty()) out += "  " + located_in_words(d) + "\n";
   return out;
 }
 
@@ -204,9 +204,10 @@ std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
 std::string baseline_in_words(const Diagnosis& d) {
   if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
-  std::string out = fmt::format(
-      "baseline: {:.2f} times {}, noise {:.2f} um", b.geometry_scale,
-      b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification", b.noise_um);
+  std::string out =
+      fmt::format("baseline: {:.2f} times {}, noise {:.2f} um ({:.2f} in the machine file)", b.geometry_scale,
+                  b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification",
+                  b.noise_um, b.stated_noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
   if (!b.outliers.empty())
     out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",
@@ -217,14 +218,19 @@ std::string baseline_in_words(const Diagnosis& d) {
 std::vector<std::string> further_steps(const Diagnosis& d) {
   std::vector<std::string> out;
   if (!d.otherwise.empty()) out.push_back(d.otherwise);
-  if (d.values.empty() && d.unexplained && d.unexplained->model.empty())
+  const bool pattern = d.values.empty() && d.unexplained, carried = pattern && !d.unexplained->model.empty();
+  if (pattern && !carried)
     out.push_back(
         "No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.");
   if (!d.model_effects.empty()) {
     const bool open =
         std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });
     out.push_back(fmt::format(
-        "To reckon with it until it is mended: --model-out writes the machine file with it{}, and 'abbe run' on that machine gives uncertainties with it.",
+        "To reckon with {0} until it is mended: --model-out writes the machine file with it{1}, and 'abbe run' on that machine gives uncertainties with it.",
+        carried && !d.unexplained->model_follows.empty()
+            ? "what of it follows " + d.unexplained->model_follows + " alone"
+            : pattern && !carried ? "what has a name"
+                                  : "it",
         open ? " (of several names, with the first)" : ""));
   }
   return out;

@@ -51,14 +51,14 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
         "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {.until = 2}) ==
         "What is gone in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
-  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {3, false}) ==
+  CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {.from = 3}) ==
         "One of these explains what is new in run 3, and this recording cannot tell which: trigger delay; tip radius.");
 }
 
 TEST_CASE("a name says in which run it is new") {
   DiagnosedEffect e;
   e.members = {"probe.tip_radius", "machine.step"};
-  e.change = {{2, false}, {}};
+  e.change = {{.from = 2}, {}};
   CHECK(in_words(e) == std::vector<std::string>{"probe.tip_radius, new in run 2", "machine.step"});
   e.change = {{.until = 3}, {.from = 2}};
   CHECK(in_words(e) == std::vector<std::string>{"probe.tip_radius, gone in run 3", "machine.step, new in run 2"});
@@ -66,6 +66,15 @@ TEST_CASE("a name says in which run it is new") {
   CHECK(in_words(e).front() == "probe.tip_radius, new in run 2 and gone in run 3");
   e.change.clear();
   CHECK(in_words(e) == e.members);
+}
+
+TEST_CASE("where several factors hold a pattern alike, all are told") {
+  Diagnosis d;
+  CHECK(located_in_words(d) == "");
+  d.location = {{"feature", {{"feature", "BALL4"}}, 1, 0.001}, {"time", {}, 0.9, 0.001}, {"position", {}, 0.5, 0.01}};
+  CHECK(located_in_words(d) == "located in feature; strongest at feature BALL4");
+  d.unexplained.emplace();
+  CHECK(located_in_words(d) == "located in feature; strongest at feature BALL4; nearly as well in time");
 }
 
 TEST_CASE("the sizes of an effect say what they come to at a touch") {
