@@ -87,3 +87,39 @@ TEST_CASE("a chance has no more digits than simulations give") {
   d.verdict = Verdict::named;
   CHECK(says(first_sentence(d), "by chance it would look so in 1 in 2700 of such recordings"));
 }
+
+TEST_CASE("touches are predicted better only where less of them is left") {
+  Diagnosis d = named();
+  d.improvement.emplace();
+  const auto third = [&](double gain, double rms_after_um) {
+    d.improvement->log_score_gain = gain, d.improvement->se = 2;
+    d.improvement->rms_before_um = 0.91, d.improvement->rms_after_um = rms_after_um;
+    return diagnosis_sentences(d).back();
+  };
+  CHECK(says(third(20, 0.8), "had not seen it predicts better: "));
+  CHECK(says(third(20, 1.2), "something is there too, but not of the size"));
+  CHECK(says(third(2, 0.8), "it predicts better, though not beyond doubt"));
+  CHECK(says(third(2, 1.28), "it does not predict better"));
+  CHECK(says(third(-20, 0.8), "it predicts worse"));
+}
+
+TEST_CASE("what a machine file carries of a pattern, and of names beside it, is said") {
+  Diagnosis d = named();
+  d.unexplained.emplace();
+  d.model_effects = {{"machine.squareness", {}}};
+  std::string steps = diagnosis_text(d);
+  CHECK(says(steps, "No machine file can carry this pattern"));
+  CHECK(says(steps, "To reckon with what has a name until it is mended: --model-out writes"));
+  d.unexplained->model = "empirical.curve";
+  steps = diagnosis_text(d);
+  CHECK_FALSE(says(steps, "No machine file can carry this pattern"));
+  CHECK(says(steps, "To reckon with it until it is mended: --model-out writes"));
+  d.unexplained->model_follows = "time";
+  CHECK(says(diagnosis_text(d), "To reckon with what of it follows time alone until it is mended: --model-out writes"));
+}
+
+TEST_CASE("the noise stands beside that of the machine file") {
+  Diagnosis d = nothing_found();
+  d.baseline.noise_um = 1.06, d.baseline.stated_noise_um = 0.5;
+  CHECK(says(baseline_in_words(d), "noise 1.06 um (0.50 in the machine file)"));
+}
