@@ -41,7 +41,7 @@ std::string without_uncertainty(const DiagnosedParameter& p, int decimals) {
 
 std::string remark(const DiagnosedParameter& p) { return p.called.empty() ? "" : " (" + p.called + ")"; }
 
-/// "new in run 2, and gone in run 3"
+/// "new in run 2 and gone in run 3"
 std::string in_words(const RunChange& change) {
   std::vector<std::string> ends;
   if (change.from > 0) ends.push_back(fmt::format("new in run {}", change.from));

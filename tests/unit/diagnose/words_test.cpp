@@ -47,7 +47,7 @@ TEST_CASE("one explanation, or several that cannot be told apart") {
         "It looks like trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay", "tip radius"}, {}, "this recording", {}, true) ==
         "One of these may explain it, and this recording cannot tell which: trigger delay; tip radius.");
-  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {2, false}) ==
+  CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {.from = 2}) ==
         "What is new in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
   CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording", {.until = 2}) ==
         "What is gone in run 2 is explained by trigger delay: delay 1.20 ± 0.10 ms.");
