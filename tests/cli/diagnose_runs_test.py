@@ -142,6 +142,15 @@ class DiagnoseRuns(harness.Case):
             self.assertEqual(said["effects"][0]["probability"] > 0.5, certain)
             self.assertEqual("Repeats of the same touches would tell" in said["effects"][0]["sentence"], not certain)
 
+    def test_one_orientation_that_scatters_more_is_found(self):
+        loose = ("--with", "noise.unequal:ratio=4,group=3,head_a_deg=90,head_b_deg=90")
+        said = self.diagnosis(self.record(1, *loose), self.record(2, *loose))
+        self.assertEqual([e["members"] for e in said["effects"]], [["noise.unequal"]])
+        told = said["effects"][0]["parameters"]
+        self.assertEqual([told[p]["value"] for p in ("group", "head_a_deg", "head_b_deg")], ["one orientation", 90, 90])
+        self.assertLess(abs(told["ratio"]["value"] - 4), 1)
+        self.assertIn("Touches with the head at A 90, B 90 deg scatter", said["effects"][0]["sentence"])
+
     def test_a_pattern_finer_than_any_effect_repeats_and_is_no_noise(self):
         """Every touched point is off by its own amount, the same in both runs; the scale readings do not know of it."""
         recordings = []

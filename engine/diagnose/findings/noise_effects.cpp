@@ -71,17 +71,17 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
   for (const Split& s : splits_of(c)) {
     if (!parts(s)) continue;
     const Excess e = excess_along(r, s.in);
-    const double p = chance_of_excess(e.chi2), ratio = std::sqrt(1 + e.size), u = ratio * relative_u(s);
+    const double p = s.of_its_kind * chance_of_excess(e.chi2), ratio = std::sqrt(1 + e.size), u = ratio * relative_u(s);
     if (p > kNoiseAlarm || ratio - 2 * u < kLeastRatio || (best && best->finding.p < p)) continue;
     NoiseFinding f{find_effect("noise.unequal"), p, {figure("ratio", "1", ratio, u)}, {}};
     const double others =
         std::sqrt((r.standardised.array().square() / (1 + e.size * s.in.array())).mean()) * r.noise_um;
     f.parameters.push_back(figure("sd_um", "um", others, others / std::sqrt(2 * (double(s.in.size()) - s.in.sum()))));
     f.parameters.push_back({.name = "group", .unit = "", .word = s.group});
-    if (s.limit) f.parameters.push_back(figure(s.limit, s.unit, s.limit_at, 0));
+    f.parameters.insert(f.parameters.end(), s.which.begin(), s.which.end());
     f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
     f.factor = s.factor, f.where = {{"group", s.group}};
-    f.sentence = fmt::format("Touches with {} scatter {:.1f} times as much as the others.", s.group, ratio);
+    f.sentence = fmt::format("T{} scatter {:.1f} times as much as the others.", s.touches.substr(1), ratio);
     best = Unequal{std::move(f), s.in};
   }
   return best;

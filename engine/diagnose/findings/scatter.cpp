@@ -1,5 +1,6 @@
 #include "engine/diagnose/findings/scatter.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +48,38 @@ double chance_of_outliers(double count, double expected) {
   return std::exp(count * std::log(expected) - std::lgamma(count + 1));
 }
 
+namespace {
+
+DiagnosedParameter limit(const char* name, const char* unit, double value) {
+  return {.name = name, .unit = unit, .value = value, .low = value, .high = value};
+}
+
+/// One orientation of the head against all others; none where that is a group already.
+std::vector<Split> orientations(const Case& c, const std::vector<Split>& others) {
+  std::vector<Split> out;
+  for (Eigen::Index first = 0; first < static_cast<Eigen::Index>(c.rows.size()); ++first) {
+    if (std::any_of(out.begin(), out.end(), [&](const Split& s) { return s.in(first) == 1; })) continue;
+    const StylusScene& head = scene_of_row(c, first).stylus;
+    Vector in(static_cast<Eigen::Index>(c.rows.size()));
+    for (Eigen::Index k = 0; k < in.size(); ++k)
+      in(k) = same_orientation(scene_of_row(c, k).stylus, head.head_a_rad, head.head_b_rad);
+    const double a = head.head_a_rad / kDegree, b = head.head_b_rad / kDegree;
+    out.push_back({"one orientation",
+                   fmt::format("touches with the head at A {:.6g}, B {:.6g} deg", a, b),
+                   Factor::head,
+                   std::move(in),
+                   {limit("head_a_deg", "deg", a), limit("head_b_deg", "deg", b)}});
+  }
+  const auto known = [&](const Split& s) {
+    return !parts(s) || std::any_of(others.begin(), others.end(), [&](const Split& other) { return other.in == s.in; });
+  };
+  out.erase(std::remove_if(out.begin(), out.end(), known), out.end());
+  for (Split& s : out) s.of_its_kind = static_cast<int>(out.size());
+  return out;
+}
+
+}  // namespace
+
 std::vector<Split> splits_of(const Case& c) {
   const auto rows = static_cast<Eigen::Index>(c.rows.size());
   Vector length(rows), speed(rows), tilt(rows);
@@ -56,10 +89,20 @@ std::vector<Split> splits_of(const Case& c) {
   }
   const double long_mm = (length.minCoeff() + length.maxCoeff()) / 2 + 1,
                fast_mm_s = (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
-  const auto above = [](const Vector& v, double limit) { return Vector((v.array() > limit).cast<double>()); };
-  return {{"long styli", Factor::sensor, above(length, long_mm), "longer_than_mm", "mm", long_mm},
-          {"tilted head", Factor::head, above(tilt, kUpright_rad)},
-          {"fast probing", Factor::speed, above(speed, fast_mm_s), "faster_than_mm_s", "mm/s", fast_mm_s}};
+  const auto above = [](const Vector& v, double least) { return Vector((v.array() > least).cast<double>()); };
+  std::vector<Split> out{{"long styli",
+                          "touches with long styli",
+                          Factor::sensor,
+                          above(length, long_mm),
+                          {limit("longer_than_mm", "mm", long_mm)}},
+                         {"tilted head", "touches with tilted head", Factor::head, above(tilt, kUpright_rad), {}},
+                         {"fast probing",
+                          "touches with fast probing",
+                          Factor::speed,
+                          above(speed, fast_mm_s),
+                          {limit("faster_than_mm_s", "mm/s", fast_mm_s)}}};
+  for (Split& s : orientations(c, out)) out.push_back(std::move(s));
+  return out;
 }
 
 double relative_u(const Split& s) {

@@ -10,8 +10,8 @@
 
 namespace abbe::diagnose {
 
-/// The looks at the scatter: three groups, three axes, all touches, outliers.
-inline constexpr int kLooks = 8;
+/// The looks at the scatter: four kinds of groups, three axes, all touches, outliers.
+inline constexpr int kLooks = 9;
 /// Together they may not cost more false alarms than a tenth of what the search allows itself.
 inline constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
 
@@ -53,14 +53,13 @@ double chance_of_outliers(double count, double expected);
 /// A group of noise.unequal.
 struct Split {
   const char* group;
+  std::string touches;  ///< in words: "touches with long styli"
   Factor factor;
-  Vector in;  ///< 1: in the group
-  /// What parts it from the others, a parameter of the effect; nullptr: the head's tilt.
-  const char* limit = nullptr;
-  const char* unit = "";
-  double limit_at = 0;
+  Vector in;                              ///< 1: in the group
+  std::vector<DiagnosedParameter> which;  ///< parameters of the effect that part it from the others
+  int of_its_kind = 1;  ///< the groups of one kind are one look: the chance of each counts so many times
 };
-/// All three; a group that these touches do not part is empty or holds all.
+/// All of them; a group that these touches do not part is empty or holds all.
 std::vector<Split> splits_of(const Case&);
 inline bool parts(const Split& s) {
   return s.in.sum() >= kEnoughOfGroup && double(s.in.size()) - s.in.sum() >= kEnoughOfGroup;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
@@ -64,13 +66,13 @@ class ScatterDesign {
   /// Of variances 1 + excess * share; `told`: what must hold of the excess that is read from the residuals, with the
   /// power.
   template <class Told>
-  ScatterForm along(const Vector& share, Told told) const {
+  ScatterForm along(const Vector& share, Told told, int of_its_kind = 1) const {
     constexpr double kMost = 200;
     ScatterForm out;
     out.detected = least(kMost, [&](double excess) {
       const Excess e = expected(share, excess);
       const double z = std::sqrt(e.chi2) - kPower;
-      return z > 0 && chance_of_excess(z * z) <= kNoiseAlarm && told(e.size);
+      return z > 0 && of_its_kind * chance_of_excess(z * z) <= kNoiseAlarm && told(e.size);
     });
     out.named = std::max(out.detected, repeats_tell_from(share));
     return out;
@@ -133,14 +135,18 @@ void add_vibration(const Case& c, const ScatterDesign& design, std::vector<Detec
 
 /// False: these touches do not part any of its groups.
 bool add_unequal(const Case& c, const ScatterDesign& design, std::vector<Detectable>& out) {
-  std::vector<ScatterForm> forms;
+  std::map<std::string_view, std::vector<ScatterForm>> of_kind;
   for (const Split& s : splits_of(c)) {
     if (!parts(s)) continue;
-    forms.push_back(design.along(s.in, [&](double excess) {
+    const auto told = [&](double excess) {
       return std::sqrt(1 + excess) * (1 - (2 + kPower) * relative_u(s)) >= kLeastRatio;
-    }));
+    };
+    of_kind[s.group].push_back(design.along(s.in, told, s.of_its_kind));
   }
-  if (forms.empty()) return false;
+  if (of_kind.empty()) return false;
+  std::vector<ScatterForm> forms;
+  for (const auto& [kind, form] : of_kind)
+    forms.push_back({median_excess(form, &ScatterForm::detected), median_excess(form, &ScatterForm::named)});
   const double seen = median_excess(forms, &ScatterForm::detected), named = median_excess(forms, &ScatterForm::named);
   if (seen == kAtNoSize) return true;
   Detectable d = smallest("noise.unequal", "ratio", "1");

@@ -14,6 +14,11 @@ extern const Effect kUnequalNoise;
 
 /// Heads that are tilted by more count as tilted (noise.unequal).
 inline constexpr double kUpright_rad = 1 * kDegree;
+/// Whether the head has these angles, to a degree.
+inline bool same_orientation(const StylusScene& s, double a_rad, double b_rad) {
+  return std::fabs(std::remainder(s.head_a_rad - a_rad, 2 * kPi)) < kUpright_rad &&
+      std::fabs(std::remainder(s.head_b_rad - b_rad, 2 * kPi)) < kUpright_rad;
+}
 
 /// The probability below a standard normal number: makes a uniform draw of a normal one.
 inline double normal_probability(double z) { return 0.5 * std::erfc(-z * std::sqrt(0.5)); }

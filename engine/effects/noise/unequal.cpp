@@ -3,8 +3,8 @@
 //   r = sd sqrt(ratio^2 - 1) z   in the group,   0 outside     z: standard normal per touch
 //
 // sd is the scatter that all touches have already (the probe's); the group gets what is missing to
-// ratio * sd. Groups: styli longer than a limit, a tilted head, probing faster than a limit. Size:
-// twice the scatter with a stylus twice as long.
+// ratio * sd. Groups: styli longer than a limit, a tilted head, probing faster than a limit, one orientation
+// of the head. Size: twice the scatter with a stylus twice as long.
 // Source: variances add (JCGM 100, 5.1.2); dependence on stylus length, head angle and speed after
 // ISO 10360-5 and data sheets of probes.
 // Confused with: noise.vibration when the group is one direction; noise.outliers when the group is
@@ -14,8 +14,8 @@
 namespace abbe {
 namespace {
 
-enum Group { long_styli, tilted_head, fast_probing };
-constexpr std::string_view kGroups[] = {"long styli", "tilted head", "fast probing"};
+enum Group { long_styli, tilted_head, fast_probing, one_orientation };
+constexpr std::string_view kGroups[] = {"long styli", "tilted head", "fast probing", "one orientation"};
 
 constexpr EffectParameter kUnequalNoiseParameters[] = {
     {.name = "ratio",
@@ -36,8 +36,8 @@ constexpr EffectParameter kUnequalNoiseParameters[] = {
     {.name = "group",
      .unit = "code",
      .help = "which touches scatter more: 0 those with long styli, 1 with the head tilted by more "
-             "than 1 degree, 2 with fast probing",
-     .high = 2,
+             "than 1 degree, 2 with fast probing, 3 with one orientation of the head",
+     .high = 3,
      .choices = kGroups},
     {.name = "longer_than_mm",
      .unit = "mm",
@@ -53,13 +53,28 @@ constexpr EffectParameter kUnequalNoiseParameters[] = {
      .low = 0,
      .high = 1000,
      .standard = 5},
+    {.name = "head_a_deg",
+     .unit = "deg",
+     .help = "angle A of the head, for the group of one orientation",
+     .typical = 90,
+     .low = -180,
+     .high = 180,
+     .standard = 0},
+    {.name = "head_b_deg",
+     .unit = "deg",
+     .help = "angle B of the head, for the group of one orientation",
+     .typical = 90,
+     .low = -360,
+     .high = 360,
+     .standard = 0},
 };
 
 bool in_group(const TouchScene& scene, const double* theta) {
   switch (code(theta[2])) {
     case long_styli: return scene.stylus.length_mm > theta[3];
     case tilted_head: return std::fabs(scene.stylus.head_a_rad) > kUpright_rad;
-    default: return scene.speed_mm_s > theta[4];
+    case fast_probing: return scene.speed_mm_s > theta[4];
+    default: return same_orientation(scene.stylus, theta[5] * kDegree, theta[6] * kDegree);
   }
 }
 
@@ -75,8 +90,8 @@ constinit const Effect kUnequalNoise{
     .name = "noise.unequal",
     .title = "unequal scatter",
     .help =
-        "Some touches scatter more than others: those with long styli, with a tilted head, or at "
-        "high speed. One standard deviation for all then gives too much weight to the bad ones "
+        "Some touches scatter more than others: those with long styli, with a tilted head, at high "
+        "speed, or with one orientation of the head that does not hold well. One standard deviation for all then gives too much weight to the bad ones "
         "and hides the good ones.",
     .source = "JCGM 100:2008 5.1.2; probe data sheets (scatter against stylus length and speed)",
     .separate = "repeat one touch many times in each group",

@@ -92,9 +92,10 @@ TEST_CASE("unequal: brings the group to its ratio and leaves the others alone") 
   CHECK(displacement_mm(kUnequalNoise, touch({0, 0, 1}, 150), {{"ratio", 1}}, {1}) == Vec3{});
 }
 
-TEST_CASE("unequal: the group may be a tilted head or fast probing") {
+TEST_CASE("unequal: the group may be a tilted head, fast probing or one orientation of the head") {
   const auto acts = [](const TouchScene& scene, double group) {
-    return displacement_mm(kUnequalNoise, scene, {{"ratio", 2}, {"group", group}}, {1}) != Vec3{};
+    const Parameters p = {{"ratio", 2}, {"group", group}, {"head_a_deg", 90}, {"head_b_deg", -180}};
+    return displacement_mm(kUnequalNoise, scene, p, {1}) != Vec3{};
   };
   CHECK(acts(touch({0, 0, 1}, 50, kPi / 2), 1));
   CHECK(!acts(touch({0, 0, 1}, 50, 0), 1));
@@ -102,6 +103,10 @@ TEST_CASE("unequal: the group may be a tilted head or fast probing") {
   slow.speed_mm_s = 3;
   CHECK(acts(touch({0, 0, 1}), 2));
   CHECK(!acts(slow, 2));
+  TouchScene aside = touch({0, 0, 1}, 50, kPi / 2);
+  CHECK(!acts(aside, 3));
+  aside.stylus.head_b_rad = kPi;  // the other way round to the same place
+  CHECK(acts(aside, 3));
 }
 
 }  // namespace abbe
