@@ -1,6 +1,7 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
+from scene import BALL
 
 from .base import Change, Effect, vector
 
@@ -11,201 +12,182 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_crane(scene, rng):
-    count, turn = int(rng.integers(4, 7)), rng.uniform(0, 2 * np.pi)
+def draw_tape(scene, rng):
     return {
-        "amplitude_um": 1.0,
-        "way": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
-        "passes_s": np.quantile(scene.time, (np.arange(count) + rng.uniform(0.2, 0.8, count)) / count),
-        "senses": rng.choice([-1.0, 1.0], count),
-        "near_s": rng.uniform(25, 55),
+        "amplitude_um": rng.choice([-1.0, 1.0]),
+        "axis": int(rng.integers(2)),
+        "loose_end": rng.choice([-1.0, 1.0]),
+        "since_s": float(np.quantile(scene.time, rng.uniform(0.2, 0.5))),
+        "depth": rng.uniform(0.45, 0.7),
     }
 
 
-def change_crane(scene, p):
-    """A heavy crane drives through the hall, past the machine, and back some time later. The floor leans towards it,
-    the slender bridge follows: first to where the crane comes from, then across, then to where it goes. Amplitude
-    across, when the crane is nearest."""
-    way = np.asarray(p["way"])
-    across = np.array([-way[1], way[0], 0.0])
-    place = (scene.time[:, None] - np.asarray(p["passes_s"])) * np.asarray(p["senses"]) / p["near_s"]
-    lean = 1 / (1 + place**2) ** 1.5
-    return Change(tip=p["amplitude_um"] * (vector(across, np.sum(lean, 1)) + vector(way, np.sum(place * lean, 1))))
+def change_tape(scene, p):
+    """The tape of a scale is glued on under tension, and peels off from one end in the course of the run. Where it has
+    come off it shrinks, or hangs slack, while the piece that still holds is right: the carriage is wrong beyond the
+    place to which it has peeled, by the length of loose tape up to there. Amplitude at the loose end, when the run
+    ends."""
+    x = scene.reading[:, p["axis"]]
+    from_end = 0.5 - p["loose_end"] * (x - (x.min() + x.max()) / 2) / np.ptp(x)
+    peeled = p["depth"] * np.clip((scene.time - p["since_s"]) / (scene.duration - p["since_s"]), 0, 1)
+    loose = np.maximum(peeled - from_end, 0) / p["depth"]
+    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * loose))
 
 
-def draw_commutation(scene, rng):
+def draw_unscrewing(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "axis": int(rng.integers(2)),
-        "poles_mm": rng.uniform(45, 80),
+        "stands_at": {str(f): rng.uniform(0, 2 * np.pi) for f in np.unique(scene.feature)},
+        "turns": {str(f): rng.uniform(0.3, 1.2) for f in np.unique(scene.feature)},
+        "rise": rng.uniform(0.3, 0.8),
+    }
+
+
+def change_unscrewing(scene, p):
+    """The balls are screwed on their posts without glue, and no thread is quite in the middle of its ball. Every touch
+    turns the ball a little farther off its thread, one ball more easily than another: its centre goes round the post,
+    and rises. Amplitude is the distance of the thread from the middle of the ball."""
+    names, moved = np.array(scene.feature), np.zeros((scene.size, 3))
+    for ball, start in p["stands_at"].items():
+        mine = names == ball
+        turned = 2 * np.pi * p["turns"][ball] * np.arange(mine.sum()) / mine.sum()
+        aside = np.cos(start + turned) - np.cos(start), np.sin(start + turned) - np.sin(start)
+        moved[mine] = np.column_stack([*aside, p["rise"] * turned / np.pi])
+    return Change(along=p["amplitude_um"] * np.sum(moved * scene.part_normal, 1))
+
+
+def draw_bent(scene, rng):
+    lengths = np.unique(scene.length)
+    return {
+        "amplitude_um": 1.0,
+        "length_mm": float(rng.choice(lengths)),
+        "turns": rng.choice([-1.0, 1.0]) * rng.uniform(1.5, 3.5),
         "phase": rng.uniform(0, 2 * np.pi),
     }
 
 
-def change_commutation(scene, p):
-    """A linear motor is commutated wrongly, and its carriage goes now faster, now slower than the controller commands,
-    from pole to pole of the magnets. The delay of the probe is taken off for the commanded speed: in between, a touch
-    along this axis comes too early, at the poles too late, from either side. Amplitude at 8 mm/s along the axis."""
-    i = p["axis"]
-    faster = np.sin(2 * np.pi * scene.reading[:, i] / p["poles_mm"] + p["phase"])
-    return Change(tip=vector(np.eye(3)[i], p["amplitude_um"] * faster * scene.travel[:, i] * scene.speed / 8))
+def change_bent(scene, p):
+    """A stylus is bent, and has come loose in its thread: from touch to touch it turns on a little about its own axis,
+    and its tip goes round on a circle, seen from the head. The other module is tight. Amplitude is the radius of the
+    circle."""
+    mine = scene.length == p["length_mm"]
+    turned = 2 * np.pi * p["turns"] * np.cumsum(mine) / mine.sum() + p["phase"]
+    aside = np.column_stack([np.cos(turned), np.sin(turned), np.zeros(scene.size)]) * mine[:, None]
+    return Change(tip=p["amplitude_um"] * np.einsum("nij,nj->ni", scene.head, aside))
 
 
-def draw_swarf(scene, rng):
-    count = int(rng.integers(4, 6))
-    push = -np.einsum("nji,nj->ni", scene.head, scene.normal)
-    places = (np.arange(count)[:, None] + np.sort(rng.uniform(0, 1, (count, 2)), 1) * [0.3, 0.2] + [0, 0.75]) / count
-    picked = [int(k) for k in places[:, 0] * scene.size]
-    lost = [int(k) for k in places[:, 1] * scene.size]
-    return {
-        "amplitude_um": 1.0,
-        "picked_up_s": [float(scene.time[k]) + 0.5 for k in picked],
-        "lost_s": [float(scene.time[k]) + 0.5 for k in lost],
-        "towards": [push[int(rng.integers(a + 1, b + 1))].tolist() for a, b in zip(picked, lost)],
-        "length_mm": [float(scene.length[a + 1]) for a in picked],
-        "width_deg": rng.uniform(28, 42),
-        "squeezed": rng.uniform(0.02, 0.06),
-    }
-
-
-def change_swarf(scene, p):
-    """A curl of swarf clings to the tip and goes with it from ball to ball: who touches with this side of the tip
-    touches too early. It is squeezed flatter by every such touch, falls off at last, and some time later the next one
-    clings to another side. Amplitude of fresh swarf."""
-    push = -np.einsum("nji,nj->ni", scene.head, scene.normal)
-    proud = np.zeros(scene.size)
-    for since, until, towards, length in zip(p["picked_up_s"], p["lost_s"], p["towards"], p["length_mm"]):
-        mine = (scene.time >= since) & (scene.time < until) & (scene.length == length)
-        angle = np.degrees(np.arccos(np.clip(push[mine] @ np.asarray(towards), -1, 1)))
-        here = np.exp(-0.5 * (angle / p["width_deg"]) ** 2)
-        proud[mine] = here * (1 - p["squeezed"]) ** (np.cumsum(here) - here)
-    return Change(along=p["amplitude_um"] * proud)
-
-
-def draw_vacuum(scene, rng):
-    return {
-        "amplitude_um": rng.choice([-1.0, 1.0]),
-        "period_s": rng.uniform(110, 320),
-        "first_s": rng.uniform(0, 320),
-        "pumping": rng.uniform(0.1, 0.25),
-        "ridge_deg": rng.uniform(0, 180),
-        "ridge": rng.uniform(-0.4, 0.4),
-        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
-    }
-
-
-def change_vacuum(scene, p):
-    """The part is held down by a vacuum which leaks: slowly the plate springs up in its middle, until the pump starts
-    and draws it flat again within a short while, and so on. The certificate is right half way. Amplitude from there to
-    either end, at half the size of the part."""
-    q = np.mod((scene.time - p["first_s"]) / p["period_s"], 1)
-    leaked = np.where(q < 1 - p["pumping"], q / (1 - p["pumping"]), (1 - q) / p["pumping"])
-    u, v, z = scene.part_point.T / p["half_size_mm"]
-    a = np.radians(p["ridge_deg"])
-    c, s = p["ridge"] * np.cos(2 * a), p["ridge"] * np.sin(2 * a)
-    rise = (1 + c) * u**2 + (1 - c) * v**2 + 2 * s * u * v
-    slope_u, slope_v = 2 * (1 + c) * u + 2 * s * v, 2 * (1 - c) * v + 2 * s * u
-    moved = np.column_stack([-z * slope_u, -z * slope_v, rise - rise.mean()])
-    return Change(along=-p["amplitude_um"] * (2 * leaked - 1) * np.sum(moved * scene.part_normal, 1))
-
-
-def draw_baked(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "rises_at": rng.uniform(0, 2 * np.pi),
-        "goes": rng.choice([-1.0, 1.0]) * np.radians(rng.uniform(40, 90)),
-        "height": np.radians(rng.uniform(15, 40)),
-        "clouds_s": np.quantile(scene.time, (np.arange(7) + rng.uniform(0.1, 0.9, 7)) / 7),
-        "tau_s": rng.uniform(15, 40),
-    }
-
-
-def change_baked(scene, p):
-    """Through a window the sun shines on the stylus from one side, and this side grows: the stylus curls away from the
-    sun, by the square of its length, and not when it points at the sun. Clouds come and go, and the sun goes on in the
-    course of the run. Amplitude of the longest, across the sun."""
-    turn = p["rises_at"] + p["goes"] * scene.time / scene.duration
-    low = np.cos(p["height"])
-    sun = np.column_stack([low * np.cos(turn), low * np.sin(turn), np.full(scene.size, np.sin(p["height"]))])
-    since = scene.time[:, None] - np.asarray(p["clouds_s"])
-    warm = np.sum((1 - np.exp(-np.maximum(since, 0) / p["tau_s"])) * [1, -1, 1, -1, 1, -1, 1], 1)
-    aside = sun - scene.shank * np.sum(sun * scene.shank, 1, keepdims=True)
-    return Change(tip=p["amplitude_um"] * aside * (warm * (scene.length / scene.length.max()) ** 2)[:, None])
-
-
-def draw_address(scene, rng):
-    table = rng.normal(size=(9, 5))
+def draw_lever(scene, rng):
+    waves = rng.normal(size=(3, 2))
     return {
         "amplitude_um": 1.0,
         "axis": int(rng.integers(2)),
-        "coordinate": int(rng.integers(3)),
-        "bit": int(rng.choice([2, 4])),
-        "table": (table / np.sqrt(np.mean(table**2))).tolist(),
+        "about": np.eye(3)[rng.integers(3)],
+        "waves": waves / np.sqrt(np.sum(waves**2) / 2),
     }
 
 
-def change_address(scene, p):
-    """One line of the address bus of the controller is broken, and a bit of the row number always reads nought: of the
-    correction table over x and y, some rows are right, and in place of the others it takes rows from farther down. It
-    interpolates between whatever it gets. Amplitude is the root of the mean square of the table."""
-    i, table = p["axis"], np.asarray(p["table"])
-    low = scene.reading[:, :2].min(0)
-    share = (scene.reading[:, :2] - low) / np.ptp(scene.reading[:, :2], axis=0)
-    u, v = 8 * share[:, i], 4 * share[:, 1 - i]
-    row, column = np.minimum(u.astype(int), 7), np.minimum(v.astype(int), 3)
-    u, v = u - row, v - column
-
-    def entry(k, j):
-        return table[k & ~p["bit"], j] - table[k, j]
-
-    near = (1 - v) * entry(row, column) + v * entry(row, column + 1)
-    far = (1 - v) * entry(row + 1, column) + v * entry(row + 1, column + 1)
-    return Change(tip=vector(np.eye(3)[p["coordinate"]], p["amplitude_um"] * ((1 - u) * near + u * far)))
+def change_lever(scene, p):
+    """The controller corrects the rotation of a carriage along its guide with the lever to the end of the ram, and
+    has forgotten what hangs below: head and stylus add their own lever, another one for each orientation. Amplitude at
+    the longest lever across the rotation, where its waves add up."""
+    x = scene.reading[:, p["axis"]]
+    q = np.outer(2 * np.pi * (x - x.min()) / np.ptp(x), np.arange(1, 4))
+    rotation = np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * np.cos(q), 1)
+    lever = np.cross(p["about"], scene.tip)
+    return Change(tip=p["amplitude_um"] * rotation[:, None] * lever / np.linalg.norm(lever, axis=1).max())
 
 
-def fetched(scene):
-    """How often a module with another length of stylus has been fetched from the rack."""
-    return np.cumsum(np.diff(scene.length, prepend=scene.length[0]) != 0)
-
-
-def draw_burr(scene, rng):
-    count, turn, lean = int(fetched(scene).max()) + 1, rng.uniform(0, 2 * np.pi), np.radians(rng.uniform(15, 50))
+def draw_curling(scene, rng):
+    warm, turn = scene.temperature["z"], rng.uniform(0, 2 * np.pi)
     return {
         "amplitude_um": 1.0,
-        "astride": [bool(k) for k in rng.permutation(count) < round(0.45 * count)],
-        "moves": [float(np.cos(lean) * np.cos(turn)), float(np.cos(lean) * np.sin(turn)), float(np.sin(lean))],
+        "direction": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
+        "straight_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
+        "qualified_at": rng.uniform(0.4, 0.6),
     }
 
 
-def change_burr(scene, p):
-    """One of the seats to which the modules of the styli snap has a burr. A module that is fetched from the rack finds
-    home or sits astride the burr, as it happens, until the next one is fetched: astride it is lifted and leans to the
-    same side of the head in all orientations, a long stylus farther. Amplitude at the longest, if it only leaned."""
-    astride = np.asarray(p["astride"], float)[fetched(scene)]
-    aside, lifted = np.asarray(p["moves"]) * [1, 1, 0], np.asarray(p["moves"]) * [0, 0, 1]
-    moved = np.outer(scene.length / scene.length.max(), aside) + lifted
-    return Change(tip=p["amplitude_um"] * astride[:, None] * np.einsum("nij,nj->ni", scene.head, moved))
+def change_curling(scene, p):
+    """One side of the carbon fibre ram has been mended with another resin: with every kelvin the ram curls to one side,
+    with the square of how far it is out, and the styli with it by their levers. At the height of the reference sphere
+    the qualification, made anew after every pause, has taken it. Amplitude at the end of the ram where it is farthest
+    out, for 1 K, before the qualification."""
+    out = np.abs(scene.reading[:, 2])
+    level = np.quantile(out, p["qualified_at"])
+    curl = p["amplitude_um"] * (scene.temperature["z"] - p["straight_at_C"]) / out.max() ** 2
+    aside = np.outer(curl * (out**2 - level**2), p["direction"])
+    tilt = np.outer(2 * curl * (out - level), np.cross(p["direction"], [0, 0, 1.0]))
+    return Change(tip=aside + np.cross(tilt, scene.tip))
 
 
-def draw_oil(scene, rng):
-    air = scene.temperature["air"]
-    return {"amplitude_um": 1.0, "set_at_C": float((air.min() + air.max()) / 2 + rng.uniform(-0.4, 0.4))}
+def draw_pallet(scene, rng):
+    turn = rng.uniform(0, np.pi)
+    return {
+        "amplitude_um": 1.0,
+        "placement": int(rng.choice(np.unique(scene.setup))),
+        "rollers": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
+    }
 
 
-def change_oil(scene, p):
-    """A measuring probe is damped with silicone oil, which is thick in the cold and thin in the warm: its reading limps
-    behind the tip by more or less than the software takes off, in proportion to the speed. Along the stylus the probe
-    has no oil. Amplitude for 1 K colder, at 8 mm/s across the stylus."""
-    across = scene.travel - scene.shank * np.sum(scene.travel * scene.shank, 1, keepdims=True)
-    thick = p["set_at_C"] - scene.temperature["air"]
-    return Change(tip=-across * (p["amplitude_um"] * thick * scene.speed / 8)[:, None])
+def change_pallet(scene, p):
+    """In one placement the part stands on a pallet with rollers that nobody has locked. A touch along the rollers rolls
+    it away until the probe has triggered, the faster the farther; a spring brings it home again. Amplitude along
+    the rollers, at 8 mm/s."""
+    along = (scene.normal @ np.asarray(p["rollers"])) ** 2
+    return Change(along=-p["amplitude_um"] * along * scene.speed / 8 * (scene.setup == p["placement"]))
 
 
-unknown("passing_crane", draw_crane, change_crane, ["time"])
-unknown("wrong_commutation", draw_commutation, change_commutation, ["position", "direction", "speed", "feature"])
-unknown("clinging_swarf", draw_swarf, change_swarf, ["direction", "time", "sensor", "head"])
-unknown("leaking_vacuum", draw_vacuum, change_vacuum, ["time", "feature", "position"])
-unknown("baked_stylus", draw_baked, change_baked, ["time", "head", "sensor"])
-unknown("broken_address", draw_address, change_address, ["position", "feature"])
-unknown("burred_module", draw_burr, change_burr, ["time", "sensor", "head"], "D")
-unknown("damping_oil", draw_oil, change_oil, ["temperature", "speed", "direction"], "D")
+def draw_thrown(scene, rng):
+    axis = int(rng.integers(2))
+    ways = np.abs(np.diff(scene.reading[:, axis]))[np.diff(scene.block) != 0]
+    return {
+        "amplitude_um": 1.0,
+        "axis": axis,
+        "leaves_after_mm": float(np.quantile(ways, rng.uniform(0.2, 0.4))),
+        "first_side": rng.choice([-1.0, 1.0]),
+    }
+
+
+def change_thrown(scene, p):
+    """The reading head of a scale has play in its holder. When the carriage brakes hard at the end of a long way, the
+    reading head flies on to the front stop, and stays there, through all gentle moves, until another hard braking in
+    the other sense throws it back. Amplitude to either side."""
+    x, hard = scene.reading[:, p["axis"]], scene.acceleration >= scene.acceleration.max()
+    side, thrown = p["first_side"], np.empty(scene.size)
+    for k in range(scene.size):
+        if k and hard[k] and abs(x[k] - x[k - 1]) > p["leaves_after_mm"]:
+            side = np.sign(x[k] - x[k - 1])
+        thrown[k] = side
+    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * thrown))
+
+
+def draw_charged(scene, rng):
+    height = (scene.part_point - BALL * scene.part_normal)[:, 2]
+    return {
+        "amplitude_um": 1.0,
+        "reach_mm": rng.uniform(0.25, 0.5) * float(np.ptp(height)),
+        "tau_s": rng.uniform(400, 1200),
+    }
+
+
+def change_charged(scene, p):
+    """The frame of the part is of plastic, and is wiped with a dry cloth whenever it has been placed: its charge draws
+    the thin stylus down to it, when this lies, with the cube of its length. Low balls suffer most, high ones
+    are out of reach, and the charge leaks off in the course of the placement. Amplitude at the longest lying stylus, at
+    the lowest ball, right after wiping."""
+    height = (scene.part_point - BALL * scene.part_normal)[:, 2]
+    placed = np.array([scene.time[scene.setup == k].min() for k in scene.setup])
+    charge = np.exp(-(scene.time - placed) / p["tau_s"] - (height - height.min()) / p["reach_mm"])
+    up = scene.turn[:, :, 2]
+    across = up - scene.shank * np.sum(up * scene.shank, 1, keepdims=True)
+    return Change(tip=p["amplitude_um"] * across * (charge * (scene.length / scene.length.max()) ** 3)[:, None])
+
+
+unknown("peeling_tape", draw_tape, change_tape, ["time", "position", "feature"])
+unknown("unscrewing_balls", draw_unscrewing, change_unscrewing, ["feature", "time", "position"])
+unknown("turning_stylus", draw_bent, change_bent, ["time", "sensor", "head"])
+unknown("forgotten_lever", draw_lever, change_lever, ["position", "head", "sensor", "feature"])
+unknown("curling_ram", draw_curling, change_curling, ["temperature", "position", "feature", "setup"], "D")
+unknown("unlocked_pallet", draw_pallet, change_pallet, ["setup", "speed", "direction"], "D")
+unknown("thrown_reader", draw_thrown, change_thrown, ["acceleration", "time", "position"], "D")
+unknown("charged_frame", draw_charged, change_charged, ["time", "head", "sensor", "feature", "setup"], "D")
