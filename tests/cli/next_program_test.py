@@ -50,6 +50,24 @@ def block(compensation=""):
     return "\n".join([*out, "ENDFIL", ""])
 
 
+def star(arms):
+    """A ball, each quarter and the top touched with the arm of a star that reaches it."""
+    centre, radius = (800, 500, -500), 12.5
+    lines = ["DMISMN/'star',4.0", "UNITS/MM,ANGDEC", "SNSET/APPRCH,3", "SNSET/RETRCT,3"]
+    for name, (x, y, z) in arms.items():
+        length = math.hypot(x, y, z)
+        lines.append(f"S({name})=SNSDEF/PROBE,FIXED,CART,{x},{y},{z},{x / length},{y / length},{z / length},3")
+    lines.append(f"D(R)=TRANS/XORIG,{centre[0]},YORIG,{centre[1]},ZORIG,{centre[2]}")
+    for name, (x, y, z) in arms.items():
+        # the arm points at what it touches from outside
+        towards = math.atan2(-y, -x)
+        normals = [(math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e))
+                   for e in (0.15, 0.45, 0.75, 1.05) for a in ((towards + b for b in (-0.6, -0.2, 0.2, 0.6)) if x or y else (2 * math.pi * k / 4 for k in range(4)))]
+        lines += [f"SNSLCT/S({name})", f"GOTO/{100 * -x / 50:.3f},{100 * -y / 50:.3f},80", f"F(B{name})=FEAT/SPHERE,OUTER,CART,0,0,0,{2 * radius}", f"MEAS/SPHERE,F(B{name}),{len(normals)}"]
+        lines += ["PTMEAS/CART," + ",".join(f"{v:.7f}" for v in (*(radius * c for c in n), *n)) for n in normals] + ["ENDMES", "GOTO/0,0,80"]
+    return "\n".join([*lines, "ENDFIL", ""])
+
+
 def workpiece(part_C, surfaces=None):
     return json.dumps({"schema": "abbe.workpiece/1", "name": "block", "material": {"name": "aluminium", "cte_ppm_per_K": 23.1}, "scales": {"cte_ppm_per_K": 8},
                        "temperature": {"part_C": part_C, "scale_C": part_C, "air_C": part_C},
@@ -102,6 +120,13 @@ class NextProgram(harness.Case):
                 self.assertTrue(z >= radius or beside or in_bore, f"{line} passes {x:.1f}, {y:.1f}, {z:.1f}")
             at = to
         self.assertIsNotNone(at)
+
+    def test_a_star_keeps_its_arms(self):
+        arms = {"DN": (0, 0, -100), "PX": (50, 0, -60), "MX": (-50, 0, -60), "PY": (0, 50, -60), "MY": (0, -50, -60)}
+        first = self.record(self.write("star.dmi", star(arms)), "first.csv", "--seed", 3, "--with", "probe.step:amplitude_um=10,direction=z,tip=4")
+        program, _, _ = self.proposal(first)
+        defined = dict(re.findall(r"S\((\w\w)\w*\)=SNSDEF/PROBE,FIXED,CART,([-\d.]+,[-\d.]+,[-\d.]+),", program.read_text()))
+        self.assertEqual({name: tuple(float(v) for v in at.split(",")) for name, at in defined.items()}, arms)
 
     def test_turns_the_head_above_everything(self):
         first = self.record(SPHERE, "first.csv", "--machine", PORTAL, "--with", "probe.tip_radius:amplitude_um=2")

@@ -86,6 +86,10 @@ void add_styli(const Case& c, std::vector<Change>& list) {
                [&](NamedSensor& s) { s.radius_mm = other_ball / 2; });
          if (centre) *row.target_mm += by * *row.normal;  // the surface stays
        }});
+  // A star would reach other places of the part when it is turned.
+  if (!std::all_of(rows.begin(), rows.end(),
+                   [&](const RecordingRow& r) { return is_straight(c.machine->sensors.at(*r.sensor).tip_in_r_mm); }))
+    return;
   if (!std::any_of(c.touches.touches.begin(), c.touches.touches.end(),
                    [](const RecordedTouch& t) { return t.scene.stylus.indexed; }))
     return;

@@ -14,6 +14,7 @@
 // tried two at a time. Ranked by gain per minute, a round of an hour included.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -33,6 +34,11 @@ struct Change {
   bool reversed = false;        ///< the sequence runs from its end to its beginning
   bool changes_touches = true;  ///< not only their order and time
 };
+
+/// Whether a tip lies along the last link of the head; no arm of a star does.
+inline bool is_straight(const Vec3& tip_in_r_mm) {
+  return std::hypot(tip_in_r_mm.x, tip_in_r_mm.y) < 1e-6 * norm(tip_in_r_mm);
+}
 
 /// The changes that a recording like this one can hold.
 std::vector<Change> changes_for(const Case&);

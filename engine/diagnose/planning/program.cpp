@@ -102,14 +102,37 @@ class Writer {
       if (named == longer_.machine.sensors.end() || !defined.insert(s.tip_ordinal).second) continue;
       const std::string& label = labels_.at(s.tip_ordinal);
       if (label != s.name) say(fmt::format("{}: stylus '{}' of the first recording", label, s.name));
-      const Vec3 tip = named->second.tip_in_r_mm;
-      out_ += s.indexed
-          ? fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f}\n", label,
-                        s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi, tip.x / norm(tip), tip.y / norm(tip),
-                        tip.z / norm(tip), norm(tip), 2 * s.radius_mm)
-          : fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},0,0,-1,{:.4f}\n", label,
-                        s.tip_from_mount_mm.x, s.tip_from_mount_mm.y, s.tip_from_mount_mm.z, 2 * s.radius_mm);
+      out_ += definition(label, k, named->second.tip_in_r_mm);
     }
+  }
+
+  /// INDEX knows styli along the last link of the head only; the arms of a star are offsets from the mount, and so are its
+  /// others where the recording tells no angles.
+  std::string definition(const std::string& label, std::size_t k, const Vec3& tip) {
+    const StylusScene& s = scene(k).stylus;
+    const double ball = 2 * s.radius_mm;
+    const bool angles = row(k).head_a_deg.has_value(),
+               turned = row(k).head_a_deg.value_or(0) != 0 || row(k).head_b_deg.value_or(0) != 0;
+    if (s.indexed && is_straight(tip) && (angles || !has_star()))
+      return fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},0,0,-1,{:.4f},{:.4f}\n", label,
+                         s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi, norm(tip), ball);
+    if (s.indexed && turned)
+      say(
+          fmt::format("{}: the head stands at A {:.4f}, B {:.4f} deg; DMIS defines no star on a turned head, so it is "
+                      "written as it stands.",
+                      label, s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi));
+    const Vec3 offset = angles || !s.indexed ? s.tip_from_mount_mm : tip, along = -s.to_head;
+    return fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f}\n", label,
+                       offset.x, offset.y, offset.z, along.x, along.y, along.z, ball);
+  }
+
+  bool has_star() const {
+    const auto& sensors = longer_.machine.sensors;
+    for (std::size_t k = longer_.first; k < touches_.size(); ++k)
+      if (const auto named = sensors.find(std::string(scene(k).stylus.name));
+          named != sensors.end() && !is_straight(named->second.tip_in_r_mm))
+        return true;
+    return false;
   }
 
   void settings() {
