@@ -12,6 +12,7 @@
 #include "engine/diagnose/baseline/outliers.hpp"
 #include "engine/diagnose/baseline/own_noise.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
+#include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
@@ -21,7 +22,6 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
-#include "engine/diagnose/findings/same_phase.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/diagnose/planning/design.hpp"
@@ -159,6 +159,13 @@ RunChange change_of(const Block& variant, const Block& found) {
   return holds ? found.change : variant.change;
 }
 
+/// Whether it is the period of a scale, of which this recording shows one phase in each direction.
+bool is_same_phase(const Case& c, const Finding& f) {
+  const Effect* effect = c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
+  return effect && needs_raw_reading(*effect) &&
+      SameDirection(c.touches, c.rows).is_alike(c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+}
+
 /// Findings as effects of the answer and as settings of a machine file.
 void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
@@ -186,7 +193,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         ? " It is one of so many that no machine file carries it."
         : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
-    const bool same_phase = same_phase_in_same_direction(c, f);
+    const bool same_phase = is_same_phase(c, f);
     const bool doubted = something_else || rounding || c.styli_unlogged || same_phase || !judged(c, f) || !possible ||
         !shown(out.improvement);
     e.probability = believed(f.probability, doubted);

@@ -30,6 +30,18 @@ def program(orientations=((0, 0), (45, 90), (45, -90))):
     return "\n".join([*lines, "ENDFIL", ""])
 
 
+def steps():
+    """A step gauge of ten steps along x, every face touched three times."""
+    lines = ["DMISMN/'steps',4.0", "UNITS/MM,ANGDEC", "SNSET/APPRCH,3", "SNSET/RETRCT,3", "FEDRAT/MESVEL,MMPS,5",
+             "S(P)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,3", "SNSLCT/S(P)", "D(R)=TRANS/XORIG,800,YORIG,500,ZORIG,-500"]
+    for again, step, way in itertools.product(range(3), range(10), (-1, 1)):
+        x = 40 * step + (20 if way > 0 else 0)
+        label = f"F({'AB'[way > 0]}{step}_{again})"
+        lines += [f"GOTO/{x + 8 * way},0,30", f"{label}=FEAT/POINT,CART,{x},0,0,{way},0,0", f"MEAS/POINT,{label},1", f"PTMEAS/CART,{x},0,0,{way},0,0",
+                  "ENDMES", f"GOTO/{x + 8 * way},0,30"]
+    return "\n".join([*lines, "ENDFIL", ""])
+
+
 def farther(row, um):
     """The touch `um` farther out, as its scales show it."""
     by = {a: um / 1000 * float(row["n" + a]) for a in "xyz"}
@@ -74,6 +86,15 @@ class Traps(harness.Case):
             self.assertLessEqual(e["probability"], 0.5)
             if e["members"][0] == "machine.scale_interpolation":
                 self.assertIn("moved by a third of the period", e["sentence"])
+
+    def test_what_is_wrong_with_a_step_gauge_is_no_period_of_a_scale(self):
+        """Its faces are at one phase of every scale, but for what is wrong with each: a period of 20 um would explain that by itself."""
+        for wave in ("wave_cosine_um=0.95,wavelength_mm=100", "wave_um=1.5,wavelength_mm=150"):
+            self.abbe("record", self.write("steps.dmi", steps()), "--machine", PORTAL, "--seed", 301, "-o", "steps.csv", "--with", f"part.form:{wave}")
+            said = self.diagnosis("steps.csv", PORTAL)
+            self.assertEqual([e["members"] for e in said["effects"]], [["part.form"]])
+            length = float(wave.split("=")[-1])
+            self.assertAlmostEqual(said["effects"][0]["parameters"]["wavelength_mm"]["value"], length, delta=0.2 * length)
 
     def test_a_ball_that_stands_elsewhere_is_touched_beside_its_targets(self):
         """The machine goes its programmed ways and meets the surface where it bends away."""

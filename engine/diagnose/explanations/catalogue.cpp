@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/diagnose/explanations/search_grid.hpp"
 
 namespace abbe::diagnose {
@@ -182,6 +183,48 @@ class VariantColumns {
   std::vector<int> phases_;
 };
 
+/// Variants of an effect on these touches. Where all places of one direction are at one phase of a scale by plan, as those
+/// of a step gauge are, they are at different ones only by what is wrong with each, and a period would explain any
+/// mismatch by the mismatch itself: all get the planned phase then.
+class Variants {
+ public:
+  Variants(const Effect& effect, const std::vector<Search>& search, const RecordedTouches& t,
+           const std::vector<int>& rows)
+      : evaluate_(effect, t, rows), columns_(effect, search, evaluate_) {
+    if (needs_raw_reading(effect)) planned_.emplace(effect, search, t, rows);
+  }
+  Variants(const Variants&) = delete;
+  Variants& operator=(const Variants&) = delete;
+
+  void fill(Block& block) const {
+    Block as_planned = block;
+    columns_.fill(block);
+    if (!planned_) return;
+    planned_->columns.fill(as_planned);
+    if (as_planned.signature.cols() > 0 && planned_->direction.is_alike(as_planned.signature))
+      block = std::move(as_planned);
+  }
+
+ private:
+  static RecordedTouches without_deviations(RecordedTouches t) {
+    for (RecordedTouch& touch : t.touches) touch.beyond_target_mm = {};
+    return t;
+  }
+
+  struct Planned {
+    Planned(const Effect& effect, const std::vector<Search>& search, const RecordedTouches& t,
+            const std::vector<int>& rows)
+        : evaluate(effect, without_deviations(t), rows), columns(effect, search, evaluate), direction(t, rows) {}
+    Evaluation evaluate;
+    VariantColumns columns;
+    SameDirection direction;
+  };
+
+  Evaluation evaluate_;
+  VariantColumns columns_;
+  std::optional<Planned> planned_;
+};
+
 /// The earlier variant of the same explanation that has the same columns: the two differ in what has no influence
 /// here. -1: none.
 int repeated(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
@@ -248,11 +291,10 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.factor = factor_of(effect);
   explanation.missing = missing_of(effect, t);
   const std::vector<Search> search = searches(effect, t, least_period_um);
-  const Evaluation evaluation(effect, t, rows);
-  const VariantColumns variant(effect, search, evaluation);
+  const Variants variants(effect, search, t, rows);
   for (Block& block : with_changes(settings(effect, search), effect, later_runs(t, rows))) {
     block.explanation = static_cast<int>(out.list.size());
-    variant.fill(block);
+    variants.fill(block);
     if (block.signature.cols() == 0) continue;
     if (const int before = repeated(block, explanation, out.blocks); before >= 0) {
       cover(out.blocks[static_cast<std::size_t>(before)], block);
@@ -322,7 +364,7 @@ Block variant_at(const Effect& effect, const std::vector<double>& theta, RunChan
   Block block;
   block.theta = theta;
   block.change = change;
-  VariantColumns(effect, searches(effect, t), Evaluation(effect, t, rows)).fill(block);
+  Variants(effect, searches(effect, t), t, rows).fill(block);
   return block;
 }
 

@@ -1,29 +1,39 @@
-#include "engine/diagnose/findings/same_phase.hpp"
+#include "engine/diagnose/explanations/same_phase.hpp"
 
-#include "engine/effects/effect.hpp"
+#include <algorithm>
 
 namespace abbe::diagnose {
 
-bool same_phase_in_same_direction(const Case& c, const Finding& f) {
-  constexpr double kSameNormal = 0.02, kSamePlace_mm = 1, kSame = 0.8;
-  constexpr int kLeastPairs = 20;  // of fewer, chance may make all alike
-  const Effect* effect = c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
-  if (!effect || !needs_raw_reading(*effect)) return false;
-  const Matrix& does = c.explanations.blocks[static_cast<std::size_t>(f.block)].signature;
+SameDirection::SameDirection(const RecordedTouches& t, const std::vector<int>& rows) {
+  constexpr double kSameNormal = 0.02, kSamePlace_mm = 1;
   const auto scene_of = [&](Eigen::Index row) -> const TouchScene& {
-    return c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(row)])].scene;
+    return t.touches[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)])].scene;
   };
+  for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(rows.size()); ++k) {
+    const TouchScene& s = scene_of(k);
+    const auto same = std::find_if(directions_.begin(), directions_.end(), [&](const auto& direction) {
+      return norm(scene_of(direction.front()).normal - s.normal) < kSameNormal;
+    });
+    if (same == directions_.end())
+      directions_.push_back({k});
+    else if (std::none_of(same->begin(), same->end(),
+                          [&](Eigen::Index other) { return norm(scene_of(other).point - s.point) < kSamePlace_mm; }))
+      same->push_back(k);
+  }
+}
+
+bool SameDirection::is_alike(const Matrix& signature) const {
+  constexpr double kSame = 0.8;
+  constexpr std::size_t kLeastPairs = 20;  // of fewer, chance may make all alike
+  // Products of all pairs of rows, and half the sums of their squares.
   double alike = 0, all = 0;
-  int pairs = 0;
-  for (Eigen::Index i = 0; i < does.rows(); ++i) {
-    const TouchScene& a = scene_of(i);
-    for (Eigen::Index k = 0; k < i; ++k) {
-      const TouchScene& b = scene_of(k);
-      if (norm(a.normal - b.normal) > kSameNormal || norm(a.point - b.point) < kSamePlace_mm) continue;
-      alike += does.row(i).dot(does.row(k));
-      all += (does.row(i).squaredNorm() + does.row(k).squaredNorm()) / 2;
-      ++pairs;
-    }
+  std::size_t pairs = 0;
+  for (const std::vector<Eigen::Index>& direction : directions_) {
+    const Matrix does = signature(direction, Eigen::all);
+    const double squares = does.squaredNorm();
+    alike += (does.colwise().sum().squaredNorm() - squares) / 2;
+    all += double(direction.size() - 1) * squares / 2;
+    pairs += direction.size() * (direction.size() - 1) / 2;
   }
   return pairs >= kLeastPairs && alike > kSame * all;
 }

@@ -33,7 +33,7 @@ constexpr EffectParameter lobe(std::string_view name, std::string_view help, dou
           .linear = true};
 }
 
-constexpr double kWavelengths_mm[] = {50, 100, 200, 400};
+constexpr double kWavelengths_mm[] = {50, 70, 100, 140, 200, 280, 400};
 
 constexpr EffectParameter kPartFormParameters[] = {
     lobe("oval_um", "two lobes about the part's z: proud along x, low along y"),
@@ -59,7 +59,7 @@ constexpr EffectParameter kPartFormParameters[] = {
      .low = 0.1,
      .high = 10000,
      .standard = 100,
-     .sought = Sought::listed,
+     .sought = Sought::around_listed,
      .tried = kWavelengths_mm},
     axis_parameter("axis of the part along which the wave runs: 0 x, 1 y, 2 z"),
 };
