@@ -174,6 +174,15 @@ class Traps(harness.Case):
             self.assertIn("record the digits that the machine has", e["sentence"])
         self.assertEqual([e["name"] for e in json.loads((self.folder / "model.json").read_text())["effects"]], ["noise.resolution"])
 
+    def test_a_normal_of_the_wrong_sign_is_refused(self):
+        self.abbe("record", self.write("steps.dmi", steps()), "--machine", PORTAL, "--seed", 301, "-o", "steps.csv")
+        for recording, axis, why in ((self.record("--seed", 31), "y", "normals do not stand on the balls"),
+                                     (self.folder / "steps.csv", "x", "only with the other sign does the machine travel against the normals")):
+            turned = self.changed(recording, lambda row: row | {"n" + axis: repr(-float(row["n" + axis]))})
+            said = self.refused("E0701", "diagnose", turned, "--machine", PORTAL)
+            self.assertIn(f"the sign of n{axis} is turned round", said)
+            self.assertIn(why, said)
+
     def test_exchanged_columns_of_normals_are_refused(self):
         swapped = self.changed(self.record("--seed", 5), lambda row: row | {"nx": row["ny"], "ny": row["nx"]})
         self.assertIn("write the columns nx, ny, nz as they are now ny, nx, nz", self.refused("E0701", "diagnose", swapped, "--machine", MACHINE))

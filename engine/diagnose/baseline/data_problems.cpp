@@ -119,6 +119,11 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
 /// The axes in another order.
 constexpr std::array<std::array<int, 3>, 5> kOrders = {{{1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
 
+Vec3 turned_round(Vec3 v, int axis) {
+  v[axis] = -v[axis];
+  return v;
+}
+
 Vec3 in_order(const Vec3& v, const std::array<int, 3>& o) { return {v[o[0]], v[o[1]], v[o[2]]}; }
 
 void check_axes(const Recording& r, const std::string& file, double gross) {
@@ -128,11 +133,7 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
           file, "the axes of the recorded positions are swapped",
           fmt::format("write the columns x, y, z as they are now {}, {}, {}", "xyz"[o[0]], "xyz"[o[1]], "xyz"[o[2]]));
   for (int axis = 0; axis < 3; ++axis)
-    if (left_by(r, [&](const RecordingRow& row) {
-          Vec3 p = row.position_mm;
-          p[axis] = -p[axis];
-          return p;
-        }) < kMends * gross)
+    if (left_by(r, [&](const RecordingRow& row) { return turned_round(row.position_mm, axis); }) < kMends * gross)
       refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]),
              "correct the sign in the recording");
 }
@@ -180,6 +181,14 @@ void check_axes_of_normals(const Recording& r, const std::string& file) {
     });
   };
   if (out_and_normal.empty() || stand({0, 1, 2})) return;
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::all_of(out_and_normal.begin(), out_and_normal.end(), [&](const auto& pair) {
+          return std::abs(dot(pair.first, unit(turned_round(pair.second, axis)))) > kStands;
+        }))
+      refuse(file,
+             fmt::format("the sign of n{} is turned round: as it is, normals do not stand on the balls of the targets",
+                         "xyz"[axis]),
+             "correct the sign in the recording");
   for (const auto& o : kOrders)
     if (stand(o))
       refuse(file, "the axes of the normals are swapped: as they are, they do not stand on the balls of the targets",
@@ -207,9 +216,26 @@ void check_head(const Recording& r, const std::string& file) {
 }  // namespace
 
 void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& back, const std::string& file) {
+  constexpr double kAgainst = 0.99;  // cosine
   std::vector<double> along;
-  for (const RecordingRow* row : rows)
-    if (row->normal && row->travel) along.push_back(dot(*row->normal, back * *row->travel));
+  std::array<bool, 3> mended{true, true, true};
+  std::size_t against = 0;
+  for (const RecordingRow* row : rows) {
+    if (!row->normal || !row->travel) continue;
+    const Vec3 travel = back * *row->travel;
+    along.push_back(dot(*row->normal, travel));
+    against += along.back() < -kAgainst;
+    for (int axis = 0; axis < 3; ++axis)
+      mended[static_cast<std::size_t>(axis)] &= dot(turned_round(*row->normal, axis), travel) < -kAgainst;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (mended[static_cast<std::size_t>(axis)] && against < along.size())
+      refuse(
+          file,
+          fmt::format(
+              "the sign of n{} is turned round: only with the other sign does the machine travel against the normals",
+              "xyz"[axis]),
+          fmt::format("correct the sign of n{0}, or of a{0} where that is wrong", "xyz"[axis]));
   if (along.empty() || median(std::move(along)) < 0) return;
   refuse(
       file, "the machine travels along the normals, out of the material, not against them",
