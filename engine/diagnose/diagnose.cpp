@@ -184,7 +184,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
     const bool rounding = may_be_rounding(c, e.largest_um);
+    const std::string clock = whose_clock(c, *c.explanations.list[f.explanation].effect);
     const std::string in_file = change.gone() ? " It is gone: the machine file needs nothing of it."
+        : !clock.empty()                      ? " Until then no machine file carries it."
         : rounding
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
@@ -203,8 +205,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const bool unsure = e.probability < kTold;
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
         pattern_beside(c, f) + (same_phase ? kSamePhase : "") +
-        whose_coordinates(c, *c.explanations.list[f.explanation].effect) +
-        whose_clock(c, *c.explanations.list[f.explanation].effect) + in_file;
+        whose_coordinates(c, *c.explanations.list[f.explanation].effect) + clock + in_file;
     if (change.any() && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";

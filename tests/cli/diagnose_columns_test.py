@@ -33,6 +33,17 @@ class Columns(harness.Case):
         self.assertEqual([e["members"] for e in said["effects"]], [["noise.resolution"]])
         self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], 5)
 
+    def test_without_a_clock_no_machine_file_carries_a_moment(self):
+        """The seconds are those of touches alone; the program takes others, and the step would lie after its end."""
+        step = self.record("--seed", 4, "--with", "machine.step:amplitude_um=25,t0_s=130,direction=x")
+        untimed = self.changed(step, lambda row: row | {"time_s": ""}, "untimed.csv")
+        said = self.diagnosis(untimed, "--model-out", "after.json")
+        self.assertTrue(any("machine.step" in e["members"] for e in said["effects"]))
+        self.assertIn("Until then no machine file carries it", said["effects"][0]["sentence"])
+        self.assertEqual(json.loads((self.folder / "after.json").read_text()).get("effects", []), [])
+        self.diagnosis(step, "--model-out", "timed.json")
+        self.assertNotEqual(json.loads((self.folder / "timed.json").read_text())["effects"], [])
+
     def test_a_clock_may_begin_anywhere(self):
         whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=25,t0_s=130,direction=x")
         said = self.diagnosis(whole)
