@@ -149,7 +149,15 @@ class DiagnoseRuns(harness.Case):
         told = said["effects"][0]["parameters"]
         self.assertEqual([told[p]["value"] for p in ("group", "head_a_deg", "head_b_deg")], ["one orientation", 90, 90])
         self.assertLess(abs(told["ratio"]["value"] - 4), 1)
-        self.assertIn("Touches with the head at A 90, B 90 deg scatter", said["effects"][0]["sentence"])
+        self.assertIn("Touches with the head at A 90.0 B 90.0 scatter", said["effects"][0]["sentence"])
+
+    def test_much_scatter_of_one_orientation_is_no_dirt(self):
+        """Its farthest touches are outliers, and all of one tip."""
+        said = self.diagnosis(self.record(1, "--seed", 5, "--with", "noise.unequal:ratio=6,group=3,head_a_deg=90,head_b_deg=180"))
+        self.assertEqual([e["members"] for e in said["effects"]], [["noise.unequal"]])
+        self.assertEqual(said["effects"][0]["parameters"]["head_b_deg"]["value"], 180)
+        self.assertEqual(said["location"][0]["where"], {"head": "A 90.0 B 180.0"})
+        self.assertEqual(said["baseline"]["outliers"], [])
 
     def test_a_pattern_finer_than_any_effect_repeats_and_is_no_noise(self):
         """Every touched point is off by its own amount, the same in both runs; the scale readings do not know of it."""

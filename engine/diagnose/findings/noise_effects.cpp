@@ -80,7 +80,7 @@ std::optional<Unequal> unequal(const Case& c, const Residuals& r) {
     f.parameters.push_back({.name = "group", .unit = "", .word = s.group});
     f.parameters.insert(f.parameters.end(), s.which.begin(), s.which.end());
     f.certain = other_each_time(c, r, s.in, e.size / (1 + e.size));
-    f.factor = s.factor, f.where = {{"group", s.group}};
+    f.factor = s.factor, f.where = {s.where};
     f.sentence = fmt::format("T{} scatter {:.1f} times as much as the others.", s.touches.substr(1), ratio);
     best = Unequal{std::move(f), s.in};
   }

@@ -64,8 +64,10 @@ std::vector<Split> orientations(const Case& c, const std::vector<Split>& others)
     for (Eigen::Index k = 0; k < in.size(); ++k)
       in(k) = same_orientation(scene_of_row(c, k).stylus, head.head_a_rad, head.head_b_rad);
     const double a = head.head_a_rad / kDegree, b = head.head_b_rad / kDegree;
+    const std::string orientation = fmt::format("A {:.1f} B {:.1f}", a, b);
     out.push_back({"one orientation",
-                   fmt::format("touches with the head at A {:.6g}, B {:.6g} deg", a, b),
+                   "touches with the head at " + orientation,
+                   {"head", orientation},
                    Factor::head,
                    std::move(in),
                    {limit("head_a_deg", "deg", a), limit("head_b_deg", "deg", b)}});
@@ -92,12 +94,19 @@ std::vector<Split> splits_of(const Case& c) {
   const auto above = [](const Vector& v, double least) { return Vector((v.array() > least).cast<double>()); };
   std::vector<Split> out{{"long styli",
                           "touches with long styli",
+                          {"group", "long styli"},
                           Factor::sensor,
                           above(length, long_mm),
                           {limit("longer_than_mm", "mm", long_mm)}},
-                         {"tilted head", "touches with tilted head", Factor::head, above(tilt, kUpright_rad), {}},
+                         {"tilted head",
+                          "touches with tilted head",
+                          {"group", "tilted head"},
+                          Factor::head,
+                          above(tilt, kUpright_rad),
+                          {}},
                          {"fast probing",
                           "touches with fast probing",
+                          {"group", "fast probing"},
                           Factor::speed,
                           above(speed, fast_mm_s),
                           {limit("faster_than_mm_s", "mm/s", fast_mm_s)}}};

@@ -53,7 +53,8 @@ double chance_of_outliers(double count, double expected);
 /// A group of noise.unequal.
 struct Split {
   const char* group;
-  std::string touches;  ///< in words: "touches with long styli"
+  std::string touches;                        ///< in words: "touches with long styli"
+  std::pair<std::string, std::string> where;  ///< of a location
   Factor factor;
   Vector in;                              ///< 1: in the group
   std::vector<DiagnosedParameter> which;  ///< parameters of the effect that part it from the others
