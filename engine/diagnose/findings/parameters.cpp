@@ -292,6 +292,7 @@ class Estimator {
     const double flat = std::hypot(d->x, d->y), degree = kPi / 180;
     out.push_back(told(parameters[p + 1], {std::atan2(d->y, d->x) / degree, d->u / std::max(flat, d->u) / degree}));
     out.push_back(told(parameters[p + 2], {std::atan2(d->z, flat) / degree, d->u / degree}));
+    out.back().low = std::max(out.back().low, -90.0), out.back().high = std::min(out.back().high, 90.0);
   }
 
   std::vector<MixtureTerm> linear(int p) const {

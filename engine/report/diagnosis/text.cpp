@@ -102,6 +102,7 @@ std::string third_sentence(const Diagnosis& d) {
       ? (closer ? "it predicts better" : "something is there too, but not of the size that it has on the others")
       : clear           ? "it predicts worse"
       : gains && closer ? "it predicts better, though not beyond doubt"
+      : closer          ? "it cannot be told whether it predicts better"
                         : "it does not predict better";
   return fmt::format(
       "On {} that the model had not seen {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",

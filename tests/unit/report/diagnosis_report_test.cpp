@@ -100,6 +100,7 @@ TEST_CASE("touches are predicted better only where less of them is left") {
   CHECK(says(third(20, 1.2), "something is there too, but not of the size"));
   CHECK(says(third(2, 0.8), "it predicts better, though not beyond doubt"));
   CHECK(says(third(2, 1.28), "it does not predict better"));
+  CHECK(says(third(-2, 0.8), "it cannot be told whether it predicts better"));
   CHECK(says(third(-20, 0.8), "it predicts worse"));
 }
 
