@@ -187,6 +187,15 @@ class Traps(harness.Case):
         swapped = self.changed(self.record("--seed", 5), lambda row: row | {"nx": row["ny"], "ny": row["nx"]})
         self.assertIn("write the columns nx, ny, nz as they are now ny, nx, nz", self.refused("E0701", "diagnose", swapped, "--machine", MACHINE))
 
+    def test_of_features_one_after_the_other_it_may_be_the_time(self):
+        """Every ball has come loose by its own amount, or something has happened between any two."""
+        def loose(target, _):
+            own = random.Random(f"{round((target[0] - 300) / 120)} {round((target[1] - 200) / 120)}")
+            return tuple(own.gauss(0, 8e-3) for _ in "xyz")
+        said = self.diagnosis(self.write("plate.csv", plate(loose, seed=3)))
+        self.assertEqual(said["unexplained"]["factor"], "feature")
+        self.assertIn("so that it may be the time: measure them in another order", said["otherwise"])
+
     def test_what_every_fifth_touch_does_no_room_does(self):
         for seed in (7, 8):
             count = itertools.count()

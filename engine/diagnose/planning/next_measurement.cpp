@@ -344,8 +344,23 @@ class Judge {
   std::vector<Scored> list_;  ///< the best first
 };
 
+/// Whether every feature was measured at one stretch: what differs between them may be the time then.
+bool one_after_the_other(const Case& c) {
+  std::set<int> done;
+  int now = -1;
+  for (const int row : c.rows) {
+    const int feature = c.touches.touches[static_cast<std::size_t>(row)].scene.feature;
+    if (feature == now) continue;
+    if (!done.insert(feature).second) return false;
+    now = feature;
+  }
+  return done.size() > 1;
+}
+
 /// What makes a pattern without a name is narrowed down by changing what it may belong to.
-std::string to_follow_a_pattern(Factor factor) {
+std::string to_follow_a_pattern(const Case& c, Factor factor) {
+  if (factor == Factor::feature && one_after_the_other(c))
+    return "One feature was measured after the other, so that it may be the time: measure them in another order. What comes back on the same features is the part or its clamping, what does not goes with the clock.";
   switch (factor) {
     case Factor::time:
       return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
@@ -405,7 +420,7 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
 std::string to_check_a_name(const Case& c, const SearchResult& result) {
   for (const Finding& f : result.findings)
     if (f.set.size() == 1 && f.probability < kTold)
-      return to_follow_a_pattern(shown_in(c, c.explanations.list[static_cast<std::size_t>(f.explanation)]));
+      return to_follow_a_pattern(c, shown_in(c, c.explanations.list[static_cast<std::size_t>(f.explanation)]));
   return "";
 }
 
@@ -421,7 +436,7 @@ bool worth_a_round(const std::vector<NextMeasurement>& next) {
 std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
   if (worth_a_round(next)) return to_follow_what_is_left(c, result);
   if (result.other)
-    return to_follow_a_pattern(c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
+    return to_follow_a_pattern(c, c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
   if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
