@@ -184,28 +184,28 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.largest_um = size.largest_um;
     const RunChange change = e.change.front();
     const bool rounding = may_be_rounding(c, e.largest_um);
-    const std::string clock = whose_clock(c, *c.explanations.list[f.explanation].effect);
+    const Effect& effect = *c.explanations.list[f.explanation].effect;
+    const std::string clock = whose_clock(c, effect);
     const std::string in_file = change.gone() ? " It is gone: the machine file needs nothing of it."
         : !clock.empty()                      ? " Until then no machine file carries it."
         : rounding
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
               c.step_um)
-        : belief_in_first(c, f) < kCarried
-        ? " It is one of so many that no machine file carries it."
-        : tell_machine_file(c, *c.explanations.list[f.explanation].effect, e.parameters, out);
+        : belief_in_first(c, f) < kCarried ? " It is one of so many that no machine file carries it."
+                                           : tell_machine_file(c, effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     const bool same_phase = is_same_phase(c, f);
-    const bool doubted = something_else || rounding || c.styli_unlogged || same_phase || !judged(c, f) || !possible ||
-        !shown(out.improvement);
+    const bool doubted = something_else || rounding || c.styli_unlogged || same_phase || effect.only_spread ||
+        !judged(c, f) || !possible || !shown(out.improvement);
     e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     const bool unsure = e.probability < kTold;
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
-        pattern_beside(c, f) + (same_phase ? kSamePhase : "") +
-        whose_coordinates(c, *c.explanations.list[f.explanation].effect) + clock + in_file;
+        pattern_beside(c, f) + (same_phase ? kSamePhase : "") + much_like_it(effect) + whose_coordinates(c, effect) +
+        clock + in_file;
     if (change.any() && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";

@@ -160,6 +160,7 @@ struct Effect {
   DrawsPer draws_per = DrawsPer::none;
   int draws = 0;                 ///< how many numbers each time
   bool linear_in_draws = false;  ///< for given parameters; no displacement when all draws are zero
+  bool only_spread = false;      ///< no law but a spread: of what is drawn so freely, much else may look like it
   /// d of one touch, mm in W. theta: parameter values in the units of `parameters`, in their order; z: the draws.
   Vec3 (*displace)(const TouchScene&, const double* theta, const double* z) = nullptr;
 };

@@ -22,6 +22,12 @@ std::string whose_coordinates(const Case& c, const Effect& effect) {
   return " Places on the part are counted from the centre of its targets; for its own coordinates, in which a program would simulate it, give --program.";
 }
 
+std::string much_like_it(const Effect& effect) {
+  if (!effect.only_spread) return "";
+  return fmt::format(" It has no law but a spread, and much else looks like that. What would tell: {}.",
+                     effect.separate);
+}
+
 std::string whose_clock(const Case& c, const Effect& effect) {
   const auto time = static_cast<unsigned>(Covariate::time);
   if ((effect.needs & time) == 0 || (c.touches.known & time) != 0) return "";

@@ -15,6 +15,9 @@ std::string pattern_beside(const Case&, const Finding&);
 /// Where no program says how the part lies, what an effect does there is told in coordinates that no other program shares.
 std::string whose_coordinates(const Case&, const Effect&);
 
+/// Of an effect that has no law but a spread: what would tell it from the others that look like it.
+std::string much_like_it(const Effect&);
+
 /// Without a clock, moments and rates are those of the motion model.
 std::string whose_clock(const Case&, const Effect&);
 

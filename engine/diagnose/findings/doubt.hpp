@@ -20,6 +20,7 @@ inline constexpr double kTold = 0.9;
 /// - where touches are of several styli or orientations that were not logged;
 /// - where it is smaller than the steps to which positions are rounded;
 /// - of the period of a scale, where touches of the same direction are at the same phase;
+/// - of an effect that has no law but a spread: it fits whatever differs so freely;
 /// - where it does not predict touches better that it was not fitted to;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
 /// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.

@@ -48,6 +48,7 @@ constinit const Effect kHeadReindexing{
     .draws_per = DrawsPer::visit,
     .draws = 2,
     .linear_in_draws = true,
+    .only_spread = true,
     .displace = head_reindexing,
 };
 

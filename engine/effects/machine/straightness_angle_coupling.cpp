@@ -99,6 +99,7 @@ constinit const Effect kStraightnessAngleCoupling{
     .draws_per = DrawsPer::machine,
     .draws = 2 * 2 * kHarmonics,
     .linear_in_draws = true,
+    .only_spread = true,
     .displace = straightness_angle_coupling,
 };
 
