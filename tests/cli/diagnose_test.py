@@ -173,17 +173,18 @@ class Diagnose(harness.Case):
         self.assertIn("ENDFIL", best["program"])
 
     def test_a_plan_needs_targets_only(self):
-        """Before anything was measured there are no positions."""
-        plan = self.changed(self.record(), lambda row: {key: value for key, value in row.items() if key not in ("x", "y", "z")}, "plan.csv")
-        empty = self.changed(self.record(), lambda row: {**row, "x": "", "y": "", "z": ""}, "empty.csv")
+        """Before anything was measured there are no positions, and no readings, by which the phases of a scale would differ."""
+        measured = self.changed(self.record(), lambda row: row | {"enc_" + a: "" for a in "xyz"}, "measured.csv")
+        plan = self.changed(measured, lambda row: {key: value for key, value in row.items() if key not in ("x", "y", "z")}, "plan.csv")
+        empty = self.changed(measured, lambda row: {**row, "x": "", "y": "", "z": ""}, "empty.csv")
         def told(path):
             return {d["effect"]: d["detect_um"] for d in self.diagnosis(path, "--design-only")["smallest_detectable"]}
 
-        measured = told(self.folder / "rec.csv")
+        by_effect = told(measured)
         for planned in (told(plan), told(empty)):
-            self.assertEqual(set(planned), set(measured))
-            for effect, um in measured.items():
-                self.assertAlmostEqual(planned[effect] / um, 1, delta=0.02)
+            self.assertEqual(set(planned), set(by_effect))
+            for effect, um in by_effect.items():
+                self.assertAlmostEqual(planned[effect] / um, 1)
         self.assertIn("--design-only", self.refused("E0528", "diagnose", empty, "--machine", MACHINE))
 
     def test_a_missing_covariate_is_named(self):
