@@ -437,7 +437,15 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
     return out;
   }
+  const auto as_another_part = [&] {
+    Diagnosis again = before;
+    again.messages.push_back(not_its_targets(c.touches, kNineTenths, file));
+    return diagnosed(recording, step_um, machine, options, Surfaces::unknown, file, std::move(again));
+  };
+  const bool may_be_another = !surfaces && c.baseline.surfaces != Surfaces::unknown;
   if (out.smallest_detectable.empty()) {
+    out.baseline = summary(c, c.hyper, known);
+    if (may_be_another && another_part(c, {}, out)) return as_another_part();
     tell_nothing_judged(c, file, out);
     return out;
   }
@@ -451,11 +459,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   at("touches that the model has not seen");
   show_improvement(c, result, out);
   tell_findings(c, result, out);
-  if (!surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out)) {
-    Diagnosis again = before;
-    again.messages.push_back(not_its_targets(c.touches, kNineTenths, file));
-    return diagnosed(recording, step_um, machine, options, Surfaces::unknown, file, std::move(again));
-  }
+  if (may_be_another && another_part(c, result, out)) return as_another_part();
   if (!result.findings.empty()) out.adequacy_p = result.adequacy;
   if (result.other) tell_unexplained(c, result, out);
   out.location = locate(c, first, result);

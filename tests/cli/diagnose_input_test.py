@@ -3,6 +3,7 @@ import json
 import math
 import os
 import pty
+import random
 import subprocess
 import threading
 
@@ -98,6 +99,28 @@ class Placement(Input):
             said = self.said(*runs)
             self.assertIn("W0704", self.codes(said))
             self.assertEqual(said["verdict"], "no_mismatch")
+
+    def test_a_part_that_is_nowhere_its_drawing_is_compared_with_itself(self):
+        """Three faces and two bores, off by up to millimetres: beside that as noise nothing would show."""
+        faces = {"TOP": ((0, 0, 1), [(-43, 15, 31), (43, 15, 31), (43, -35, 31), (-50, -25, 31)]),
+                 "FRONT": ((0, -1, 0), [(19, -53, 23), (19, -53, 15), (-19, -53, 15), (-19, -53, 23)]),
+                 "LEFT": ((-1, 0, 0), [(-87, -14, 23), (-87, -29, 23), (-87, -29, 15), (-87, -14, 15)])}
+        touches = [(name, n, at) for name, (n, places) in faces.items() for at in places]
+        touches += [(name, (-x, -y, 0), (r * x, r * y, z)) for name, r, heights in (("WIDE", 14.5, (23, 17)), ("NARROW", 5.25, (5, 11)))
+                    for z in heights for x, y in ((0, 1), (1, 0), (0, -1), (-1, 0))]
+        draw, rough = random.Random(2), random.Random(3)
+        faces_off = {"TOP": lambda at: -0.6, "FRONT": lambda at: 1 + 0.012 * at[0], "LEFT": lambda at: 1.9 - 0.016 * (at[1] + 21)}
+        bore_off = lambda n: 0.15 * n[0] - 0.07 * n[1] + 0.05   # elsewhere, and too small
+        wrong = [(faces_off[name](at) if name in faces_off else bore_off(n)) + rough.gauss(0, 0.03) for name, n, at in touches]
+        lines = ["run,feature,touch,x,y,z,nx,ny,nz,tx,ty,tz"]
+        for run in (1, 2):
+            for k, ((name, n, at), by) in enumerate(zip(touches, wrong)):
+                out = by + draw.gauss(0, 0.0004)
+                lines.append(",".join(map(str, (run, name, k + 1, *(round(a + out * c, 7) for a, c in zip(at, n)), *n, *at))))
+        said = self.said(self.write("part.csv", "\n".join(lines) + "\n"))
+        self.assertIn("W0704", self.codes(said))
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertAlmostEqual(said["baseline"]["noise_um"], 0.4, delta=0.15)
 
     def test_targets_instead_of_positions_are_no_mismatch_and_are_told(self):
         machine = json.loads(self.abbe("machine", "init", "m").stdout)
