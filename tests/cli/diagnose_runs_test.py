@@ -142,6 +142,13 @@ class DiagnoseRuns(harness.Case):
             self.assertEqual(said["effects"][0]["probability"] > 0.5, certain)
             self.assertEqual("Repeats of the same touches would tell" in said["effects"][0]["sentence"], not certain)
 
+    def test_what_has_only_a_spread_is_believed_by_half(self):
+        loose = ("--with", "head.reindexing:sd_urad=60")
+        said = self.diagnosis(*(self.record(run, *loose) for run in (1, 2, 3)))
+        self.assertEqual(said["effects"][0]["members"], ["head.reindexing"])
+        self.assertEqual(said["effects"][0]["probability"], 0.5)
+        self.assertIn("It has no law but a spread, and much else looks like that. What would tell: several visits", said["effects"][0]["sentence"])
+
     def test_one_orientation_that_scatters_more_is_found(self):
         loose = ("--with", "noise.unequal:ratio=4,group=3,head_a_deg=90,head_b_deg=90")
         said = self.diagnosis(self.record(1, *loose), self.record(2, *loose))
