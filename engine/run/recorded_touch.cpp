@@ -417,6 +417,7 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     const auto fill = [&](auto member) {
       if (!(row.*member)) row.*member = from.*member;
     };
+    row.travel_as_planned = !row.travel;
     fill(&RecordingRow::target_mm), fill(&RecordingRow::normal), fill(&RecordingRow::sensor);
     fill(&RecordingRow::head_a_deg), fill(&RecordingRow::head_b_deg), fill(&RecordingRow::visit);
     fill(&RecordingRow::speed_mm_s), fill(&RecordingRow::accel_mm_s2), fill(&RecordingRow::travel);

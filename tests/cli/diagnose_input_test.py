@@ -81,6 +81,14 @@ class Placement(Input):
             self.assertEqual(self.codes(said), ["N0709"])
             self.assertEqual(members(said), expected)
 
+    def test_a_reversed_part_is_touched_as_its_program_says(self):
+        """Turned by half a turn, and nothing logged but positions: the program travels against the normals of the part wherever that stands."""
+        turned = self.moved(lambda x, y, z: (1560 - x, 900 - y, z))
+        bare = self.changed(turned, lambda row: {k: row[k] for k in ("feature", "touch", "x", "y", "z")}, "bare.csv")
+        text = [line for line in bare.read_text().splitlines() if not line.startswith("# sensor")]
+        said = self.said(self.write("bare.csv", "\n".join(text) + "\n"), "--program", PROGRAM)
+        self.assertEqual(self.codes(said), ["N0709"])
+
     def test_a_part_that_is_not_its_drawing_is_compared_with_itself(self):
         """One bore is three millimetres too large, or two faces are tilted and every touch a little off: the rest fits to its targets, and yet only what
         repeats differently can be judged."""
@@ -265,6 +273,7 @@ class Mistakes(Input):
                                    (readings, 1e3, "readings are in micrometres"), (readings, 1 / 25.4, "readings are in inches"),
                                    (self.PLACE + targets + readings, 1e3, "are in micrometres"), (self.PLACE + targets + readings, 1e-3, "are in metres")):
             self.assertIn(words, self.told("E0701", self.scaled(columns, by)))
+        self.assertIn("x of the recorded positions is in micrometres", self.told("E0701", self.scaled(("x",), 1e3)))
         half = lambda row: row | ({c: "" for c in readings} if int(row["touch"]) % 2 else {})
         self.assertIn("readings are in inches", self.told("E0701", lambda row: half(self.scaled(readings, 1 / 25.4)(row))))   # some have none
         elsewhere = self.scaled(self.PLACE, 1e-3)
@@ -280,6 +289,12 @@ class Mistakes(Input):
         for by, unit in ((1 / 25.4, "inches"), (1e-3, "metres"), (1e3, "micrometres")):
             self.assertIn(f"readings are in {unit}", self.told("E0701", self.scaled(readings, by), "--machine", machine))
         self.assertIn("are in radians", self.told("E0701", self.scaled(("head_A_deg", "head_B_deg"), math.pi / 180), "--machine", machine))
+
+    def test_readings_of_other_axes(self):
+        exchanged = lambda row: row | {"enc_x": row["enc_y"], "enc_y": row["enc_x"]}
+        mirrored = lambda row: row | {"enc_y": repr(-float(row["enc_y"]))}
+        self.assertIn("write the columns enc_x, enc_y, enc_z as they are now enc_y, enc_x, enc_z", self.told("E0701", exchanged))
+        self.assertIn("the sign of enc_y is turned round", self.told("E0701", mirrored))
 
     def test_a_recording_names_a_machine_beside_it(self):
         machine = (harness.ROOT / "examples/machines/moving-table-700.json").read_text()
@@ -298,6 +313,10 @@ class Mistakes(Input):
             return lambda row: row | {a: repr(float(row[a]) + by * float(row["n" + a])) for a in self.PLACE}
         for by in (0.1, -0.1, 2, -4):
             self.assertIn("tip radius", self.told("E0701", out(by)))
+        for feature, by, words in (("BORE2", -4, "too far in along its normal, which is the diameter"), ("PLB", 2, "which is the radius")):
+            said = self.told("E0701", lambda row: out(by)(row) if row["feature"] == feature else row)
+            self.assertIn(f"every touch of '{feature}'", said)
+            self.assertIn(words, said)
         sizes = self.changed(self.recording, out(0.1))
         sizes.write_text("# surfaces: unknown_size\n" + sizes.read_text())
         self.abbe("diagnose", sizes)

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/diagnose/baseline/remedies.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/recording/units.hpp"
 
@@ -28,10 +29,6 @@ double left_by(const Recording& r, Remedy remedy) {
   std::vector<double> d;
   for (const RecordingRow& row : r.rows) d.push_back(norm(remedy(row) - *row.target_mm));
   return median(std::move(d));
-}
-
-[[noreturn]] void refuse(const std::string& file, std::string what, std::string help) {
-  throw UserError(diagnostic(Code::E0701, fmt::format("{}: {}", file, what), std::move(help)));
 }
 
 /// How large the whole is, wherever it stands: half of the points lie no further from the middle. 0 for one
@@ -61,30 +58,28 @@ double reach_of(const Recording& r, const Machine& machine) {
   return median(std::move(reach));
 }
 
-/// How far the scales travelled from touch to touch, over how far the tip did: half of the ratios are
-/// smaller. Only between touches of one stylus in one orientation, because the readings jump where the head
-/// turns, and of one setup, because `frame: part` does not tell that the part was moved. Nothing where no two
-/// such touches with readings lie apart.
-std::optional<double> reading_per_position(const Recording& r) {
-  constexpr double kApart_mm = 1;
-  using Mounted = std::tuple<int, std::optional<std::string>, std::optional<double>, std::optional<double>>;
-  std::map<Mounted, const RecordingRow*> before;
-  std::vector<double> ratios;
-  for (const RecordingRow& row : r.rows) {
-    if (!row.reading_mm) continue;
-    const RecordingRow* last = std::exchange(before[{row.setup, row.sensor, row.head_a_deg, row.head_b_deg}], &row);
-    const double moved = last ? norm(row.position_mm - last->position_mm) : 0;
-    if (moved > kApart_mm) ratios.push_back(norm(*row.reading_mm - *last->reading_mm) / moved);
+/// One coordinate of the recorded positions in another unit, and the others as they should be.
+void check_unit_of_each(const Recording& r, const std::string& file) {
+  constexpr double kLeast_mm = 1, kAsMeant = 0.1;
+  std::array<std::optional<ForeignUnit>, 3> foreign;
+  int as_meant = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto along = [axis](const Vec3& v) {
+      Vec3 out;
+      out[axis] = v[axis];
+      return out;
+    };
+    const double recorded = size_of(r, [&](const RecordingRow&row) { return along(row.position_mm); }),
+                 meant = size_of(r, [&](const RecordingRow&row) { return along(*row.target_mm); });
+    if (std::abs(recorded - meant) <= kAsMeant * meant) ++as_meant;
+    if (meant > kLeast_mm) foreign[static_cast<std::size_t>(axis)] = foreign_unit(recorded, meant);
   }
-  return ratios.empty() ? std::nullopt : std::optional(median(std::move(ratios)));
-}
-
-void check_readings(const Recording& r, const std::string& file) {
-  const std::optional<double> ratio = reading_per_position(r);
-  const auto unit = ratio ? foreign_unit(*ratio, 1) : std::nullopt;
-  if (unit)
-    refuse(file, fmt::format("the scale readings are in {}, the recorded positions in millimetres", unit->name),
-           fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
+  for (int axis = 0; axis < 3; ++axis)
+    if (const auto& unit = foreign[static_cast<std::size_t>(axis)]; unit && as_meant == 2)
+      refuse(
+          file,
+          fmt::format("{} of the recorded positions is in {}, the targets in millimetres", "xyz"[axis], unit -> name),
+          fmt::format("multiply {} by {:g}", "xyz"[axis], unit -> mm));
 }
 
 /// Positions and targets in different units, or both in one that this machine makes impossible.
@@ -115,16 +110,6 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
             meant),
         "multiply x, y, z, tx, ty, tz by 1000");
 }
-
-/// The axes in another order.
-constexpr std::array<std::array<int, 3>, 5> kOrders = {{{1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
-
-Vec3 turned_round(Vec3 v, int axis) {
-  v[axis] = -v[axis];
-  return v;
-}
-
-Vec3 in_order(const Vec3& v, const std::array<int, 3>& o) { return {v[o[0]], v[o[1]], v[o[2]]}; }
 
 void check_axes(const Recording& r, const std::string& file, double gross) {
   for (const auto& o : kOrders)
@@ -222,7 +207,7 @@ void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& bac
   std::size_t against = 0;
   for (const RecordingRow* row : rows) {
     if (!row->normal || !row->travel) continue;
-    const Vec3 travel = back * *row->travel;
+    const Vec3 travel = row->travel_as_planned ? *row->travel : back * *row->travel;
     along.push_back(dot(*row->normal, travel));
     against += along.back() < -kAgainst;
     for (int axis = 0; axis < 3; ++axis)
@@ -276,6 +261,7 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
       std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
   if (!complete) return;  // recorded_touches() says what is missing
   check_units(r, machine, file);
+  check_unit_of_each(r, file);
   check_readings(r, file);
   check_head(r, file);
   check_axes_of_normals(r, file);

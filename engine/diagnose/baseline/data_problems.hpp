@@ -24,6 +24,8 @@ void doubt_temperatures(const Recording&, const std::string& file, std::vector<D
 /// Warns of speeds at which no probe touches (W0728).
 void doubt_speeds(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 
+/// Throws UserError (E0701): scale readings in another unit, or of other axes, than the positions.
+void check_readings(const Recording&, const std::string& file);
 /// Takes readings of the scales out that follow the targets and not the touches (W0729): effects of the readings would
 /// take each touch's own deviation from them.
 void leave_out_commanded_readings(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
@@ -34,6 +36,8 @@ bool styli_unlogged(const Recording&, const std::string& file, std::vector<Diagn
 void check_normals(const std::vector<const RecordingRow*>& setup, const Mat3& back, const std::string& file);
 /// Throws UserError: another unit or other axes.
 void check_data(const Recording&, const Machine&, const std::string& file);
+/// Throws UserError (E0701) when all touches of one feature lie a tip's radius or diameter too far out or in.
+void check_tips(const RecordedTouches&, const std::string& file);
 /// Throws UserError when many touches lie beside their targets; a few are warned of.
 void check_pairing(const Recording&, const RecordedTouches&, const std::string& file,
                    std::vector<Diagnostic>& messages);

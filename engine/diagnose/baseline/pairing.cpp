@@ -51,6 +51,28 @@ std::vector<double> limits(const RecordedTouches& t) {
 
 }  // namespace
 
+void check_tips(const RecordedTouches& t, const std::string& file) {
+  constexpr std::size_t kEnough = 3;
+  constexpr double kLarge_mm = 0.25, kAlike_mm = 0.05;
+  std::map<std::pair<int, int>, std::vector<const RecordedTouch*>> features;
+  for (const RecordedTouch& touch : t.touches) features[{touch.scene.feature, touch.scene.setup}].push_back(&touch);
+  for (const auto& [of, touches] : features) {
+    const double radius = touches.front()->scene.stylus.radius_mm, out = touches.front()->residual_mm;
+    const bool alike = std::all_of(touches.begin(), touches.end(), [&](const RecordedTouch* touch) {
+      return std::abs(touch->residual_mm - out) < kAlike_mm;
+    });
+    if (touches.size() < kEnough || std::abs(out) < kLarge_mm || !alike) continue;
+    for (const auto& [size, name] : {std::pair(radius, "radius"), std::pair(2 * radius, "diameter")})
+      if (std::abs(std::abs(out) - size) < kAlike_mm)
+        throw UserError(diagnostic(
+            Code::E0701,
+            fmt::format("{}: every touch of '{}' is {:.3f} mm too far {} along its normal, which is the {} of its tip",
+                        file, t.features[static_cast<std::size_t>(of.first)], std::abs(out), out > 0 ? "out" : "in",
+                        name),
+            "check the compensation of that feature, INNER or OUTER, and whether its targets are tip centres; where it is really so, say '# surfaces: unknown'"));
+  }
+}
+
 void check_pairing(const Recording& r, const RecordedTouches& t, const std::string& file,
                    std::vector<Diagnostic>& messages) {
   constexpr double kFew = 0.1;

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -75,47 +73,6 @@ void doubt_speeds(const Recording& recording, const std::string& file, std::vect
       fmt::format("{}: speed_mm_s is {:g} for '{}' touch {}", file, *fast->speed_mm_s, fast->feature, fast->touch),
       fmt::format("if these are mm/min, convert them: {:g} mm/min are {:g} mm/s", *fast->speed_mm_s,
                   *fast->speed_mm_s / kSecondsPerMinute)));
-}
-
-void leave_out_commanded_readings(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
-  // From the scales to the tip is one vector for each stylus and orientation, but for what the controller corrects. Where
-  // this vector varies as touches deviate from their targets, the scales were not read at the touch.
-  constexpr double kAlike = 0.5;  // share of its squares that the deviations leave; 1 or more of scales that were read
-  // By so much, positions are in another frame than the scales: the part stood elsewhere.
-  constexpr double kElsewhere_mm = 0.02;
-  if (recording.in_part_frame) return;
-  struct Tip {
-    std::vector<Vec3> from_scales, from_targets;
-  };
-  std::map<std::tuple<std::string, std::optional<double>, std::optional<double>>, Tip> tips;
-  for (const RecordingRow& row : recording.rows) {
-    if (!row.reading_mm || !row.target_mm) return;
-    Tip& tip = tips[{row.sensor.value_or(""), row.head_a_deg, row.head_b_deg}];
-    tip.from_scales.push_back(row.position_mm - *row.reading_mm);
-    tip.from_targets.push_back(row.position_mm - *row.target_mm);
-  }
-  double square = 0, left = 0;
-  for (auto& [of, tip] : tips) {
-    for (std::vector<Vec3>* const list : {&tip.from_scales, &tip.from_targets}) {
-      Vec3 mean;
-      for (const Vec3& v : *list) mean += v / double(list->size());
-      for (Vec3& v : *list) v -= mean;
-    }
-    for (std::size_t i = 0; i < tip.from_scales.size(); ++i) {
-      const Vec3 between = tip.from_scales[i] - tip.from_targets[i];
-      square += dot(tip.from_scales[i], tip.from_scales[i]), left += dot(between, between);
-    }
-  }
-  // Positions may be rounded where scales are not.
-  const double step = common_step_mm(recording), rows = double(recording.rows.size()),
-               rounded = 3 * step * step / 12 * rows;
-  if (left >= kAlike * square || square <= 2 * rounded || square > kElsewhere_mm * kElsewhere_mm * rows) return;
-  messages.push_back(diagnostic(
-      Code::W0729,
-      fmt::format("{}: enc_x, enc_y, enc_z do not hold by how much the touches miss their targets: they are not used",
-                  file),
-      "record what the scales read at each touch, not what was commanded"));
-  for (RecordingRow& row : recording.rows) row.reading_mm.reset();
 }
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

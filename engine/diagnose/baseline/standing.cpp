@@ -209,7 +209,7 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
     for (RecordingRow& row : out.rows) {
       if (row.setup != setup) continue;
       row.position_mm = X * row.position_mm;
-      if (row.travel) row.travel = X.R * *row.travel;
+      if (row.travel && !row.travel_as_planned) row.travel = X.R * *row.travel;
     }
     for (const Aimed& a : rows)
       out.rows[static_cast<std::size_t>(a.row - recorded.rows.data())].position_mm += a.bend_mm(X) * a.normal();
