@@ -129,6 +129,15 @@ class Unexplained(harness.Case):
         for got, row in zip(moved("--with", "empirical.curve:along=time,from=0,to=150,y0_um=6,y1_um=6"), clean):
             share = max(0.0, min(1.0, 2 - float(row["time_s"]) / 10))
             self.assertAlmostEqual(got, 6 * share * float(row["ny"]), delta=0.01)
+        for got in moved("--with", "empirical.curve:along=speed,from=0,to=1," + ",".join(f"r{k}_um=2" for k in range(16))):
+            self.assertAlmostEqual(got, 2, delta=0.01)
+        radius = float((self.folder / "rec.csv").read_text().split("diameter_mm ")[1].split()[0]) / 2
+        x, y = ([float(row["t" + a]) - radius * float(row["n" + a]) for row in clean] for a in "xy")  # of the surface
+        at = f"plane=xy,from_1={min(x)},to_1={max(x)},from_2={min(y)},to_2={max(y)}"
+        map_of_both = moved("--with", f"empirical.map:{at}," + ",".join(f"z_5_{k}_um=6" for k in range(6)) + ",r_0_0_um=3")
+        for got, row, px, py in zip(map_of_both, clean, x, y):
+            s, t = 5 * (px - min(x)) / (max(x) - min(x)), 5 * (py - min(y)) / (max(y) - min(y))
+            self.assertAlmostEqual(got, 6 * max(0, s - 4) * float(row["nz"]) + 3 * max(0, 1 - s) * max(0, 1 - t), delta=0.02)
 
 
 if __name__ == "__main__":

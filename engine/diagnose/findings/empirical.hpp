@@ -1,7 +1,7 @@
 // A model of a mismatch that the catalogue does not explain: the pattern in the factor where it lies, as an
-// empirical effect of a machine file (engine/effects/empirical). Its coefficients are the ridge estimate
-// under a common prior size, chosen by its evidence; their uncertainties are those that the data leave in
-// what the data can see. Patterns over setup, run or feature are no property of a machine, and patterns over
+// empirical effect of a machine file (engine/effects/empirical). The pattern is estimated as it was found: a smooth
+// one stays smooth. Its coefficients are the ridge estimate under a common prior size, chosen by its evidence; the effect
+// follows it by least squares, with the uncertainty that the data leave in what they see. Patterns over setup, run or feature are no property of a machine, and patterns over
 // two factors have no such effect: the likeliest other one stands for them.
 #pragma once
 

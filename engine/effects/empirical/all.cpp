@@ -5,8 +5,14 @@
 namespace abbe {
 
 std::span<const Effect* const> empirical_effects() {
-  static constexpr const Effect* list[] = {&kEmpiricalCurve, &kEmpiricalDirection, &kEmpiricalOffset};
+  static constexpr const Effect* list[] = {&kEmpiricalCurve, &kEmpiricalDirection, &kEmpiricalMap, &kEmpiricalOffset};
   return list;
+}
+
+std::vector<Neighbours> neighbouring_knots(const Effect& effect) {
+  if (&effect == &kEmpiricalCurve) return neighbouring_curve_knots();
+  if (&effect == &kEmpiricalMap) return neighbouring_map_nodes();
+  return {};
 }
 
 }  // namespace abbe

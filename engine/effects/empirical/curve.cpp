@@ -1,7 +1,7 @@
 // A displacement that follows one coordinate of the touch: time, place along an axis of the machine,
 // temperature of the part, speed.
 //
-//   d = sum over the knots k of w_k(s) (x_k, y_k, z_k),     s = (coordinate - from) / (to - from)
+//   d = sum over the knots k of w_k(s) ((x_k, y_k, z_k) + r_k n),     s = (coordinate - from) / (to - from)
 //
 // w_k: linear interpolation between kCurveKnots evenly spaced knots, constant beyond the ends. Linear in all
 // knots. A step, a trend or a slow cycle of up to seven periods is drawn well enough by it.
@@ -27,17 +27,18 @@ double curve_coordinate(const TouchScene& s, CurveCoordinate c) {
 namespace {
 
 constexpr std::string_view kAlong[] = {"time", "x", "y", "z", "part_temperature", "speed"};
-constexpr int kFirstKnot = 3;
+constexpr int kFirstKnot = 3, kOfKnot = 4;
 constexpr std::string_view kKnotNames[] = {
-    "x0_um",  "y0_um",  "z0_um",  "x1_um",  "y1_um",  "z1_um",  "x2_um",  "y2_um",  "z2_um",  "x3_um",
-    "y3_um",  "z3_um",  "x4_um",  "y4_um",  "z4_um",  "x5_um",  "y5_um",  "z5_um",  "x6_um",  "y6_um",
-    "z6_um",  "x7_um",  "y7_um",  "z7_um",  "x8_um",  "y8_um",  "z8_um",  "x9_um",  "y9_um",  "z9_um",
-    "x10_um", "y10_um", "z10_um", "x11_um", "y11_um", "z11_um", "x12_um", "y12_um", "z12_um", "x13_um",
-    "y13_um", "z13_um", "x14_um", "y14_um", "z14_um", "x15_um", "y15_um", "z15_um"};
-static_assert(std::size(kKnotNames) == 3 * kCurveKnots);
+    "x0_um",  "y0_um",  "z0_um",  "r0_um",  "x1_um",  "y1_um",  "z1_um",  "r1_um",  "x2_um",  "y2_um",  "z2_um",
+    "r2_um",  "x3_um",  "y3_um",  "z3_um",  "r3_um",  "x4_um",  "y4_um",  "z4_um",  "r4_um",  "x5_um",  "y5_um",
+    "z5_um",  "r5_um",  "x6_um",  "y6_um",  "z6_um",  "r6_um",  "x7_um",  "y7_um",  "z7_um",  "r7_um",  "x8_um",
+    "y8_um",  "z8_um",  "r8_um",  "x9_um",  "y9_um",  "z9_um",  "r9_um",  "x10_um", "y10_um", "z10_um", "r10_um",
+    "x11_um", "y11_um", "z11_um", "r11_um", "x12_um", "y12_um", "z12_um", "r12_um", "x13_um", "y13_um", "z13_um",
+    "r13_um", "x14_um", "y14_um", "z14_um", "r14_um", "x15_um", "y15_um", "z15_um", "r15_um"};
+static_assert(std::size(kKnotNames) == kOfKnot * kCurveKnots);
 
 constexpr auto kEmpiricalCurveParameters = [] {
-  std::array<EffectParameter, kFirstKnot + 3 * kCurveKnots> list{};
+  std::array<EffectParameter, kFirstKnot + kOfKnot * kCurveKnots> list{};
   list[0] = {.name = "along", .unit = "code", .help = "the coordinate that it follows", .high = 5, .choices = kAlong};
   list[1] = {.name = "from",
              .unit = "s, mm, degrees C or mm/s",
@@ -50,14 +51,15 @@ constexpr auto kEmpiricalCurveParameters = [] {
              .low = -1e9,
              .high = 1e9,
              .standard = 1};
-  for (int k = 0; k < 3 * kCurveKnots; ++k)
-    list[static_cast<std::size_t>(kFirstKnot + k)] = {.name = kKnotNames[k],
-                                                      .unit = "um",
-                                                      .help = "displacement in W at this knot",
-                                                      .typical = 1,
-                                                      .low = -1e4,
-                                                      .high = 1e4,
-                                                      .linear = true};
+  for (int k = 0; k < kOfKnot * kCurveKnots; ++k)
+    list[static_cast<std::size_t>(kFirstKnot + k)] = {
+        .name = kKnotNames[k],
+        .unit = "um",
+        .help = "displacement at this knot: x, y, z in W, r along the outward normal",
+        .typical = 1,
+        .low = -1e4,
+        .high = 1e4,
+        .linear = true};
   return list;
 }();
 
@@ -67,13 +69,21 @@ Vec3 empirical_curve(const TouchScene& scene, const double* theta, const double*
   const double at = curve_coordinate(scene, static_cast<CurveCoordinate>(code(theta[0])));
   const double s = std::clamp((at - theta[1]) / span, 0.0, 1.0) * (kCurveKnots - 1);
   const int k = std::min(static_cast<int>(s), kCurveKnots - 2);
-  const double* a = theta + kFirstKnot + 3 * k;
-  const double* b = a + 3;
+  const double* a = theta + kFirstKnot + kOfKnot * k;
+  const double* b = a + kOfKnot;
   const double w = s - k;
-  return kUm * ((1 - w) * Vec3{a[0], a[1], a[2]} + w * Vec3{b[0], b[1], b[2]});
+  return kUm * ((1 - w) * Vec3{a[0], a[1], a[2]} + w * Vec3{b[0], b[1], b[2]}) +
+      along_normal(scene, kUm * ((1 - w) * a[3] + w * b[3]));
 }
 
 }  // namespace
+
+std::vector<Neighbours> neighbouring_curve_knots() {
+  std::vector<Neighbours> out;
+  for (std::size_t k = kFirstKnot; k + kOfKnot < kEmpiricalCurveParameters.size(); ++k)
+    out.emplace_back(k, k + kOfKnot);
+  return out;
+}
 
 constinit const Effect kEmpiricalCurve{
     .name = "empirical.curve",

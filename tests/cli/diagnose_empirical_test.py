@@ -1,0 +1,87 @@
+"""What abbe diagnose saves of a mismatch without a name makes the same mismatch: in a second diagnosis, and in the values of a program."""
+import json
+import math
+
+import harness
+
+MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
+SIDE, PITCH, RADIUS = 5, 75, 10  # balls, mm
+
+
+def plate():
+    """Balls on a plane, row by row, nine touches each, and the distance of the first and the last ball of the first column."""
+    text = harness.LENGTH.split("S(P)=")[0] + ("S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,150.0,4.0\nSNSLCT/S(P)\n"
+                                               "D(M)=DATSET/MCS\nD(R)=TRANS/XORIG,500,YORIG,300,ZORIG,-450\n")
+    directions = [(0, 0, 1)] + [(math.cos(a), math.sin(a), 1) for a in (0.3, 1.87, 3.44, 5.01)] + [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+    for j in range(SIDE):
+        for i in range(SIDE):
+            x, y = PITCH * i, PITCH * j
+            text += f"F(B{i}{j})=FEAT/SPHERE,OUTER,CART,{x},{y},0,{2 * RADIUS}\nMEAS/SPHERE,F(B{i}{j}),{len(directions)}\n"
+            for d in directions:
+                n = [c / math.hypot(*d) for c in d]
+                p, before = [c + RADIUS * k for c, k in zip((x, y, 0), n)], [c + 3 * RADIUS * k for c, k in zip((x, y, 0), n)]
+                goto = f"GOTO/{before[0]:.4f},{before[1]:.4f},60\n"
+                text += goto + "PTMEAS/CART," + ",".join(f"{c:.8f}" for c in (*p, *n)) + "\n" + goto
+            text += "ENDMES\n"
+    return text + f"T(D)=TOL/DISTB,NOMINL,{PITCH * (SIDE - 1)},-0.05,0.05,PT2PT\nOUTPUT/FA(B00),FA(B0{SIDE - 1}),TA(D)\nENDFIL\n"
+
+
+class Empirical(harness.Case):
+    def plate_that(self, moves, seed=21):
+        """A recording of the plate, every touch displaced by moves(row) um in x, y, z, the scales with it."""
+        self.program = self.write("plate.dmi", plate())
+        self.abbe("record", self.program, "--machine", MACHINE, "-o", "clean.csv", "--seed", seed)
+
+        def moved(row):
+            d = moves({key: float(row[key]) for key in ("time_s", "x", "y")})
+            along = 1e-3 * sum(k * float(row["n" + a]) for k, a in zip(d, "xyz"))
+            return row | {c + a: f"{float(row[c + a]) + along * float(row['n' + a]):.7f}" for c in ("", "enc_") for a in "xyz"}
+        return self.changed(self.folder / "clean.csv", moved)
+
+    def diagnosis(self, *args):
+        return json.loads(self.abbe("diagnose", *args, "--format", "json").stdout)
+
+    def saved(self, recording, effect, **parameters):
+        """Parameters of this effect, which a diagnosis saves; the recording is no mismatch on a machine that has it, or hardly one."""
+        said = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
+        self.assertEqual(said["verdict"], "unexplained")
+        effects = json.loads((self.folder / "improved.json").read_text())["effects"]
+        self.assertEqual([e["name"] for e in effects], [effect])
+        for name, value in parameters.items():
+            self.assertEqual(effects[0]["parameters"][name], value)
+        again = self.diagnosis(recording, "--machine", "improved.json")
+        self.assertEqual(again["effects"], [])
+        left = again["unexplained"]["amplitude_um"]["value"] if again["unexplained"] else 0
+        self.assertLess(left, 0.15 * said["unexplained"]["amplitude_um"]["value"])
+        return effects[0]["parameters"]
+
+    def test_a_trend_that_begins_late(self):
+        """From the middle on y drifts, to 12 um in the end: the plate is measured row by row, and seems longer in y."""
+        knots = self.saved(self.plate_that(lambda at: (0, 12 * max(0, at["time_s"] - 360) / 360, 0)), "empirical.curve", along="time")
+        rise = knots["y15_um"]["value"] - knots["y0_um"]["value"]
+        self.assertTrue(8 < rise < 14, rise)  # the machine's own errors may have a part of it
+        length = self.run_json(self.program, "--machine", "improved.json", "--machines", 400)["characteristics"][-1]
+        true = self.run_json(self.program, "--machine", self.drifting(), "--machines", 400)["characteristics"][-1]
+        off = 1e3 * (length["mean"] - length["nominal"])
+        self.assertTrue(5 < off < 10, off)
+        self.assertLess(abs(length["mean"] - true["mean"]), 2 * length["u"] + 2e-3)
+
+    def drifting(self):
+        """The machine with the drift that was put into the recording, as a curve of its own."""
+        machine = json.loads(MACHINE.read_text())
+        knots = {f"y{k}_um": 12 * max(0, 720 * k / 15 - 360) / 360 for k in range(16)}
+        machine["effects"] = [{"name": "empirical.curve", "parameters": {"along": "time", "from": 0, "to": 720} | knots}]
+        return self.write("drifting.json", json.dumps(machine))
+
+    def test_a_bowed_table(self):
+        """12 um higher in the middle than at the edges: a place in x and y."""
+        span = PITCH * (SIDE - 1)
+        bow = lambda at: 12 * math.sin(math.pi * (at["x"] - 500) / span) * math.sin(math.pi * (at["y"] - 300) / span)
+        nodes = self.saved(self.plate_that(lambda at: (0, 0, bow(at))), "empirical.map", plane="xy")
+        inside = sum(nodes[f"z_{i}_{j}_um"]["value"] for i in (2, 3) for j in (2, 3)) / 4
+        edges = sum(nodes[f"z_{i}_{j}_um"]["value"] for i, j in ((0, 2), (0, 3), (5, 2), (5, 3), (2, 0), (3, 0), (2, 5), (3, 5))) / 8
+        self.assertTrue(8 < inside - edges < 15, inside - edges)
+
+
+if __name__ == "__main__":
+    harness.main()
