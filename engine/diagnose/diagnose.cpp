@@ -27,6 +27,7 @@
 #include "engine/diagnose/planning/design.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/noise_design.hpp"
+#include "engine/diagnose/warnings.hpp"
 #include "engine/diagnose/words.hpp"
 
 namespace abbe {
@@ -44,27 +45,6 @@ std::optional<Surfaces> stated_surfaces(const Recording& r, const std::string& f
   if (*value == "unknown") return Surfaces::unknown;
   throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, *value),
                              "write calibrated, unknown_size or unknown"));
-}
-
-/// How far from their targets that share of the touches lies at most.
-double within_mm(const RecordedTouches& t, double share) {
-  std::vector<double> size;
-  for (const RecordedTouch& touch : t.touches) size.push_back(std::abs(touch.residual_mm));
-  return quantile(std::move(size), share);
-}
-
-/// Where so many touches lie further out than this, and no effect explains it, the targets are not those of
-/// the part: no machine does so much.
-constexpr double kBeyondMachines_mm = 0.1, kHalfOfThem = 0.5, kNineTenths = 0.9;
-
-Diagnostic not_its_targets(const RecordedTouches& t, double share, const std::string& file) {
-  return diagnostic(
-      Code::W0704,
-      fmt::format(
-          "{}: {} of the touches lies more than {:.2g} mm from the targets: the part is not what the targets say. "
-          "Every surface point counts as unknown, and only what repeats differently is judged",
-          file, share == kHalfOfThem ? "half" : "a tenth", within_mm(t, share)),
-      "give measured or calibrated targets, or say '# surfaces: calibrated' if the targets are right");
 }
 
 /// Beyond this, what all touches are too far out is no effect but a wrong tip, unless sizes are unknown or
@@ -273,7 +253,7 @@ void add_hidden(const Case& c, Diagnosis& out) {
     const auto is_it = [&](const auto& told) { return told.effect == e.name; };
     if (e.effect && std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(), is_it) &&
         std::none_of(out.cannot_judge.begin(), out.cannot_judge.end(), is_it))
-      out.cannot_judge.push_back({e.name, {}});
+      out.cannot_judge.push_back({e.name, {}, {}});
   }
 }
 
@@ -289,7 +269,6 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
       diagnostic(Code::W0710, fmt::format("{}: nothing can be judged: {}", file, why), out.otherwise));
   out.judgeable = false;
   out.verdict = Verdict::cannot_judge;
-  out.baseline = summary(c, c.hyper, c.machine->known_state.has_value());
 }
 
 /// A placement is found where most touches lie well: the faces of a part may, and its bores not. Whether
@@ -302,42 +281,6 @@ bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d)
   return result.other || dirt > kMostDirt * double(c.masked.size()) || d.baseline.noise_um > kMostNoise_um ||
       std::any_of(d.effects.begin(), d.effects.end(),
                   [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
-}
-
-Diagnostic nothing_but_targets(const std::string& file) {
-  return diagnostic(
-      Code::W0717, fmt::format("{}: every touch is exactly where an error-free machine has it", file),
-      "a real machine differs in the last digits: check that measured positions were recorded, and not targets");
-}
-
-Diagnostic beyond_its_specification(const LengthError& e, const std::string& file) {
-  return diagnostic(
-      Code::W0716,
-      fmt::format(
-          "{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um",
-          file, e.length_mm, kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
-      "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
-}
-
-Diagnostic large_errors(double times, const Deviations& rms, const std::string& file) {
-  return diagnostic(
-      Code::W0723,
-      fmt::format(
-          "{}: it agrees only with a machine whose geometric errors are {:.1f} times those of its specification, or rougher: the touches deviate by {:.2g} um rms, where such machines deviate by {:.2g} um",
-          file, times, rms.recorded_um, rms.specified_um),
-      "a machine out of its specification, or an effect that looks like its geometry: measure calibrated lengths (ISO 10360-2), or the same part in another place");
-}
-
-/// How many times what is uncertain of a known machine a recording may ask for beside what was found. Of 40
-/// recordings of the same machine none asked for more than 1.7.
-constexpr double kAnotherMachine = 3;
-
-Diagnostic another_machine(double times, const std::string& file) {
-  return diagnostic(
-      Code::W0720,
-      fmt::format("{}: beside what was found, the machine differs by {:.1f} times what its file leaves uncertain", file,
-                  times),
-      "it is another machine than the file knows, or one that has changed as a whole: diagnose with a machine file that has no known_state, and write its state anew with --model-out");
 }
 
 /// `surfaces`: what they count as; without, they are what the targets say unless half of them is not.
@@ -356,6 +299,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
         Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
         fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
   if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
+  if (!options.design_only && !surfaces) check_tips(c.touches, file);
   constexpr int kMostTouches = 4000;  // minutes, and less than 2 GB
   if (static_cast<int>(c.touches.touches.size()) > kMostTouches)
     throw UserError(diagnostic(
@@ -469,6 +413,10 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   const bool only_noise = result.findings.empty() && !result.other;
   if (!known && only_noise && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
     out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model, out.baseline.noise_um), file));
+  const bool of_noise = std::any_of(out.effects.begin(), out.effects.end(),
+                                    [](const DiagnosedEffect& e) { return e.members.front().starts_with("noise."); });
+  out.baseline.noisier = !of_noise && scatters_more(out.baseline, out.touches);
+  if (out.baseline.noisier) out.messages.push_back(more_scatter(out.baseline, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
   at("the next measurement");

@@ -109,8 +109,10 @@ struct RunnerUp {
 
 struct CannotJudge {
   std::string effect;
-  /// columns; empty: the effect does nothing to these touches, or what is unknown of the part hides it
+  /// columns that were not logged or are the same throughout; empty: the effect does nothing to these touches, or what is
+  /// unknown of the part hides it
   std::vector<std::string> missing;
+  std::vector<std::string> constant;  ///< of these, those that are the same throughout
 };
 
 /// The smallest size of an effect that this recording can detect, and the smallest that it can name.
@@ -140,6 +142,7 @@ struct BaselineSummary {
   double geometry_scale = 1;
   double noise_um = 0;
   double stated_noise_um = 0;  ///< the same of the machine file, with the rounding of positions
+  bool noisier = false;        ///< by so much more that it is worth telling, and no effect says why
   std::vector<std::pair<std::string, double>> noise_by_sensor;
   double correlation = 0;
   std::vector<std::string> outliers;  ///< "SPH1 touch 7"

@@ -89,11 +89,22 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
                      told.empty() ? "" : ".");
 }
 
+std::string two_digits(double value) {
+  if (value == 0) return "0";
+  const int first = static_cast<int>(std::floor(std::log10(std::abs(value))));  // place of the first digit
+  const double step = std::pow(10, first - 1);
+  return fmt::format("{:.{}f}", step * std::round(value / step), std::max(0, 1 - first));
+}
+
 std::string sizes_in_words(const std::vector<DiagnosedParameter>& parameters, std::optional<double> largest_um) {
   std::vector<std::string> sizes;
   for (const DiagnosedParameter& p : parameters) sizes.push_back(with_interval(p));
-  if (largest_um) sizes.push_back(fmt::format("at most {:.2g} um at a touch", *largest_um));
+  if (largest_um) sizes.push_back(fmt::format("at most {} um at a touch", two_digits(*largest_um)));
   return fmt::format("{}", fmt::join(sizes, "; "));
+}
+
+std::string amplitude_in_words(const Unexplained& u) {
+  return fmt::format("{} um rms ({} to {})", two_digits(u.amplitude_um), two_digits(u.low_um), two_digits(u.high_um));
 }
 
 std::vector<std::string> in_words(const DiagnosedEffect& e) {
@@ -106,6 +117,19 @@ std::vector<std::string> in_words(const DiagnosedEffect& e) {
 std::string in_words(const Detectable& d) {
   if (d.scatter && d.unit == "1") return fmt::format("{} ({} {:.2g})", d.effect, d.parameter, d.detect);
   return d.effect + (d.only_new ? ", if new in a run" : "");
+}
+
+std::string why_not_judged(const CannotJudge& c, bool touches) {
+  if (c.missing.empty())
+    return touches ? "does nothing to these touches, or is hidden by what is unknown of the part or by their scatter"
+                   : "nothing of it shows in values";
+  std::vector<std::string> missing;
+  for (const std::string& column : c.missing)
+    if (std::find(c.constant.begin(), c.constant.end(), column) == c.constant.end()) missing.push_back(column);
+  std::vector<std::string> why;
+  if (!missing.empty()) why.push_back(fmt::format("missing: {}", fmt::join(missing, ", ")));
+  if (!c.constant.empty()) why.push_back(fmt::format("the same throughout: {}", fmt::join(c.constant, ", ")));
+  return fmt::format("{}", fmt::join(why, "; "));
 }
 
 std::string looks_like(const Detectable& d) {

@@ -9,6 +9,8 @@
 
 namespace abbe {
 
+/// With two significant digits and no exponent: "0.21", "4.5", "240".
+std::string two_digits(double);
 /// "delay 1.20 ± 0.08 ms": with two standard uncertainties, which have two significant digits (GUM 7.2.6).
 std::string with_uncertainty(const DiagnosedParameter&);
 /// "delay 1.20 ms (1.12 to 1.28)": with the 95 % interval; "implausible" where the catalogue says so.
@@ -22,11 +24,15 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
                                  RunChange change = {}, bool doubted = false, bool beside = false);
 /// Its sizes in a table, and what they come to: "amplitude 0.0400 um (0.0324 to 0.0485); at most 1.4 um at a touch".
 std::string sizes_in_words(const std::vector<DiagnosedParameter>&, std::optional<double> largest_um);
+/// How large a pattern is: "2.3 um rms (2.1 to 2.5)".
+std::string amplitude_in_words(const Unexplained&);
 /// The names of an effect in a table: "machine.squareness, new in run 2"
 std::vector<std::string> in_words(const DiagnosedEffect&);
 
 /// The name of what could be detected: "probe.tip_radius, if new in a run"
 std::string in_words(const Detectable&);
+/// Why an effect cannot be judged: "missing: load_kg"; `touches`: from those, not from values.
+std::string why_not_judged(const CannotJudge&, bool touches);
 /// What it would be taken for.
 std::string looks_like(const Detectable&);
 

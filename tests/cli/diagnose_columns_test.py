@@ -111,6 +111,23 @@ class Columns(harness.Case):
         self.assertEqual([e["members"] for e in scattered["effects"]], [["noise.unequal"]])
         self.assertIn("W0723", self.codes(scattered))
 
+    def test_scatter_beyond_the_machine_file_is_told(self):
+        """Of 25 touches scatter twice as large as it should be may have no name; five times as large has one. Neither is a machine in order."""
+        sphere = harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi"
+        portal = harness.ROOT / "examples/iso10360/portal-2009.json"
+
+        def shaken(sd_um, seed):
+            self.abbe("record", sphere, "--machine", portal, "--seed", seed, "--with", f"noise.vibration:sd_um={sd_um}", "-o", "shaken.csv")
+            return "diagnose", "shaken.csv", "--machine", portal
+        told = self.abbe(*shaken(1.2, 2))
+        self.assertIn("W0730", told.stderr)
+        self.assertIn("if its touches scatter 2.0 times as much as its file says", told.stdout)
+        plan = json.loads(self.abbe(*shaken(1.2, 2), "--design-only", "--format", "json").stdout)
+        self.assertTrue(any(d["effect"] == "noise.vibration" for d in plan["smallest_detectable"]))
+        said = json.loads(self.abbe(*shaken(3, 1), "--format", "json").stdout)
+        self.assertEqual([e["members"] for e in said["effects"]], [["noise.vibration"]])
+        self.assertNotIn("W0730", self.codes(said))
+
     def test_the_last_digits_of_readings_have_no_name(self):
         """Positions that were corrected and readings that were not: at one height, what a scale makes of the readings is what a touch deviates,
         ten thousand times smaller."""

@@ -143,6 +143,14 @@ class Traps(harness.Case):
             low, high = said["effects"][0]["parameters"]["t0_s"]["interval95"]
             self.assertTrue(low <= moment <= high and high - low < 20, (low, high))
 
+    def test_touches_that_repeat_are_no_dirt(self):
+        """Gauge faces touched three times each, other faces in between: where a rail is bent, all three are off alike."""
+        folder = harness.ROOT / "examples/iso10360"
+        self.abbe("record", folder / "e0.dmi", "--machine", PORTAL, "--with", "machine.straightness_angle_coupling:amplitude_um=8,axis=y", "--seed", 5, "-o", "e0.csv")
+        said = self.diagnosis(self.folder / "e0.csv", PORTAL)
+        self.assertEqual(said["baseline"]["outliers"], [])
+        self.assertEqual([e["members"][0] for e in said["effects"]], ["machine.straightness_angle_coupling"])
+
     def test_dirt_that_makes_readings_shorter_has_a_size_below_0(self):
         said = self.diagnosis(self.record("--seed", 5, "--with", "noise.outliers:share=0.06,size_um=-15"))
         size, = [e["parameters"]["size_um"] for e in said["effects"] if e["members"] == ["noise.outliers"]]

@@ -13,6 +13,7 @@
 #include "engine/diagnose/baseline/sudden_change.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/place.hpp"
 
 namespace abbe::diagnose {
 
@@ -79,10 +80,13 @@ double at_least(int n, double expected) {
 
 /// Outliers that are no chance: in more pairs of neighbours than chance makes.
 std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows, const std::vector<char>& masked) {
-  const auto place = [&](const RecordedTouch& touch) { return std::tuple(touch.scene.feature, rows[touch.row].touch); };
+  const auto place_on_part = [&](const RecordedTouch& touch) {
+    return std::tuple(touch.scene.feature, rows[touch.row].touch);
+  };
   const Pairs relations[] = {
       followers(t, [](const RecordedTouch& touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
-      followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, place)};
+      followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, place_on_part),
+      followers(t, [](const RecordedTouch& touch) { return place_of(touch.scene); })};
   const double n = static_cast<double>(masked.size()),
                m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
   std::vector<char> out(masked.size(), 0);

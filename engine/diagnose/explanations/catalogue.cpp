@@ -304,7 +304,8 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
     out.blocks.push_back(std::move(block));
   }
   share_belief(explanation, out.blocks);
-  if (explanation.missing || explanation.blocks.empty()) out.unjudged.push_back({&effect, explanation.missing});
+  if (explanation.missing || explanation.blocks.empty())
+    out.unjudged.push_back({&effect, explanation.missing, explanation.missing & t.known});
   if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
 }
 
@@ -419,7 +420,7 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
   std::vector<CannotJudge> out;
   for (const Effect* effect : effects()) {
     for (const Explanations::Unjudged& u : all.unjudged) {
-      if (u.effect == effect) out.push_back({std::string(effect->name), columns_of(u.missing)});
+      if (u.effect == effect) out.push_back({std::string(effect->name), columns_of(u.missing), columns_of(u.constant)});
     }
   }
   return out;

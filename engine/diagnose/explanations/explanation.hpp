@@ -87,6 +87,7 @@ struct Explanations {
   struct Unjudged {
     const Effect* effect;
     unsigned missing;
+    unsigned constant;  ///< of the missing, those that were logged and are the same throughout
   };
   std::vector<Unjudged> unjudged;  ///< effects that this recording cannot judge
 };

@@ -12,6 +12,8 @@
 #include <iterator>
 #include <map>
 
+#include "engine/diagnose/words.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -240,21 +242,21 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
   u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
   u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
-  u.sentence =
-      fmt::format("A pattern over {} ({}) of {:.2g} um rms is in the recording", u.factor, u.shape, u.amplitude_um);
+  u.sentence = fmt::format("A pattern over {} ({}) of {} um rms is in the recording", u.factor, u.shape,
+                           two_digits(u.amplitude_um));
   const Finding name = finding_of(c.explanations, f.evidence, true);
   const bool as_good = kAsWell * name.probability >= f.probability;
-  u.sentence += as_good ? fmt::format(". {} would explain it as well as what the catalogue does not have.",
-                                      listed(c.explanations, name.set))
+  const std::string leaves = fmt::format("leaves more than chance does (p = {:.1f} %)", 100 * result.adequacy);
+  const bool alone = result.nearest && name.set.size() == 1 && name.explanation == result.nearest->explanation;
+  u.sentence += as_good ? fmt::format(". {} would explain it as well{}.", listed(c.explanations, name.set),
+                                      alone ? ", but " + leaves : "")
       : !predicts_as_well.empty()
       ? fmt::format(". {} predicts what the model had not seen as well, but explains the whole less well.",
                     predicts_as_well)
       : " that no single effect of the catalogue makes.";
-  if (result.nearest) {
-    u.sentence += fmt::format(" {} comes nearest, but leaves more than chance does (p = {:.1f} %).",
-                              c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name,
-                              100 * result.adequacy);
-  }
+  if (result.nearest && !(as_good && alone))
+    u.sentence += fmt::format(" {} comes nearest, but {}.",
+                              c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name, leaves);
   return u;
 }
 

@@ -153,8 +153,8 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
   if (best) return best;
   const double n = quiet.sum(), noise = r.noise_um * std::sqrt(r.standardised.array().square().matrix().dot(quiet) / n);
   const double spec = c.model.noise_um.mean(), excess = noise / spec,
-               u = excess * std::sqrt(std::max(1.0, inflation(r.tails, r.coupling, quiet)) / (2 * n));
-  const double p = std::erfc((excess - kLeastExcess) / u / std::sqrt(2.0)) / 2;
+               relative_u = std::sqrt(std::max(1.0, inflation(r.tails, r.coupling, quiet)) / (2 * n)),
+               u = excess * relative_u, p = chance_of_ratio(excess, relative_u);
   if (excess < kLeastExcess || p > kNoiseAlarm) return std::nullopt;
   const double sd = spec * std::sqrt(excess * excess - 1), u_sd = spec * excess * u / std::sqrt(excess * excess - 1);
   NoiseFinding f{find_effect("noise.vibration"), p, {figure("sd_um", "um", sd, u_sd)}, {}};

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
+#include "engine/diagnose/place.hpp"
 #include "engine/effects/noise/noise.hpp"
 
 namespace abbe::diagnose {
@@ -43,6 +43,12 @@ double inflation(double tails, const Matrix& coupling, const Vector& rows) {
 }
 
 double chance_of_excess(double chi2) { return std::erfc(std::sqrt(std::max(0.0, chi2) / 2)) / 2; }
+
+double chance_of_ratio(double ratio, double relative_u) {
+  const double spread = 4.0 / 9 * relative_u * relative_u;  // of the cube root; 2 / (9 nu), where nu = 1 / (2 u^2)
+  const double z = (std::pow(ratio / kLeastExcess, 2.0 / 3) - (1 - spread)) / std::sqrt(spread);
+  return std::erfc(z / std::sqrt(2.0)) / 2;
+}
 
 double chance_of_outliers(double count, double expected) {
   return std::exp(count * std::log(expected) - std::lgamma(count + 1));
@@ -92,24 +98,13 @@ std::vector<Split> splits_of(const Case& c) {
   const double long_mm = (length.minCoeff() + length.maxCoeff()) / 2 + 1,
                fast_mm_s = (speed.minCoeff() + speed.maxCoeff()) / 2 + 1e-6;
   const auto above = [](const Vector& v, double least) { return Vector((v.array() > least).cast<double>()); };
-  std::vector<Split> out{{"long styli",
-                          "touches with long styli",
-                          {"group", "long styli"},
-                          Factor::sensor,
-                          above(length, long_mm),
-                          {limit("longer_than_mm", "mm", long_mm)}},
-                         {"tilted head",
-                          "touches with tilted head",
-                          {"group", "tilted head"},
-                          Factor::head,
-                          above(tilt, kUpright_rad),
-                          {}},
-                         {"fast probing",
-                          "touches with fast probing",
-                          {"group", "fast probing"},
-                          Factor::speed,
-                          above(speed, fast_mm_s),
-                          {limit("faster_than_mm_s", "mm/s", fast_mm_s)}}};
+  const auto group = [](const char* name, Factor factor, Vector in, std::vector<DiagnosedParameter> which) {
+    return Split{name, fmt::format("touches with {}", name), {"group", name}, factor, std::move(in), std::move(which)};
+  };
+  std::vector<Split> out{
+      group("long styli", Factor::sensor, above(length, long_mm), {limit("longer_than_mm", "mm", long_mm)}),
+      group("tilted head", Factor::head, above(tilt, kUpright_rad), {}),
+      group("fast probing", Factor::speed, above(speed, fast_mm_s), {limit("faster_than_mm_s", "mm/s", fast_mm_s)})};
   for (Split& s : orientations(c, out)) out.push_back(std::move(s));
   return out;
 }
@@ -127,16 +122,11 @@ std::optional<Vector> share_along(const Case& c, int axis) {
 }
 
 std::vector<std::pair<Eigen::Index, Eigen::Index>> repeats_in(const Case& c, const Vector& in) {
-  constexpr double kPerMm = 1e3, kPerUnit = 1e4;  // the same to a micrometre, and to a tenth of a milliradian
-  std::map<std::array<long, 8>, Eigen::Index> first;
+  std::map<Place, Eigen::Index> first;
   std::vector<std::pair<Eigen::Index, Eigen::Index>> out;
   for (Eigen::Index k = 0; k < in.size(); ++k) {
     if (in(k) < 0.5) continue;
-    const TouchScene& s = scene_of_row(c, k);
-    std::array<long, 8> key{s.setup, s.stylus.tip_ordinal};
-    for (int a = 0; a < 3; ++a)
-      key[2 + a] = std::lround(kPerMm * s.point[a]), key[5 + a] = std::lround(kPerUnit * s.normal[a]);
-    const auto [at, is_first] = first.try_emplace(key, k);
+    const auto [at, is_first] = first.try_emplace(place_of(scene_of_row(c, k)), k);
     if (!is_first) out.emplace_back(at->second, k);
   }
   return out;

@@ -47,6 +47,9 @@ double inflation(double tails, const Matrix& coupling, const Vector& rows);
 
 /// The probability that equal variances gain so much: size is never below 0, so half a chi-squared law.
 double chance_of_excess(double chi2);
+/// Of a ratio to the probe's specification as large as this where the true one is what is worth telling; `relative_u`: its
+/// relative standard uncertainty. Squares of so uncertain a ratio have the law of chi-squared (Wilson & Hilferty 1931).
+double chance_of_ratio(double ratio, double relative_u);
 /// Of so many outliers or more where few are expected: the first term of the tail of a Poisson law, nearly all of it.
 double chance_of_outliers(double count, double expected);
 

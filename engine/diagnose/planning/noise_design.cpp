@@ -84,8 +84,8 @@ class ScatterDesign {
     const double relative = std::sqrt(std::max(1.0, inflation(1, coupling_, all)) / (2 * double(all.size())));
     ScatterForm out;
     out.detected = least(200, [&](double excess) {
-      const double ratio = std::sqrt(1 + excess), z = (ratio - kLeastExcess) / (ratio * relative) - kPower;
-      return z > 0 && std::erfc(z / std::sqrt(2.0)) / 2 <= kNoiseAlarm;
+      const double read = std::sqrt(1 + excess) * (1 - kPower * relative);
+      return read > kLeastExcess && chance_of_ratio(read, relative) <= kNoiseAlarm;
     });
     out.named = std::max(out.detected, repeats_tell_from(all));
     return out;
@@ -125,7 +125,10 @@ void add_vibration(const Case& c, const ScatterDesign& design, std::vector<Detec
   for (int axis = 0; axis < 3; ++axis)
     if (const std::optional<Vector> share = share_along(c, axis))
       forms.push_back(design.along(*share, [](double excess) { return std::sqrt(1 + excess) >= kLeastAlong; }));
-  const double seen = median_excess(forms, &ScatterForm::detected), named = median_excess(forms, &ScatterForm::named);
+  double seen = median_excess(forms, &ScatterForm::detected);
+  const double named = median_excess(forms, &ScatterForm::named);
+  if (seen == kAtNoSize)  // along one axis few touches show nothing; in every direction they may
+    for (const ScatterForm& form : forms) seen = std::min(seen, form.detected);
   if (seen == kAtNoSize) return;
   Detectable d = smallest("noise.vibration", "sd_um", "um");
   d.detect = d.detect_um = design.noise_um() * std::sqrt(seen);
@@ -186,6 +189,12 @@ void add_resolution(const ScatterDesign& design, std::vector<Detectable>& out) {
   out.push_back(std::move(d));
 }
 
+bool told(const Diagnosis& d, std::string_view effect) {
+  const auto is_it = [&](const auto& of) { return of.effect == effect; };
+  return std::any_of(d.smallest_detectable.begin(), d.smallest_detectable.end(), is_it) ||
+      std::any_of(d.cannot_judge.begin(), d.cannot_judge.end(), is_it);
+}
+
 }  // namespace
 
 void add_smallest_scatter(const Case& c, Diagnosis& out) {
@@ -193,8 +202,13 @@ void add_smallest_scatter(const Case& c, Diagnosis& out) {
   add_vibration(c, design, out.smallest_detectable);
   add_outliers(c, design, out.smallest_detectable);
   add_resolution(design, out.smallest_detectable);
-  if (!add_unequal(c, design, out.smallest_detectable))
-    out.cannot_judge.push_back({"noise.unequal", {"head_A_deg", "sensor", "speed_mm_s"}});
+  if (!add_unequal(c, design, out.smallest_detectable)) {
+    const std::vector<std::string> columns{"head_A_deg", "sensor", "speed_mm_s"};
+    out.cannot_judge.push_back({"noise.unequal", columns, columns});
+  }
+  for (const Effect* effect : effects())
+    if (std::string(effect->name).starts_with("noise.") && !told(out, effect->name))
+      out.cannot_judge.push_back({std::string(effect->name), {}, {}});
 }
 
 }  // namespace abbe::diagnose

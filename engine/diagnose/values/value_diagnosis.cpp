@@ -297,7 +297,7 @@ void tell_hidden(const ValueSearch& search, Diagnosis& out) {
     if (e.effect &&
         std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(),
                      [&](const Detectable& d) { return d.effect == e.name; }))
-      out.cannot_judge.push_back({e.name, {}});
+      out.cannot_judge.push_back({e.name, {}, {}});
 }
 
 /// Calibrations that say less of most values than any machine of the specification would.

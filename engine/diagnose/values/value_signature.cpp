@@ -141,7 +141,7 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
   }
   share_belief(e, out.blocks);
   if (e.blocks.empty())
-    out.unjudged.push_back({&effect, effect.needs & unknown});
+    out.unjudged.push_back({&effect, effect.needs & unknown, 0});
   else
     out.list.push_back(std::move(e));
 }
@@ -187,7 +187,7 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
     const unsigned missing = effect->needs & (kNotInValues | unknown);
     if (missing != 0 || effect->draws > 0) {
       // what is drawn by chance has no signature in values, whatever is told with them
-      out.unjudged.push_back({effect, missing});
+      out.unjudged.push_back({effect, missing, 0});
       continue;
     }
     judged.push_back(effect);

@@ -47,8 +47,7 @@ std::string explanations(const Diagnosis& d) {
   }
   if (d.unexplained)
     rows += html_row({fmt::format("pattern over {}, {}", d.unexplained->factor, d.unexplained->shape), "",
-                      fmt::format("{:.2g} um rms ({:.2g} to {:.2g})", d.unexplained->amplitude_um,
-                                  d.unexplained->low_um, d.unexplained->high_um)});
+                      amplitude_in_words(*d.unexplained)});
   std::string out = "<h2>Explanation</h2>\n" + html_table(rows);
   if (!d.location.empty()) out += "<p>" + escaped(capitalised(located_in_words(d))) + ".</p>\n";
   return out;
@@ -152,18 +151,16 @@ std::string detectable_effects(const Diagnosis& d) {
   if (d.smallest_detectable.empty()) return "";
   std::string rows = html_row({"effect", "detected from, um", "named from, um", "looks like"}, "th");
   for (const Detectable& s : d.smallest_detectable)
-    rows += html_row({in_words(s), fmt::format("{:.2g}", s.detect_um),
-                      s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", looks_like(s)});
+    rows +=
+        html_row({in_words(s), two_digits(s.detect_um), s.name_um ? two_digits(*s.name_um) : "never", looks_like(s)});
   return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" +
       html_table(rows);
 }
 
 std::string open_questions(const Diagnosis& d) {
   if (d.cannot_judge.empty()) return "";
-  std::string rows = html_row({"effect", "missing or constant"}, "th");
-  for (const CannotJudge& c : d.cannot_judge)
-    rows += html_row(
-        {c.effect, c.missing.empty() ? "nothing of it shows here" : fmt::format("{}", fmt::join(c.missing, ", "))});
+  std::string rows = html_row({"effect", "why"}, "th");
+  for (const CannotJudge& c : d.cannot_judge) rows += html_row({c.effect, why_not_judged(c, d.touches > 0)});
   return "<h2>What cannot be judged</h2>\n" + html_table(rows);
 }
 

@@ -16,6 +16,7 @@ std::string chance(double p) {
   const double step = std::pow(10, std::floor(std::log10(1 / p)) - 1);  // two digits: it comes from simulations
   return p < 1e-4 ? "less than 1 in 10 000"
       : p < 0.01  ? fmt::format("1 in {:.0f}", step * std::round(1 / p / step))
+      : p < 0.1   ? fmt::format("{:.2g} %", 100 * p)
       : p > 0.95  ? "nearly all"
                   : fmt::format("{:.0f} %", 100 * p);
 }
@@ -27,19 +28,25 @@ std::string what(const Diagnosis& d) {
 
 /// A machine with which the recording agrees.
 std::string machine_that_agrees(const Diagnosis& d) {
-  if (d.baseline.known) return "this machine as it was reports";
-  if (d.baseline.geometry_scale < kLargeErrors) return "a machine of this specification reports";
-  return fmt::format("a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher",
-                     d.baseline.geometry_scale);
+  const BaselineSummary& b = d.baseline;
+  const std::string scatter = b.noisier
+      ? fmt::format(" if its touches scatter {:.1f} times as much as its file says", b.noise_um / b.stated_noise_um)
+      : "";
+  if (b.known) return "this machine reports as its file knows it" + scatter;
+  if (b.geometry_scale < kLargeErrors) return "a machine of this specification reports" + scatter;
+  return fmt::format(
+      "a machine reports whose geometric errors are {:.1f} times those of its specification, or rougher{}",
+      b.geometry_scale, scatter);
 }
 
 std::string agreement(const Diagnosis& d) {
   if (d.verdict == Verdict::no_mismatch)
     return fmt::format("The {} what {}: a difference as large as this one comes by chance in {} of such recordings.",
                        what(d), machine_that_agrees(d), chance(d.p_value));
-  const char* const machine = d.baseline.known ? "this machine as it was" : "a machine of this specification";
-  return fmt::format("The {} not what {} reports: by chance it would look so in {} of such recordings.", what(d),
-                     machine, chance(d.p_value));
+  const char* const machine =
+      d.baseline.known ? "this machine reports as its file knows it" : "a machine of this specification reports";
+  return fmt::format("The {} not what {}: by chance it would look so in {} of such recordings.", what(d), machine,
+                     chance(d.p_value));
 }
 
 /// Do they agree?
@@ -78,8 +85,8 @@ std::string second_sentence(const Diagnosis& d) {
     const char* const but = !d.judged ? "The table says"
         : d.beyond || d.beyond_known  ? "No effect of the catalogue was found that makes it: the table says"
                                       : "That does not mean that nothing is there: the table says";
-    return fmt::format("{} how large each effect would have to be to be seen, at the least {:.2g} um ({}).", but,
-                       best->detect_um, in_words(*best));
+    return fmt::format("{} how large each effect would have to be to be seen, at the least {} um ({}).", but,
+                       two_digits(best->detect_um), in_words(*best));
   }
   constexpr double kHardlyChance = 0.01;
   if (doubtful(d))
@@ -130,9 +137,8 @@ std::string mismatch_table(const Diagnosis& d) {
     }
   }
   if (d.unexplained)
-    out += fmt::format("{:<38} {:>6}  {:.2g} um rms ({:.2g} to {:.2g})\n",
-                       "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "",
-                       d.unexplained->amplitude_um, d.unexplained->low_um, d.unexplained->high_um);
+    out += fmt::format("{:<38} {:>6}  {}\n", "pattern over " + d.unexplained->factor + ", " + d.unexplained->shape, "",
+                       amplitude_in_words(*d.unexplained));
   if (!d.location.empty()) out += "  " + located_in_words(d) + "\n";
   return out;
 }
@@ -143,8 +149,8 @@ std::string design_table(const Diagnosis& d) {
   bool scatter = false;
   for (const Detectable& s : d.smallest_detectable) {
     if (s.scatter && !std::exchange(scatter, true)) out += "scatter, standard deviation, um\n";
-    out += fmt::format("{:<38} {:>11.2g} {:>11}  {}\n", in_words(s), s.detect_um,
-                       s.name_um ? fmt::format("{:.2g}", *s.name_um) : "never", looks_like(s));
+    out += fmt::format("{:<38} {:>11} {:>11}  {}\n", in_words(s), two_digits(s.detect_um),
+                       s.name_um ? two_digits(*s.name_um) : "never", looks_like(s));
   }
   return out;
 }
@@ -152,11 +158,7 @@ std::string design_table(const Diagnosis& d) {
 std::string cannot_judge(const Diagnosis& d) {
   std::string out;
   for (const CannotJudge& c : d.cannot_judge)
-    out += fmt::format("  {:<36} {}\n", c.effect,
-                       c.missing.empty() ? d.touches > 0
-                               ? "does nothing to these touches, or is hidden by what is unknown of the part"
-                               : "nothing of it shows in values"
-                                         : fmt::format("missing or constant: {}", fmt::join(c.missing, ", ")));
+    out += fmt::format("  {:<36} {}\n", c.effect, why_not_judged(c, d.touches > 0));
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
 
@@ -222,7 +224,7 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
   const bool pattern = d.values.empty() && d.unexplained, carried = pattern && !d.unexplained->model.empty();
   if (pattern && !carried)
     out.push_back(
-        "No machine file can carry this pattern: it belongs to the part or the occasion, or depends on more than one thing.");
+        "No machine file can carry this pattern: it belongs to the part or the occasion, depends on more than one thing, or is too rough for a curve or a map.");
   if (!d.model_effects.empty()) {
     const bool open =
         std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });

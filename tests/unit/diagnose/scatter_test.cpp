@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/lanes/random.hpp"
 
@@ -38,6 +40,14 @@ TEST_CASE("scatter that is equal seems unequal as often as is said, and scatter 
 TEST_CASE("the chances of unequal scatter and of outliers are those of their laws") {
   CHECK(chance_of_excess(3.841) == doctest::Approx(0.025).epsilon(0.001));
   CHECK(chance_of_excess(0) == 0.5);
+  // Squares of a ratio of relative uncertainty 1 / sqrt(2 nu) are chi-squared / nu: its 5 % and 0.1 % points.
+  const auto chance = [](double nu, double point) {
+    return chance_of_ratio(kLeastExcess * std::sqrt(point / nu), 1 / std::sqrt(2 * nu));
+  };
+  CHECK(chance(20, 31.410) == doctest::Approx(0.05).epsilon(0.02));
+  CHECK(chance(20, 45.315) == doctest::Approx(0.001).epsilon(0.05));
+  CHECK(chance(200, 233.994) == doctest::Approx(0.05).epsilon(0.02));
+  CHECK(chance_of_ratio(10, 0.25) < 1e-6);  // ten times the scatter shows in ten touches
   CHECK(chance_of_outliers(2, 0.01) == doctest::Approx(5e-5));
 }
 

@@ -33,6 +33,25 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
   CHECK(with_interval(far) == "squareness 46 urad (34 to 58), implausible");
 }
 
+TEST_CASE("two digits, and no exponent") {
+  CHECK(two_digits(0) == "0");
+  CHECK(two_digits(0.0314) == "0.031");
+  CHECK(two_digits(0.999) == "1.0");
+  CHECK(two_digits(4.55) == "4.5");
+  CHECK(two_digits(38.4) == "38");
+  CHECK(two_digits(-384) == "-380");
+  CHECK(two_digits(12345) == "12000");
+}
+
+TEST_CASE("why an effect cannot be judged") {
+  CHECK(why_not_judged({"part.load_bending", {"load_kg"}, {}}, true) == "missing: load_kg");
+  CHECK(why_not_judged({"thermal.part_expansion", {"temp_part_C"}, {"temp_part_C"}}, true) ==
+        "the same throughout: temp_part_C");
+  CHECK(why_not_judged({"machine.dynamics", {"accel_mm_s2", "speed_mm_s"}, {"speed_mm_s"}}, true) ==
+        "missing: accel_mm_s2; the same throughout: speed_mm_s");
+  CHECK(why_not_judged({"noise.vibration", {}, {}}, false) == "nothing of it shows in values");
+}
+
 TEST_CASE("one explanation, or several that cannot be told apart") {
   const std::vector<DiagnosedParameter> sizes{size("delay_ms", "ms", 1.2, 0.05)};
   CHECK(explanation_sentence({"trigger delay"}, sizes, "this recording") ==

@@ -36,7 +36,7 @@ TEST_CASE("a recording that agrees says with which machine") {
   d.baseline.geometry_scale = 3.8;
   CHECK(says(first_sentence(d), "geometric errors are 3.8 times those of its specification, or rougher: a difference"));
   d.baseline.known = true;
-  CHECK(says(first_sentence(d), "what this machine as it was reports"));
+  CHECK(says(first_sentence(d), "what this machine reports as its file knows it"));
 }
 
 TEST_CASE("that it is another machine comes first, in the text and on the page, beside a name too") {
