@@ -21,6 +21,23 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// The setups of the new touches, in the order of measuring.
+std::vector<int> new_setups(const Longer& longer) {
+  std::vector<int> out;
+  for (std::size_t k = longer.first; k < longer.touches.touches.size(); ++k) {
+    const int setup = longer.touches.touches[k].scene.setup;
+    if (std::find(out.begin(), out.end(), setup) == out.end()) out.push_back(setup);
+  }
+  return out;
+}
+
+/// Which setup of the first recording is repeated as this one: new ones count on.
+int setup_before(const Longer& longer, int setup) {
+  int last = 0;
+  for (std::size_t k = 0; k < longer.first; ++k) last = std::max(last, longer.touches.touches[k].scene.setup);
+  return setup > last ? setup - last : setup;
+}
+
 double distance_said(const Recording& r, std::string_view key, double usual) {
   const std::optional<std::string> text = said(r.metadata, key);
   return text ? finite_number(*text).value_or(usual) : usual;
@@ -36,6 +53,7 @@ class Writer {
         touches_(longer.touches.touches),
         labels_(tip_labels(longer)) {
     find_blocks();
+    setups_ = new_setups(longer);
     X_DW_ = {Mat3{}, surface_of(longer, longer.first) - scene(longer.first).point};
   }
 
@@ -161,12 +179,7 @@ class Writer {
       say("In part coordinates: align the part as for the first recording, and put its coordinate system in the place of the next line.");
     out_ += "D(0)=DATSET/MCS\n";
     if (!change_.move) return;
-    const std::set<int> placements = [&] {
-      std::set<int> list;
-      for (std::size_t k = longer_.first; k < touches_.size(); ++k) list.insert(row(k).setup);
-      return list;
-    }();
-    const std::optional<Alignment> alignment = placements.size() == 1 ? alignment_of(longer_) : std::nullopt;
+    const std::optional<Alignment> alignment = setups_.size() == 1 ? alignment_of(longer_) : std::nullopt;
     if (alignment) {
       say("Manual alignment on touches of its own. Where they should lie is only a guide.");
       out_ += "MODE/MAN\n" + alignment->statements;
@@ -219,8 +232,9 @@ class Writer {
   Vec3 on_part(std::size_t k) const { return X_DW_ * scene(k).point; }
 
   void begin(std::size_t first, std::size_t last) {
-    if (row(first).setup != setup_ && setup_ != 0)
-      tell_operator(fmt::format("put the part as in setup {} of the first recording", row(first).setup));
+    if (row(first).setup != setup_ && setups_.size() > 1)
+      tell_operator(fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
+                                setup_before(longer_, row(first).setup), row(first).setup));
     setup_ = row(first).setup;
     Touched touched;
     std::vector<int> numbers;
@@ -248,6 +262,7 @@ class Writer {
   Rigid X_DW_;
   double approach_mm_ = 0, retract_mm_ = 0;  ///< where there is room
   double speed_mm_s_ = -1, acceleration_mm_s2_ = -1, set_approach_mm_ = -1, set_retract_mm_ = -1;
+  std::vector<int> setups_;  ///< in the order of measuring
   int setup_ = 0;
   std::string out_;
 };
@@ -255,11 +270,14 @@ class Writer {
 }  // namespace
 
 std::string recording_sentence(const Longer& longer) {
-  const RecordingRow &before = longer.recording.rows.front(), &after = longer.recording.rows.back();
-  std::string out = fmt::format("Give its recording run {}", after.run);
-  if (after.setup != before.setup)
-    out += fmt::format(" and setup {}: for the diagnosis the part stands elsewhere", after.setup);
-  return out + ".";
+  const std::vector<int> setups = new_setups(longer);
+  std::string out = fmt::format("Give its recording run {}", longer.recording.rows.back().run);
+  const bool elsewhere = setup_before(longer, setups.front()) != setups.front();
+  if (setups.size() > 1)
+    out += fmt::format(" and setups {}, one for each placement in this order", fmt::join(setups, ", "));
+  else if (elsewhere)
+    out += fmt::format(" and setup {}", setups.front());
+  return out + (elsewhere ? ": for the diagnosis the part stands elsewhere." : ".");
 }
 
 std::string dmis_program(const Case& c, const Longer& longer, const Change& change) {
