@@ -14,7 +14,7 @@ namespace abbe::lang {
 
 namespace {
 
-constexpr std::array kDirectives = {
+constexpr std::array kKnownDirectives = {
     DirectiveHelp{"machine", "machine NAME", "machine file, or name of a shipped machine; the command line wins"},
     DirectiveHelp{"machines", "machines N", "how many virtual machines"},
     DirectiveHelp{"seed", "seed N", "seed of the random numbers"},
@@ -85,7 +85,7 @@ class DirectiveReader {
   }
 
   static std::string help_for(std::string_view directive) {
-    const auto it = std::find_if(kDirectives.begin(), kDirectives.end(),
+    const auto it = std::find_if(kKnownDirectives.begin(), kKnownDirectives.end(),
                                  [&](const DirectiveHelp& d) { return d.word == directive; });
     return fmt::format("write $$! {}", it->form);
   }
@@ -159,7 +159,7 @@ class DirectiveReader {
 
   [[noreturn]] void unknown(const Token& word) {
     std::vector<std::string_view> words;
-    for (const DirectiveHelp& d : kDirectives) words.push_back(d.word);
+    for (const DirectiveHelp& d : kKnownDirectives) words.push_back(d.word);
     const std::string near = nearest_word(word.text, words);
     mistake(Code::E0113, word.span, fmt::format("'{}' is not a directive", word.text),
             near.empty() ? fmt::format("known: {}", fmt::join(words, " ")) : fmt::format("did you mean {}?", near),
@@ -264,7 +264,7 @@ int evaluations_of(const plan::Plan& plan, const Expectation& e) {
 
 }  // namespace
 
-std::span<const DirectiveHelp> directives() { return kDirectives; }
+std::span<const DirectiveHelp> directives() { return kKnownDirectives; }
 
 namespace {
 

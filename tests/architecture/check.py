@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files|format [COMPILER EIGEN]
+"""Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files|format|constants [COMPILER EIGEN]
 
 includes  every #include of a layer names that layer or one that CMakeLists.txt lets it use; the heavy libraries stay where they belong
 headers   every header compiles alone
 codes     every message code is exercised by a test
 files     no file is longer than 500 lines
+constants no two sources of a layer have a constant of their own by the same name, because several may be compiled as one
 format    every file is as `make format` leaves it; other versions of clang-format than Debian 12 has may disagree, so others are not asked
 """
 import concurrent.futures
@@ -118,6 +119,18 @@ def check_files():
     return wrong
 
 
+def check_constants():
+    wrong, table, found = [], layers(), {}
+    for path in sources(".cpp"):
+        relative = path.relative_to(ROOT)
+        for declaration in re.findall(r"^(?:inline |static )?const(?:expr|init)? [^;]*?;", path.read_text(errors="replace"), re.M):
+            for name in set(re.findall(r"\b(k[A-Z]\w*)\s*(?:\[\w*\])*\s*[={]", declaration.split("{")[0] + "{" if "=" not in declaration.split("{")[0] else declaration)):
+                first = found.setdefault((layer_of(relative, table), name), relative)
+                if first != relative:
+                    wrong.append(f"{relative}: {name} is a constant of {first} too")
+    return wrong
+
+
 def check_format():
     if not shutil.which("clang-format-14"):
         print("format: skipped, clang-format-14 is not installed")
@@ -130,7 +143,7 @@ def check_format():
 
 def main():
     what = sys.argv[1]
-    wrong = {"includes": check_includes, "codes": check_codes, "files": check_files, "format": check_format,
+    wrong = {"includes": check_includes, "codes": check_codes, "files": check_files, "format": check_format, "constants": check_constants,
              "headers": lambda: check_headers(*sys.argv[2:])}[what]()
     print("\n".join(wrong) if wrong else f"{what}: good")
     return 1 if wrong else 0

@@ -12,12 +12,12 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kMachines = 200, kSteps = 4;
+constexpr int kMachines = 200, kNewtonSteps = 4;
 constexpr double kWide = 30;       // typical sizes: a prior that does not pull
 constexpr double kSettled = 0.05;  // standard uncertainties
 constexpr double kMove = 0.1;      // typical sizes, for the derivatives; they are taken on the same machines
 constexpr std::size_t kFirst = 8, kMost = 24;  // blocks
-constexpr double kNear = 6;                    // nats
+constexpr double kNearBest = 6;                // nats
 
 struct BesideErrors {
   Sizes sizes;
@@ -68,7 +68,7 @@ std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Bloc
   };
   BesideErrors out;
   out.sizes.mean = start;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kNewtonSteps; ++step) {
     const Vector at = possible_sizes(effect, block, out.sizes.mean);
     const Eigen::Index n = without_.cols(), columns = at.size();
     Matrix together(without_.rows(), (columns + 2) * n);  // next to each other: without, with, beside each derivative
@@ -118,7 +118,7 @@ int next_block(const ValueSearch& search, const Vector& deviation, const std::se
     if (seen.size() < kFirst && seen.contains(of)) continue;
     if (log_belief(b) > best) best = log_belief(b), next = static_cast<int>(b);
   }
-  return seen.size() < kFirst || best > top - kNear ? next : -1;
+  return seen.size() < kFirst || best > top - kNearBest ? next : -1;
 }
 
 }  // namespace

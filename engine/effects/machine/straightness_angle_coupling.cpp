@@ -18,7 +18,7 @@
 namespace abbe {
 namespace {
 
-constexpr int kHarmonics = 7;
+constexpr int kRailHarmonics = 7;
 
 constexpr double kBearingBases_mm[] = {200, 300, 500};
 
@@ -54,7 +54,7 @@ Carriage carriage(double k, double x, double half_base, const double* z) {
   const double c1 = std::cos(k * x), s1 = std::sin(k * x), cb1 = std::cos(k * half_base), sb1 = std::sin(k * half_base);
   double c = 1, s = 0, cb = 1, sb = 0;
   Carriage sum;
-  for (int n = 1; n <= kHarmonics; ++n) {
+  for (int n = 1; n <= kRailHarmonics; ++n) {
     const double c_next = c * c1 - s * s1, cb_next = cb * cb1 - sb * sb1;
     s = s * c1 + c * s1, c = c_next;
     sb = sb * cb1 + cb * sb1, cb = cb_next;
@@ -71,7 +71,7 @@ Vec3 straightness_angle_coupling(const TouchScene& scene, const double* theta, c
   Vec3 d, rotation;
   for (int plane = 0; plane < 2; ++plane) {
     const Vec3 across = axis_vector((axis + 1 + plane) % 3);
-    const Carriage e = carriage(k, x, 0.5 * theta[1], z + 2 * kHarmonics * plane);
+    const Carriage e = carriage(k, x, 0.5 * theta[1], z + 2 * kRailHarmonics * plane);
     d += scene.side[axis] * e.offset * across;
     rotation += e.slope * cross(axis_vector(axis), across);
   }
@@ -97,7 +97,7 @@ constinit const Effect kStraightnessAngleCoupling{
     .needs = 0u | Covariate::position,
     .parameters = kStraightnessAngleCouplingParameters,
     .draws_per = DrawsPer::machine,
-    .draws = 2 * 2 * kHarmonics,
+    .draws = 2 * 2 * kRailHarmonics,
     .linear_in_draws = true,
     .only_spread = true,
     .displace = straightness_angle_coupling,
