@@ -1,6 +1,7 @@
 // What is proposed as the next measurement: where the tip goes, what a change leaves as it was, and how a
 // part is found that was moved.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,25 @@ TEST_CASE("a part that is moved, or that was left for hours, is in another setup
         change.text.find("stylus") != std::string::npos || change.text.find("head") != std::string::npos;
     CHECK(longer->recording.rows.back().qualification.value_or(1) == (qualified ? 2 : 1));
     CHECK((recording_sentence(*longer).find("setup 2") != std::string::npos) == placed);
+  }
+}
+
+TEST_CASE("of several placements each has a setup of its own, in the program and in its recording") {
+  TouchedBlock block;
+  for (RecordingRow& row : block.recording.rows) row.setup = row.feature == "BORE" || row.feature == "PIN" ? 2 : 1;
+  block.c.touches = recorded_touches(block.recording, block.machine, "");
+  for (const Change& change : changes_for(block.c)) {
+    const auto longer = repeated(block.c, change);
+    if (!longer) continue;
+    INFO(change.text);
+    const std::string said = recording_sentence(*longer), program = dmis_program(block.c, *longer, change);
+    const bool anew = change.new_setup, backwards = change.reversed;
+    const std::string setups = anew ? (backwards ? "4, 3" : "3, 4") : (backwards ? "2, 1" : "1, 2");
+    CHECK(said.find("setups " + setups + ", one for each placement in this order") != std::string::npos);
+    CHECK((said.find("stands elsewhere") != std::string::npos) == anew);
+    for (const int setup : {1, 2})
+      CHECK(program.find(fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
+                                     setup, anew ? setup + 2 : setup)) != std::string::npos);
   }
 }
 
