@@ -111,6 +111,7 @@ enum class Sought {
   not_at_all,     ///< it stays at its standard value
   listed,         ///< one of `tried`
   around_listed,  ///< `tried`, and what lies between
+  wavelength,     ///< likewise, but none longer than two parts as large as what was touched: that is no form, mm
   signal_period,  ///< those of `tried` that the readings of a recording resolve, um
   moment,         ///< between two touches
   period,         ///< whole half cycles in the duration of the recording

@@ -75,6 +75,19 @@ std::vector<double> codes(const EffectParameter& p) {
 
 std::vector<double> listed(const EffectParameter& p) { return {p.tried.begin(), p.tried.end()}; }
 
+/// One at least. Less than half a wave is a size, or an angle of the part.
+std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches& t) {
+  Vec3 low = t.touches.front().scene.on_part, high = low;
+  for (const RecordedTouch& touch : t.touches)
+    for (int k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], touch.scene.on_part[k]), high[k] = std::max(high[k], touch.scene.on_part[k]);
+  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  std::vector<double> list{p.tried.front()};
+  for (const double length : p.tried.subspan(1))
+    if (length <= 2 * extent) list.push_back(length);
+  return list;
+}
+
 }  // namespace
 
 Search search_of(const EffectParameter& p, const RecordedTouches& t) {
@@ -83,6 +96,7 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t) {
     case Sought::listed:
     case Sought::signal_period: return {Kind::tried, listed(p)};
     case Sought::around_listed: return {Kind::tried, listed(p), true};
+    case Sought::wavelength: return {Kind::tried, wavelengths(p, t), true};
     case Sought::moment: return {Kind::tried, moments(t), true};
     case Sought::period: return {Kind::tried, periods(p, t), true};
     case Sought::time_constant: return {Kind::tried, time_constants(t), true};

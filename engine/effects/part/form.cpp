@@ -59,7 +59,7 @@ constexpr EffectParameter kPartFormParameters[] = {
      .low = 0.1,
      .high = 10000,
      .standard = 100,
-     .sought = Sought::around_listed,
+     .sought = Sought::wavelength,
      .tried = kWavelengths_mm},
     axis_parameter("axis of the part along which the wave runs: 0 x, 1 y, 2 z"),
 };
