@@ -5,13 +5,13 @@
 #include <map>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
-#include "engine/diagnose/baseline/data_problems.hpp"
 #include "engine/diagnose/baseline/known_state.hpp"
 #include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/baseline/outliers.hpp"
 #include "engine/diagnose/baseline/own_noise.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
@@ -200,13 +200,9 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
   out.unexplained = describe_unexplained(
       c, result, as_well ? fmt::format("{}", fmt::join(out.runner_up->members, " or ")) : std::string());
   EmpiricalModel model = empirical_model(c, result);
-  if (model.follows &&
-      model.follows->name != c.explanations.list[static_cast<std::size_t>(result.other->explanation)].name)
-    out.unexplained->model_follows = abbe::diagnose::name(model.follows->factor);
-  for (EffectSetting& setting : model.settings) {
-    out.unexplained->model = setting.name;
-    out.model_effects.push_back(std::move(setting));
-  }
+  if (model.follows) out.unexplained->model_follows = abbe::diagnose::name(*model.follows);
+  if (!model.settings.empty()) out.unexplained->model = model.settings.front().name;
+  for (EffectSetting& setting : model.settings) out.model_effects.push_back(std::move(setting));
 }
 
 /// The geometry of this machine beside what was found: findings are free, so that no error function takes them over.

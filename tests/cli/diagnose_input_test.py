@@ -295,6 +295,9 @@ class Mistakes(Input):
         mirrored = lambda row: row | {"enc_y": repr(-float(row["enc_y"]))}
         self.assertIn("write the columns enc_x, enc_y, enc_z as they are now enc_y, enc_x, enc_z", self.told("E0701", exchanged))
         self.assertIn("the sign of enc_y is turned round", self.told("E0701", mirrored))
+        self.assertIn("the sign of enc_z is turned round", self.told("E0701", lambda row: row | {"enc_z": repr(-float(row["enc_z"]))}))
+        self.assertIn("enc_x is in micrometres", self.told("E0701", self.scaled(("enc_x",), 1e3)))
+        self.assertIn("the sign of x is turned round", self.told("E0701", lambda row: row | {"x": repr(-float(row["x"]))}))  # and not of enc_x
 
     def test_a_recording_names_a_machine_beside_it(self):
         machine = (harness.ROOT / "examples/machines/moving-table-700.json").read_text()

@@ -8,8 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "engine/diagnose/baseline/data_problems.hpp"
 #include "engine/diagnose/baseline/round_surface.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/math/rigid_fit.hpp"
 

@@ -12,7 +12,7 @@ namespace abbe::diagnose {
 namespace {
 
 using Three = Eigen::Matrix3d;
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+using MotionColumns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
 constexpr int kNear = 15;        ///< touches from the moment at most
 constexpr int kLeastBeside = 6;  ///< touches on each side of the moment at least: fewer follow anything
@@ -42,7 +42,7 @@ std::vector<char> put_there_by_a_sudden_change(const Case& c) {
   const std::vector<std::size_t> order = by_time(c.touches);
 
   // From the end: with every step one touch more is displaced. S: its columns; K S, S' K S and S' K y grow with them.
-  Columns ks = Columns::Zero(static_cast<Eigen::Index>(n), 3);
+  MotionColumns ks = MotionColumns::Zero(static_cast<Eigen::Index>(n), 3);
   Eigen::Vector3d sky = Eigen::Vector3d::Zero();
   std::vector<std::size_t> displaced;
   std::ptrdiff_t most = 0;

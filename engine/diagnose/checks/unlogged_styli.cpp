@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/diagnose/baseline/data_problems.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
 
 namespace abbe::diagnose {
 

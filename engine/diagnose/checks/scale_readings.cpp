@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/baseline/data_problems.hpp"
-#include "engine/diagnose/baseline/remedies.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
+#include "engine/diagnose/checks/remedies.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/recording/units.hpp"
@@ -57,19 +58,34 @@ void check_unit(const std::vector<Travel>& travels, const std::string& file) {
            fmt::format("multiply enc_x, enc_y, enc_z by {:g}", unit->mm));
 }
 
-void check_axes(const std::vector<Travel>& travels, const std::string& file) {
+/// One axis in another unit, or with the other sign.
+void check_each_axis(const std::vector<Travel>& travels, const std::string& file) {
+  constexpr double kApart_mm = 1, kAsWritten = 0.01;
+  constexpr std::size_t kEnough = 3;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> ratios;
+    for (const Travel& t : travels)
+      if (std::abs(t.tip[axis]) > kApart_mm) ratios.push_back(t.scales[axis] / t.tip[axis]);
+    if (ratios.size() < kEnough) continue;
+    const double ratio = median(std::move(ratios));
+    if (std::abs(ratio + 1) < kAsWritten)
+      refuse(file, fmt::format("the sign of enc_{} is turned round: the tip travels the other way", "xyz"[axis]),
+             "correct the sign in the recording");
+    if (const auto unit = foreign_unit(ratio, 1))
+      refuse(file, fmt::format("enc_{} is in {}, the recorded positions in millimetres", "xyz"[axis], unit -> name),
+             fmt::format("multiply enc_{} by {:g}", "xyz"[axis], unit -> mm));
+  }
+}
+
+void check_order(const std::vector<Travel>& travels, const std::string& file) {
   constexpr double kOther = 0.1,
-                   kMends = 0.01;  // in travels: what other axes leave at least, and the right ones at most
+                   kRight = 0.01;  // in travels: what other axes leave at least, and the right ones at most
   if (left_by(travels, [](const Vec3& v) { return v; }) < kOther) return;
   for (const auto& o : kOrders)
-    if (left_by(travels, [&](const Vec3& v) { return in_order(v, o); }) < kMends)
+    if (left_by(travels, [&](const Vec3& v) { return in_order(v, o); }) < kRight)
       refuse(file, "the axes of the scale readings are swapped: the tip travels along others",
              fmt::format("write the columns enc_x, enc_y, enc_z as they are now enc_{}, enc_{}, enc_{}", "xyz"[o[0]],
                          "xyz"[o[1]], "xyz"[o[2]]));
-  for (int axis = 0; axis < 3; ++axis)
-    if (left_by(travels, [&](const Vec3& v) { return turned_round(v, axis); }) < kMends)
-      refuse(file, fmt::format("the sign of enc_{} is turned round: the tip travels the other way", "xyz"[axis]),
-             "correct the sign in the recording");
 }
 
 }  // namespace
@@ -78,7 +94,9 @@ void check_readings(const Recording& r, const std::string& file) {
   const std::vector<Travel> of_touches = travels(r);
   if (of_touches.empty()) return;
   check_unit(of_touches, file);
-  if (!r.in_part_frame) check_axes(of_touches, file);
+  if (r.in_part_frame) return;
+  check_each_axis(of_touches, file);
+  check_order(of_touches, file);
 }
 
 void leave_out_commanded_readings(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

@@ -1,6 +1,6 @@
 // Recordings that no physics explains: another unit, swapped axes, normals the wrong way, rows twice. Each is
 // recognised by what would mend it, and said instead of being diagnosed.
-#include "engine/diagnose/baseline/data_problems.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/diagnose/baseline/remedies.hpp"
+#include "engine/diagnose/checks/remedies.hpp"
 #include "engine/diagnose/median.hpp"
 #include "engine/recording/units.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 
 // median distance from the targets beyond which something other than errors is at work
 constexpr double kGross_mm = 0.5;
-constexpr double kMends = 0.05;  // share of it that a remedy may leave
+constexpr double kMended = 0.05;  // share of it that a remedy may leave
 
 template <class Remedy>
 double left_by(const Recording& r, Remedy remedy) {
@@ -113,12 +113,12 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
 
 void check_axes(const Recording& r, const std::string& file, double gross) {
   for (const auto& o : kOrders)
-    if (left_by(r, [&](const RecordingRow& row) { return in_order(row.position_mm, o); }) < kMends * gross)
+    if (left_by(r, [&](const RecordingRow& row) { return in_order(row.position_mm, o); }) < kMended * gross)
       refuse(
           file, "the axes of the recorded positions are swapped",
           fmt::format("write the columns x, y, z as they are now {}, {}, {}", "xyz"[o[0]], "xyz"[o[1]], "xyz"[o[2]]));
   for (int axis = 0; axis < 3; ++axis)
-    if (left_by(r, [&](const RecordingRow& row) { return turned_round(row.position_mm, axis); }) < kMends * gross)
+    if (left_by(r, [&](const RecordingRow& row) { return turned_round(row.position_mm, axis); }) < kMended * gross)
       refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]),
              "correct the sign in the recording");
 }
@@ -262,11 +262,11 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   if (!complete) return;  // recorded_touches() says what is missing
   check_units(r, machine, file);
   check_unit_of_each(r, file);
-  check_readings(r, file);
   check_head(r, file);
   check_axes_of_normals(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross > kGross_mm) check_axes(r, file, gross);
+  check_readings(r, file);  // against positions that are as they should be
 }
 
 }  // namespace abbe::diagnose

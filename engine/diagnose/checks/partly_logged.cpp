@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/diagnose/baseline/data_problems.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/recording/columns.hpp"
 #include "engine/recording/recording.hpp"
 

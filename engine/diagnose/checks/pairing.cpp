@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "engine/diagnose/baseline/data_problems.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/math/rigid_fit.hpp"
 #include "engine/run/recorded_part.hpp"
 
