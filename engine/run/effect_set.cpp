@@ -330,9 +330,10 @@ void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, 
 void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws,
                             const TouchBatch& batch, Sum& sum, char& acted) {
   const std::size_t parameters = a.value.size(), numbers = a.effect->draws;
-  ABBE_CHECK(parameters <= kMostNumbers && numbers <= kMostNumbers);
+  ABBE_CHECK(numbers <= kMostNumbers);
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
-  double values[kMostNumbers], z[kMostNumbers] = {};
+  std::vector<double> values(parameters);
+  double z[kMostNumbers] = {};
   const double none[kMostNumbers] = {};
   TouchScene scene = *sum.group.scene, estimated = scene;
   const auto estimate_there = [&] {
@@ -349,7 +350,7 @@ void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, c
     for (std::size_t p = 0; p < parameters; ++p) values[p] = theta[p * sum.lanes + sum.lane[i]];
     for (std::size_t j = 0; j < numbers; ++j)
       z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
-    const Vec3 d = a.effect->displace(scene, values, z);
+    const Vec3 d = a.effect->displace(scene, values.data(), z);
     if (!acted) acted = shows(dot(scene.normal, d - estimate));
     sum.error.set(i, sum.error.get(i) + d - estimate);
   }

@@ -1,4 +1,5 @@
 """What abbe diagnose saves of a mismatch without a name makes the same mismatch: in a second diagnosis, and in the values of a program."""
+import itertools
 import json
 import math
 
@@ -8,33 +9,36 @@ MACHINE = harness.ROOT / "examples/iso10360/portal-2009.json"
 SIDE, PITCH, RADIUS = 5, 75, 10  # balls, mm
 
 
-def plate():
-    """Balls on a plane, row by row, nine touches each, and the distance of the first and the last ball of the first column."""
+ALL_ROUND = [(0, 0, 1)] + [(math.cos(a), math.sin(a), 1) for a in (0.3, 1.87, 3.44, 5.01)] + [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+UPPER = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
+
+
+def plate(side=SIDE, rounds=1, directions=ALL_ROUND):
+    """Balls on a plane, row by row, and the distance of the first and the last ball of the first column."""
     text = harness.LENGTH.split("S(P)=")[0] + ("S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,150.0,4.0\nSNSLCT/S(P)\n"
                                                "D(M)=DATSET/MCS\nD(R)=TRANS/XORIG,500,YORIG,300,ZORIG,-450\n")
-    directions = [(0, 0, 1)] + [(math.cos(a), math.sin(a), 1) for a in (0.3, 1.87, 3.44, 5.01)] + [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
-    for j in range(SIDE):
-        for i in range(SIDE):
-            x, y = PITCH * i, PITCH * j
-            text += f"F(B{i}{j})=FEAT/SPHERE,OUTER,CART,{x},{y},0,{2 * RADIUS}\nMEAS/SPHERE,F(B{i}{j}),{len(directions)}\n"
-            for d in directions:
-                n = [c / math.hypot(*d) for c in d]
-                p, before = [c + RADIUS * k for c, k in zip((x, y, 0), n)], [c + 3 * RADIUS * k for c, k in zip((x, y, 0), n)]
-                goto = f"GOTO/{before[0]:.4f},{before[1]:.4f},60\n"
-                text += goto + "PTMEAS/CART," + ",".join(f"{c:.8f}" for c in (*p, *n)) + "\n" + goto
-            text += "ENDMES\n"
-    return text + f"T(D)=TOL/DISTB,NOMINL,{PITCH * (SIDE - 1)},-0.05,0.05,PT2PT\nOUTPUT/FA(B00),FA(B0{SIDE - 1}),TA(D)\nENDFIL\n"
+    for k, j, i in itertools.product(range(rounds), range(side), range(side)):
+        x, y, label = PITCH * i, PITCH * j, f"B{i}{j}" + (f"_{k}" if rounds > 1 else "")
+        text += f"F({label})=FEAT/SPHERE,OUTER,CART,{x},{y},0,{2 * RADIUS}\nMEAS/SPHERE,F({label}),{len(directions)}\n"
+        for d in directions:
+            n = [c / math.hypot(*d) for c in d]
+            p, before = [c + RADIUS * k for c, k in zip((x, y, 0), n)], [c + 3 * RADIUS * k for c, k in zip((x, y, 0), n)]
+            goto = f"GOTO/{before[0]:.4f},{before[1]:.4f},60\n"
+            text += goto + "PTMEAS/CART," + ",".join(f"{c:.8f}" for c in (*p, *n)) + "\n" + goto
+        text += "ENDMES\n"
+    first, last = (f"B0{j}" + ("_0" if rounds > 1 else "") for j in (0, side - 1))
+    return text + f"T(D)=TOL/DISTB,NOMINL,{PITCH * (side - 1)},-0.05,0.05,PT2PT\nOUTPUT/FA({first}),FA({last}),TA(D)\nENDFIL\n"
 
 
 class Empirical(harness.Case):
-    def plate_that(self, moves, seed=21):
-        """A recording of the plate, every touch displaced by moves(row) um in x, y, z, the scales with it."""
-        self.program = self.write("plate.dmi", plate())
+    def plate_that(self, moves, seed=21, **of_plate):
+        """A recording of the plate, every touch displaced by moves(row) um in x, y, z and along the normal, the scales with it."""
+        self.program = self.write("plate.dmi", plate(**of_plate))
         self.abbe("record", self.program, "--machine", MACHINE, "-o", "clean.csv", "--seed", seed)
 
         def moved(row):
             d = moves({key: float(row[key]) for key in ("time_s", "x", "y")})
-            along = 1e-3 * sum(k * float(row["n" + a]) for k, a in zip(d, "xyz"))
+            along = 1e-3 * (sum(k * float(row["n" + a]) for k, a in zip(d, "xyz")) + sum(d[3:]))
             return row | {c + a: f"{float(row[c + a]) + along * float(row['n' + a]):.7f}" for c in ("", "enc_") for a in "xyz"}
         return self.changed(self.folder / "clean.csv", moved)
 
@@ -81,6 +85,33 @@ class Empirical(harness.Case):
         inside = sum(nodes[f"z_{i}_{j}_um"]["value"] for i in (2, 3) for j in (2, 3)) / 4
         edges = sum(nodes[f"z_{i}_{j}_um"]["value"] for i, j in ((0, 2), (0, 3), (5, 2), (5, 3), (2, 0), (3, 0), (2, 5), (3, 5))) / 8
         self.assertTrue(8 < inside - edges < 15, inside - edges)
+
+    def test_a_size_that_grows(self):
+        """By 6 um in the end: a curve along the normal, and nothing that depends on the direction."""
+        knots = self.saved(self.plate_that(lambda at: (0, 0, 0, 6 * at["time_s"] / 420), side=3, rounds=3, directions=UPPER), "empirical.curve", along="time")
+        self.assertNotIn("x0_um", knots)
+        self.assertTrue(5 < knots["r15_um"]["value"] - knots["r0_um"]["value"] < 7, knots)
+
+    def test_a_jagged_course_is_no_tilt(self):
+        """Row by row, a trend of z in time is nearly a tilt of the plate: what little shows of it may not make it large."""
+        jumps = (0, 5, -4, 6, -5, 3, -6)
+        recording = self.plate_that(lambda at: (0, 0, jumps[int(at["time_s"] // 40) % len(jumps)]), directions=UPPER)
+        self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
+        [effect] = json.loads((self.folder / "improved.json").read_text())["effects"]
+        self.assertEqual(effect["name"], "empirical.curve")
+        self.assertLess(max(abs(effect["parameters"][f"z{k}_um"]["value"]) for k in range(16)), 13)
+
+    def test_what_comes_and_goes_is_no_dirt(self):
+        """The touches from above are off by as much, with touches of other sides in between."""
+        said = self.diagnosis(self.plate_that(lambda at: (0, 0, 8 if 170 < at["time_s"] < 300 else 0), seed=3, side=3, rounds=3, directions=UPPER), "--machine", MACHINE)
+        self.assertEqual(said["baseline"]["outliers"], [])
+        self.assertEqual({"machine.step", "part.shift"} - set(said["effects"][0]["members"]), set())
+
+    def test_an_uncertain_end_of_a_curve(self):
+        """All numbers of an effect may be uncertain, however many it has."""
+        curve = {"along": "x", "from": {"value": 489, "u": 1}, "to": 911, "x0_um": 3}
+        machine = self.write("curved.json", json.dumps(json.loads(MACHINE.read_text()) | {"effects": [{"name": "empirical.curve", "parameters": curve}]}))
+        self.run_json(self.write("plate.dmi", plate(side=2)), "--machine", machine, "--machines", 20)
 
 
 if __name__ == "__main__":

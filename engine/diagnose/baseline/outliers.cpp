@@ -1,6 +1,6 @@
 // Gross outliers: touches so far from what all others predict that they are dirt, burrs or early triggers.
 // They are left out, or they would spoil the fit. Dirt strikes single touches by chance, though: touches next
-// to each other, of one stylus one after the other, or of one place again and again, that are all off, are a
+// to each other, of one stylus or facing one way one after the other, or of one place again and again, that are all off, are a
 // mismatch with a cause, and so are those that a sudden change puts where they are: they stay in. Those of one tip in one
 // orientation are noise of its own.
 #include "engine/diagnose/baseline/outliers.hpp"
@@ -83,10 +83,18 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
   const auto place_on_part = [&](const RecordedTouch& touch) {
     return std::tuple(touch.scene.feature, rows[touch.row].touch);
   };
+  // A shift along one axis shows in every touch of that axis, with touches of others in between.
+  const auto facing = [](const RecordedTouch& touch) {
+    const Vec3& n = touch.scene.normal;
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (std::abs(n[k]) > std::abs(n[axis])) axis = k;
+    return std::tuple(touch.scene.run, touch.scene.setup, axis, n[axis] > 0);
+  };
   const Pairs relations[] = {
       followers(t, [](const RecordedTouch& touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
-      followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, place_on_part),
-      followers(t, [](const RecordedTouch& touch) { return place_of(touch.scene); })};
+      followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, facing),
+      followers(t, place_on_part), followers(t, [](const RecordedTouch& touch) { return place_of(touch.scene); })};
   const double n = static_cast<double>(masked.size()),
                m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
   std::vector<char> out(masked.size(), 0);

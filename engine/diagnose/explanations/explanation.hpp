@@ -74,7 +74,6 @@ struct Explanation {
   const Effect* effect = nullptr;  ///< none: OTHER
   Factor factor = Factor::position;
   std::string shape;           ///< of OTHER: "smooth", "quick", ...
-  bool of_one_factor = false;  ///< of OTHER: a function of its factor alone, which an empirical effect can follow
   double share = 1;            ///< of the belief in all effects, or in all patterns: so many times that of most
   double prior = 0;            ///< probability among all explanations
   unsigned missing = 0;        ///< covariates that are absent or constant: it cannot be judged

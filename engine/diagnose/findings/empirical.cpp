@@ -1,6 +1,7 @@
 #include "engine/diagnose/findings/empirical.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,41 +86,36 @@ Pieces offsets(const Case& c, bool by_sensor) {
   return list;
 }
 
-/// Effects that may follow an explanation's pattern, the one or the other; none where it is a function of two factors, or
-/// of what another program does not share.
-std::vector<Pieces> followers_of(const Case& c, const Explanation& e) {
-  if (!e.of_one_factor) return {};
+/// Effects that are functions of a factor, the one or the other; none where another program does not share it.
+std::vector<Pieces> followers_of(const Case& c, Factor factor) {
   std::vector<Pieces> list;
   const auto along_curve = [&](CurveCoordinate of) {
     for (const Along along : {Along::axes, Along::normal}) list.push_back({curve(c, of, along)});
-    return list;
   };
-  switch (e.factor) {
-    case Factor::time: return along_curve(CurveCoordinate::time);
+  switch (factor) {
+    case Factor::time: along_curve(CurveCoordinate::time); break;
+    case Factor::temperature: along_curve(CurveCoordinate::part_temperature); break;
+    case Factor::speed: along_curve(CurveCoordinate::speed); break;
     case Factor::position:
       for (const Along along : {Along::axes, Along::normal}) {
         list.push_back({curve(c, CurveCoordinate::x, along), curve(c, CurveCoordinate::y, along),
                         curve(c, CurveCoordinate::z, along)});
         for (const MapPlane plane : {MapPlane::xy, MapPlane::xz, MapPlane::yz}) list.push_back({map(c, plane, along)});
       }
-      // along the normal: on a ball, place and direction are one
-      if (e.shape == "height")
-        for (Pieces& pieces : list) pieces.push_back(piece(kEmpiricalDirection));
-      return list;
-    case Factor::temperature: return along_curve(CurveCoordinate::part_temperature);
-    case Factor::speed: return along_curve(CurveCoordinate::speed);
-    case Factor::head: return {offsets(c, false)};
-    case Factor::sensor: return {offsets(c, true)};
-    case Factor::direction: {
-      Piece p = piece(kEmpiricalDirection);
-      p.theta[0] = e.shape == "on the probe" || e.shape == "lobes" ? 1 : 0;
-      return {{p}};
-    }
+      break;
+    case Factor::head: list.push_back(offsets(c, false)); break;
+    case Factor::sensor: list.push_back(offsets(c, true)); break;
+    case Factor::direction:
+      for (const double frame : {0.0, 1.0}) {
+        list.push_back({piece(kEmpiricalDirection)});
+        list.back().front().theta[0] = frame;
+      }
+      break;
     case Factor::setup:
     case Factor::feature:
-    case Factor::run: return {};
+    case Factor::run: break;
   }
-  return {};
+  return list;
 }
 
 /// The columns of all pieces, um per um, and which parameter of which piece each is.
@@ -151,10 +147,10 @@ Basis basis_of(const Case& c, const Pieces& pieces) {
 /// place is another feature.
 bool of_the_occasion(Factor f) { return f == Factor::setup || f == Factor::feature || f == Factor::run; }
 
-/// What differences between neighbouring knots count beside what touches show: next to nothing, but where none was made a
-/// knot lies between its neighbours.
+/// What differences between neighbouring knots count beside what touches show: little, but where none, or hardly one, was
+/// made a knot lies between its neighbours.
 Matrix between_neighbours(const Pieces& pieces, const Basis& basis) {
-  constexpr double kUnseen = 1e-4, kUnknown = 1e-8;  // of what a touch at a knot shows
+  constexpr double kUnseen = 0.03, kUnknown = 1e-6;  // of what a touch at a knot shows
   std::map<std::pair<std::size_t, std::size_t>, Eigen::Index> column;
   for (std::size_t k = 0; k < basis.of.size(); ++k) column[basis.of[k]] = static_cast<Eigen::Index>(k);
   Matrix out = kUnknown * Matrix::Identity(basis.columns.cols(), basis.columns.cols());
@@ -168,10 +164,22 @@ Matrix between_neighbours(const Pieces& pieces, const Basis& basis) {
   return out;
 }
 
-/// What the basis must be weighted with to follow a pattern: its least squares.
-Matrix weights_of(const Basis& basis, const Matrix& between, const Matrix& pattern) {
-  const Matrix seen = basis.columns.transpose() * basis.columns + between;
-  return seen.llt().solve(basis.columns.transpose() * pattern);
+/// What columns show beside the placement of the part.
+Matrix shown(const Matrix& placement, const Matrix& columns) {
+  return columns - placement * (placement.transpose() * columns);
+}
+
+/// What the basis must be weighted with to show what the pattern does, by least squares. A course of which the placement takes
+/// up all but a tenth, in squares, is left out: the little that shows of it would make it large.
+Matrix weights_of(const Basis& basis, const Matrix& between, const Matrix& placement, const Matrix& pattern) {
+  constexpr double kSeen = 0.1;
+  const Matrix visible = shown(placement, basis.columns);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> courses(visible.transpose() * visible,
+                                                                 basis.columns.transpose() * basis.columns + between);
+  const Vector& share = courses.eigenvalues();
+  const Vector weight = (share.array() > kSeen).select(share.cwiseMax(kSeen).cwiseInverse(), 0);
+  const Matrix& course = courses.eigenvectors();
+  return course * weight.asDiagonal() * (course.transpose() * (visible.transpose() * pattern));
 }
 
 struct Fit {
@@ -195,11 +203,9 @@ Fit fitted(const Information& info) {
 }
 
 /// Uncertainties of the basis' parameters, drawn independently of each other, that give every touch as much as the pattern
-/// has there. What a placement of the part takes up is common to all of them and shows nowhere.
-Vector uncertainties(const Basis& basis, const Matrix& between, const Matrix& pattern, const Matrix& covariance,
-                     const Matrix& free) {
-  const Matrix placement = independent(free), shown = pattern - placement * (placement.transpose() * pattern);
-  const Vector variance = (shown * covariance).cwiseProduct(shown).rowwise().sum().cwiseMax(0);
+/// shows there.
+Vector uncertainties(const Basis& basis, const Matrix& between, const Matrix& pattern, const Matrix& covariance) {
+  const Vector variance = (pattern * covariance).cwiseProduct(pattern).rowwise().sum().cwiseMax(0);
   const Matrix share = basis.columns.cwiseAbs2();
   const Vector all = share.transpose() * share.rowwise().sum();
   return (Matrix(all.asDiagonal()) + between).llt().solve(share.transpose() * variance).cwiseMax(0).cwiseSqrt();
@@ -218,62 +224,82 @@ EffectSetting setting_of(const Piece& piece) {
   return s;
 }
 
-/// The likeliest pattern that an effect can follow, which need not be the likeliest of all. None where
-/// nothing follows it that the recording speaks for.
-const Explanation* carried(const Case& c, const Finding& f) {
-  const Explanation* best = nullptr;
-  double most = 0;
-  for (std::size_t k = 0; k < c.explanations.list.size(); ++k) {
-    const Explanation& e = c.explanations.list[k];
-    if (e.effect || f.evidence.log_bayes[k] <= most || followers_of(c, e).empty()) continue;
-    most = f.evidence.log_bayes[k];
-    best = &e;
+/// How well effects follow a pattern.
+struct Following {
+  Factor factor = Factor::time;
+  Pieces pieces;
+  Basis basis;
+  Vector value, u;
+  double log_bayes = 0;
+  double share = 0;  ///< of the squares that the pattern shows, what these effects make too
+};
+
+/// The likeliest of the effects that are functions of these factors.
+Following best_following(const Case& c, const LinearModel& beside, const Hyperparameters& hyper, const Matrix& pattern,
+                         const std::vector<Factor>& factors) {
+  const Matrix placement = independent(beside.free), visible = shown(placement, pattern);
+  std::vector<Following> all;
+  std::vector<Matrix> between, weights;
+  Explanations each;
+  const auto add = [&](Matrix signature) {
+    Explanation e;
+    e.blocks = {static_cast<int>(each.blocks.size())};
+    each.list.push_back(std::move(e));
+    each.blocks.emplace_back().signature = std::move(signature);
+  };
+  add(pattern);
+  for (const Factor factor : factors) {
+    for (Pieces& pieces : followers_of(c, factor)) {
+      Following f;
+      f.factor = factor, f.basis = basis_of(c, pieces), f.pieces = std::move(pieces);
+      between.push_back(between_neighbours(f.pieces, f.basis));
+      weights.push_back(weights_of(f.basis, between.back(), placement, visible));
+      add(f.basis.columns * weights.back());
+      all.push_back(std::move(f));
+    }
   }
-  return best;
+  if (all.empty()) return {};
+  for (Explanation& e : each.list) e.prior = 1 / double(each.list.size());
+  const EvidenceSearch search(beside, hyper, each);
+  const std::vector<double>& belief = search.evidence().log_bayes;
+  const auto best = static_cast<std::size_t>(std::max_element(belief.begin() + 1, belief.end()) - belief.begin());
+  Following out = std::move(all[best - 1]);
+  out.log_bayes = belief[best];
+  const Fit found = fitted(search.information(0)), fit = fitted(search.information(static_cast<int>(best)));
+  const Matrix& followed = each.blocks[best].signature;
+  const Vector whole = visible * found.value, left = whole - shown(placement, followed) * fit.value;
+  out.share = 1 - left.squaredNorm() / whole.squaredNorm();
+  out.value = weights[best - 1] * fit.value;
+  out.u = uncertainties(out.basis, between[best - 1], shown(placement, followed), fit.covariance);
+  return out;
 }
 
 }  // namespace
 
 EmpiricalModel empirical_model(const Case& c, const SearchResult& result) {
+  constexpr double kFollows = 0.5, kWholly = 0.9;
   if (!result.other) return {};
-  const Explanation& found = c.explanations.list[static_cast<std::size_t>(result.other->explanation)];
-  if (of_the_occasion(found.factor)) return {};
-  const Explanation* e = followers_of(c, found).empty() ? carried(c, *result.other) : &found;
-  if (!e) return {};
-  const auto index = static_cast<int>(e - c.explanations.list.data());
-  const int block = e == &found ? result.other->block : best_block(c.explanations, index, result.other->evidence);
-  const Matrix& pattern = c.explanations.blocks[static_cast<std::size_t>(block)].signature;
-  const std::vector<Pieces> followers = followers_of(c, *e);
-  std::vector<Basis> bases;
-  std::vector<Matrix> between, weights;
-  Explanations each;
-  for (const Pieces& pieces : followers) {
-    bases.push_back(basis_of(c, pieces));
-    between.push_back(between_neighbours(pieces, bases.back()));
-    weights.push_back(weights_of(bases.back(), between.back(), pattern));
-    Explanation follower = *e;
-    follower.prior = 1 / double(followers.size());
-    follower.blocks = {static_cast<int>(each.blocks.size())};
-    each.list.push_back(std::move(follower));
-    each.blocks.emplace_back().signature = bases.back().columns * weights.back();
-  }
+  const Factor factor = c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor;
+  if (of_the_occasion(factor)) return {};
+  const Matrix& pattern = c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature;
   const LinearModel beside = with_free(c.model, signatures_of(c, result.findings));
-  const EvidenceSearch search(beside, result.hyper, each);
-  const std::vector<double>& belief = search.evidence().log_bayes;
-  const auto best = static_cast<std::size_t>(std::max_element(belief.begin(), belief.end()) - belief.begin());
-  if (belief[best] <= 0) return {};  // what follows the pattern so badly would spoil what was right
-  const Fit fit = fitted(search.information(static_cast<int>(best)));
-  const Vector value = weights[best] * fit.value;
-  const Vector u = uncertainties(bases[best], between[best], each.blocks[best].signature, fit.covariance, beside.free);
-  const Pieces& pieces = followers[best];
-  std::vector<EffectSetting> settings;
-  for (const Piece& p : pieces) settings.push_back(setting_of(p));
-  for (std::size_t k = 0; k < bases[best].of.size(); ++k) {
-    const auto [at, p] = bases[best].of[k];
+  const auto follows = [](const Following& f) { return f.log_bayes > 0 && f.share >= kFollows; };
+  Following best = best_following(c, beside, result.hyper, pattern, {factor});
+  if (!follows(best))
+    best = best_following(c, beside, result.hyper, pattern,
+                          {Factor::time, Factor::position, Factor::direction, Factor::head, Factor::sensor,
+                           Factor::temperature, Factor::speed});
+  if (!follows(best)) return {};  // what follows it so badly would spoil what was right
+  EmpiricalModel out;
+  if (best.factor != factor || best.share < kWholly) out.follows = best.factor;
+  for (const Piece& p : best.pieces) out.settings.push_back(setting_of(p));
+  for (std::size_t k = 0; k < best.basis.of.size(); ++k) {
+    const auto [at, p] = best.basis.of[k];
     const auto i = static_cast<Eigen::Index>(k);
-    settings[at].parameters[std::string(pieces[at].effect->parameters[p].name)] = {value(i), u(i), {}};
+    out.settings[at].parameters[std::string(best.pieces[at].effect->parameters[p].name)] = {
+        best.value(i), best.u(i), {}};
   }
-  return {std::move(settings), e};
+  return out;
 }
 
 }  // namespace abbe::diagnose

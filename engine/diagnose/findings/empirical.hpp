@@ -1,8 +1,9 @@
 // A model of a mismatch that the catalogue does not explain: the pattern in the factor where it lies, as an
 // empirical effect of a machine file (engine/effects/empirical). The pattern is estimated as it was found: a smooth
 // one stays smooth. Its coefficients are the ridge estimate under a common prior size, chosen by its evidence; the effect
-// follows it by least squares, with the uncertainty that the data leave in what they see. Patterns over setup, run or feature are no property of a machine, and patterns over
-// two factors have no such effect: the likeliest other one stands for them.
+// follows what it shows beside the placement of the part by least squares, with the uncertainty that the data leave in
+// what they see. Patterns over setup, run or feature are no property of a machine. Of a pattern over two factors, or one that
+// an effect of its factor follows badly, the effect is that of the factor which makes most of it, at least half.
 #pragma once
 
 #include "engine/diagnose/findings/search.hpp"
@@ -10,9 +11,8 @@
 namespace abbe::diagnose {
 
 struct EmpiricalModel {
-  /// of empirical effects; empty: no pattern that the recording speaks for has one
-  std::vector<EffectSetting> settings;
-  const Explanation* follows = nullptr;  ///< the pattern that they follow
+  std::vector<EffectSetting> settings;  ///< of empirical effects; empty: none follows the pattern
+  std::optional<Factor> follows;        ///< of which the effects are functions, where that is not all of the pattern
 };
 EmpiricalModel empirical_model(const Case&, const SearchResult&);
 

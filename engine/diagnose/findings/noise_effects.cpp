@@ -222,9 +222,19 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
   return f;
 }
 
+/// Scatter in which neighbours are alike goes on from touch to touch: it is something that has not been found.
+void doubt_what_goes_on(double correlation, NoiseFinding& f) {
+  constexpr double kAlike = 0.4;
+  if (correlation < kAlike) return;
+  f.certain = false;
+  f.sentence +=
+      fmt::format(" But neighbouring touches scatter alike (correlated by {:.2f}): that goes on.", correlation);
+}
+
 }  // namespace
 
 std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result) {
+  constexpr int kOfTouches = 2;  // resolution and outliers are told by touches themselves, the others by scatter
   std::vector<std::optional<NoiseFinding>> judged{resolution(c), outliers(c, result)};
   // What an imperfect explanation leaves is no scatter.
   if (!result.other && result.adequacy >= kInadequate) {
@@ -232,6 +242,8 @@ std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result)
     Vector quiet = Vector::Ones(r.standardised.size());
     if (std::optional<Unequal> u = unequal(c, r)) quiet -= u->in, judged.push_back(std::move(u->finding));
     judged.push_back(vibration(c, r, quiet));
+    for (auto f = judged.begin() + kOfTouches; f != judged.end(); ++f)
+      if (*f) doubt_what_goes_on(result.hyper.correlation, **f);
   }
   std::vector<NoiseFinding> out;
   for (std::optional<NoiseFinding>& f : judged)

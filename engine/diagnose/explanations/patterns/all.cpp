@@ -5,12 +5,11 @@ namespace abbe::diagnose {
 
 namespace patterns {
 
-void Family::append(std::string shape, const std::vector<Matrix>& variants, bool of_one_factor, double share) {
+void Family::append(std::string shape, const std::vector<Matrix>& variants, double share) {
   Explanation e;
   e.name = "OTHER " + std::string(name(factor_)) + ", " + shape;
   e.factor = factor_;
   e.shape = std::move(shape);
-  e.of_one_factor = of_one_factor;
   e.share = factor_ == Factor::run ? kPriorChange * share : share;  // patterns over runs are made by a change alone
   for (const Matrix& columns : variants) {
     Block block;

@@ -55,13 +55,13 @@ std::vector<Matrix> sides_of_tips(const TouchFactors& f) {
 void over_direction(const TouchFactors& f, Family& family) {
   const Points normal = as_points(f.normal);
   family.add("smooth", smooth(normal, 0.6, 40));
-  family.add_joint("in time", products(smooth(normal, 0.9, 8), smooth(f.time, 0.2, 8)));
-  family.add_joint("over position", products(smooth(normal, 0.9, 8), linear(f.place)));
-  family.add_joint("of the touch before", after_the_touch_before(f));
+  family.add("in time", products(smooth(normal, 0.9, 8), smooth(f.time, 0.2, 8)));
+  family.add("over position", products(smooth(normal, 0.9, 8), linear(f.place)));
+  family.add("of the touch before", after_the_touch_before(f));
   family.add_any("sides of tips in time", sides_of_tips(f));
   if (f.oblique) {
-    family.add_joint("of travel", smooth(as_points(f.travel), 0.6, 40));
-    family.add_joint("of oblique approaches", skidding(f));
+    family.add("of travel", smooth(as_points(f.travel), 0.6, 40));
+    family.add("of oblique approaches", skidding(f));
   }
   if (several(f.orientation)) {
     family.add("on the probe", smooth(as_points(f.normal_on_probe), 0.6, 40));

@@ -18,21 +18,16 @@ class Family {
  public:
   Family(Factor factor, Explanations& out) : factor_(factor), out_(out) {}
 
-  /// One explanation with these variants, functions of the factor alone: columns of um.
-  void add(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants, true); }
-  void add(std::string shape, const Matrix& columns) { append(std::move(shape), {columns}, true); }
-  /// The same, but functions of something else too, or of what another recording does not share.
-  void add_joint(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants, false); }
-  void add_joint(std::string shape, const Matrix& columns) { append(std::move(shape), {columns}, false); }
+  /// One explanation with these variants: columns of um.
+  void add(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants); }
+  void add(std::string shape, const Matrix& columns) { append(std::move(shape), {columns}); }
   /// Any function of several factors, quick ones too: it stands for more kinds of physics than the others, and is
   /// believed kOfAny times as much.
-  void add_any(std::string shape, const std::vector<Matrix>& variants) {
-    append(std::move(shape), variants, false, kOfAny);
-  }
+  void add_any(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants, kOfAny); }
 
  private:
   static constexpr double kOfAny = 4;
-  void append(std::string shape, const std::vector<Matrix>& variants, bool of_one_factor, double share = 1);
+  void append(std::string shape, const std::vector<Matrix>& variants, double share = 1);
 
   Factor factor_;
   Explanations& out_;

@@ -44,15 +44,15 @@ std::vector<Matrix> lobes_of_the_part(const TouchFactors& f) {
 }  // namespace
 
 void over_feature(const TouchFactors& f, Family& family) {
-  family.add_joint("lobes", lobes_of_the_part(f));
+  family.add("lobes", lobes_of_the_part(f));
   if (!several(f.feature)) return;
   const Matrix in = indicator(f.feature);
   family.add("size", in);
-  family.add_joint("size in time", by_group(trend(f), f.feature));
+  family.add("size in time", by_group(trend(f), f.feature));
   family.add("offset on the part", along(in, f.normal_on_part));
   family.add("form", by_group(smooth(as_points(f.normal), 0.9, 8), f.feature));
   family.add("one spot", one_spot(f));
-  family.add_joint("one of them in time", one_in_time(f));
+  family.add("one of them in time", one_in_time(f));
 }
 
 }  // namespace abbe::diagnose::patterns

@@ -35,9 +35,9 @@ std::vector<Matrix> one_place(const TouchFactors& f) {
 void over_position(const TouchFactors& f, Family& family) {
   family.add("along a guide", along_a_guide(f));
   family.add("one place", one_place(f));
-  family.add_joint("in time", along(products(smooth(f.place, 0.6, 8), trend(f)), f.normal));
+  family.add("in time", along(products(smooth(f.place, 0.6, 8), trend(f)), f.normal));
   if (f.one_round) return;  // what is smooth over the place is smooth over the direction there, and counts once
-  family.add_joint("with direction", rugged_over({{f.place, 0.1}, {as_points(f.normal), 0.9}}, 100));
+  family.add("with direction", rugged_over({{f.place, 0.1}, {as_points(f.normal), 0.9}}, 100));
   family.add("smooth", along(smooth(f.place, 0.6, 14), f.normal));
   family.add("patch", along(smooth(f.place, 0.25, 26), f.normal));
   family.add("height", smooth(f.place, 0.4, 24));

@@ -31,11 +31,11 @@ std::vector<Matrix> of_each_sensor(const TouchFactors& f) {
 void over_speed(const TouchFactors& f, Family& family) {
   if (several(f.speed)) {
     family.add("offset", indicator(f.speed));
-    family.add_joint("over direction", products(smooth(as_points(f.travel), 0.6, 24), faster(f)));
+    family.add("over direction", products(smooth(as_points(f.travel), 0.6, 24), faster(f)));
   }
   if (several(f.dynamics)) {
-    family.add_joint("of each sensor", of_each_sensor(f));
-    family.add_joint("over position", along(products(linear(f.place), indicator(f.dynamics)), f.normal));
+    family.add("of each sensor", of_each_sensor(f));
+    family.add("over position", along(products(linear(f.place), indicator(f.dynamics)), f.normal));
   }
 }
 

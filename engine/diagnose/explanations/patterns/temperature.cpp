@@ -22,12 +22,12 @@ void over_temperature(const TouchFactors& f, Family& family) {
     const Matrix of_feature = warmer.asDiagonal() * indicator(f.feature),
                  of_sensor = warmer.asDiagonal() * indicator(f.sensor);
     family.add("growth", along(f.part_above_20.asDiagonal() * linear(f.place), f.normal));
-    family.add_joint("over position", along(warmer.asDiagonal() * smooth(f.place, 0.6, 8), f.normal));
-    family.add_joint("over direction", warmer.asDiagonal() * smooth(as_points(f.normal), 0.9, 8));
-    family.add_joint("of each feature", side_by_side(of_feature, along(of_feature, f.normal_on_part)));
-    if (several(f.sensor)) family.add_joint("of each sensor", side_by_side(along(of_sensor, f.normal), of_sensor));
+    family.add("over position", along(warmer.asDiagonal() * smooth(f.place, 0.6, 8), f.normal));
+    family.add("over direction", warmer.asDiagonal() * smooth(as_points(f.normal), 0.9, 8));
+    family.add("of each feature", side_by_side(of_feature, along(of_feature, f.normal_on_part)));
+    if (several(f.sensor)) family.add("of each sensor", side_by_side(along(of_sensor, f.normal), of_sensor));
   }
-  if (const std::vector<Matrix> scales = along_a_scale(f); !scales.empty()) family.add_joint("along a scale", scales);
+  if (const std::vector<Matrix> scales = along_a_scale(f); !scales.empty()) family.add("along a scale", scales);
 }
 
 }  // namespace abbe::diagnose::patterns

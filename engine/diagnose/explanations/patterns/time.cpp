@@ -97,13 +97,13 @@ void over_time(const TouchFactors& f, Family& family) {
   family.add("slow", along(smooth(f.time, 0.3, 8), f.normal));
   family.add("quick", along(smooth(f.time, 0.07, 22), f.normal));
   family.add("rugged", along_all_or_one(rugged(f.time, 0.2, 40), f.normal));
-  family.add_joint("stretching", stretching(f));
-  family.add_joint("leaning", leaning(f));
-  family.add_joint("turning to and fro", turning(f));
-  family.add_joint("size along the sequence", sizes_along_the_sequence(f));
+  family.add("stretching", stretching(f));
+  family.add("leaning", leaning(f));
+  family.add("turning to and fro", turning(f));
+  family.add("size along the sequence", sizes_along_the_sequence(f));
   family.add_any("from touch to touch", from_touch_to_touch(f));
   if (!f.one_round) family.add_any("over place and direction", over_place_and_direction(f));
-  if (several(f.orientation)) family.add_joint("on the probe", on_the_probe(f));
+  if (several(f.orientation)) family.add("on the probe", on_the_probe(f));
 }
 
 }  // namespace abbe::diagnose::patterns
