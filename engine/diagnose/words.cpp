@@ -91,9 +91,9 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
 
 std::string two_digits(double value) {
   if (value == 0) return "0";
-  const int first = static_cast<int>(std::floor(std::log10(std::abs(value))));  // place of the first digit
-  const double step = std::pow(10, first - 1);
-  return fmt::format("{:.{}f}", step * std::round(value / step), std::max(0, 1 - first));
+  const auto place = [](double of) { return static_cast<int>(std::floor(std::log10(std::abs(of)))); };
+  const double step = std::pow(10, place(value) - 1), rounded = step * std::round(value / step);
+  return fmt::format("{:.{}f}", rounded, std::max(0, 1 - place(rounded)));
 }
 
 std::string sizes_in_words(const std::vector<DiagnosedParameter>& parameters, std::optional<double> largest_um) {

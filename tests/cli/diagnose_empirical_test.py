@@ -97,9 +97,9 @@ class Empirical(harness.Case):
         jumps = (0, 5, -4, 6, -5, 3, -6)
         recording = self.plate_that(lambda at: (0, 0, jumps[int(at["time_s"] // 40) % len(jumps)]), directions=UPPER)
         self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
-        [effect] = json.loads((self.folder / "improved.json").read_text())["effects"]
-        self.assertEqual(effect["name"], "empirical.curve")
-        self.assertLess(max(abs(effect["parameters"][f"z{k}_um"]["value"]) for k in range(16)), 13)
+        effects = json.loads((self.folder / "improved.json").read_text())["effects"]
+        [knots] = [e["parameters"] for e in effects if e["name"] == "empirical.curve"]  # a touch at a jump may be dirt beside it
+        self.assertLess(max(abs(knots[f"z{k}_um"]["value"]) for k in range(16)), 13)
 
     def test_what_comes_and_goes_is_no_dirt(self):
         """The touches from above are off by as much, with touches of other sides in between."""

@@ -73,10 +73,10 @@ struct Explanation {
   std::string name;                ///< of the effect, or "OTHER time"
   const Effect* effect = nullptr;  ///< none: OTHER
   Factor factor = Factor::position;
-  std::string shape;           ///< of OTHER: "smooth", "quick", ...
-  double share = 1;            ///< of the belief in all effects, or in all patterns: so many times that of most
-  double prior = 0;            ///< probability among all explanations
-  unsigned missing = 0;        ///< covariates that are absent or constant: it cannot be judged
+  std::string shape;     ///< of OTHER: "smooth", "quick", ...
+  double share = 1;      ///< of the belief in all effects, or in all patterns: so many times that of most
+  double prior = 0;      ///< probability among all explanations
+  unsigned missing = 0;  ///< covariates that are absent or constant: it cannot be judged
   std::vector<int> blocks;
 };
 
