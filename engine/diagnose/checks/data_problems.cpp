@@ -61,25 +61,24 @@ double reach_of(const Recording& r, const Machine& machine) {
 /// One coordinate of the recorded positions in another unit, and the others as they should be.
 void check_unit_of_each(const Recording& r, const std::string& file) {
   constexpr double kLeast_mm = 1, kAsMeant = 0.1;
-  std::array<std::optional<ForeignUnit>, 3> foreign;
+  const auto along = [](int axis, const Vec3& v) {
+    Vec3 out;
+    out[axis] = v[axis];
+    return out;
+  };
+  std::optional<std::pair<char, ForeignUnit>> foreign;
   int as_meant = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const auto along = [axis](const Vec3& v) {
-      Vec3 out;
-      out[axis] = v[axis];
-      return out;
-    };
-    const double recorded = size_of(r, [&](const RecordingRow&row) { return along(row.position_mm); }),
-                 meant = size_of(r, [&](const RecordingRow&row) { return along(*row.target_mm); });
+    const double recorded = size_of(r, [&](const RecordingRow& row) { return along(axis, row.position_mm); });
+    const double meant = size_of(r, [&](const RecordingRow& row) { return along(axis, *row.target_mm); });
+    const std::optional<ForeignUnit> unit = foreign_unit(recorded, meant);
     if (std::abs(recorded - meant) <= kAsMeant * meant) ++as_meant;
-    if (meant > kLeast_mm) foreign[static_cast<std::size_t>(axis)] = foreign_unit(recorded, meant);
+    if (unit && meant > kLeast_mm) foreign.emplace("xyz"[axis], *unit);
   }
-  for (int axis = 0; axis < 3; ++axis)
-    if (const auto& unit = foreign[static_cast<std::size_t>(axis)]; unit && as_meant == 2)
-      refuse(
-          file,
-          fmt::format("{} of the recorded positions is in {}, the targets in millimetres", "xyz"[axis], unit -> name),
-          fmt::format("multiply {} by {:g}", "xyz"[axis], unit -> mm));
+  if (!foreign || as_meant < 2) return;
+  const auto& [axis, unit] = *foreign;
+  refuse(file, fmt::format("{} of the recorded positions is in {}, the targets in millimetres", axis, unit.name),
+         fmt::format("multiply {} by {:g}", axis, unit.mm));
 }
 
 /// Positions and targets in different units, or both in one that this machine makes impossible.

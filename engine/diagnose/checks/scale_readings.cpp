@@ -63,23 +63,25 @@ void check_each_axis(const std::vector<Travel>& travels, const std::string& file
   constexpr double kApart_mm = 1, kAsWritten = 0.01;
   constexpr std::size_t kEnough = 3;
   for (int axis = 0; axis < 3; ++axis) {
+    const char name = "xyz"[axis];
     std::vector<double> ratios;
     for (const Travel& t : travels)
       if (std::abs(t.tip[axis]) > kApart_mm) ratios.push_back(t.scales[axis] / t.tip[axis]);
     if (ratios.size() < kEnough) continue;
     const double ratio = median(std::move(ratios));
     if (std::abs(ratio + 1) < kAsWritten)
-      refuse(file, fmt::format("the sign of enc_{} is turned round: the tip travels the other way", "xyz"[axis]),
+      refuse(file, fmt::format("the sign of enc_{} is turned round: the tip travels the other way", name),
              "correct the sign in the recording");
-    if (const auto unit = foreign_unit(ratio, 1))
-      refuse(file, fmt::format("enc_{} is in {}, the recorded positions in millimetres", "xyz"[axis], unit -> name),
-             fmt::format("multiply enc_{} by {:g}", "xyz"[axis], unit -> mm));
+    const std::optional<ForeignUnit> unit = foreign_unit(ratio, 1);
+    if (!unit) continue;
+    refuse(file, fmt::format("enc_{} is in {}, the recorded positions in millimetres", name, unit->name),
+           fmt::format("multiply enc_{} by {:g}", name, unit->mm));
   }
 }
 
 void check_order(const std::vector<Travel>& travels, const std::string& file) {
-  constexpr double kOther = 0.1,
-                   kRight = 0.01;  // in travels: what other axes leave at least, and the right ones at most
+  // In travels: what other axes leave at least, and the right ones at most.
+  constexpr double kOther = 0.1, kRight = 0.01;
   if (left_by(travels, [](const Vec3& v) { return v; }) < kOther) return;
   for (const auto& o : kOrders)
     if (left_by(travels, [&](const Vec3& v) { return in_order(v, o); }) < kRight)
