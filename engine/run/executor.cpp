@@ -97,7 +97,7 @@ std::size_t Executor::lane_bytes() const {
 
 Block Executor::make_block(const VirtualMachines& machines, int first, int count) const {
   Lane start;
-  start.X_WD = {Mat3{}, options_.placement_mm};
+  start.X_WD = machine_frame();
   start.twin = count;
   start.temperature_compensation = part_.given() && part_.workpiece().compensated;
   start.features.resize(slots_.count);

@@ -73,6 +73,8 @@ class Executor {
   };
   /// Makes the fits of the reference known, so that not every block has to make them again. Changes no result.
   void know(std::vector<KnownFit> fits);
+  /// The coordinate system of the machine, as programs see it: X_WM.
+  Rigid machine_frame() const { return {Mat3{}, options_.placement_mm}; }
   /// The part's own coordinates (part_frame.hpp), which the effects see: before any block with machines runs.
   void place_part(const Rigid& X_WP) { X_PW_ = inverse(X_WP); }
   /// Which features are curved, for the effects: before any block with machines runs. What the reference does not touch

@@ -69,15 +69,20 @@ std::array<long, 12> rounded(const Rigid& X) {
 
 }  // namespace
 
-void FrameCount::add(const Rigid& X_WD) {
+void FrameCount::add(const Rigid& X_WD, const Vec3& surface_W) {
+  sum_ += surface_W;
   const int order = static_cast<int>(used_.size());
   ++used_.try_emplace(rounded(X_WD), Used{X_WD, 0, order}).first->second.touches;
 }
 
-Rigid FrameCount::most_used() const {
-  Used best;
-  for (const auto& [key, used] : used_)
+Rigid FrameCount::of_part(const Rigid& X_WM) const {
+  Used best{X_WM};
+  int touches = 0;
+  for (const auto& [key, used] : used_) {
+    touches += used.touches;
     if (used.touches > best.touches || (used.touches == best.touches && used.order < best.order)) best = used;
+  }
+  if (touches > 0 && rounded(best.X_WD) == rounded(X_WM)) best.X_WD.p = sum_ / static_cast<double>(touches);
   return best.X_WD;
 }
 

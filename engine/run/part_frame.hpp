@@ -1,7 +1,8 @@
 // The part's own coordinates, in which what the part does is given: where it grows, bows, or is out of form.
 //
 // In a program, the coordinate system in which most touches are made, of equally many the first. One for all
-// touches: the part does not move when the program changes its coordinate system.
+// touches: the part does not move when the program changes its coordinate system. Where that is the machine's
+// own, its origin says nothing of the part: then it is that system with the middle of all touches as origin.
 //
 // In a recording those of its program; without a program those of the file where it is in part coordinates.
 // Else those of the machine in the first setup, with the centre of its targets as origin. Other setups are
@@ -20,13 +21,13 @@
 
 namespace abbe {
 
-/// Counts the touches in each coordinate system of a program.
+/// Counts the touches in each coordinate system of a program. W: any frame, the same for all that it is given.
 class FrameCount {
  public:
-  /// A touch under the coordinate system X_WD.
-  void add(const Rigid& X_WD);
-  /// X_WP; the machine's system where nothing is touched.
-  Rigid most_used() const;
+  /// A touch of that surface point under the coordinate system X_WD.
+  void add(const Rigid& X_WD, const Vec3& surface_W);
+  /// X_WP, where X_WM is the machine's coordinate system.
+  Rigid of_part(const Rigid& X_WM) const;
 
  private:
   struct Used {
@@ -35,6 +36,7 @@ class FrameCount {
   };
   /// by its numbers, rounded to 1 um and 1 urad: a system that is made again is the same
   std::map<std::array<long, 12>, Used> used_;
+  Vec3 sum_;  ///< of the surface points
 };
 
 /// Where a touch was aimed, in the machine's coordinates.

@@ -394,8 +394,12 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     partner[{upper(nominal.recording.rows[k].feature), nominal.recording.rows[k].touch}] = k;
   for (const auto& line : nominal.recording.metadata) recording.metadata.push_back(line);
   FrameCount frames;
-  for (const TouchAim& aim : nominal.aims) frames.add(aim.X_MD);
-  const Rigid X_PM = inverse(frames.most_used());
+  const auto surface_of = [&](std::size_t k) -> Vec3 {
+    const RecordingRow& row = nominal.recording.rows[k];
+    return *row.target_mm - nominal.aims[k].radius_mm * *row.normal;
+  };
+  for (std::size_t k = 0; k < nominal.aims.size(); ++k) frames.add(nominal.aims[k].X_MD, surface_of(k));
+  const Rigid X_PM = inverse(frames.of_part(Rigid{}));
   std::vector<std::string> lost;
   std::size_t paired = 0;
   for (RecordingRow& row : recording.rows) {
@@ -410,7 +414,7 @@ void complete_from_program(Recording& recording, const MachineRecord& nominal, c
     const TouchAim& aim = nominal.aims[found->second];
     row.feature = from.feature;  // labels are the same whatever their case
     if (recording.in_part_frame) carry(aim.X_MD, row);
-    const Vec3 surface = *from.target_mm - aim.radius_mm * *from.normal;
+    const Vec3 surface = surface_of(found->second);
     row.on_part_mm = X_PM * surface;
     row.normal_on_part = X_PM.R * *from.normal;
     if (recording.point == RecordedPoint::surface) from.target_mm = surface;

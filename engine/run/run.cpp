@@ -153,7 +153,7 @@ ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Mac
   check_travel(observed.stops, plan, machine, source);
   std::vector<Diagnostic> warnings = program_warnings(observed, plan, machine, source);
   executor.know(std::move(observed.fits));
-  executor.place_part(observed.frames.most_used());
+  executor.place_part(observed.frames.of_part(executor.machine_frame()));
   executor.find_curved(observed.curved);
   return {std::move(lane), std::move(observed.outputs), std::move(warnings)};
 }

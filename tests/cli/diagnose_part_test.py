@@ -104,6 +104,17 @@ class CalibratedPart(harness.Case):
         self.assertGreater(bow["value"], 10 * bow["u"])
         self.assertLess(abs(twist["value"]), 3 * twist["u"])
 
+    def test_a_program_in_machine_coordinates_has_its_part_in_the_middle_of_its_touches(self):
+        """The machine's zero says nothing of the part: a clamp bows it about the same point with and without the program."""
+        lengths = harness.ROOT / "examples/iso10360/e0.dmi"
+        self.abbe("record", lengths, "--machine", "coord3-mc16", "--with", "part.clamping:bow_um=30", "-o", "rec.csv")
+        for program in ([], ["--program", lengths]):
+            said = json.loads(self.abbe("diagnose", "rec.csv", *program, "--machine", "coord3-mc16", "--format", "json").stdout)
+            self.assertEqual(said["effects"][0]["members"], ["part.clamping"])
+            bow = said["effects"][0]["parameters"]["bow_um"]
+            self.assertLess(abs(bow["value"] - 30), 3 * bow["u"])
+            self.assertGreater(bow["value"], 10 * bow["u"])
+
     def test_mistakes_in_the_workpiece_file(self):
         recording = self.record()
         wrong = self.write("wrong.json", workpiece({"BAL": {"offset_um": 1}}))
