@@ -10,6 +10,7 @@
 // means that the surface seems too far out.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -144,6 +145,11 @@ struct EffectParameter {
 /// The names of the codes 0, 1, 2 of every parameter `axis`.
 inline constexpr std::string_view kAxisChoices[] = {"x", "y", "z"};
 
+/// Two linear parameters, by their places in the list, that are the same component at neighbouring knots.
+struct Neighbours {
+  std::size_t one = 0, next = 0;
+};
+
 /// How often an effect draws its random numbers (standard normal, see lanes/random.hpp).
 enum class DrawsPer { none, machine, visit, touch };
 
@@ -158,6 +164,7 @@ struct Effect {
   Stage stage{};
   unsigned needs = 0;  ///< Covariates
   std::span<const EffectParameter> parameters;
+  std::span<const Neighbours> neighbours = {};  ///< of a course that is given by its values at knots
   DrawsPer draws_per = DrawsPer::none;
   int draws = 0;                 ///< how many numbers each time
   bool linear_in_draws = false;  ///< for given parameters; no displacement when all draws are zero

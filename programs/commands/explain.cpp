@@ -76,9 +76,31 @@ std::string range_of(const EffectParameter& p) {
   return fmt::format("{} if left out; one of {}", p.choices[left_out], fmt::join(p.choices, ", "));
 }
 
+bool described_alike(const EffectParameter& a, const EffectParameter& b) {
+  return a.unit == b.unit && a.help == b.help && range_of(a) == range_of(b);
+}
+
+/// A line for each parameter; what is described alike, as the knots of a curve, shares one.
+std::string lines_of(std::span<const EffectParameter> parameters) {
+  constexpr std::size_t kShown = 30;
+  std::string out;
+  for (std::size_t k = 0, next = 0; k < parameters.size(); k = next) {
+    std::vector<std::string_view> names;
+    for (; next < parameters.size() && described_alike(parameters[k], parameters[next]); ++next)
+      names.push_back(parameters[next].name);
+    const std::size_t last = names.size() - 1;
+    if (names.size() > kShown)
+      names.erase(names.begin() + 5, names.begin() + static_cast<std::ptrdiff_t>(last)),
+          names.insert(names.end() - 1, "...");
+    out += fmt::format("  {} [{}]  {}; {}\n", fmt::join(names, ", "), parameters[k].unit, parameters[k].help,
+                       range_of(parameters[k]));
+  }
+  return out;
+}
+
 /// `record --with EFFECT` gives the first parameter its typical size (record.cpp).
 std::string alone(const Effect& effect) {
-  if (effect.parameters.empty()) return "";
+  if (effect.parameters.empty() || effect.parameters.front().typical == 0) return "";
   const EffectParameter& first = effect.parameters.front();
   return fmt::format("  `abbe record --with {}` alone: {}={:g}\n", effect.name, first.name, first.typical);
 }
@@ -86,10 +108,8 @@ std::string alone(const Effect& effect) {
 std::optional<std::string> explain_effect(const std::string& name) {
   const Effect* effect = find_effect(name);
   if (!effect) return std::nullopt;
-  std::string out = fmt::format("{}: {}\n  {}\n", effect->name, effect->title, effect->help);
-  for (const EffectParameter& p : effect->parameters)
-    out += fmt::format("  {} [{}]  {}; {}\n", p.name, p.unit, p.help, range_of(p));
-  return out + alone(*effect) + fmt::format("  told apart by: {}\n  source: {}\n", effect->separate, effect->source);
+  return fmt::format("{}: {}\n  {}\n", effect->name, effect->title, effect->help) + lines_of(effect->parameters) +
+      alone(*effect) + fmt::format("  told apart by: {}\n  source: {}\n", effect->separate, effect->source);
 }
 
 std::string overview() {

@@ -42,6 +42,7 @@ class Usage(harness.Case):
         for statement in ("TOL/POS", "TOL/PERP"):
             self.assertIn(statement, told)
         self.assertIn("FEAT/CIRCLE", self.abbe("explain", "INNER").stdout)
+        self.assertIn("x0_um, y0_um, z0_um, r0_um, x1_um, ..., r15_um [um]", self.abbe("explain", "empirical.curve").stdout)
         for no_word in ("F", "LABEL", "INNE", ",", ""):
             self.refused("E0609", "explain", no_word)
 

@@ -155,7 +155,7 @@ Matrix between_neighbours(const Pieces& pieces, const Basis& basis) {
   for (std::size_t k = 0; k < basis.of.size(); ++k) column[basis.of[k]] = static_cast<Eigen::Index>(k);
   Matrix out = kUnknown * Matrix::Identity(basis.columns.cols(), basis.columns.cols());
   for (std::size_t p = 0; p < pieces.size(); ++p)
-    for (const auto& [one, next] : neighbouring_knots(*pieces[p].effect)) {
+    for (const auto& [one, next] : pieces[p].effect->neighbours) {
       const auto a = column.find({p, one}), b = column.find({p, next});
       if (a == column.end() || b == column.end()) continue;
       const Eigen::Index i = a->second, j = b->second;

@@ -9,10 +9,4 @@ std::span<const Effect* const> empirical_effects() {
   return list;
 }
 
-std::vector<Neighbours> neighbouring_knots(const Effect& effect) {
-  if (&effect == &kEmpiricalCurve) return neighbouring_curve_knots();
-  if (&effect == &kEmpiricalMap) return neighbouring_map_nodes();
-  return {};
-}
-
 }  // namespace abbe

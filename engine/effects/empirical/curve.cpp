@@ -6,6 +6,7 @@
 // w_k: linear interpolation between kCurveKnots evenly spaced knots, constant beyond the ends. Linear in all
 // knots. A step, a trend or a slow cycle of up to seven periods is drawn well enough by it.
 #include <algorithm>
+#include <array>
 
 #include "engine/effects/empirical/empirical.hpp"
 #include "engine/effects/terms.hpp"
@@ -76,14 +77,13 @@ Vec3 empirical_curve(const TouchScene& scene, const double* theta, const double*
       along_normal(scene, kUm * ((1 - w) * a[3] + w * b[3]));
 }
 
-}  // namespace
+constexpr auto kNeighbouringKnots = [] {
+  std::array<Neighbours, kOfKnot*(kCurveKnots - 1)> list{};
+  for (std::size_t k = 0; k < list.size(); ++k) list[k] = {kFirstKnot + k, kFirstKnot + k + kOfKnot};
+  return list;
+}();
 
-std::vector<Neighbours> neighbouring_curve_knots() {
-  std::vector<Neighbours> out;
-  for (std::size_t k = kFirstKnot; k + kOfKnot < kEmpiricalCurveParameters.size(); ++k)
-    out.emplace_back(k, k + kOfKnot);
-  return out;
-}
+}  // namespace
 
 constinit const Effect kEmpiricalCurve{
     .name = "empirical.curve",
@@ -96,6 +96,7 @@ constinit const Effect kEmpiricalCurve{
     .stage = Stage::structure,
     .needs = 0,
     .parameters = kEmpiricalCurveParameters,
+    .neighbours = kNeighbouringKnots,
     .displace = empirical_curve,
 };
 

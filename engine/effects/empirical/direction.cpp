@@ -4,6 +4,8 @@
 //
 // On the sphere the monomials of degree 4 span the even harmonics up to degree 4, those of degree 3 the odd
 // ones up to 3.
+#include <array>
+
 #include "engine/effects/empirical/empirical.hpp"
 #include "engine/effects/terms.hpp"
 

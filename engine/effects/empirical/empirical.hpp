@@ -4,11 +4,6 @@
 // is.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 #include "engine/effects/effect.hpp"
 
 namespace abbe {
@@ -18,13 +13,6 @@ inline constexpr int kMapNodes = 6;         ///< of empirical.map, along each of
 inline constexpr int kDirectionTerms = 25;  ///< of empirical.direction: all harmonics up to degree 4
 
 extern const Effect kEmpiricalCurve, kEmpiricalDirection, kEmpiricalMap, kEmpiricalOffset;
-
-/// Two parameters that are the same component of neighbouring knots.
-using Neighbours = std::pair<std::size_t, std::size_t>;
-/// All of them, by index of the parameters; none of effects without knots.
-std::vector<Neighbours> neighbouring_knots(const Effect&);
-std::vector<Neighbours> neighbouring_curve_knots();
-std::vector<Neighbours> neighbouring_map_nodes();
 
 /// What empirical.curve runs along, in the order of the codes of its parameter `along`.
 enum class CurveCoordinate { time, x, y, z, part_temperature, speed };

@@ -5,6 +5,7 @@
 // s, t: the two coordinates of the plane from 0 to 1 between `from` and `to`; w: linear interpolation between kMapNodes
 // evenly spaced nodes on each, constant beyond the ends. Linear in all nodes.
 #include <algorithm>
+#include <array>
 
 #include "engine/effects/empirical/empirical.hpp"
 #include "engine/effects/terms.hpp"
@@ -86,21 +87,22 @@ Vec3 empirical_map(const TouchScene& scene, const double* theta, const double*) 
   return kUm * d + along_normal(scene, kUm * r);
 }
 
-}  // namespace
-
-std::vector<Neighbours> neighbouring_map_nodes() {
-  const auto at = [](int i, int j, int of_node) {
+constexpr auto kNeighbouringNodes = [] {
+  constexpr auto at = [](int i, int j, int of_node) {
     return static_cast<std::size_t>(kFirstNode + kOfNode * (i * kMapNodes + j) + of_node);
   };
-  std::vector<Neighbours> out;
+  std::array<Neighbours, 2 * kOfNode * kMapNodes*(kMapNodes - 1)> list{};
+  Neighbours* next = list.data();
   for (int i = 0; i < kMapNodes; ++i)
-    for (int j = 0; j < kMapNodes; ++j)
+    for (int j = 0; j + 1 < kMapNodes; ++j)
       for (int k = 0; k < kOfNode; ++k) {
-        if (i + 1 < kMapNodes) out.emplace_back(at(i, j, k), at(i + 1, j, k));
-        if (j + 1 < kMapNodes) out.emplace_back(at(i, j, k), at(i, j + 1, k));
+        *next++ = {at(i, j, k), at(i, j + 1, k)};
+        *next++ = {at(j, i, k), at(j + 1, i, k)};
       }
-  return out;
-}
+  return list;
+}();
+
+}  // namespace
 
 constinit const Effect kEmpiricalMap{
     .name = "empirical.map",
@@ -113,6 +115,7 @@ constinit const Effect kEmpiricalMap{
     .stage = Stage::structure,
     .needs = 0,
     .parameters = kEmpiricalMapParameters,
+    .neighbours = kNeighbouringNodes,
     .displace = empirical_map,
 };
 
