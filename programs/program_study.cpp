@@ -7,6 +7,7 @@
 
 #include "engine/run/check_plan.hpp"
 #include "engine/run/placement.hpp"
+#include "programs/recorded_points.hpp"
 #include "programs/thread_count.hpp"
 
 namespace abbe {
@@ -48,11 +49,36 @@ std::vector<std::string> files_of(const std::optional<Workpiece>& workpiece) {
   return {workpiece->source.name(), workpiece->log_file};
 }
 
+namespace {
+
+/// What `read` gives; errors without a place are those of the directive that named the file.
+template <class Read>
+auto read_named(const SourceFile& program, Span directive, Read read) {
+  try {
+    return read();
+  } catch (const UserError& error) {
+    throw UserError(placed(error, program, directive));
+  }
+}
+
+}  // namespace
+
+std::vector<Diagnostic> placed(const UserError& error, const SourceFile& program, Span directive) {
+  std::vector<Diagnostic> out;
+  for (const Diagnostic& d : error.diagnostics())
+    out.push_back(d.span ? d : diagnostic_at(program, directive, d.code, d.message, d.help));
+  return out;
+}
+
 StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& settings) {
   StudyInputs in;
+  const lang::Directives& asked = program.compilation.directives;
   in.machine_name = machine_name(program, settings.machine);
-  in.machine = read_machine(in.machine_name);
-  in.workpiece = workpiece_of(program, settings.workpiece);
+  const auto machine = [&] { return read_machine(in.machine_name); };
+  const auto workpiece = [&] { return workpiece_of(program, settings.workpiece); };
+  in.machine = asked.machine && !settings.machine ? read_named(program.source, asked.machine_span, machine) : machine();
+  in.workpiece = asked.workpiece && !settings.workpiece ? read_named(program.source, asked.workpiece_span, workpiece)
+                                                        : workpiece();
   in.files = files_compiled(program);
   in.files.push_back(in.machine_name);
   for (const std::string& file : files_of(in.workpiece)) in.files.push_back(file);
@@ -134,6 +160,9 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
   options.threads = thread_count(settings.threads);
 
   std::vector<Diagnostic> messages = program.messages;
+  if (in.recording)
+    for (Diagnostic& warning : check_recorded_points(*in.recording, program, in.machine, *settings.recording))
+      messages.push_back(std::move(warning));
   for (Diagnostic& warning : machine_warnings(in.machine)) messages.push_back(std::move(warning));
   messages.insert(messages.end(), in.messages.begin(), in.messages.end());
   if (asked.place_mm) {

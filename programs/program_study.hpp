@@ -72,6 +72,8 @@ struct StudyInputs {
   /// that were read, the program and its modules among them: no output may take their place
   std::vector<std::string> files;
 };
+/// Errors of a file that a directive of the program names: where they stand in that file, else at the directive.
+std::vector<Diagnostic> placed(const UserError&, const SourceFile& program, Span directive);
 /// Reads each of them once. Throws UserError as read_machine, read_workpiece and read_recording do.
 StudyInputs read_inputs(const CompiledProgram&, const StudySettings&);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
@@ -110,6 +111,8 @@ bool stays_in_its_setup(const Case& c) {
   });
 }
 
+constexpr const char* kOfThisPart = " It is of this part: a machine file with it holds for no other part.";
+
 /// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides
 /// whether that is plausible, and says what is to be said.
 std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters,
@@ -125,7 +128,7 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
   for (DiagnosedParameter& p : parameters) p.plausible = true;
   if (before) out.superseded.push_back(before->index);
   if (!gone) out.model_effects.push_back(std::move(setting));
-  if (!before) return "";
+  if (!before) return effect.stage == Stage::part ? kOfThisPart : "";
   return gone           ? " The machine file has the opposite: it is not there any more."
       : before->instead ? " It takes the place of what the machine file has of it."
                         : " That is beside what the machine file has of it.";
@@ -427,6 +430,21 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
 std::string_view name(Verdict v) {
   constexpr std::string_view names[] = {"no_mismatch", "named", "one_of", "unexplained", "cannot_judge"};
   return names[static_cast<int>(v)];
+}
+
+std::vector<Diagnostic> recording_problems(const Recording& recorded, const Machine& machine, const std::string& file) {
+  std::vector<Diagnostic> messages, of_placement;
+  const Recording once = without_copies(recorded, file, messages);
+  check_data(once, machine, file);
+  constexpr double kNoSize_mm = 0.5;  // all over: no part deviates so evenly from its drawing
+  const bool stated = stated_surfaces(once, file).has_value();
+  const Recording placed =
+      put_on_targets(once, stated ? std::numeric_limits<double>::infinity() : kNoSize_mm, file, of_placement);
+  const RecordedTouches touches = recorded_touches(placed, machine, file);
+  messages.insert(messages.end(), touches.messages.begin(), touches.messages.end());
+  check_pairing(placed, touches, file, messages);
+  if (!stated) check_tips(touches, file);
+  return messages;
 }
 
 Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,

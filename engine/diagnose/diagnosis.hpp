@@ -178,6 +178,9 @@ struct JudgedValue {
 /// Geometric errors of so many times those of the specification are told: such a machine may still pass an acceptance
 /// test, but nobody should take it for one of its specification.
 inline constexpr double kLargeErrors = 2;
+/// From so many times on it is one that nobody should pass. Of 400 recordings without a mismatch, half of them of machines
+/// with errors up to twice their specification's size, rougher or noisier, none asked for more than 3.5.
+inline constexpr double kOutOfSpecification = 4;
 
 /// Adequacy below which the names are doubted.
 inline constexpr double kInadequate = 0.05;
@@ -214,6 +217,12 @@ struct Diagnosis {
   std::string known_state;
 };
 
+/// Whether something is wrong, with a name or without: a mismatch, or a machine that is not the one it is taken for.
+inline bool is_mismatch(const Diagnosis& d) {
+  const bool large = !d.baseline.known && d.baseline.geometry_scale >= kOutOfSpecification;
+  return d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known || large);
+}
+
 struct DiagnoseOptions {
   std::uint64_t seed = 1;
   int threads = 1;
@@ -227,5 +236,9 @@ struct DiagnoseOptions {
 /// Judges a recording (several files joined) on a machine; `file` names it in messages. Throws UserError:
 /// data that cannot be used.
 Diagnosis diagnose_recording(const Recording&, const Machine&, const DiagnoseOptions&, const std::string& file);
+
+/// What is wrong with a recording before anything is judged: another unit, swapped axes, touches paired with other targets,
+/// a tip's radius too much. Throws UserError; returns what it warns of. Wherever the part stood, and whatever its sizes where it says so (`# surfaces`).
+std::vector<Diagnostic> recording_problems(const Recording&, const Machine&, const std::string& file);
 
 }  // namespace abbe

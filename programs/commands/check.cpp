@@ -14,11 +14,8 @@
 namespace abbe {
 namespace {
 
-/// Errors of a file that a directive names, or that it cannot be read: where they stand in that file, else at
-/// the directive.
 void add_at(const UserError& error, const SourceFile& source, Span directive, Sink& sink) {
-  for (const Diagnostic& d : error.diagnostics())
-    sink.add(d.span ? d : diagnostic_at(source, directive, d.code, d.message, d.help));
+  for (const Diagnostic& d : placed(error, source, directive)) sink.add(d);
 }
 
 /// What an error-free machine cannot do, whatever the machine is: travels and sensors are those of the

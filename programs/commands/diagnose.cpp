@@ -8,28 +8,18 @@
 
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
-#include "engine/run/placement.hpp"
 #include "engine/run/recorded_part.hpp"
 #include "engine/run/recorded_sensor.hpp"
 #include "engine/run/recorded_touch.hpp"
 #include "programs/commands/recorded_values.hpp"
 #include "programs/commands/usable_program.hpp"
+#include "programs/recorded_points.hpp"
 #include "programs/terminal.hpp"
 #include "programs/thread_count.hpp"
 
 namespace abbe {
 
 namespace {
-
-/// What an error-free machine would record of the program: targets, normals, sensors.
-MachineRecord nominal_record(const CompiledProgram& program, const Machine& machine) {
-  RunOptions run;
-  run.contributors = Contributors::none();
-  const plan::Plan& plan = program.compilation.plan;
-  run.placement_mm = program.compilation.directives.place_mm ? *program.compilation.directives.place_mm
-                                                             : find_placement(plan, machine, program.source).shift_mm;
-  return record_plan(plan, machine, screened_machines(machine, 1, 1, 1), run, program.source);
-}
 
 /// First and last time of a recording, if any.
 std::optional<std::pair<double, double>> time_span(const Recording& r) {
@@ -81,6 +71,21 @@ void continue_runs(const Recording& before, Recording& next, const std::string& 
       "give every repeat its own number in the column 'run'")});
 }
 
+/// Between two files the styli may have been qualified anew, unless both say by the column `qualification` that they were
+/// not.
+void doubt_qualifications(Recording& before, Recording& next) {
+  const auto unsaid = [](const RecordingRow& row) { return !row.qualification; };
+  const bool said = std::none_of(before.rows.begin(), before.rows.end(), unsaid) &&
+      std::none_of(next.rows.begin(), next.rows.end(), unsaid);
+  if (said) return;
+  int last = 0;
+  for (RecordingRow& row : before.rows) {
+    if (unsaid(row)) row.qualification = 1;
+    last = std::max(last, *row.qualification);
+  }
+  for (RecordingRow& row : next.rows) row.qualification = last + row.qualification.value_or(1);
+}
+
 /// A file given twice is no repeat: nothing was measured again.
 void refuse_copy(const Recording& before, const std::string& name, const Recording& next, const std::string& copy) {
   const auto same = [](const RecordingRow& a, const RecordingRow& b) {
@@ -128,6 +133,7 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions) {
     doubt_machine(all, files[0].name(), one, name);
     continue_clock(all, one, name);
     continue_runs(all, one, name);
+    doubt_qualifications(all, one);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     // new styli; of what is said twice the first counts
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());
@@ -215,9 +221,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   if (options.report)
     write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));
   print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d));
-  return options.fail_on_mismatch && d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known)
-      ? kNo
-      : kDone;
+  return options.fail_on_mismatch && is_mismatch(d) ? kNo : kDone;
 }
 
 }  // namespace abbe

@@ -1,5 +1,6 @@
 """abbe run --recording: errors added to recorded points instead of to nominal ones."""
 import json
+import re
 
 import harness
 
@@ -28,7 +29,39 @@ class RecordedPoints(harness.Case):
         self.abbe("record", PROGRAM, "-o", "rec.csv")
         lines = (self.folder / "rec.csv").read_text().splitlines()
         self.write("short.csv", "\n".join(lines[:-1]) + "\n")
-        self.assertIn("no touch 25 of 'BALL'", self.refused("E0304", "run", PROGRAM, "--recording", "short.csv"))
+        self.assertIn("short.csv: the program makes touch 25 of 'BALL'", self.refused("E0560", "run", PROGRAM, "--recording", "short.csv"))
+
+    def test_what_a_diagnosis_refuses_is_refused_here(self):
+        """Another unit, another tip, other touches: whatever the recording says its targets were, those of the program count."""
+        self.abbe("record", PROGRAM, "-o", "rec.csv")
+        head, *rows = [line for line in (self.folder / "rec.csv").read_text().splitlines() if not line.startswith("#")]
+        said = [line for line in (self.folder / "rec.csv").read_text().splitlines() if line.startswith("#")]
+        columns = head.split(",")
+
+        def altered(name, value):
+            fields = [row.split(",") for row in rows]
+            for row in fields:
+                row[columns.index(name)] = value(row[columns.index(name)])
+            return [",".join(row) for row in fields]
+
+        def recording(rows, said=said):
+            return self.write("other.csv", "\n".join([*said, head, *rows]) + "\n")
+
+        def refused(code, rows, said=said):
+            return self.refused(code, "run", PROGRAM, "--machines", 20, "--recording", recording(rows, said))
+
+        inches = [",".join(str(float(v) / 25.4) if c in "xyz" else v for c, v in zip(columns, row.split(","))) for row in rows]
+        self.assertIn("inches", refused("E0701", inches))
+        self.assertIn("every touch is 2.000 mm too far out", refused("E0701", rows, [line.replace("tip_centre", "surface") for line in said]))
+        self.assertIn("keep the rows of one", refused("E0559", rows + altered("run", lambda _: "2")))
+        self.assertIn("'CUBE' touch 1", refused("E0544", rows + [row.replace("BALL,", "CUBE,") for row in rows[:1]]))
+        self.assertIn("was made with a ball of 7 mm", refused("E0545", rows, [re.sub(r"diameter_mm \S+", "diameter_mm 7", line) for line in said]))
+        twice = rows[0].split(",")
+        twice[columns.index("x")] = str(float(twice[columns.index("x")]) + 0.1)
+        refused("E0713", [*rows, ",".join(twice)])
+        # A part that is put down elsewhere is measured there.
+        moved = [",".join(str(float(v) + 3) if c == "x" else v for c, v in zip(columns, row.split(","))) for row in rows]
+        self.abbe("run", PROGRAM, "--machines", 20, "--recording", recording(moved))
 
     def test_points_in_part_coordinates_are_no_points_of_the_machine(self):
         self.abbe("record", PROGRAM, "-o", "rec.csv")

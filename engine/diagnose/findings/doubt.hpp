@@ -56,7 +56,9 @@ inline EffectSetting nearest_possible(const Effect& effect, EffectSetting settin
   constexpr double kWithin = 1.96;  // standard uncertainties: the 95 % interval reaches it
   for (const EffectParameter& p : effect.parameters) {
     const auto found = setting.parameters.find(std::string(p.name));
-    if (!p.linear || found == setting.parameters.end()) continue;
+    if (found == setting.parameters.end()) continue;
+    found->second.u = std::min(found->second.u, p.high - p.low);
+    if (!p.linear) continue;
     const double possible = std::clamp(found->second.value, p.low, p.high);
     if (std::abs(found->second.value - possible) <= kWithin * found->second.u) found->second.value = possible;
   }

@@ -29,3 +29,24 @@ TEST_CASE("a gain on touches left out counts beyond its standard error") {
   CHECK_FALSE(shown(of(-3, 1)));
   CHECK(shown(of(5.2, 2.2)));
 }
+
+TEST_CASE("a machine that is none of its specification counts as a mismatch, named or not") {
+  Diagnosis in_order;
+  in_order.baseline.geometry_scale = 3.5;  // the largest of 400 recordings without a mismatch
+  CHECK_FALSE(is_mismatch(in_order));
+  Diagnosis large = in_order;
+  large.baseline.geometry_scale = kOutOfSpecification;
+  CHECK(is_mismatch(large));
+  large.baseline.known = true;  // times what its file leaves uncertain: that has a limit of its own
+  CHECK_FALSE(is_mismatch(large));
+  large.beyond_known = large.baseline.geometry_scale;
+  CHECK(is_mismatch(large));
+  large.judgeable = false;
+  CHECK_FALSE(is_mismatch(large));
+}
+
+TEST_CASE("an uncertainty is no larger than the range of its parameter") {
+  const Effect& dirt = *find_effect("noise.outliers");
+  CHECK(nearest_possible(dirt, EffectSetting{"noise.outliers", {{"share", {0.3, 5, ""}}}}).parameters.at("share").u ==
+        0.5);
+}
