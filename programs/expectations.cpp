@@ -19,12 +19,13 @@ std::string bounds(const lang::Expectation& e) {
 
 std::optional<double> figure(const CharacteristicReport& c, const std::string& quantity) {
   const Summary& s = c.summary;
+  if (quantity == "mean") return s.mean;
+  if (quantity == "value") return c.reference;
+  if (!c.varies) return std::nullopt;  // the others are of an uncertainty that nobody knows
   if (quantity == "u") return s.u;
   if (quantity == "u95") return (s.symmetric.high - s.symmetric.low) / 2;
   if (quantity == "lcl") return c.lcl;
   if (quantity == "ucl") return c.ucl;
-  if (quantity == "mean") return s.mean;
-  if (quantity == "value") return c.reference;
   ABBE_CHECK(quantity == "conformance");
   return c.conformance_probability;
 }
@@ -52,8 +53,8 @@ ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) 
 
 /// Why a characteristic has no such figure.
 const char* reason(const CharacteristicReport& c, const std::string& quantity) {
-  if (quantity != "conformance") return "a condition sends the error-free machine past it";
-  return c.varies ? "the tolerance has no limits" : "nothing that is modelled changes the value";
+  if (!c.varies && quantity != "value") return "nothing that is modelled changes the value";
+  return quantity == "conformance" ? "the tolerance has no limits" : "a condition sends the error-free machine past it";
 }
 
 ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, double value) {

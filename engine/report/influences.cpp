@@ -37,9 +37,10 @@ struct PartInfluence {
 };
 
 constexpr PartInfluence kPartInfluences[] = {
-    {"part temperature", [](const Workpiece& w) { return w.knows.part && w.part_expands(); }},
-    {"scale temperature", [](const Workpiece& w) { return w.knows.scale[0] && w.scales_expand(); }},
-    {"true size of the part", [](const Workpiece& w) { return !w.surfaces.empty(); }},
+    {"part temperature", [](const Workpiece& w) { return w.knows.part && w.part_is_warm() && w.part_expands(); }},
+    {"scale temperature",
+     [](const Workpiece& w) { return w.knows.scale[0] && w.scales_are_warm() && w.scales_expand(); }},
+    {"true size of the part", [](const Workpiece& w) { return w.has_sizes(); }},
     {"form error of the part", [](const Workpiece& w) { return w.has_form(); }},
 };
 

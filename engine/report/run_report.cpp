@@ -54,7 +54,7 @@ CharacteristicReport::Decision decision_on(const CharacteristicReport& report, c
   if (d.guard_band && upper - *d.guard_band < begin) d.guard_band.reset();
   if (d.guard_band) d.upper = upper - *d.guard_band;
   if (d.guard_band && report.lower) d.lower = *report.lower + *d.guard_band;
-  d.tolerance_to_uncertainty = (upper - begin) / ((interval.high - interval.low) / 2);
+  if (upper > begin) d.tolerance_to_uncertainty = (upper - begin) / ((interval.high - interval.low) / 2);
   return d;
 }
 
@@ -103,6 +103,12 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
 }
 
 }  // namespace
+
+std::vector<Diagnostic> general_messages(const RunReport& report) {
+  std::vector<Diagnostic> out = report.messages;
+  std::erase_if(out, [](const Diagnostic& d) { return d.span.has_value(); });
+  return out;
+}
 
 std::vector<int> occurrences(const plan::Plan& plan, const std::vector<Samples>& samples) {
   std::map<std::pair<int, std::vector<std::string>>, int> met;

@@ -48,9 +48,10 @@ struct CharacteristicReport {
   /// What the reference, taken for a measured value, proves (engine/stats/decision.hpp).
   struct Decision {
     Conformity verdict = Conformity::undecided;
-    std::optional<double> guard_band;     ///< none: no value conforms
-    std::optional<double> lower, upper;   ///< acceptance limits, where the tolerance has limits
-    double tolerance_to_uncertainty = 0;  ///< over half of the 95 % interval; a zone begins at 0
+    std::optional<double> guard_band;    ///< none: no value conforms
+    std::optional<double> lower, upper;  ///< acceptance limits, where the tolerance has limits
+    std::optional<double>
+        tolerance_to_uncertainty;  ///< over half of the 95 % interval; a zone begins at 0; none: no value conforms
   };
   std::optional<Decision> decision;  ///< none without limits or without a reference
   struct Contribution {
@@ -102,6 +103,9 @@ struct RunReport {
   std::vector<Trap> traps;
   std::vector<Diagnostic> messages;
 };
+
+/// Messages without a place in a file; those with one are shown when the program is read.
+std::vector<Diagnostic> general_messages(const RunReport&);
 
 /// The run in which only one contributor acted, on the same machines and with the same random
 /// numbers.

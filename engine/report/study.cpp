@@ -238,18 +238,24 @@ class StudyRun {
     }
   }
 
-  /// Machines that took one path are those with certain errors: their figures are not those of all.
+  /// Machines that took one path are those with certain errors: their figures are not those of all. Likewise those that
+  /// did not stop, where more stopped than the limits leave outside.
   void warn_of_parting() {
     constexpr int kShown = 10;
+    constexpr double kStopped = 0.01;
     int parted = 0;
     for (const CharacteristicReport& c : study_.report.characteristics) {
-      if (c.elsewhere == 0 || ++parted > kShown) continue;
+      const bool stopped = c.trapped > kStopped * study_.result.machines;
+      if ((c.elsewhere == 0 && !stopped) || ++parted > kShown) continue;
       message(Code::W0619,
               fmt::format("line {}: FA({}),TA({}): {} of {} machines evaluated this: a conditional result", c.line,
                           fmt::join(c.features, "),FA("), c.tolerance, c.evaluated, study_.result.machines),
-              c.reference ? "a condition on measured values sent the others past it"
-                          : "a condition on measured values sent the others past it, and the error-free "
-                            "machine, so that there is no value to compare with");
+              c.elsewhere == 0
+                  ? "the others stopped before, and what stopped them may go with their errors: the figures "
+                    "are not those of the whole process"
+                  : c.reference ? "a condition on measured values sent the others past it"
+                                : "a condition on measured values sent the others past it, and the error-free "
+                                  "machine, so that there is no value to compare with");
     }
     if (parted > kShown)
       message(Code::W0619, fmt::format("{} characteristics in all are conditional results", parted),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/ids.hpp"
+#include "engine/lanes/random.hpp"
 
 namespace abbe {
 
@@ -72,12 +73,18 @@ int shortest_first(const Sorted& y, Ranks symmetric) {
   return best;
 }
 
-/// The standard error of the quantile that `rank` estimates.
-double quantile_error(const Sorted& y, int rank) {
+/// The standard error of the quantile that `rank` estimates, of values with standard deviation u. Where it is one of the
+/// outermost values, how far the next would lie is not seen: it is then no less than that of a normal law.
+double quantile_error(const Sorted& y, int rank, double u) {
   const double n = y.n(), p = (rank - 0.5) / n;
   const double rank_error = std::sqrt(n * p * (1 - p));
-  const double low = std::max(1.0, rank - 1.96 * rank_error), high = std::min(n, rank + 1.96 * rank_error);
-  return rank_error * (y.at(high) - y.at(low)) / (high - low);
+  const double below = rank - 1.96 * rank_error, above = rank + 1.96 * rank_error;
+  const double low = std::max(1.0, below), high = std::min(n, above);
+  const double seen = rank_error * (y.at(high) - y.at(low)) / (high - low);
+  if (below >= 1 && above <= n) return seen;
+  const double step = p * (1 - p) / 100;
+  const double slope = (normal_quantile(p + step) - normal_quantile(p - step)) / (2 * step);
+  return std::max(seen, u * slope * rank_error / n);
 }
 
 }  // namespace
@@ -99,10 +106,13 @@ Summary summarize(std::span<const double> sample, double coverage) {
   s.symmetric = {y(low), y(high)};
   s.shortest = {y(shortest), y(shortest + ranks.width)};
   s.mean_error = s.u / std::sqrt(n);
-  const double variance_of_variance = std::max(0.0, m.fourth - variance * variance * (n - 3) / (n - 1)) / n;
+  // A few values say next to nothing of their fourth moment: it counts as that of a normal law, by as much as ten of them.
+  constexpr double kNormal = 3, kAsMuchAs = 10;
+  const double fourth = (n * m.fourth + kAsMuchAs * kNormal * variance * variance) / (n + kAsMuchAs);
+  const double variance_of_variance = std::max(0.0, fourth - variance * variance * (n - 3) / (n - 1)) / n;
   s.u_error = s.u > 0 ? std::sqrt(variance_of_variance) / (2 * s.u) : 0;
-  s.low_error = quantile_error(y, low);
-  s.high_error = quantile_error(y, high);
+  s.low_error = quantile_error(y, low, s.u);
+  s.high_error = quantile_error(y, high, s.u);
   return s;
 }
 

@@ -43,6 +43,7 @@ int run_command(const RunCommandOptions& options) {
     write_whole(*options.dmo,
                 dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
   if (options.report) write_whole(*options.report, find_report_writer("html")->write(study.report));
+  print_messages(general_messages(study.report));
   print_result(writer->write(study.report));
   return kDone;
 }

@@ -120,14 +120,9 @@ std::string Session::evaluate(const CompiledProgram& program, int after) {
     if (c.line > after) out += result_line(c);
   for (const LostCharacteristic& l : report.lost)
     if (l.line > after) out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
-  return out + general_messages(report);
-}
-
-std::string Session::general_messages(const RunReport& report) {
-  std::string out;
-  for (const Diagnostic& d : report.messages) {
+  for (const Diagnostic& d : general_messages(report)) {
     std::string rendered = render(d);
-    if (!d.span && told_.insert(rendered).second) out += rendered;
+    if (told_.insert(rendered).second) out += rendered;
   }
   return out;
 }

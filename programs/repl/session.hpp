@@ -49,7 +49,6 @@ class Session {
   /// Runs the program and shows what stands behind line `after`.
   std::string evaluate(const CompiledProgram&, int after);
   CompiledProgram compiled(const std::string& text) const;
-  std::string general_messages(const RunReport&);
   std::vector<plan::SensorDef> candidates(const std::vector<std::string>& labels) const;
   std::string text() const;
 

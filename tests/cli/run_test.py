@@ -1,6 +1,7 @@
 """abbe run: figures, formats, files, and input that cannot be used."""
 import csv
 import json
+import re
 import resource
 import statistics
 import subprocess
@@ -11,6 +12,26 @@ from harness import LENGTH
 KEYS = {"schema", "program", "machine", "seed", "version", "machines", "characteristics", "lost", "traps", "influences", "messages"}
 CHARACTERISTIC_KEYS = {"feature", "tolerance", "kind", "unit", "line", "occurrence", "nominal", "reference", "mean", "u", "lcl", "ucl",
                        "interval95", "monte_carlo_error", "tolerance_limits", "conformance_probability", "decision", "contributions", "trapped", "evaluated"}
+
+# A bore of 50 mm, touched in four points.
+RING = """DMISMN/'ring',4.0
+$$! machine coord3-mc16   machines 300   seed 1
+UNITS/MM,ANGDEC
+PRCOMP/ON
+S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,100.0,3.0
+SNSLCT/S(P)
+D(R)=TRANS/XORIG,800.0,YORIG,500.0,ZORIG,-500.0
+F(BORE)=FEAT/CIRCLE,INNER,CART,0.0,0.0,-10.0,0.0,0.0,1.0,50.0
+T(DIA)=TOL/DIAM,-0.005,0.005
+MEAS/CIRCLE,F(BORE),4
+PTMEAS/CART,25.0,0.0,-10.0,-1.0,0.0,0.0
+PTMEAS/CART,0.0,25.0,-10.0,0.0,-1.0,0.0
+PTMEAS/CART,-25.0,0.0,-10.0,1.0,0.0,0.0
+PTMEAS/CART,0.0,-25.0,-10.0,0.0,1.0,0.0
+ENDMES
+OUTPUT/FA(BORE),TA(DIA)
+ENDFIL
+"""
 
 
 class Figures(harness.Case):
@@ -141,7 +162,7 @@ class Figures(harness.Case):
         self.assertIn("200 virtual machines used of", done.stdout)
         self.assertIn("Monte Carlo error of u:", done.stdout)
         self.assertRegex(done.stdout, r"\nestimated cycle time (\d+ min )?\d+ s\n")
-        self.assertIn("W0416", done.stdout)   # the paper's machine: fewer than half pass
+        self.assertIn("W0416", done.stderr)   # the paper's machine: fewer than half pass
         self.assertRegex(done.stdout, r"\n +16  A, B +LEN \(DISTB\)  mm +100\.0000  99\.99\d\d to 100\.00\d\d  conforms +\d+\.\d\n")
         self.assertIn("ISO 14253-1:2017 (95 %)", done.stdout)
         self.assertNotIn("\x1b", done.stdout + done.stderr)
@@ -216,10 +237,41 @@ class Branches(harness.Case):
 
     def test_the_text_says_of_how_many_machines(self):
         report = self.run_json("branches.dmi", "--machines", 200)
-        text = self.abbe("run", "branches.dmi", "--machines", 200).stdout
+        told = self.abbe("run", "branches.dmi", "--machines", 200)
         for c in report["characteristics"]:
-            self.assertIn(f"FA(H),TA({c['tolerance']}): {c['evaluated']} of 200 machines evaluated this: a conditional result", text)
-            self.assertIn(f"% of {c['evaluated']}", text)
+            self.assertIn(f"FA(H),TA({c['tolerance']}): {c['evaluated']} of 200 machines evaluated this: a conditional result", told.stderr)
+            self.assertIn(f"% of {c['evaluated']}", told.stdout)
+
+    def test_figures_of_those_that_did_not_stop_are_conditional(self):
+        """Some machines divide by zero because of what they measured: the others are no sample of all."""
+        self.write("some.dmi", LENGTH.replace("OUTPUT", "X=OBTAIN/FA(B),4\nIF/(X .LT. 99.999)\nX=ASSIGN/1/(X-X)\nENDIF\nOUTPUT", 1))
+        told = self.abbe("run", "some.dmi", "--machines", 200, "--format", "json")
+        length = json.loads(told.stdout)["characteristics"][0]
+        self.assertGreater(length["trapped"], 2)
+        self.assertIn(f"{length['evaluated']} of 200 machines evaluated this: a conditional result", told.stderr)
+        self.assertIn("the others stopped before", told.stderr)
+
+    def test_an_unknown_uncertainty_is_no_zero(self):
+        """A circle through three touches has no form, whatever the machine."""
+        self.write("form.dmi", RING.replace("UNITS", "$$! expect TA(DIA) u <= 0.0001\nUNITS", 1)
+                   .replace("TOL/DIAM,-0.005,0.005", "TOL/CIRLTY,0.01").replace("F(BORE),4", "F(BORE),3")
+                   .replace("PTMEAS/CART,0.0,-25.0,-10.0,0.0,1.0,0.0\n", ""))
+        form = self.run_json("form.dmi", "--machines", 20)["characteristics"][0]
+        self.assertEqual([form[key] for key in ("u", "lcl", "ucl")], [None] * 3)
+        self.assertEqual(form["interval95"]["symmetric"], [None, None])
+        self.assertEqual(set(form["contributions"].values()), {None})
+        self.assertNotIn("Monte Carlo error", self.abbe("run", "form.dmi", "--machines", 20).stdout)
+        self.assertIn("there is none, because nothing that is modelled changes the value", self.abbe("test", "form.dmi", code=1).stdout)
+
+    def test_acceptance_limits_are_rounded_inwards(self):
+        self.write("ring.dmi", RING)
+        lower, upper = self.run_json("ring.dmi")["characteristics"][0]["decision"]["acceptance_limits"]
+        said = re.search(r"([\d.]+) to ([\d.]+) +conforms", self.abbe("run", "ring.dmi").stdout)
+        self.assertTrue(lower <= float(said[1]) < lower + 2e-5 and upper - 2e-5 < float(said[2]) <= upper, (lower, upper, said))
+
+    def test_limits_in_the_wrong_order_have_no_ratio(self):
+        self.write("ring.dmi", RING.replace("-0.005,0.005", "0.005,-0.005"))
+        self.assertIsNone(self.run_json("ring.dmi")["characteristics"][0]["decision"]["tolerance_to_uncertainty"])
 
     def test_expectations_of_a_row_without_reference(self):
         self.write("expected.dmi", BRANCHES.replace("UNITS", "$$! machines 200\n$$! expect TA(BIG) u between 0.00001 0.01\n"
@@ -347,11 +399,11 @@ class Refusals(harness.Case):
         self.assertEqual(length["interval"]["coverage"], 0.5)
         self.assertTrue(length["interval95"]["symmetric"][0] < low < high < length["interval95"]["symmetric"][1])
         self.assertNotIn("W0435", [m["code"] for m in report["messages"]])
-        few = self.abbe("run", "length.dmi", "--machines", 400, "--coverage", "0.99").stdout
-        self.assertIn("W0435", few)
-        self.assertIn("--machines 2000", few)
-        self.assertIn("shortest 99 %", few)
-        few = self.abbe("run", "length.dmi", "--machines", 399).stdout
+        few = self.abbe("run", "length.dmi", "--machines", 400, "--coverage", "0.99")
+        self.assertIn("W0435", few.stderr)
+        self.assertIn("--machines 2000", few.stderr)
+        self.assertIn("shortest 99 %", few.stdout)
+        few = self.abbe("run", "length.dmi", "--machines", 399).stderr
         self.assertIn("399 machines are few for 95 % limits", few)
         self.assertIn("--machines 400 or more", few)
         self.assertIn("99 % is 0.99", self.refused("E0603", "run", "length.dmi", "--machines", 20, "--coverage", "99"))
@@ -368,7 +420,7 @@ class Refusals(harness.Case):
         self.assertEqual(json.loads(self.abbe("machine", "show", "m.json", "--format", "json").stdout)["bounds"], machine["bounds"])
         machine["effects"] = [{"name": "thermal.drift", "parameters": {"amplitude_um": 2}}]
         self.write("m.json", json.dumps(machine))
-        self.assertIn("W0434", self.abbe("run", "length.dmi", "--machine", "m.json", "--machines", 20).stdout)
+        self.assertIn("W0434", self.abbe("run", "length.dmi", "--machine", "m.json", "--machines", 20).stderr)
 
     def test_files(self):
         self.write("length.dmi", LENGTH)

@@ -157,10 +157,11 @@ std::string detectable_effects(const Diagnosis& d) {
       html_table(rows);
 }
 
-std::string open_questions(const Diagnosis& d) {
-  if (d.cannot_judge.empty()) return "";
+std::string not_judged(const Diagnosis& d) {
+  const std::vector<CannotJudge> open = open_questions(d);
+  if (open.empty()) return "";
   std::string rows = html_row({"effect", "why"}, "th");
-  for (const CannotJudge& c : d.cannot_judge) rows += html_row({c.effect, why_not_judged(c, d.touches > 0)});
+  for (const CannotJudge& c : open) rows += html_row({c.effect, why_not_judged(c, d.touches > 0)});
   return "<h2>What cannot be judged</h2>\n" + html_table(rows);
 }
 
@@ -181,7 +182,7 @@ std::string diagnosis_html(const Diagnosis& d, const std::string& recording, con
   for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
   return html_page("Diagnosis of " + recording,
                    body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_steps(d) +
-                       baseline(d) + detectable_effects(d) + open_questions(d) + messages(d));
+                       baseline(d) + detectable_effects(d) + not_judged(d) + messages(d));
 }
 
 }  // namespace abbe

@@ -157,7 +157,7 @@ std::string design_table(const Diagnosis& d) {
 
 std::string cannot_judge(const Diagnosis& d) {
   std::string out;
-  for (const CannotJudge& c : d.cannot_judge)
+  for (const CannotJudge& c : open_questions(d))
     out += fmt::format("  {:<36} {}\n", c.effect, why_not_judged(c, d.touches > 0));
   return out.empty() ? "" : "cannot be judged from this recording:\n" + out;
 }
@@ -196,6 +196,16 @@ std::string held_out_line(const Diagnosis& d) {
 }
 
 }  // namespace
+
+std::vector<CannotJudge> open_questions(const Diagnosis& d) {
+  std::vector<CannotJudge> out = d.cannot_judge;
+  std::erase_if(out, [&](const CannotJudge& c) {
+    return std::any_of(d.effects.begin(), d.effects.end(), [&](const DiagnosedEffect& e) {
+      return std::find(e.members.begin(), e.members.end(), c.effect) != e.members.end();
+    });
+  });
+  return out;
+}
 
 std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
   std::vector<std::string> out;

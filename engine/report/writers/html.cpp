@@ -118,7 +118,8 @@ std::string influences(const RunReport& r) {
 }
 
 std::string write_html(const RunReport& r) {
-  const std::string remarks = report_remarks(r);
+  std::string remarks = report_remarks(r);
+  for (const Diagnostic& d : general_messages(r)) remarks += render(d);
   return html_page("Uncertainty of " + r.program,
                    "<h1>Measurement uncertainty</h1>\n" + html_paragraphs(report_header(r)) +
                        "<h2>Characteristics</h2>\n" + characteristics(r) + decisions(r) + distributions(r) +

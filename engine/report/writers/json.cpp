@@ -2,6 +2,7 @@
 // unit that its key, or the characteristic's "unit", names.
 #include "engine/report/json_value.hpp"
 #include "engine/report/writer.hpp"
+#include "engine/report/writers/sentences.hpp"
 
 namespace abbe {
 
@@ -11,7 +12,7 @@ Json pair(std::optional<double> low, std::optional<double> high) { return Json::
 
 Json contributions(const CharacteristicReport& c) {
   Json out = Json::object();
-  for (const auto& contribution : c.contributions) out[contribution.name] = number(contribution.share);
+  for (const auto& contribution : c.contributions) out[contribution.name] = number(known(c, contribution.share));
   return out;
 }
 
@@ -31,8 +32,15 @@ Json decision(const CharacteristicReport::Decision& d) {
           {"tolerance_to_uncertainty", number(d.tolerance_to_uncertainty)}};
 }
 
+/// Nulls where the uncertainty is not known.
+Json intervals(const CharacteristicReport& c, const Interval& symmetric, const Interval& shortest) {
+  const auto of = [&](const Interval& i) { return pair(known(c, i.low), known(c, i.high)); };
+  return {{"symmetric", of(symmetric)}, {"shortest", of(shortest)}};
+}
+
 Json characteristic(const CharacteristicReport& c) {
   const Summary& s = c.summary;
+  const auto of_u = [&](std::optional<double> figure) { return number(known(c, figure)); };
   Json out = {
       {"feature", c.features},
       {"tolerance", c.tolerance},
@@ -43,26 +51,22 @@ Json characteristic(const CharacteristicReport& c) {
       {"nominal", number(c.nominal)},
       {"reference", number(c.reference)},
       {"mean", number(s.mean)},
-      {"u", number(s.u)},
-      {"lcl", number(c.lcl)},
-      {"ucl", number(c.ucl)},
-      {"interval95",
-       {{"symmetric", pair(s.symmetric.low, s.symmetric.high)}, {"shortest", pair(s.shortest.low, s.shortest.high)}}},
+      {"u", of_u(s.u)},
+      {"lcl", of_u(c.lcl)},
+      {"ucl", of_u(c.ucl)},
+      {"interval95", intervals(c, s.symmetric, s.shortest)},
       {"monte_carlo_error",
-       {{"mean", number(s.mean_error)},
-        {"u", number(s.u_error)},
-        {"lcl", number(s.low_error)},
-        {"ucl", number(s.high_error)}}},
+       {{"mean", of_u(s.mean_error)}, {"u", of_u(s.u_error)}, {"lcl", of_u(s.low_error)}, {"ucl", of_u(s.high_error)}}},
       {"tolerance_limits", pair(c.lower, c.upper)},
       {"conformance_probability", number(c.conformance_probability)},
       {"decision", c.decision ? decision(*c.decision) : Json()},
       {"contributions", contributions(c)},
       {"trapped", c.trapped},
       {"evaluated", c.evaluated}};
-  if (c.interval)
-    out["interval"] = {{"coverage", c.interval->coverage},
-                       {"symmetric", pair(c.interval->symmetric.low, c.interval->symmetric.high)},
-                       {"shortest", pair(c.interval->shortest.low, c.interval->shortest.high)}};
+  if (c.interval) {
+    out["interval"] = {{"coverage", c.interval->coverage}};
+    out["interval"].update(intervals(c, c.interval->symmetric, c.interval->shortest));
+  }
   if (!c.budget.empty()) out["budget"] = budget(c.budget);
   if (!c.alignment_split.empty()) out["alignment_split"] = budget(c.alignment_split);
   return out;

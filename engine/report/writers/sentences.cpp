@@ -26,14 +26,6 @@ std::string lost_characteristics(const RunReport& r) {
   return out;
 }
 
-/// Messages without a place in a file; those with one are shown when the program is read.
-std::string general_messages(const RunReport& r) {
-  std::string out;
-  for (const Diagnostic& d : r.messages)
-    if (!d.span) out += render(d);
-  return out;
-}
-
 std::string not_modelled(const RunReport& r) {
   std::vector<std::string> names;
   for (const Influence& influence : r.influences)
@@ -101,7 +93,7 @@ std::string from_reference(const CharacteristicReport& c, const Interval& i) {
 }
 
 std::string share_of(const CharacteristicReport& c, std::size_t k) {
-  return k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-";
+  return c.varies && k < c.contributions.size() ? fmt::format("{:.0f} %", 100 * c.contributions[k].share) : "-";
 }
 
 std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicReport& c) {
@@ -139,26 +131,40 @@ std::string report_header(const RunReport& r) {
 }
 
 std::string report_legend(const RunReport& r) {
-  double worst = 0;
+  std::optional<double> worst;
   for (const auto& c : r.characteristics)
-    if (c.varies) worst = std::max(worst, c.summary.u_error / c.summary.u);
-  return fmt::format(
+    if (c.varies) worst = std::max(worst.value_or(0), c.summary.u_error / c.summary.u);
+  std::string out =
       "\nvalue: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
       "and 97.5 %) minus value;\n"
       "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the "
-      "variance.\n"
-      "Monte Carlo error of u: {:.1f} % (standard error, the largest of the table).\n",
-      100 * worst);
+      "variance.\n";
+  if (worst)
+    out += fmt::format("Monte Carlo error of u: {:.1f} % (standard error, the largest of the table).\n", 100 * *worst);
+  return out;
 }
+
+namespace {
+
+/// An acceptance limit rounded inwards, up or down: what is printed proves conformity too.
+std::string inwards(double limit, int decimals, double way) {
+  constexpr double kRounding = 1e-6;  // of a step
+  const double step = std::pow(10.0, -decimals), shown = std::stod(decimal(limit, decimals));
+  const bool outside = way * (shown - limit) < -kRounding * step;
+  return decimal(outside ? shown + way * step : shown, decimals);
+}
+
+}  // namespace
 
 std::string accepted(const CharacteristicReport& c, const CharacteristicReport::Decision& d) {
   if (!d.guard_band) return "none";
   const int decimals = decimals_for(c.summary.u);
-  return (d.lower ? decimal(d.lower, decimals) + " to " : "up to ") + decimal(d.upper, decimals);
+  return (d.lower ? inwards(*d.lower, decimals, 1) + " to " : "up to ") + inwards(*d.upper, decimals, -1);
 }
 
 std::string tolerance_to_uncertainty(const CharacteristicReport::Decision& d) {
-  return std::isfinite(d.tolerance_to_uncertainty) ? fmt::format("{:.1f}", d.tolerance_to_uncertainty) : "-";
+  const std::optional<double>& ratio = d.tolerance_to_uncertainty;
+  return ratio && std::isfinite(*ratio) ? fmt::format("{:.1f}", *ratio) : "-";
 }
 
 std::string decision_legend() {
@@ -173,9 +179,7 @@ std::string budget_legend() {
          "(alignment) against the others (feature).";
 }
 
-std::string report_remarks(const RunReport& r) {
-  return trapped_machines(r) + lost_characteristics(r) + general_messages(r);
-}
+std::string report_remarks(const RunReport& r) { return trapped_machines(r) + lost_characteristics(r); }
 
 std::string report_bounds(const RunReport& r) { return bounded(r) + not_modelled(r); }
 

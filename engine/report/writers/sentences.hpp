@@ -62,8 +62,7 @@ std::string report_legend(const RunReport&);
 std::string decision_legend();
 /// What the lines of a budget are; no newline at the end.
 std::string budget_legend();
-/// Machines that stopped, characteristics that were lost, messages without a place in a file; those with one
-/// are shown when the program is read.
+/// Machines that stopped, characteristics that were lost.
 std::string report_remarks(const RunReport&);
 /// What is in no figure of the report.
 std::string report_bounds(const RunReport&);
