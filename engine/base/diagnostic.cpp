@@ -177,4 +177,19 @@ std::string nearest_word(std::string_view word, const std::vector<std::string_vi
   return std::string(best);
 }
 
+bool differ_in_unit(std::string_view name, std::string_view other) {
+  constexpr std::string_view kUnits[] = {"C", "F", "K", "m", "mm", "um", "nm", "in", "inch", "deg", "rad", "arcsec"};
+  if (name == "U" && other == "u") return true;
+  const auto parts = [](std::string_view text) {
+    const std::size_t at = std::min(text.rfind('_'), text.size());
+    return std::pair{text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
+  };
+  const auto is_unit = [&](std::string_view word) {
+    return std::find(std::begin(kUnits), std::end(kUnits), word) != std::end(kUnits);
+  };
+  const auto [stem, unit] = parts(name);
+  const auto [other_stem, other_unit] = parts(other);
+  return stem == other_stem && unit != other_unit && is_unit(unit) && is_unit(other_unit);
+}
+
 }  // namespace abbe

@@ -45,9 +45,13 @@ bool JsonObject::check(const JsonNode& node, std::string_view key, Kind kind) {
   return false;
 }
 
+void JsonObject::offer(std::string_view key) {
+  if (node_) reader_->asked_[node_].emplace_back(key);
+}
+
 const JsonNode* JsonObject::ask(std::string_view key, Kind kind) {
   if (!node_) return nullptr;
-  reader_->asked_[node_].emplace_back(key);
+  offer(key);
   const JsonNode* value = find(key);
   return value && check(*value, key, kind) ? value : nullptr;
 }
@@ -229,10 +233,13 @@ void JsonReader::report_unknown_keys(const JsonNode& node) {
       continue;
     }
     const std::string near = nearest_word(member.key, known);
+    const bool another_unit = differ_in_unit(member.key, near);
     report(member.key_span, Code::E0402, fmt::format("unknown key \"{}\"", member.key),
-           near.empty() ? fmt::format("the keys here are: {}", fmt::join(known, ", "))
-                        : fmt::format("did you mean \"{}\"?", near),
-           near.empty() ? "" : fmt::format("\"{}\"", near));
+           near.empty()       ? fmt::format("the keys here are: {}", fmt::join(known, ", "))
+               : near == "u"  ? "\"u\" is a standard uncertainty: an expanded one divided by its k"
+               : another_unit ? fmt::format("did you mean \"{}\"? That is another unit: convert the number", near)
+                              : fmt::format("did you mean \"{}\"?", near),
+           near.empty() || another_unit ? "" : fmt::format("\"{}\"", near));
   }
 }
 

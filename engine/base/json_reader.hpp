@@ -70,6 +70,8 @@ class JsonReader;
 class JsonObject {
  public:
   bool has(std::string_view key) const { return find(key) != nullptr; }
+  /// A key that may stand here, whether or not it is read: it is suggested for a near word, and is not unknown.
+  void offer(std::string_view key);
 
   double number(std::string_view key, const NumberRange& range = kAnyNumber);
   double number_or(std::string_view key, double otherwise, const NumberRange& range = kAnyNumber);

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/letter_case.hpp"
 #include "engine/features/shape_traits.hpp"
 #include "engine/lanes/elementary.hpp"
 #include "engine/lanes/random.hpp"
+#include "engine/recording/units.hpp"
 
 namespace abbe {
 
@@ -98,6 +100,16 @@ void Part::resolve(const Surface& surface, plan::FeatureId feature, const plan::
   if (!surface.form.empty() && !is_round(def.kind->shape))
     refuse("undulations", "\"form\" is for circles, cylinders and cones; \"random_form_um\" is for every surface");
   surfaces_.back().offset_mm = offset_of(surface, def);
+  constexpr double kNoDeviation = 0.1;  // of the size: that is another part, or another unit
+  const double offset = surfaces_.back().offset_mm.value, size = def.nominal.size;
+  if (!has_diameter(def.kind->shape) || !(size > 0) || std::abs(offset) <= kNoDeviation * size) return;
+  const std::optional<ForeignUnit> unit =
+      surface.diameter_mm ? foreign_unit(surface.diameter_mm->value, 2 * size) : std::nullopt;
+  errors.push_back(diagnostic_at(
+      workpiece_->source, surface.label_span, Code::E0424,
+      fmt::format("the surface of '{}' lies {:g} mm from where the program has it, and its diameter there is {:g} mm{}",
+                  def.label, offset, 2 * size, unit ? fmt::format(": it is given in {}", unit->name) : ""),
+      "diameters are in millimetres, offsets and deviations in micrometres"));
 }
 
 double Part::known_offset_mm(const PlaceOnPart& at) const {

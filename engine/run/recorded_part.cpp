@@ -189,6 +189,8 @@ class PartReader {
     ThermalDraw best;
     best.scale_cte_per_K = w_.scale_cte_per_K.value;
     best.part_cte_per_K = w_.part_cte_per_K.value + (w_.part_cte_from_scale ? best.scale_cte_per_K : 0);
+    best.part_sensor_K = w_.sensor_K.value;
+    best.scale_sensor_K.fill(w_.sensor_K.value);
     const std::vector<double> expected = stretched(best);
     for (std::size_t i = 0; i < expected.size(); ++i) out_.expected_mm[i] += expected[i];
     const auto doubt = [&](const Uncertain& quantity, auto change) {
@@ -204,8 +206,8 @@ class PartReader {
     });
     doubt(w_.part_cte_per_K, [](ThermalDraw& d, double u) { d.part_cte_per_K += u; });
     add_temperatures(doubt);
-    doubt(w_.sensor_K, [](ThermalDraw& d, double u) { d.part_sensor_K = u; });
-    for (int k = 0; k < 3; ++k) doubt(w_.sensor_K, [k](ThermalDraw& d, double u) { d.scale_sensor_K[k] = u; });
+    doubt(w_.sensor_K, [](ThermalDraw& d, double u) { d.part_sensor_K += u; });
+    for (int k = 0; k < 3; ++k) doubt(w_.sensor_K, [k](ThermalDraw& d, double u) { d.scale_sensor_K[k] += u; });
   }
 
   /// As draw_thermal: scales with one temperature share its error, and what follows the other shares that of the other.

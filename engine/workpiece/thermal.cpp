@@ -30,9 +30,10 @@ ThermalDraw draw_thermal(const Workpiece& w, DrawFor who) {
   d.part_K = deviation(w.part_C, "temperature.part_C", who);
   for (int k = 0; k < 3; ++k) {
     d.scale_K[k] = deviation(w.scale_C[k], w.scale_name[k], who);
-    d.scale_sensor_K[k] = deviation(w.sensor_K, std::string("compensation.sensor_K.") + "xyz"[k], who);
+    d.scale_sensor_K[k] =
+        w.sensor_K.value + deviation(w.sensor_K, std::string("compensation.sensor_K.") + "xyz"[k], who);
   }
-  d.part_sensor_K = deviation(w.sensor_K, "compensation.sensor_K.part", who);
+  d.part_sensor_K = w.sensor_K.value + deviation(w.sensor_K, "compensation.sensor_K.part", who);
   if (!w.part_minus_scale_K) return d;
   const double difference_K = deviation(*w.part_minus_scale_K, "temperature.part_minus_scale_K", who);
   if (w.part_follows_scale) {

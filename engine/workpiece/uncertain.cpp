@@ -67,6 +67,7 @@ double read_shape(JsonObject& object, const Word& word) {
 /// `u` or `half_width`, whichever fits the distribution, as the scale of a Deviation.
 double read_scale(JsonObject& object, const Word& word, double shape) {
   const bool width = object.has("half_width");
+  for (const char* either : {"u", "half_width"}) object.offer(either);
   if (width == object.has("u")) {
     object.fault(
         "half_width", Code::E0421,
@@ -146,8 +147,7 @@ Uncertain read_uncertain(JsonObject& object, std::string_view key, double otherw
                   fmt::format("\"{}\" has \"components\" and an uncertainty of its own", key),
                   "make that uncertainty one more component");
   if (!listed && !alone) {
-    for (const char* offered : {"u", "half_width", "dof"})
-      written.number_or(offered, 0);  // to be suggested for a near word
+    for (const char* offered : {"u", "half_width", "dof", "components"}) written.offer(offered);
     written.fault("value", Code::E0421, fmt::format("\"{}\" is an object, but says nothing of an uncertainty", key),
                   "write the number alone, or add \"u\", \"half_width\" or \"components\"");
   }
@@ -155,6 +155,12 @@ Uncertain read_uncertain(JsonObject& object, std::string_view key, double otherw
     if (const auto d = read_deviation(component)) out.components.push_back(*d);
   if (alone)
     if (const auto d = read_deviation(written)) out.components.push_back(*d);
+  const double width = range.high - range.low;
+  if (std::isfinite(width) && out.u() > width)
+    written.fault(
+        listed ? "components" : "u", Code::E0406,
+        fmt::format("the standard uncertainty of \"{}\" is {:g}, but its value must be {}", key, out.u(), range.words),
+        "check the unit of the uncertainty");
   return out;
 }
 

@@ -26,6 +26,7 @@ struct Uncertain {
   std::vector<Deviation> components;
 
   bool exact() const { return components.empty(); }
+  bool is_zero() const { return value == 0 && exact(); }
   /// Standard deviation of what is not known.
   double u() const;
 };

@@ -80,9 +80,14 @@ struct Workpiece {
   std::vector<Surface> surfaces;
   std::vector<InfluenceBound> bounds;  ///< on influences that are not propagated
 
+  // Whether the file says more of these than nothing, or 0.
   bool has_form() const;
-  bool part_expands() const;  ///< its coefficient of expansion is given and not 0
+  bool has_sizes() const;
+  bool part_expands() const;  ///< its coefficient of expansion
   bool scales_expand() const;
+  /// Whether it has, or may have, another temperature than the reference, or is thought to have one.
+  bool part_is_warm() const;
+  bool scales_are_warm() const;
   /// Best estimates, for effects that depend on temperatures.
   Temperatures temperatures(double time_s) const;
 };
@@ -98,7 +103,7 @@ struct ThermalDraw {
   double part_cte_per_K = 0, scale_cte_per_K = 0;
   double part_K = 0;  ///< beyond the best estimate
   std::array<double, 3> scale_K{};
-  double part_sensor_K = 0;
+  double part_sensor_K = 0;  ///< error of the controller's sensor
   std::array<double, 3> scale_sensor_K{};
 };
 ThermalDraw draw_thermal(const Workpiece&, DrawFor);

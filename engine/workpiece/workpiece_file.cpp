@@ -16,6 +16,9 @@ namespace {
 constexpr double kMmPerUm = 1e-3, kPpm = 1e-6;
 constexpr int kMostUndulations = 500;
 constexpr NumberRange kTemperature{kColdest_C, kHottest_C, true, true, "between -50 and 150"};
+// Of surfaces, um: none lies further than 100 mm from where the drawing has it.
+constexpr NumberRange kDeviation{-1e5, 1e5, true, true, "between -100000 and 100000"};
+constexpr NumberRange kSpread{0, 1e5, true, true, "between 0 and 100000"};
 constexpr NumberRange kExpansion{-30, 100, true, true, "between -30 and 100"};
 
 void twice(JsonObject& object, std::string_view key, std::string_view other) {
@@ -119,7 +122,7 @@ FormHarmonic read_harmonic(JsonObject object) {
   h.undulations = object.integer_or("undulations", 2, 1, kMostUndulations);
   if (!object.has("amplitude_um"))
     object.fault("amplitude_um", Code::E0404, "a form error needs \"amplitude_um\"", "half of its peak to valley");
-  h.amplitude_mm = kMmPerUm * read_uncertain(object, "amplitude_um");
+  h.amplitude_mm = kMmPerUm * read_uncertain(object, "amplitude_um", 0, kDeviation);
   if (object.kind_of("phase_deg") == JsonNode::Kind::text) {
     object.one_of("phase_deg", object.text("phase_deg"), {"random"});
   } else {
@@ -132,15 +135,16 @@ Surface read_surface(JsonObject object, std::string label, Span label_span) {
   Surface s;
   s.label = std::move(label);
   s.label_span = label_span;
-  s.offset_mm = kMmPerUm * read_uncertain(object, "offset_um");
+  for (const char* key : {"diameter_mm", "diameter_deviation_um", "offset_um"}) object.offer(key);
+  s.offset_mm = kMmPerUm * read_uncertain(object, "offset_um", 0, kDeviation);
   if (object.has("diameter_mm")) s.diameter_mm = read_uncertain(object, "diameter_mm", 0, kPositive);
   if (object.has("diameter_deviation_um"))
-    s.diameter_deviation_mm = kMmPerUm * read_uncertain(object, "diameter_deviation_um");
+    s.diameter_deviation_mm = kMmPerUm * read_uncertain(object, "diameter_deviation_um", 0, kDeviation);
   if (s.diameter_mm && s.diameter_deviation_mm) twice(object, "diameter_deviation_um", "\"diameter_mm\"");
   if (object.has("offset_um") && (s.diameter_mm || s.diameter_deviation_mm))
     twice(object, "offset_um", s.diameter_mm ? "\"diameter_mm\"" : "\"diameter_deviation_um\"");
   for (const JsonObject& harmonic : object.object_list("form")) s.form.push_back(read_harmonic(harmonic));
-  s.random_form_mm = kMmPerUm * read_uncertain(object, "random_form_um", 0, kNotNegative);
+  s.random_form_mm = kMmPerUm * read_uncertain(object, "random_form_um", 0, kSpread);
   return s;
 }
 
@@ -161,19 +165,40 @@ void read_surfaces(JsonObject surfaces, Workpiece& w) {
   }
 }
 
+/// Whether it is another temperature than the reference, or may be.
+bool is_warm(const Uncertain& temperature_C) {
+  return temperature_C.value != kReferenceTemperature_C || !temperature_C.exact();
+}
+
 }  // namespace
 
 bool Workpiece::has_form() const {
   return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) {
-    return !s.form.empty() || s.random_form_mm.value != 0 || !s.random_form_mm.exact();
+    return !s.random_form_mm.is_zero() ||
+        std::any_of(s.form.begin(), s.form.end(), [](const FormHarmonic& h) { return !h.amplitude_mm.is_zero(); });
+  });
+}
+
+bool Workpiece::has_sizes() const {
+  return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) {
+    return s.diameter_mm || !s.offset_mm.is_zero() || (s.diameter_deviation_mm && !s.diameter_deviation_mm->is_zero());
   });
 }
 
 bool Workpiece::part_expands() const {
-  return part_cte_per_K.value != 0 || !part_cte_per_K.exact() || (part_cte_from_scale && scales_expand());
+  return !part_cte_per_K.is_zero() || (part_cte_from_scale && !scale_cte_per_K.is_zero());
 }
 
-bool Workpiece::scales_expand() const { return scale_cte_per_K.value != 0 || !scale_cte_per_K.exact(); }
+bool Workpiece::scales_expand() const { return !scale_cte_per_K.is_zero(); }
+
+bool Workpiece::part_is_warm() const {
+  return part_minus_scale_K || log.has(TemperatureLog::part) || is_warm(part_C) || !sensor_K.is_zero();
+}
+
+bool Workpiece::scales_are_warm() const {
+  return part_minus_scale_K || std::any_of(scale_C, scale_C + 3, is_warm) || log.has(TemperatureLog::x) ||
+      log.has(TemperatureLog::y) || log.has(TemperatureLog::z) || !sensor_K.is_zero();
+}
 
 Workpiece parse_workpiece(const SourceFile& file) {
   JsonReader reader(file);
