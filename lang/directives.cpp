@@ -117,14 +117,21 @@ class DirectiveReader {
     const Token& word = tokens_[next_++];
     const std::string name = upper(word.text);
     Directives& out = lowering_.out.directives;
+    const bool again = (name == "MACHINE" && out.machine) || (name == "MACHINES" && out.machines) ||
+        (name == "SEED" && out.seed) || (name == "WORKPIECE" && out.workpiece) || (name == "PLACE" && out.place_mm);
+    if (again)
+      lowering_.sink.add(diagnostic_at(lowering_.source, word.span, Code::W0265,
+                                       fmt::format("directive '{}' was given before: this one counts", word.text),
+                                       "remove one of the two"));
     if (name == "MACHINE") {
       const Token& machine = take("machine", "a name");
       out.machine = machine.text, out.machine_span = machine.span;
     } else if (name == "MACHINES") {
       const Span at = peek() ? peek()->span : word.span;
       out.machines = number<int>("machines", "a whole number");
-      if (*out.machines < 1)
-        mistake(Code::E0114, at, "directive 'machines': at least one machine is needed", help_for("machines"));
+      if (*out.machines < 2)
+        mistake(Code::E0114, at, "directive 'machines': at least two are needed, for a standard uncertainty",
+                help_for("machines"));
     } else if (name == "SEED") {
       out.seed = number<std::uint64_t>("seed", "a whole number");
     } else if (name == "WORKPIECE") {

@@ -11,11 +11,17 @@
 
 namespace abbe::lang {
 
+namespace {
+
+constexpr const char* kHasNoValue = "correct the numbers, or test them with IF before";
+
+}  // namespace
+
 plan::Expression combine(plan::Op2 op, plan::Expression left, const plan::Expression& right) {
   const double *a = plan::constant(left), *b = plan::constant(right);
   if (a && b) {
     const Outcome<double> v = plan::apply(op, *a, *b);
-    if (!v) throw Mistake{Code::E0119, 0, 0, fmt::format("this is {}", v.failure), "", ""};
+    if (!v) throw Mistake{Code::E0119, 0, 0, fmt::format("this is {}", v.failure), kHasNoValue, ""};
     return {plan::PushConstant{v.value}};
   }
   if (left.size() + right.size() >= kLargestExpression)
@@ -35,7 +41,7 @@ plan::Expression combine(plan::Op2 op, plan::Expression left, const plan::Expres
 plan::Expression combine(plan::Op1 op, plan::Expression operand) {
   if (const double* a = plan::constant(operand)) {
     const Outcome<double> v = plan::apply(op, *a);
-    if (!v) throw Mistake{Code::E0119, 0, 0, fmt::format("this is {}", v.failure), "", ""};
+    if (!v) throw Mistake{Code::E0119, 0, 0, fmt::format("this is {}", v.failure), kHasNoValue, ""};
     return {plan::PushConstant{v.value}};
   }
   operand.push_back(op);

@@ -1,4 +1,5 @@
 // The command `abbe`. Exit codes: commands/commands.hpp.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -8,6 +9,9 @@
 #include "programs/terminal.hpp"
 
 int main(int argc, char** argv) {
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the file size is then an error of the write, and nothing is left half
+#endif
   try {
     return abbe::parse_command_line(argc, argv)();
   } catch (const abbe::UserError& error) {

@@ -114,7 +114,8 @@ CsvTable read_csv(const SourceFile& file) {
 }
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  const bool like_a_comment = text.starts_with('#');
+  if (text.find_first_of(",\"\r\n") == std::string::npos && !like_a_comment) return text;
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"') out += '"';

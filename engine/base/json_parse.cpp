@@ -54,12 +54,16 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool parse_error(std::size_t position, const std::string&, const nlohmann::json::exception& error) override {
+    const auto offset = static_cast<std::uint32_t>(std::min(position ? position - 1 : 0, text_.size()));
+    constexpr int kOverflow = 406;  // of nlohmann's exceptions
+    if (error.id == kOverflow)
+      fail({offset, offset + 1}, Code::E0406, "this number is too large",
+           "numbers in JSON files are at most 1e12 in size");
     std::string what = error.what();
     if (const auto cut = what.find("column"); cut != std::string::npos) what.erase(0, what.find(": ", cut) + 2);
-    const auto offset = static_cast<std::uint32_t>(std::min(position ? position - 1 : 0, text_.size()));
     fail({offset, offset + 1}, Code::E0401, "this is not JSON: " + what,
          "JSON has double quotes around keys and texts, commas between members, none after the "
-         "last, and no comments");
+         "last, no comments, and no number that is not finite (NaN)");
   }
 
   /// The parser takes it for the end of the file, and would not read what follows.

@@ -30,6 +30,12 @@ std::string text(const std::optional<Value>& value, int digits, int axis) {
   return value ? text(*value, digits, axis) : "";
 }
 
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return text;
+}
+
 /// A column, of a vector one of three.
 struct WrittenColumn {
   const RecordingColumn* column;
@@ -66,7 +72,7 @@ std::string to_csv(const Recording& recording) {
                        [&](const RecordingRow& row) { return column.text(row).empty(); });
   });
   std::string out;
-  for (const auto& [key, value] : recording.metadata) out += fmt::format("# {}: {}\n", key, value);
+  for (const auto& [key, value] : recording.metadata) out += fmt::format("# {}: {}\n", key, on_one_line(value));
   out += fmt::format("# frame: {}\n# point: {}\n", recording.in_part_frame ? "part" : "mcs",
                      recording.point == RecordedPoint::surface ? "surface" : "tip_centre");
   std::string separator;

@@ -33,7 +33,7 @@ constexpr CodeRange kRanges[] = {
      "the program runs on a machine: its sensors, travels and effects, and what was measured",
      "docs/language.md (\"What running means\"), docs/formats.md (\"Machine file\"), docs/physics.md (\"Effects\")"},
     {"04", "machine, workpiece and effects",
-     "a JSON file is read, or its machines are screened against the specification",
+     "a JSON file is read, its machines are screened against the specification, or too few of them run",
      "docs/formats.md (\"Machine file\", \"Workpiece file\"), docs/acceptance_tests.md (\"Screening\")"},
     {"05", "points, tables and recordings", "a table (CSV) or a DMIS result file is read, with what belongs to it",
      "docs/formats.md (\"Recordings\", \"Points\")"},

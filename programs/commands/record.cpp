@@ -64,15 +64,26 @@ void tell_idle(const std::vector<std::string>& with, const Machine& machine, con
   const std::size_t own = machine.effects.size() - with.size();
   for (std::size_t k = 0; k < with.size(); ++k) {
     if (acted[own + k]) continue;
+    const std::string& name = machine.effects[own + k].name;
+    const bool drawn = find_effect(name)->draws_per == DrawsPer::touch;
     print_messages({diagnostic(
-        Code::W0615, fmt::format("--with {}: it moves no touch of this program", with[k]),
-        fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file",
-                    machine.effects[own + k].name))});
+        Code::W0615, fmt::format("--with {}: it {} no touch of this program", with[k], drawn ? "moved" : "moves"),
+        drawn
+            ? fmt::format("it is drawn for each touch, and none came that shows: another --seed, or a larger size; see "
+                          "`abbe explain {}`",
+                          name)
+            : fmt::format(
+                  "`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file",
+                  name))});
   }
 }
 
-std::string describe(const std::vector<std::string>& with) {
-  return with.empty() ? "none" : fmt::format("{}", fmt::join(with, " "));
+/// The effects of the machine file, and those of the command line with their parameters.
+std::string describe(const Machine& machine, const std::vector<std::string>& with) {
+  std::vector<std::string> all;
+  for (const EffectSetting& own : machine.effects) all.push_back(own.name + " (machine file)");
+  all.insert(all.end(), with.begin(), with.end());
+  return all.empty() ? "none" : fmt::format("{}", fmt::join(all, " "));
 }
 
 }  // namespace
@@ -103,7 +114,7 @@ int record_command(const RecordOptions& options) {
   const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name},
                                                         {"program", program.source.name()},
                                                         {"seed", std::to_string(run.seed)},
-                                                        {"effects", describe(options.with)},
+                                                        {"effects", describe(inputs.machine, options.with)},
                                                         {"made_by", "abbe " ABBE_VERSION}};
   metadata.insert(metadata.begin(), std::begin(origin), std::end(origin));
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);

@@ -61,6 +61,14 @@ class Check(harness.Case):
         self.write("part.json", '{"schema": "abbe.workpiece/1", "name": "part", "surfaces": {"C": {"offset_um": 3}}}')
         self.assertEqual(self.told("$$! machine coord3-mc16\n$$! workpiece part.json\n" + harness.LENGTH), [("E0423", 1)])
 
+    def test_a_directive_is_given_once(self):
+        self.assertEqual(self.told("$$! machine coord3-mc16 seed 1\n$$! seed 2\n" + harness.LENGTH, code=0), [("W0265", 2)])
+        self.assertEqual(self.told("$$! machine coord3-mc16 machines 1\n" + harness.LENGTH), [("E0114", 1)])
+
+    def test_an_expression_without_a_value_has_a_next_step(self):
+        self.told("$$! machine coord3-mc16\n" + harness.LENGTH.replace("-0.01,0.01", "1/0,0.01"))
+        self.assertIn("help: correct the numbers", self.abbe("check", "program.dmi", code=1).stderr)
+
     def test_directives_stand_in_the_program_not_in_a_module(self):
         self.write("module.dmi", "DMISMD/'module',5.2\n$$! wibble 1\nGOTO/1,2,3 $$! expect TA(LEN) u >= 5\n$$ no directive\nENDFIL\n")
         includes = harness.LENGTH.replace("UNITS", "INCLUD/DMIS,'module.dmi'\nUNITS")

@@ -1,5 +1,6 @@
 """abbe record: one machine's recording as CSV."""
 import csv
+import json
 import pathlib
 import re
 import subprocess
@@ -82,6 +83,21 @@ with tempfile.TemporaryDirectory() as folder:
     check(run.returncode == 0 and "W0615" in run.stderr and "thermal.part_expansion" in run.stderr, "an expansion at 20 degrees C does nothing, and that is said")
     check("machine.scale" not in run.stderr, "nothing is said of what does something")
 
+    run, out = record(folder, "--seed", "21", "--with", "noise.outliers:share=0.0001")
+    check("W0615" in run.stderr and "another --seed" in run.stderr, "dirt that did not come is no effect without an effect")
+
+    # Who reads a recording sees which effects were at work, and every row that was written.
+    init = json.loads(subprocess.run([ABBE, "machine", "init", "worn"], capture_output=True, text=True).stdout)
+    init["effects"] = [{"name": "probe.tip_radius", "parameters": {"amplitude_um": 3}}]
+    (pathlib.Path(folder) / "worn.json").write_text(json.dumps(init))
+    run, out = record(folder, "--machine", str(pathlib.Path(folder) / "worn.json"), "--with", "machine.scale")
+    check("# effects: probe.tip_radius (machine file) machine.scale\n" in out.read_text(), "effects of the machine file are listed too")
+    hashed = pathlib.Path(folder) / "hashed.dmi"
+    hashed.write_text(PROGRAM.read_text().replace("F(BALL)", "F(#BALL)").replace("FA(BALL)", "FA(#BALL)"))
+    subprocess.run([ABBE, "record", str(hashed), "-o", str(out)], capture_output=True, text=True)
+    done = subprocess.run([ABBE, "diagnose", str(out), "--machine", "coord3-mc16", "--format", "json"], capture_output=True, text=True)
+    check(done.returncode == 0 and json.loads(done.stdout)["touches"] == 25, "a label that begins like a comment is read back")
+
     # Every effect that `abbe explain` lists, with its first parameter in the middle of its range.
     def explained(*words):
         return subprocess.run([ABBE, "explain", *words], capture_output=True, text=True).stdout.splitlines()
@@ -110,6 +126,8 @@ with tempfile.TemporaryDirectory() as folder:
                                   (["--with", "probe.tip_radius:amplitude_um=nan"], "E0307", "nan"),
                                   (["--with", "machine.scale:axis=q"], "E0307", "x, y, z"),
                                   (["--with", "noise.outliers:share=2"], "E0307", "a number from 0 to 0.5\n"),
+                                  (["--with", "machine.scale_interpolation:amplitude_um=5"], "E0307", "read backwards"),
+                                  (["--with", "empirical.curve:from=3,to=3,x0_um=1"], "E0307", "two ends"),
                                   (["--with", "machine.scal"], "E0305", "--with machine.scal:"),
                                   (["--with", "machine.scale:axis=x,axis=y"], "E0610", "twice"),
                                   (["--with", "probe.tip_radius:amplitude_um"], "E0610", "parameter=value")):

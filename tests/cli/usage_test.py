@@ -1,5 +1,6 @@
 """The command line itself: help, version, and wrong usage (exit code 2)."""
 import re
+import subprocess
 
 import harness
 
@@ -63,6 +64,18 @@ class Usage(harness.Case):
                         ("explain", "PTMEAS"), ("fit", "circle", harness.ROOT / "tests/cli/circle.csv"), ("machine", "list"), ("--help",)):
             with open("/dev/full", "w") as full:
                 self.assertIn("E0602", self.abbe(*command, code=2, stdout=full).stderr, command)
+
+    def test_a_limit_of_the_file_size_leaves_nothing_half(self):
+        self.write("length.dmi", harness.LENGTH)
+        done = subprocess.run(["bash", "-c", f"ulimit -f 4; {self.abbe_path} run length.dmi --machines 1000 --csv values.csv"], cwd=self.folder,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("E0602", done.stderr)
+        self.assertEqual([p.name for p in self.folder.iterdir()], ["length.dmi"])
+
+    def test_what_a_directive_names_is_refused_at_its_place(self):
+        self.write("length.dmi", "$$! machine nope\n" + harness.LENGTH)
+        self.assertIn("length.dmi:1:13: error E0411", self.refused("E0411", "run", "length.dmi"))
 
     def test_a_hyphen_is_no_output(self):
         self.write("length.dmi", harness.LENGTH)
