@@ -21,6 +21,10 @@ class Values(harness.Case):
                 rows.append(f"LEN,{program},{run},{[f for f in line.split(',') if f.strip().replace('.', '').isdigit()][0].strip()},{reference}")
         return self.write(name, "\n".join(rows) + "\n")
 
+    def at_20_degrees(self):
+        """A part whose temperature is known: what is wrong with lengths is no expansion then."""
+        return self.write("cold.json", json.dumps({"schema": "abbe.workpiece/1", "name": "cold", "material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 20, "scale_C": 20}}))
+
     def diagnosis(self, *args, code=0):
         return json.loads(self.abbe("diagnose", *args, "--format", "json", code=code).stdout)
 
@@ -46,8 +50,26 @@ class Values(harness.Case):
         self.assertIn("<svg", (self.folder / "report.html").read_text())
         self.assertIn("7 values are not what", self.abbe("diagnose", values).stdout)
 
+    def test_an_effect_is_found_with_either_sign(self):
+        """A position is an absolute value: what makes it is no linear function of the size of an effect."""
+        program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", harness.ROOT / "examples/iso10360/portal-2009.json"
+        for scale in (63, -63):
+            self.abbe("record", program, "--machine", machine, "--seed", 1, "--with", f"machine.scale:scale_um_per_m={scale},axis=all", "-o", "v.csv", "--dmo", "v.dmo")
+            said = self.diagnosis("v.dmo", "--program", program, "--machine", machine)
+            self.assertIn("machine.scale", said["effects"][0]["members"], scale)
+
+    def test_a_part_of_unknown_temperature_may_be_warm(self):
+        """At one temperature its expansion is an error of all scales: no name is certain that a thermometer could refute."""
+        program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", harness.ROOT / "examples/iso10360/portal-2009.json"
+        for seed in (1, 2, 3):
+            self.abbe("record", program, "--machine", machine, "--seed", seed, "--with", "thermal.part_expansion:temperature_error_K=6", "-o", "v.csv", "--dmo", "v.dmo")
+            said = self.diagnosis("v.dmo", "--program", program, "--machine", machine)
+            self.assertIn("thermal.part_expansion", said["effects"][0]["members"])
+            self.assertTrue(said["effects"][0]["probability"] <= 0.5 or len(said["effects"][0]["members"]) > 1)
+            self.assertIn("--workpiece", said["effects"][0]["sentence"])
+
     def test_the_size_of_an_effect_is_not_pulled(self):
-        said = self.diagnosis(self.recorded("--with", "machine.scale:scale_um_per_m=800,axis=all", lengths=BOTH))
+        said = self.diagnosis(self.recorded("--with", "machine.scale:scale_um_per_m=800,axis=all", lengths=BOTH), "--workpiece", self.at_20_degrees())
         self.assertEqual(said["effects"][0]["members"], ["machine.scale"])
         size = said["effects"][0]["parameters"]["scale_um_per_m"]
         self.assertLess(abs(size["value"] - 800), 3 * size["u"])
@@ -96,7 +118,7 @@ class Values(harness.Case):
         program = BLOCKS / "x1_L.dmi"
         lines = self.recorded(lengths=BOTH).read_text().splitlines()
         longer = [",".join(f[:3] + [str(1.002 * float(f[3]))] + f[4:]) for f in (line.split(",") for line in lines[2:])]
-        said = self.diagnosis(self.write("long.csv", "\n".join(lines[:2] + longer) + "\n"), "--model-out", "improved.json")
+        said = self.diagnosis(self.write("long.csv", "\n".join(lines[:2] + longer) + "\n"), "--workpiece", self.at_20_degrees(), "--model-out", "improved.json")
         effect = said["effects"][0]
         self.assertIn("machine.scale", effect["members"])
         self.assertFalse(effect["parameters"]["scale_um_per_m"]["plausible"])

@@ -1,6 +1,7 @@
 #include "engine/diagnose/values/value_diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -182,8 +183,15 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   const Effect& effect = *closer.explanation(f).effect;
   e.parameters = parameters_of(c, closer, f);
   const bool size = plausible(e.parameters);
-  e.probability = believed(f.probability, adequacy < kInadequate || !size);
+  const unsigned untold = std::accumulate(f.set.begin(), f.set.end(), 0u, [&](unsigned missing, int k) {
+    return missing | all.list[static_cast<std::size_t>(k)].missing;
+  });
+  const bool only_untold = closer.explanation(f).missing != 0;
+  e.probability = believed(f.probability, adequacy < kInadequate || !size || only_untold);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
+  if (untold != 0)
+    e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).",
+                              fmt::join(columns_of(untold), ", "));
   if (!size)
     e.sentence += kNoSuchSize;
   else
@@ -273,11 +281,39 @@ double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name
                    judges.judged);
 }
 
+/// Of a set those first that need nothing untold.
+void put_told_first(const Explanations& all, const Evidence& evidence, Finding& name) {
+  if (name.set.empty()) return;
+  std::stable_partition(name.set.begin(), name.set.end(),
+                        [&](int k) { return !all.list[static_cast<std::size_t>(k)].missing; });
+  if (name.set.front() == name.explanation) return;
+  name.explanation = name.set.front();
+  name.block = best_block(all, name.explanation, evidence);
+}
+
+/// The likeliest name with a size that it can have, if one is likelier than the pattern; else the likeliest.
+Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence, const Finding& pattern) {
+  constexpr int kMost = 5;
+  constexpr double kStruck = -1e6;
+  const Explanations& all = closer.search.explanations();
+  Evidence left = evidence;
+  std::optional<Finding> likeliest;
+  for (int k = 0; k < kMost; ++k) {
+    Finding name = finding_of(all, left, true);
+    put_told_first(all, left, name);
+    if (!likeliest) likeliest = name;
+    if (!likelier(name, pattern, kNamed)) break;
+    if (plausible(parameters_of(c, closer, name))) return name;
+    left.log_bayes[static_cast<std::size_t>(name.explanation)] = kStruck;
+  }
+  return *likeliest;
+}
+
 /// A name, or what stands for none; what is told is returned.
 Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
   const Explanations& all = closer.search.explanations();
   const Evidence evidence = closer.search.evidence(c.deviation);
-  const Finding name = finding_of(all, evidence, true), pattern = finding_of(all, evidence, false);
+  const Finding pattern = finding_of(all, evidence, false), name = possible_name(c, closer, evidence, pattern);
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
@@ -294,7 +330,7 @@ Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
 /// What no possible size makes seen cannot be judged.
 void tell_hidden(const ValueSearch& search, Diagnosis& out) {
   for (const Explanation& e : search.explanations().list)
-    if (e.effect &&
+    if (e.effect && !e.missing &&
         std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(),
                      [&](const Detectable& d) { return d.effect == e.name; }))
       out.cannot_judge.push_back({e.name, {}, {}});

@@ -132,7 +132,7 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
   on_threads(count, bench.options.threads, [&](int k) {
     const Explanation& e = all.list[static_cast<std::size_t>(k)];
     const auto at = static_cast<std::size_t>(k);
-    if (e.effect) form[at] = middle_form(s, e);
+    if (e.effect && !e.missing) form[at] = middle_form(s, e);
     if (form[at]) from[at] = detection.from(*e.effect, *form[at]);
   });
   std::vector<Detectable> out;

@@ -85,21 +85,34 @@ struct Draft {
   Block block;
   std::vector<Planting> plantings;
   std::vector<int> parameter;
+  double sign = 1;  ///< of the sizes that are planted: a position or a form is no linear function of them
 };
 
-std::vector<Draft> drafts_of(const Effect& effect) {
+/// Typical sizes are those of what is watched: a part whose temperature nobody told is off by more than its sensor errs,
+/// about as much as a scale.
+double usual_size(const Effect& effect, std::size_t p, unsigned unknown) {
+  constexpr double kUnwatched = 5;
+  return ((effect.needs & unknown) != 0 ? kUnwatched : 1) * effect.parameters[p].typical;
+}
+
+std::vector<Draft> drafts_of(const Effect& effect, unsigned unknown) {
   std::vector<Draft> list;
   for (const std::vector<double>& theta : settings_of(effect)) {
-    Draft d;
-    d.block.theta = theta;
-    for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-      if (!effect.parameters[p].linear) continue;
-      Planting planting{&effect, theta};
-      planting.theta[p] = effect.parameters[p].typical;
-      d.plantings.push_back(std::move(planting));
-      d.parameter.push_back(static_cast<int>(p));
+    for (const double sign : {1.0, -1.0}) {
+      Draft d;
+      d.block.theta = theta;
+      d.sign = sign;
+      for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
+        const EffectParameter& parameter = effect.parameters[p];
+        const double size = sign * usual_size(effect, p, unknown);
+        if (!parameter.linear || size < parameter.low || size > parameter.high) continue;
+        Planting planting{&effect, theta};
+        planting.theta[p] = size;
+        d.plantings.push_back(std::move(planting));
+        d.parameter.push_back(static_cast<int>(p));
+      }
+      if (!d.plantings.empty()) list.push_back(std::move(d));
     }
-    list.push_back(std::move(d));
   }
   return list;
 }
@@ -130,9 +143,9 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
     for (const int p : d.parameter) {
       const Vector& values = grown[at++];
       if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kSameValue_um) continue;
-      d.block.columns.push_back({p, 0, effect.parameters[static_cast<std::size_t>(p)].typical});
+      d.block.columns.push_back({p, 0, usual_size(effect, static_cast<std::size_t>(p), unknown)});
       d.block.signature.conservativeResize(values.size(), d.block.signature.cols() + 1);
-      d.block.signature.rightCols(1) = values;
+      d.block.signature.rightCols(1) = d.sign * values;
     }
     if (d.block.columns.empty() || repeats_values(d.block, e, out.blocks)) continue;
     d.block.explanation = static_cast<int>(out.list.size());
@@ -140,10 +153,9 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
     out.blocks.push_back(std::move(d.block));
   }
   share_belief(e, out.blocks);
-  if (e.blocks.empty())
-    out.unjudged.push_back({&effect, effect.needs & unknown, 0});
-  else
-    out.list.push_back(std::move(e));
+  e.missing = effect.needs & unknown;
+  if (e.missing || e.blocks.empty()) out.unjudged.push_back({&effect, e.missing, 0});
+  if (!e.blocks.empty()) out.list.push_back(std::move(e));
 }
 
 void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix signature) {
@@ -184,14 +196,14 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
   std::vector<std::vector<Draft>> drafts;
   std::vector<Planting> plantings;
   for (const Effect* effect : effects()) {
-    const unsigned missing = effect->needs & (kNotInValues | unknown);
-    if (missing != 0 || effect->draws > 0) {
-      // what is drawn by chance has no signature in values, whatever is told with them
-      out.unjudged.push_back({effect, missing, 0});
+    // What is drawn by chance has no signature in values, whatever is told with them. Of a part at an unknown temperature
+    // what does not ask for it stays an explanation, though one that cannot be judged: an error of its sensor.
+    if ((effect->needs & kNotInValues) != 0 || effect->draws > 0) {
+      out.unjudged.push_back({effect, effect->needs & (kNotInValues | unknown), 0});
       continue;
     }
     judged.push_back(effect);
-    drafts.push_back(drafts_of(*effect));
+    drafts.push_back(drafts_of(*effect, unknown));
     for (const Draft& d : drafts.back()) plantings.insert(plantings.end(), d.plantings.begin(), d.plantings.end());
   }
   const std::vector<Vector> grown =

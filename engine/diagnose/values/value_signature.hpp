@@ -8,8 +8,8 @@
 
 namespace abbe::diagnose {
 
-/// The catalogue: one explanation for each effect that can be judged, a block for each combination of its
-/// choices, a column for each linear parameter. `machines`: where the error-free machine takes its numbering
+/// The catalogue: one explanation for each effect that does something to values, a block for each combination of its
+/// choices and each sign of its sizes, a column for each linear parameter. `machines`: where the error-free machine takes its numbering
 /// from. OTHER is added by add_value_patterns.
 Explanations value_explanations(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,
                                 const VirtualMachines& machines, const DiagnoseOptions&);
