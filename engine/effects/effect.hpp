@@ -132,8 +132,9 @@ struct EffectParameter {
   double typical = 0;  ///< one prior standard deviation of a size (linear), or the prior median (others)
   /// plausible range; values outside are refused in machine files and flagged by the diagnosis
   double low = 0, high = 0;
-  double standard = 0;  ///< value when a user gives none
-  bool linear = false;  ///< the displacement is linear in all linear parameters jointly
+  double standard = 0;          ///< value when a user gives none
+  bool linear = false;          ///< the displacement is linear in all linear parameters jointly
+  std::string_view group = "";  ///< of linear ones that often act without those of other groups
   /// names of the codes low, low + 1, ... of a parameter that is a choice
   std::span<const std::string_view> choices = {};
   Sought sought = Sought::not_at_all;
@@ -169,6 +170,8 @@ struct Effect {
   int draws = 0;                 ///< how many numbers each time
   bool linear_in_draws = false;  ///< for given parameters; no displacement when all draws are zero
   bool only_spread = false;      ///< no law but a spread: of what is drawn so freely, much else may look like it
+  /// What is impossible about values that are each possible by themselves, "" if nothing; none: any go together.
+  std::string_view (*contradiction)(const double* theta) = nullptr;
   /// d of one touch, mm in W. theta: parameter values in the units of `parameters`, in their order; z: the draws.
   Vec3 (*displace)(const TouchScene&, const double* theta, const double* z) = nullptr;
 };

@@ -52,6 +52,10 @@ class Refusal {
     refuse(span, Code::E0307,
            fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
   }
+  [[noreturn]] void contradiction(std::string_view what) const {
+    refuse(setting_.span, Code::E0307, std::string(what),
+           fmt::format("`abbe explain {}` says what its parameters mean", setting_.name));
+  }
   [[noreturn]] void quoted_number(const EffectParameter& p, const std::string& word, Span span) const {
     refuse(span, Code::E0405, fmt::format("{} is the text \"{}\", but must be a number", p.name, word),
            fmt::format("leave out the quotes: \"{}\": {}", p.name, word));
@@ -89,6 +93,8 @@ double checked_value(const EffectParameter& p, const EffectSetting::Value& given
   if (value < p.low || value > p.high || (p.is_code() && value != std::floor(value)))
     refusal.impossible(p, fmt::format("{:g}", value), given.span);
   if (p.is_code() && given.u != 0) refusal.uncertain_choice(p, given.span);
+  if (given.u > p.high - p.low)
+    refusal.impossible(p, fmt::format("{:g} with a standard uncertainty of {:g}", value, given.u), given.span);
   return value;
 }
 
@@ -129,6 +135,8 @@ EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, 
       a.value[*p] = checked_value(effect.parameters[*p], value, refusal);
       a.u[*p] = value.u;
     }
+    const std::string_view wrong = effect.contradiction ? effect.contradiction(a.value.data()) : "";
+    if (!wrong.empty()) refusal.contradiction(wrong);
     a.linear = is_linear(a);
     if (a.linear) a.components = components_of(a);
     active_.push_back(std::move(a));

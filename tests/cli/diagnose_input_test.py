@@ -142,7 +142,7 @@ class Placement(Input):
         self.assertGreater(len(said["smallest_detectable"]), 5)
         self.assertIn("W0717", self.codes(self.said(path)))       # nor has a machine with errors reported them
         said = self.said(self.recording, "--machine", "m.json")   # and a real one of such a machine is judged
-        self.assertEqual(said["effects"][0]["members"][0], "probe.tip_radius")
+        self.assertIn("probe.tip_radius", said["effects"][0]["members"])
 
     def test_what_nothing_can_be_judged_of_is_said(self):
         alone = iter(range(1, 1000))

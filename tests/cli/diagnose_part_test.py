@@ -104,6 +104,24 @@ class CalibratedPart(harness.Case):
         self.assertGreater(bow["value"], 10 * bow["u"])
         self.assertLess(abs(twist["value"]), 3 * twist["u"])
 
+    def test_a_form_of_one_kind_is_named(self):
+        """A chuck of three jaws makes three lobes, and none of the other harmonics."""
+        part = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        for seed in (1, 2, 3):
+            self.abbe("record", part, "--machine", MACHINE, "--seed", seed, "--with", "part.form:three_lobe_um=4", "-o", "rec.csv")
+            said = self.diagnosis("rec.csv", "--program", part)
+            self.assertEqual(said["effects"][0]["members"], ["part.form"])
+            lobes = said["effects"][0]["parameters"]["three_lobe_um"]
+            self.assertLess(abs(lobes["value"] - 4), 3 * lobes["u"])
+            self.assertIn("holds for no other part", said["effects"][0]["sentence"])
+
+    def test_a_force_that_fell_is_told_as_its_change(self):
+        """A trigger force is never negative; its change is. Where both do the same to the touches, it is the change."""
+        part = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        for change in (0.002, -0.002):
+            self.abbe("record", part, "--machine", MACHINE, "--with", f"probe.stylus_bending:force_change_N={change}", "-o", "rec.csv")
+            self.assertIn("probe.stylus_bending", self.diagnosis("rec.csv", "--program", part)["effects"][0]["members"], change)
+
     def test_a_program_in_machine_coordinates_has_its_part_in_the_middle_of_its_touches(self):
         """The machine's zero says nothing of the part: a clamp bows it about the same point with and without the program."""
         lengths = harness.ROOT / "examples/iso10360/e0.dmi"

@@ -44,7 +44,7 @@ PLANTED = {
     "machine.squareness": "squareness_urad=60,which=cwy",
     "machine.straightness_angle_coupling": "amplitude_um=15",
     "machine.backlash": "backlash_um=8",
-    "machine.scale_interpolation": "amplitude_um=4,second_um=1.5,period_um=20,axis=x,phase_deg=100,second_phase_deg=-50",
+    "machine.scale_interpolation": "amplitude_um=2,second_um=0.5,period_um=20,axis=x,phase_deg=100,second_phase_deg=-50",
     "machine.dynamics": "rotation_urad_per_m_s2=100,axis=y,about=x",
     "machine.ram_droop": "droop_um=40",
     "machine.map_scallops": "amplitude_um=8,spacing_mm=50,axis=x",

@@ -83,14 +83,14 @@ class SmallRound(unittest.TestCase):
         self.assertEqual((said["verdict"], said["effects"]), ("unexplained", []))
 
     def test_the_form_of_a_ball_is_no_geometry_beyond_the_specification(self):
-        """A single of the eleventh final round: errors of 9.7 times the specification had explained it. What is left out of one ball is not
-        predicted by the rest, so that the name is believed by half."""
+        """A single of the eleventh final round: errors of 9.7 times the specification had explained it."""
         said = self.answer("final fc40c50925ef603bf6659ad35586013b", "0041", Spec("single", "part.form", 15.0))
         self.assertLess(said["p_value"], 0.01)
         self.assertLess(said["baseline"]["geometry_scale"], 2.5)
-        self.assertEqual((said["effects"][0]["members"][0], said["effects"][0]["probability"]), ("part.form", 0.5))
+        self.assertEqual(said["effects"][0]["members"][0], "part.form")
+        self.assertGreater(said["effects"][0]["probability"], 0.9)
         self.assertGreater(said["adequacy_p_value"], 0.05)
-        self.assertLess(said["improvement"]["log_score_gain"], said["improvement"]["se"])
+        self.assertGreater(said["improvement"]["log_score_gain"], said["improvement"]["se"])
 
     def test_a_name_that_leaves_something_is_believed_by_half(self):
         """A missing covariate of the sixth final round: the bending that fits what the other temperatures show had been sure."""

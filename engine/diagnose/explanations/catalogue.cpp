@@ -92,6 +92,20 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
   return list;
 }
 
+/// The same with all parameters, and with those of each group alone.
+std::vector<Block> by_groups(const std::vector<Block>& all, const Effect& effect) {
+  std::set<std::string_view> groups{""};
+  for (const EffectParameter& p : effect.parameters) groups.insert(p.group);
+  std::vector<Block> list;
+  for (const std::string_view group : groups) {
+    for (const Block& block : all) {
+      list.push_back(block);
+      list.back().group = group;
+    }
+  }
+  return list;
+}
+
 /// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
 constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
 
@@ -134,7 +148,8 @@ class VariantColumns {
 
   void fill(Block& block) const {
     for (std::size_t p = 0; p < effect_.parameters.size(); ++p)
-      if (effect_.parameters[p].linear) add_parameter(static_cast<int>(p), block);
+      if (effect_.parameters[p].linear && (block.group.empty() || block.group == effect_.parameters[p].group))
+        add_parameter(static_cast<int>(p), block);
     if (effect_.draws > 0) {
       block.signature = compressed(block.signature);
       block.joined = true;
@@ -292,7 +307,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.missing = missing_of(effect, t);
   const std::vector<Search> search = searches(effect, t, least_period_um);
   const Variants variants(effect, search, t, rows);
-  for (Block& block : with_changes(settings(effect, search), effect, later_runs(t, rows))) {
+  for (Block& block : with_changes(by_groups(settings(effect, search), effect), effect, later_runs(t, rows))) {
     block.explanation = static_cast<int>(out.list.size());
     variants.fill(block);
     if (block.signature.cols() == 0) continue;
@@ -360,18 +375,20 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
   return out;
 }
 
-Block variant_at(const Effect& effect, const std::vector<double>& theta, RunChange change, const RecordedTouches& t,
-                 const std::vector<int>& rows) {
+Block variant_like(const Block& other, const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) {
   Block block;
-  block.theta = theta;
-  block.change = change;
+  block.theta = other.theta;
+  block.group = other.group;
+  block.change = other.change;
   Variants(effect, searches(effect, t), t, rows).fill(block);
   return block;
 }
 
 void share_belief(const Explanation& e, std::vector<Block>& blocks) {
   double constant = 0, changing = 0;
-  const auto weight = [](const Block& b) { return b.change.gone() ? 0.5 : 1; };
+  std::map<std::string_view, double> in_group;
+  for (const int k : e.blocks) ++in_group[blocks[static_cast<std::size_t>(k)].group];
+  const auto weight = [&](const Block& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
   for (const int k : e.blocks) {
     const Block& b = blocks[static_cast<std::size_t>(k)];
     (b.change.any() ? changing : constant) += weight(b);

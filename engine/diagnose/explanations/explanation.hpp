@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
@@ -57,8 +58,9 @@ struct Block {
   /// by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is
   /// possible
   std::vector<Cell> cells;
-  RunChange change;  ///< what changed between runs
-  Cell runs;         ///< of a change: the stretch of later runs that its first one stands for, as places in their order
+  std::string_view group;  ///< of the effect's parameters, which acts without the others; "": all act
+  RunChange change;        ///< what changed between runs
+  Cell runs;  ///< of a change: the stretch of later runs that its first one stands for, as places in their order
   double weight = 1;    ///< belief before the data in this variant, among those of its explanation
   bool finest = false;  ///< no touch tells the values within its cells apart
   std::vector<Column> columns;
@@ -127,13 +129,13 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
 /// The parameter that is the moment of an effect.
 std::optional<std::size_t> moment_of(const Effect&);
 
-/// A variant of an effect at these parameters, with this change; no columns where the effect does nothing there.
-Block variant_at(const Effect&, const std::vector<double>& theta, RunChange, const RecordedTouches&,
-                 const std::vector<int>& rows);
+/// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
+/// nothing there.
+Block variant_like(const Block&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);
 
-/// Belief in each variant of an explanation: the same, but for those that change between runs, which hold a
-/// tenth together. What is gone counts half of what is new: where only differences between runs are seen, the
-/// two are the same.
+/// Belief in each variant of an explanation: the same for each group of parameters, and within a group for each
+/// variant, but for those that change between runs, which hold a tenth together. What is gone counts half of what is
+/// new: where only differences between runs are seen, the two are the same.
 void share_belief(const Explanation&, std::vector<Block>&);
 
 /// The explanations of one kind only; `kept` by index into the list.

@@ -42,6 +42,7 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
 /// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is
 /// that of the runs.
 bool neighbours(const Block& a, const Block& b, const Effect& effect) {
+  if (a.group != b.group) return false;
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
   if (a.change != b.change && !(of_runs && a.change.is_like(b.change) && adjoin(a.runs, b.runs))) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
@@ -109,6 +110,7 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
   std::vector<Block> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
+    list[k].group = whole.group;
     list[k].change = whole.change;
     if (whole.change.any()) list[k].change.first() = parts[k].from_run;
     list[k].runs = parts[k].runs;
@@ -160,7 +162,7 @@ void divide(const Case& c, Explanations& all, int explanation, int which) {
   std::vector<Block> parts =
       parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
   for (Block& part : parts) {
-    Block made = variant_at(*e.effect, part.theta, part.change, c.touches, c.rows);
+    Block made = variant_like(part, *e.effect, c.touches, c.rows);
     part.columns = std::move(made.columns);
     part.signature = std::move(made.signature);
     part.joined = made.joined;

@@ -252,6 +252,7 @@ Following best_following(const Case& c, const LinearModel& beside, const Hyperpa
     for (Pieces& pieces : followers_of(c, factor)) {
       Following f;
       f.factor = factor, f.basis = basis_of(c, pieces), f.pieces = std::move(pieces);
+      if (f.basis.columns.cols() > f.basis.columns.rows()) continue;  // more values than touches to tell them
       between.push_back(between_neighbours(f.pieces, f.basis));
       weights.push_back(weights_of(f.basis, between.back(), placement, visible));
       add(f.basis.columns * weights.back());

@@ -11,6 +11,9 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// So many members of a set are told with a size.
+constexpr std::size_t kSized = 5;
+
 /// How probable a member of a finding's set is, up to a factor that all members share.
 double weight(const Case& c, const Finding& f, int member) {
   const std::vector<double>& bayes = f.evidence.log_bayes;
@@ -88,20 +91,33 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
     double dropped = 0;
     std::vector<int> struck;
     Finding& f = result.findings[k];
-    while (!possible(c, f, estimate_size(c, result, k).parameters)) {
-      if (f.set.size() == 1) {
-        f = as_found;
-        struck.clear();
-        break;
-      }
-      struck.push_back(f.set.front());
-      dropped += weight(c, as_found, f.set.front());
-      f.set.erase(f.set.begin());
-      f.explanation = f.set.front();
-      f.block = best_block(c.explanations, f.explanation, f.evidence);
+    const auto strike = [&](std::size_t at) {
+      struck.push_back(f.set[at]);
+      dropped += weight(c, as_found, f.set[at]);
+      f.set.erase(f.set.begin() + static_cast<std::ptrdiff_t>(at));
       // of all that were in question before, those outside the set too
       const double impossible = as_found.probability * dropped / all;
       f.probability = (as_found.probability - impossible) / (1 - impossible);
+    };
+    bool possible_head = possible(c, f, estimate_size(c, result, k).parameters);
+    while (!possible_head && f.set.size() > 1) {
+      strike(0);
+      f.explanation = f.set.front();
+      f.block = best_block(c.explanations, f.explanation, f.evidence);
+      possible_head = possible(c, f, estimate_size(c, result, k).parameters);
+    }
+    if (!possible_head) {
+      f = as_found;
+      continue;
+    }
+    // The others of those that are told with a size of their own.
+    for (std::size_t at = 1; at < std::min(f.set.size(), kSized);) {
+      const int member = f.set[at];
+      if (plausible(estimate_size(c, result, k, member).parameters)) {
+        ++at;
+        continue;
+      }
+      strike(at);
     }
     if (!struck.empty()) fill_up(c, f, struck);
   }
@@ -109,7 +125,6 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
 
 std::vector<DiagnosedMember> members_of(const Case& c, const SearchResult& result, std::size_t k,
                                         const DiagnosedEffect& told) {
-  constexpr std::size_t kSized = 5;
   const Finding& f = result.findings[k];
   const double all = weight_of_all(c, f);
   std::vector<DiagnosedMember> out;

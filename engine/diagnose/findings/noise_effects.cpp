@@ -173,7 +173,7 @@ Vector beyond_found(const Case& c, const SearchResult& result) {
   for (const Finding& f : result.findings) {
     const Block& b = c.explanations.blocks[static_cast<std::size_t>(f.block)];
     const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
-    found.push_back(variant_at(effect, b.theta, b.change, c.touches, all).signature);
+    found.push_back(variant_like(b, effect, c.touches, all).signature);
   }
   if (found.empty()) return c.off_um;
   std::vector<const Matrix*> signatures;

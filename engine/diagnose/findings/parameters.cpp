@@ -164,6 +164,7 @@ class Estimator {
   std::vector<DiagnosedParameter> all() const {
     std::vector<DiagnosedParameter> out;
     for (std::size_t p = 0; p < search_.size(); ++p) add(p, out);
+    doubt_contradictions(out);
     return out;
   }
 
@@ -175,12 +176,30 @@ class Estimator {
     Information info;
   };
 
+  /// Sizes that do not go together even where each is as small as it may be.
+  void doubt_contradictions(std::vector<DiagnosedParameter>& told) const {
+    const Effect& effect = *explanation_.effect;
+    if (!effect.contradiction) return;
+    std::vector<double> theta = variants_[likeliest_].block.theta;
+    const auto parameter_of = [&](const DiagnosedParameter& t) {
+      return static_cast<std::size_t>(std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                                   [&](const EffectParameter& p) { return p.name == t.name; }) -
+                                      effect.parameters.begin());
+    };
+    for (const DiagnosedParameter& t : told)
+      if (const std::size_t p = parameter_of(t); effect.parameters[p].linear)
+        theta[p] = t.low <= 0 && t.high >= 0 ? 0 : std::min(std::abs(t.low), std::abs(t.high));
+    if (effect.contradiction(theta.data()).empty()) return;
+    for (DiagnosedParameter& t : told)
+      if (effect.parameters[parameter_of(t)].linear) t.plausible = false;
+  }
+
   static double largest(const Vector& shift_um) { return shift_um.cwiseAbs().maxCoeff(); }
 
   /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli
   /// or two axes: told is that of the likeliest variant, over the values of what has a value between any two.
   static bool alike(const Block& a, const Block& b) {
-    if (a.change != b.change) return false;
+    if (a.change != b.change || a.group != b.group) return false;
     for (std::size_t p = 0; p < a.theta.size(); ++p)
       if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
         return false;
@@ -228,11 +247,11 @@ class Estimator {
   bool matters(std::size_t p) const {
     constexpr double kNothing_um = 1e-6;
     const Block& likeliest = variants_[likeliest_].block;
-    std::vector<double> theta = likeliest.theta;
+    Block at = likeliest;
     if (search_[p].values.size() < 2) return true;
     return std::any_of(search_[p].values.begin(), search_[p].values.end(), [&](double value) {
-      theta[p] = value;
-      const Matrix other = variant_at(*explanation_.effect, theta, likeliest.change, touches_, rows_).signature;
+      at.theta[p] = value;
+      const Matrix other = variant_like(at, *explanation_.effect, touches_, rows_).signature;
       return other.cols() != likeliest.signature.cols() ||
           (other - likeliest.signature).cwiseAbs().maxCoeff() > kNothing_um;
     });

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "engine/math/units.hpp"
 
@@ -24,12 +26,14 @@ double own_share(const Matrix& g, const std::vector<Eigen::Index>& columns, cons
   return (all - cross.transpose() * Eigen::LLT<Matrix>(wide).solve(cross)).trace() / all.trace();
 }
 
-/// Columns that say something of their own: of parameters that do the same, those of the first. Draws are no
-/// parameters.
-std::vector<Eigen::Index> telling(const Block& block, const Matrix& g) {
-  std::map<int, std::vector<Eigen::Index>> by_parameter;
-  for (std::size_t k = 0; k < block.columns.size() && !block.joined; ++k)
-    by_parameter[block.columns[k].parameter].push_back(static_cast<Eigen::Index>(k));
+/// Columns that say something of their own: of parameters that do the same, those of the first, `later` after the others.
+/// Draws are no parameters.
+std::vector<Eigen::Index> telling(const Block& block, const Matrix& g, const std::set<int>& later) {
+  std::map<std::pair<bool, int>, std::vector<Eigen::Index>> by_parameter;
+  for (std::size_t k = 0; k < block.columns.size() && !block.joined; ++k) {
+    const int parameter = block.columns[k].parameter;
+    by_parameter[{later.contains(parameter), parameter}].push_back(static_cast<Eigen::Index>(k));
+  }
   std::vector<Eigen::Index> kept;
   for (const auto& [parameter, columns] : by_parameter)
     if (own_share(g, columns, kept) > kInseparable) kept.insert(kept.end(), columns.begin(), columns.end());
@@ -77,7 +81,24 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const
       covariance_(Matrix::Zero(info.u.size(), info.u.size())) {
   for (const Column& c : block.columns)
     directions_ = std::max(directions_, c.part % 3 > 0 ? 3 : 1), phases_ = std::max(phases_, c.part / 3 + 1);
-  const std::vector<Eigen::Index> kept = telling(block, info.g);
+  solve(info, {});
+  // What a parameter cannot be, one that does the same to these touches may: a force is never negative, its change is.
+  std::set<int> impossible;
+  for (std::size_t k = 0; k < block.columns.size(); ++k) {
+    const int p = block.columns[k].parameter;
+    if (p < 0 || directions_ * phases_ > 1) continue;
+    constexpr double kSurely = 1.96;
+    const EffectParameter& parameter = effect.parameters[static_cast<std::size_t>(p)];
+    const auto at = static_cast<Eigen::Index>(k);
+    const double size = block.columns[k].unit * mean_(at), u = block.columns[k].unit * std::sqrt(covariance_(at, at));
+    if (size + kSurely * u < parameter.low || size - kSurely * u > parameter.high) impossible.insert(p);
+  }
+  if (!impossible.empty()) solve(info, impossible);
+}
+
+void VariantEstimate::solve(const Information& info, const std::set<int>& later) {
+  mean_.setZero(), covariance_.setZero();
+  const std::vector<Eigen::Index> kept = telling(block_, info.g, later);
   const auto count = static_cast<Eigen::Index>(kept.size());
   const Eigen::LLT<Matrix> llt(info.g(kept, kept) + Matrix::Identity(count, count) / (kWidest * kWidest));
   mean_(kept) = Vector(llt.solve(Vector(info.u(kept))));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 
 #include "engine/diagnose/model/evidence.hpp"
 
@@ -23,8 +24,8 @@ struct SpannedDirection {
 };
 
 /// Linear-Gaussian posterior of the coefficients of a variant, with priors so wide that they do not pull.
-/// Where several parameters do the same to these touches the first tells it, and the others nothing: their
-/// sum is known, not their shares.
+/// Where several parameters do the same to these touches the first of those that can have such a size tells it, and the
+/// others nothing: their sum is known, not their shares.
 ///
 /// Columns along three directions and two phases span more than an effect does, which moves along one
 /// direction with one phase. Size, direction and phase are those of the nearest such motion: the leading term
@@ -53,6 +54,8 @@ class VariantEstimate {
     bool whole = true;  ///< whether the touches see it from every direction
   };
   std::optional<Motion> motion(int parameter) const;
+  /// `later`: parameters that tell only what no other one does.
+  void solve(const Information&, const std::set<int>& later);
 
   const Effect& effect_;
   const Block& block_;

@@ -140,8 +140,8 @@ std::vector<Matrix> signatures_beside(const Case& c, const Question& question, c
   std::vector<Matrix> out;
   for (const Finding& f : question.beside) {
     const Block& found = c.explanations.blocks[static_cast<std::size_t>(f.block)];
-    Block seen = variant_at(*c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, found.theta,
-                            found.change, longer.touches, rows);
+    Block seen =
+        variant_like(found, *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, longer.touches, rows);
     if (seen.signature.cols() > 0) out.push_back(std::move(seen.signature));
   }
   return out;

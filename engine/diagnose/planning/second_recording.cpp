@@ -82,6 +82,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
     RecordingRow row = c.recording->rows[static_cast<std::size_t>(k)];
     const double residual_mm = dot(*row.normal, row.position_mm - *row.target_mm);
     row.run = last.run + 1;
+    if (!row.qualification) row.qualification = 2;  // as of a second file that does not say otherwise
     if (row.visit) row.visit = change.reversed ? 2 * last.visit + 1 - *row.visit : *row.visit + last.visit;
     if (row.time_s) row.time_s = last.time_s + kPause_s + std::abs(*row.time_s - begin_s);
     if (change.new_setup) row.setup += last.setup;

@@ -77,6 +77,10 @@ Vec3 empirical_curve(const TouchScene& scene, const double* theta, const double*
       along_normal(scene, kUm * ((1 - w) * a[3] + w * b[3]));
 }
 
+std::string_view empirical_curve_contradiction(const double* theta) {
+  return theta[1] == theta[2] ? "a curve needs two ends: from and to are the same" : "";
+}
+
 constexpr auto kNeighbouringKnots = [] {
   std::array<Neighbours, kOfKnot*(kCurveKnots - 1)> list{};
   for (std::size_t k = 0; k < list.size(); ++k) list[k] = {kFirstKnot + k, kFirstKnot + k + kOfKnot};
@@ -97,6 +101,7 @@ constinit const Effect kEmpiricalCurve{
     .needs = 0,
     .parameters = kEmpiricalCurveParameters,
     .neighbours = kNeighbouringKnots,
+    .contradiction = empirical_curve_contradiction,
     .displace = empirical_curve,
 };
 

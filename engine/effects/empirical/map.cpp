@@ -87,6 +87,12 @@ Vec3 empirical_map(const TouchScene& scene, const double* theta, const double*) 
   return kUm * d + along_normal(scene, kUm * r);
 }
 
+std::string_view empirical_map_contradiction(const double* theta) {
+  return theta[1] == theta[2] || theta[3] == theta[4]
+      ? "a map needs two ends along each coordinate: from and to are the same"
+      : "";
+}
+
 constexpr auto kNeighbouringNodes = [] {
   constexpr auto at = [](int i, int j, int of_node) {
     return static_cast<std::size_t>(kFirstNode + kOfNode * (i * kMapNodes + j) + of_node);
@@ -116,6 +122,7 @@ constinit const Effect kEmpiricalMap{
     .needs = 0,
     .parameters = kEmpiricalMapParameters,
     .neighbours = kNeighbouringNodes,
+    .contradiction = empirical_map_contradiction,
     .displace = empirical_map,
 };
 

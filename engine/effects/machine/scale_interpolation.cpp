@@ -66,6 +66,11 @@ Vec3 scale_interpolation(const TouchScene& scene, const double* theta, const dou
   return error_um * kUm * axis_vector(axis);
 }
 
+std::string_view scale_interpolation_contradiction(const double* theta) {
+  const double steepest = 2 * kPi * (std::abs(theta[0]) + 2 * std::abs(theta[1])) / theta[2];
+  return steepest < 1 ? "" : "with such an amplitude the scale would read backwards within its period";
+}
+
 }  // namespace
 
 constinit const Effect kScaleInterpolation{
@@ -83,6 +88,7 @@ constinit const Effect kScaleInterpolation{
     .stage = Stage::scale,
     .needs = 0u | Covariate::raw_reading,
     .parameters = kScaleInterpolationParameters,
+    .contradiction = scale_interpolation_contradiction,
     .displace = scale_interpolation,
 };
 

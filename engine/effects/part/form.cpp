@@ -23,35 +23,45 @@ namespace {
 constexpr int kHarmonics = 12;
 /// What is finer is smaller: as 1 / l^2 with the degree l, like the form of a smooth surface.
 constexpr double kTypical_um = 0.5, kTypicalThird_um = 0.22, kMost_um = 500;
-constexpr EffectParameter lobe(std::string_view name, std::string_view help, double typical_um = kTypical_um) {
+/// Most forms are of one kind: a chuck of three jaws makes three lobes, and a pressed ring is oval.
+constexpr EffectParameter form(std::string_view name, std::string_view group, double typical_um,
+                               std::string_view help) {
   return {.name = name,
           .unit = "um",
           .help = help,
           .typical = typical_um,
           .low = -kMost_um,
           .high = kMost_um,
-          .linear = true};
+          .linear = true,
+          .group = group};
+}
+constexpr EffectParameter oval(std::string_view name, std::string_view help) {
+  return form(name, "oval", kTypical_um, help);
+}
+constexpr EffectParameter lobed(std::string_view name, std::string_view help) {
+  return form(name, "lobed", kTypicalThird_um, help);
+}
+constexpr EffectParameter wave(std::string_view name, std::string_view help) {
+  return form(name, "wave", kTypical_um, help);
 }
 
 constexpr double kWavelengths_mm[] = {50, 70, 100, 140, 200, 280, 400};
 
 constexpr EffectParameter kPartFormParameters[] = {
-    lobe("oval_um", "two lobes about the part's z: proud along x, low along y"),
-    lobe("oval_45_um", "two lobes about the part's z: proud at 45 degrees between x and y"),
-    lobe("oval_xz_um", "two lobes about the part's y: proud at 45 degrees between x and z"),
-    lobe("oval_yz_um", "two lobes about the part's x: proud at 45 degrees between y and z"),
-    lobe("egg_um", "proud by this at both poles of the part's z, low by half of it at the equator"),
-    lobe("three_lobe_um", "three lobes about the part's z: one of them proud along x", kTypicalThird_um),
-    lobe("three_lobe_30_um", "three lobes about the part's z: one of them proud at 30 degrees from x",
-         kTypicalThird_um),
-    lobe("three_lobe_xz_um", "three lobes about the part's y: one of them proud along x", kTypicalThird_um),
-    lobe("three_lobe_yz_um", "three lobes about the part's x: one of them proud along y", kTypicalThird_um),
-    lobe("pear_um", "proud by this at the part's +z pole, low by it at the other", kTypicalThird_um),
-    lobe("crossed_oval_um", "an oval that changes over: above the part's equator proud along x, below it along y",
-         kTypicalThird_um),
-    lobe("crossed_oval_45_um", "the same, turned by 45 degrees", kTypicalThird_um),
-    lobe("wave_um", "faces: wave over the position on the part, sine, zero at the part's origin"),
-    lobe("wave_cosine_um", "faces: wave over the position on the part, cosine, proud at the part's origin"),
+    oval("oval_um", "two lobes about the part's z: proud along x, low along y"),
+    oval("oval_45_um", "two lobes about the part's z: proud at 45 degrees between x and y"),
+    oval("oval_xz_um", "two lobes about the part's y: proud at 45 degrees between x and z"),
+    oval("oval_yz_um", "two lobes about the part's x: proud at 45 degrees between y and z"),
+    oval("egg_um", "proud by this at both poles of the part's z, low by half of it at the equator"),
+    lobed("three_lobe_um", "three lobes about the part's z: one of them proud along x"),
+    lobed("three_lobe_30_um", "three lobes about the part's z: one of them proud at 30 degrees from x"),
+    lobed("three_lobe_xz_um", "three lobes about the part's y: one of them proud along x"),
+    lobed("three_lobe_yz_um", "three lobes about the part's x: one of them proud along y"),
+    lobed("pear_um", "proud by this at the part's +z pole, low by it at the other"),
+    lobed("crossed_oval_um", "an oval that changes over: above the part's equator proud along x, below it along y"),
+    lobed("crossed_oval_45_um", "the same, turned by 45 degrees"),
+    wave("wave_um", "faces: wave over the position on the part, sine, zero at the part's origin"),
+    wave("wave_cosine_um", "faces: wave over the position on the part, cosine, proud at the part's origin"),
     {.name = "wavelength_mm",
      .unit = "mm",
      .help = "length of the wave",
