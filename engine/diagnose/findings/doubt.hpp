@@ -50,6 +50,28 @@ inline EffectSetting setting_of(const std::string& effect, const std::vector<Dia
   return setting;
 }
 
+/// Sizes that do not go together, made smaller by one factor until they do: less than their uncertainty, or they would not
+/// be plausible.
+inline EffectSetting without_contradiction(const Effect& effect, EffectSetting setting) {
+  constexpr double kStep = 0.99;
+  constexpr int kMost = 200;
+  const auto contradicts = [&] {
+    std::vector<double> theta;
+    for (const EffectParameter& p : effect.parameters) {
+      const auto found = setting.parameters.find(std::string(p.name));
+      theta.push_back(found == setting.parameters.end() || !found->second.word.empty() ? p.standard
+                                                                                       : found->second.value);
+    }
+    return !effect.contradiction(theta.data()).empty();
+  };
+  for (int k = 0; effect.contradiction && k < kMost && contradicts(); ++k)
+    for (const EffectParameter& p : effect.parameters)
+      if (const auto found = setting.parameters.find(std::string(p.name));
+          p.linear && found != setting.parameters.end())
+        found->second.value *= kStep;
+  return setting;
+}
+
 /// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ±
 /// 0.02 N may be none.
 inline EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
@@ -62,7 +84,7 @@ inline EffectSetting nearest_possible(const Effect& effect, EffectSetting settin
     const double possible = std::clamp(found->second.value, p.low, p.high);
     if (std::abs(found->second.value - possible) <= kWithin * found->second.u) found->second.value = possible;
   }
-  return setting;
+  return without_contradiction(effect, std::move(setting));
 }
 
 }  // namespace abbe::diagnose

@@ -50,3 +50,15 @@ TEST_CASE("an uncertainty is no larger than the range of its parameter") {
   CHECK(nearest_possible(dirt, EffectSetting{"noise.outliers", {{"share", {0.3, 5, ""}}}}).parameters.at("share").u ==
         0.5);
 }
+
+TEST_CASE("sizes that do not go together are made smaller until they do") {
+  const Effect& scale = *find_effect("machine.scale_interpolation");
+  const EffectSetting steep{
+      "machine.scale_interpolation",
+      {{"amplitude_um", {2.4, 0.3, ""}}, {"second_um", {0.6, 0.3, ""}}, {"period_um", {20, 0, ""}}}};
+  const EffectSetting possible = nearest_possible(scale, steep);
+  const double first = possible.parameters.at("amplitude_um").value, second = possible.parameters.at("second_um").value;
+  CHECK(2 * 3.14159265358979 * (first + 2 * second) / 20 < 1);
+  CHECK(first == doctest::Approx(2.1).epsilon(0.02));
+  CHECK(second / first == doctest::Approx(0.25));
+}

@@ -178,9 +178,13 @@ TEST_CASE("the text report reads at a glance") {
       "1 of 1000 machines stopped at line 12: endless loop\n"
       "2 of 1000 machines stopped at line 84: no points\n"
       "lost: line 77: BORE: the statement has errors\n"
-      "warning W0416: only 36.9 % pass\n"
-      "  help: see `abbe machine screen`\n"
       "Not modelled: part temperature, operator.\n");
+}
+
+TEST_CASE("messages without a place are on the page, and told beside the text") {
+  REQUIRE(general_messages(report()).size() == 1);
+  CHECK(general_messages(report())[0].code == Code::W0416);
+  CHECK(written("html", report()).find("only 36.9 % pass") != std::string::npos);
 }
 
 TEST_CASE("a bounded influence shows its bound and who stated it") {

@@ -77,8 +77,9 @@ TEST_CASE("mean and u of a small sample by hand") {
   CHECK(s.mean == 5);
   CHECK(s.u == doctest::Approx(std::sqrt(32.0 / 7)).epsilon(1e-15));
   CHECK(s.mean_error == doctest::Approx(std::sqrt(32.0 / 7 / 8)).epsilon(1e-15));
-  // m4 = (81 + 3 + 0 + 16 + 256) / 8 = 44.5; var(u^2) = (44.5 - (32/7)^2 * 5/7) / 8.
-  CHECK(s.u_error == doctest::Approx(std::sqrt((44.5 - std::pow(32.0 / 7, 2) * 5 / 7) / 8) / (2 * s.u)).epsilon(1e-14));
+  // m4 = (81 + 3 + 0 + 16 + 256) / 8 = 44.5, beside ten values of a normal law, 3 u^4; var(u^2) = (m4 - u^4 * 5/7) / 8.
+  const double u4 = std::pow(32.0 / 7, 2), m4 = (8 * 44.5 + 10 * 3 * u4) / 18;
+  CHECK(s.u_error == doctest::Approx(std::sqrt((m4 - u4 * 5 / 7) / 8) / (2 * s.u)).epsilon(1e-14));
 }
 
 TEST_CASE("the order of the values does not change a bit") {
