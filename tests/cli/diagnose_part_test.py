@@ -115,6 +115,15 @@ class CalibratedPart(harness.Case):
             self.assertLess(abs(lobes["value"] - 4), 3 * lobes["u"])
             self.assertIn("holds for no other part", said["effects"][0]["sentence"])
 
+    def test_a_part_that_bends_between_two_runs_is_no_dirt(self):
+        """By 20 um at two touches that are neighbours, in the one run and in the other."""
+        part = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", part, "--machine", MACHINE, "--seed", 3, "-o", "before.csv")
+        self.abbe("record", part, "--machine", MACHINE, "--seed", 3, "--run", 2, "--with", "part.clamping:bow_um=6,half_size_mm=80", "-o", "after.csv")
+        said = self.diagnosis("before.csv", "after.csv", "--program", part)
+        self.assertEqual((said["effects"][0]["members"], said["effects"][0]["new_in_run"]), (["part.clamping"], [2]))
+        self.assertEqual(said["baseline"]["outliers"], [])
+
     def test_a_force_that_fell_is_told_as_its_change(self):
         """A trigger force is never negative; its change is. Where both do the same to the touches, it is the change."""
         part = harness.ROOT / "examples/programs/prismatic_part.dmi"

@@ -91,10 +91,18 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
       if (std::abs(n[k]) > std::abs(n[axis])) axis = k;
     return std::tuple(touch.scene.run, touch.scene.setup, axis, n[axis] > 0);
   };
-  const Pairs relations[] = {
-      followers(t, [](const RecordedTouch& touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
-      followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }), followers(t, facing),
-      followers(t, place_on_part), followers(t, [](const RecordedTouch& touch) { return place_of(touch.scene); })};
+  const Pairs in_sequence =
+                  followers(t, [](const RecordedTouch&touch) { return std::pair(touch.scene.run, touch.scene.setup); }),
+              of_place = followers(t, place_on_part);
+  // A part that bends between two runs: neighbours, and the same ones in both.
+  Pairs either = in_sequence;
+  either.insert(either.end(), of_place.begin(), of_place.end());
+  const Pairs relations[] = {in_sequence,
+                             followers(t, [](const RecordedTouch& touch) { return touch.scene.stylus.ordinal; }),
+                             followers(t, facing),
+                             of_place,
+                             followers(t, [](const RecordedTouch& touch) { return place_of(touch.scene); }),
+                             either};
   const double n = static_cast<double>(masked.size()),
                m = static_cast<double>(std::count(masked.begin(), masked.end(), 1));
   std::vector<char> out(masked.size(), 0);
