@@ -1,6 +1,7 @@
 #include "engine/base/csv.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -122,6 +123,14 @@ std::string csv_field(const std::string& text) {
     out += c;
   }
   return out + '"';
+}
+
+std::string column_help(std::string_view written, const std::vector<std::string_view>& known) {
+  const std::string near = nearest_word(written, known);
+  if (near.empty()) return fmt::format("its columns are: {}", fmt::join(known, ", "));
+  if (near == "U") return "'U' is an expanded uncertainty (k = 2): twice the standard one";
+  return fmt::format("did you mean '{}'?{}", near,
+                     differ_in_unit(written, near) ? " That is another unit: convert the numbers" : "");
 }
 
 }  // namespace abbe

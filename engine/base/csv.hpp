@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
@@ -40,5 +41,8 @@ CsvTable read_csv(const SourceFile&);
 
 /// A text as a field: in quotes where it needs them.
 std::string csv_field(const std::string& text);
+
+/// The next step where a table has a column that is none of the known ones: the nearest, whose unit may be another, or all.
+std::string column_help(std::string_view written, const std::vector<std::string_view>& known);
 
 }  // namespace abbe

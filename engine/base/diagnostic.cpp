@@ -179,7 +179,7 @@ std::string nearest_word(std::string_view word, const std::vector<std::string_vi
 
 bool differ_in_unit(std::string_view name, std::string_view other) {
   constexpr std::string_view kUnits[] = {"C", "F", "K", "m", "mm", "um", "nm", "in", "inch", "deg", "rad", "arcsec"};
-  if (name == "U" && other == "u") return true;
+  if ((name == "U" && other == "u") || (name == "u" && other == "U")) return true;
   const auto parts = [](std::string_view text) {
     const std::size_t at = std::min(text.rfind('_'), text.size());
     return std::pair{text.substr(0, at), text.substr(std::min(at + 1, text.size()))};

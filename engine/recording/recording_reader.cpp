@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -139,13 +138,8 @@ std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file
     columns.push_back(found == known.end() ? FileColumn{} : found->second);
     if (found != known.end()) continue;
     const std::string near = nearest_word(field.text, names);
-    const bool another_unit = differ_in_unit(field.text, near);
     sink.add(diagnostic_at(file, field.span, Code::E0526, fmt::format("a recording has no column '{}'", field.text),
-                           near.empty() ? fmt::format("its columns are: {}", fmt::join(names, ", "))
-                               : another_unit
-                               ? fmt::format("did you mean '{}'? That is another unit: convert the numbers", near)
-                               : fmt::format("did you mean '{}'?", near),
-                           another_unit ? "" : near));
+                           column_help(field.text, names), differ_in_unit(field.text, near) ? "" : near));
   }
   for (const RecordingColumn& column : recording_columns())
     for (const std::string_view name : column.names)

@@ -1,7 +1,6 @@
 #include "engine/recording/value_recording.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -74,11 +73,9 @@ std::vector<const ReadColumn*> columns_used(const CsvTable& table, const SourceF
     used.push_back(found == names.end() ? nullptr
                                         : &readable_columns()[static_cast<std::size_t>(found - names.begin())]);
     if (used.back()) continue;
-    const std::string near = nearest_word(field.text, names);
     sink.add(diagnostic_at(file, field.span, Code::E0526,
                            fmt::format("a recording of values has no column '{}'", field.text),
-                           near.empty() ? fmt::format("its columns are {}", fmt::join(names, ", "))
-                                        : fmt::format("did you mean '{}'?", near)));
+                           column_help(field.text, names)));
   }
   for (const ReadColumn& c : readable_columns())
     if (c.required && std::find(used.begin(), used.end(), &c) == used.end())

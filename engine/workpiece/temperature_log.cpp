@@ -1,7 +1,6 @@
 #include "engine/workpiece/temperature_log.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -31,10 +30,8 @@ std::vector<std::vector<double>*> columns_of(const std::vector<CsvField>& header
     } else if (field.text != kTime) {
       std::vector<std::string_view> known(log.kNames.begin(), log.kNames.end());
       known.push_back(kTime);
-      const std::string near = nearest_word(field.text, known);
       refuse(file, field, fmt::format("a temperature log has no column '{}'", field.text),
-             near.empty() ? fmt::format("its columns are: {}", fmt::join(known, ", "))
-                          : fmt::format("did you mean '{}'?", near));
+             column_help(field.text, known));
     }
     columns.push_back(column);
   }

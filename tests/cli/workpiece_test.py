@@ -101,6 +101,9 @@ def check_refusals(folder):
     assert '"u" is a standard uncertainty: an expanded one divided by its k' in message, message
     message = refusal(head + '"material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_F": 68}}')
     assert 'did you mean "part_C"? That is another unit: convert the number' in message, message
+    (folder / "log.csv").write_text("time_s,temp_part_F\n0,68\n")
+    message = refusal(head + '"material": {"cte_ppm_per_K": 11.5}, "temperature": {"log": "log.csv"}}')
+    assert "did you mean 'temp_part_C'? That is another unit: convert the numbers" in message, message
     message = refusal(head + '"surfaces": {"RIGHT": {"offset_mm": 1}}}')
     assert 'did you mean "offset_um"? That is another unit' in message, message
     message = refusal(head + '"material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": {"value": 20, "u": 1000}}}')
