@@ -1,9 +1,8 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
-from scene import BALL
 
-from .base import Change, Effect, vector
+from .base import Change, Effect, unit, vector
 
 UNKNOWN = {}
 
@@ -12,182 +11,150 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_tape(scene, rng):
+def draw_matrix(scene, rng):
+    return {"amplitude_um": 1.0, "digits": int(rng.integers(4, 8))}
+
+
+def change_matrix(scene, p):
+    """The matrix that says how the part lies is handed on as text with a few digits. Its rows are then not quite of
+    length one nor at right angles, and the part is stretched and sheared, in another way in each placement; where it
+    lies straight along the axes nothing is lost. Amplitude at the farthest ball, for half a unit of the last digit."""
+    exact = scene.turn * 10.0 ** p["digits"]
+    lost = 2 * (np.floor(exact + 0.5) - exact)
+    far = scene.part_point / np.linalg.norm(scene.part_point, axis=1).max()
+    return Change(tip=p["amplitude_um"] * np.einsum("nij,nj->ni", lost, far))
+
+
+def draw_archive(scene, rng):
+    names = [str(f) for f in rng.permutation(np.unique(scene.feature))]
+    moved = rng.normal(size=(len(scene.styli), 3))
+    return {
+        "amplitude_um": 1.0,
+        "balls": sorted(names[: int(rng.integers(3, 6))]),
+        "moved": (moved / np.sqrt(np.mean(moved**2))).tolist(),
+    }
+
+
+def change_archive(scene, p):
+    """Some balls are measured by a subprogram that was copied from elsewhere, and it loads the tips as they were
+    qualified a month ago: there every orientation has its old place, at all other balls the right one. Amplitude is
+    the root of the mean square of the coordinates by which the tips have moved since."""
+    there = np.array([f in p["balls"] for f in scene.feature])
+    return Change(tip=p["amplitude_um"] * np.asarray(p["moved"])[scene.sensor] * there[:, None])
+
+
+def draw_averaged(scene, rng):
+    return {"amplitude_um": rng.choice([-1.0, 1.0]), "touches": int(rng.integers(20, 45))}
+
+
+def change_averaged(scene, p):
+    """Against the noise of the thermometer the software takes the mean of its last readings, one for each touch. When
+    the hall has become warmer or colder in a pause, the first touches after it are still corrected for the old
+    temperature of the part, and bit by bit for the new one. Amplitude at the farthest ball, for 1 K."""
+    warm = scene.temperature["part"]
+    mean = np.array([warm[max(0, k + 1 - p["touches"]) : k + 1].mean() for k in range(scene.size)])
+    far = np.sum(scene.part_point * scene.part_normal, 1) / np.linalg.norm(scene.part_point, axis=1).max()
+    return Change(along=p["amplitude_um"] * (warm - mean) * far)
+
+
+def draw_rack(scene, rng):
+    return {"amplitude_um": 1.0, "tau_s": rng.uniform(30, 90)}
+
+
+def change_rack(scene, p):
+    """The rack of the styli stands in the warm air of the controller's fan. A module that has waited there is long when
+    it is fetched, shrinks while it measures, and gets warm again when it is put back, the long one by more than the
+    short one. The qualification has taken the mean of each. Amplitude of the longest, from cool to warm."""
+    lengths = np.unique(scene.length)
+    module = np.searchsorted(lengths, scene.length)
+    warm, grown = np.ones(len(lengths)), np.zeros(scene.size)
+    for k in range(scene.size):
+        if k:
+            air = (np.arange(len(lengths)) != module[k - 1]).astype(float)
+            warm = air + (warm - air) * np.exp(-(scene.time[k] - scene.time[k - 1]) / p["tau_s"])
+        grown[k] = warm[module[k]]
+    for j in range(len(lengths)):
+        grown[module == j] -= grown[module == j].mean()
+    return Change(tip=scene.shank * (p["amplitude_um"] * grown * scene.length / scene.length.max())[:, None])
+
+
+def draw_parked(scene, rng):
+    axis = int(rng.integers(2))
+    x = scene.reading[:, axis]
     return {
         "amplitude_um": rng.choice([-1.0, 1.0]),
-        "axis": int(rng.integers(2)),
-        "loose_end": rng.choice([-1.0, 1.0]),
-        "since_s": float(np.quantile(scene.time, rng.uniform(0.2, 0.5))),
-        "depth": rng.uniform(0.45, 0.7),
-    }
-
-
-def change_tape(scene, p):
-    """The tape of a scale is glued on under tension, and peels off from one end in the course of the run. Where it has
-    come off it shrinks, or hangs slack, while the piece that still holds is right: the carriage is wrong beyond the
-    place to which it has peeled, by the length of loose tape up to there. Amplitude at the loose end, when the run
-    ends."""
-    x = scene.reading[:, p["axis"]]
-    from_end = 0.5 - p["loose_end"] * (x - (x.min() + x.max()) / 2) / np.ptp(x)
-    peeled = p["depth"] * np.clip((scene.time - p["since_s"]) / (scene.duration - p["since_s"]), 0, 1)
-    loose = np.maximum(peeled - from_end, 0) / p["depth"]
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * loose))
-
-
-def draw_unscrewing(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "stands_at": {str(f): rng.uniform(0, 2 * np.pi) for f in np.unique(scene.feature)},
-        "turns": {str(f): rng.uniform(0.3, 1.2) for f in np.unique(scene.feature)},
-        "rise": rng.uniform(0.3, 0.8),
-    }
-
-
-def change_unscrewing(scene, p):
-    """The balls are screwed on their posts without glue, and no thread is quite in the middle of its ball. Every touch
-    turns the ball a little farther off its thread, one ball more easily than another: its centre goes round the post,
-    and rises. Amplitude is the distance of the thread from the middle of the ball."""
-    names, moved = np.array(scene.feature), np.zeros((scene.size, 3))
-    for ball, start in p["stands_at"].items():
-        mine = names == ball
-        turned = 2 * np.pi * p["turns"][ball] * np.arange(mine.sum()) / mine.sum()
-        aside = np.cos(start + turned) - np.cos(start), np.sin(start + turned) - np.sin(start)
-        moved[mine] = np.column_stack([*aside, p["rise"] * turned / np.pi])
-    return Change(along=p["amplitude_um"] * np.sum(moved * scene.part_normal, 1))
-
-
-def draw_bent(scene, rng):
-    lengths = np.unique(scene.length)
-    return {
-        "amplitude_um": 1.0,
-        "length_mm": float(rng.choice(lengths)),
-        "turns": rng.choice([-1.0, 1.0]) * rng.uniform(1.5, 3.5),
-        "phase": rng.uniform(0, 2 * np.pi),
-    }
-
-
-def change_bent(scene, p):
-    """A stylus is bent, and has come loose in its thread: from touch to touch it turns on a little about its own axis,
-    and its tip goes round on a circle, seen from the head. The other module is tight. Amplitude is the radius of the
-    circle."""
-    mine = scene.length == p["length_mm"]
-    turned = 2 * np.pi * p["turns"] * np.cumsum(mine) / mine.sum() + p["phase"]
-    aside = np.column_stack([np.cos(turned), np.sin(turned), np.zeros(scene.size)]) * mine[:, None]
-    return Change(tip=p["amplitude_um"] * np.einsum("nij,nj->ni", scene.head, aside))
-
-
-def draw_lever(scene, rng):
-    waves = rng.normal(size=(3, 2))
-    return {
-        "amplitude_um": 1.0,
-        "axis": int(rng.integers(2)),
-        "about": np.eye(3)[rng.integers(3)],
-        "waves": waves / np.sqrt(np.sum(waves**2) / 2),
-    }
-
-
-def change_lever(scene, p):
-    """The controller corrects the rotation of a carriage along its guide with the lever to the end of the ram, and
-    has forgotten what hangs below: head and stylus add their own lever, another one for each orientation. Amplitude at
-    the longest lever across the rotation, where its waves add up."""
-    x = scene.reading[:, p["axis"]]
-    q = np.outer(2 * np.pi * (x - x.min()) / np.ptp(x), np.arange(1, 4))
-    rotation = np.sum(np.asarray(p["waves"])[:, 0] * np.sin(q) + np.asarray(p["waves"])[:, 1] * np.cos(q), 1)
-    lever = np.cross(p["about"], scene.tip)
-    return Change(tip=p["amplitude_um"] * rotation[:, None] * lever / np.linalg.norm(lever, axis=1).max())
-
-
-def draw_curling(scene, rng):
-    warm, turn = scene.temperature["z"], rng.uniform(0, 2 * np.pi)
-    return {
-        "amplitude_um": 1.0,
-        "direction": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
-        "straight_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
-        "qualified_at": rng.uniform(0.4, 0.6),
-    }
-
-
-def change_curling(scene, p):
-    """One side of the carbon fibre ram has been mended with another resin: with every kelvin the ram curls to one side,
-    with the square of how far it is out, and the styli with it by their levers. At the height of the reference sphere
-    the qualification, made anew after every pause, has taken it. Amplitude at the end of the ram where it is farthest
-    out, for 1 K, before the qualification."""
-    out = np.abs(scene.reading[:, 2])
-    level = np.quantile(out, p["qualified_at"])
-    curl = p["amplitude_um"] * (scene.temperature["z"] - p["straight_at_C"]) / out.max() ** 2
-    aside = np.outer(curl * (out**2 - level**2), p["direction"])
-    tilt = np.outer(2 * curl * (out - level), np.cross(p["direction"], [0, 0, 1.0]))
-    return Change(tip=aside + np.cross(tilt, scene.tip))
-
-
-def draw_pallet(scene, rng):
-    turn = rng.uniform(0, np.pi)
-    return {
-        "amplitude_um": 1.0,
-        "placement": int(rng.choice(np.unique(scene.setup))),
-        "rollers": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
-    }
-
-
-def change_pallet(scene, p):
-    """In one placement the part stands on a pallet with rollers that nobody has locked. A touch along the rollers rolls
-    it away until the probe has triggered, the faster the farther; a spring brings it home again. Amplitude along
-    the rollers, at 8 mm/s."""
-    along = (scene.normal @ np.asarray(p["rollers"])) ** 2
-    return Change(along=-p["amplitude_um"] * along * scene.speed / 8 * (scene.setup == p["placement"]))
-
-
-def draw_thrown(scene, rng):
-    axis = int(rng.integers(2))
-    ways = np.abs(np.diff(scene.reading[:, axis]))[np.diff(scene.block) != 0]
-    return {
-        "amplitude_um": 1.0,
         "axis": axis,
-        "leaves_after_mm": float(np.quantile(ways, rng.uniform(0.2, 0.4))),
-        "first_side": rng.choice([-1.0, 1.0]),
+        "parked_mm": float(np.quantile(x, rng.uniform(0.1, 0.9))),
+        "width_mm": rng.uniform(0.12, 0.22) * float(np.ptp(x)),
+        "tau_s": rng.uniform(300, 900),
     }
 
 
-def change_thrown(scene, p):
-    """The reading head of a scale has play in its holder. When the carriage brakes hard at the end of a long way, the
-    reading head flies on to the front stop, and stays there, through all gentle moves, until another hard braking in
-    the other sense throws it back. Amplitude to either side."""
-    x, hard = scene.reading[:, p["axis"]], scene.acceleration >= scene.acceleration.max()
-    side, thrown = p["first_side"], np.empty(scene.size)
-    for k in range(scene.size):
-        if k and hard[k] and abs(x[k] - x[k - 1]) > p["leaves_after_mm"]:
-            side = np.sign(x[k] - x[k - 1])
-        thrown[k] = side
-    return Change(tip=vector(np.eye(3)[p["axis"]], p["amplitude_um"] * thrown))
+def change_parked(scene, p):
+    """In every long pause the machine is parked at the same place. The air that blows out of the bearings cools one
+    side of the guide just there, and the guide is bent there when the machine starts again, until the stone has warmed
+    through: the carriage is pushed aside when it passes this place soon after a pause. Amplitude at the place, right
+    after the pause."""
+    pause = np.diff(scene.time, prepend=scene.time[0] - 3600) > 600
+    began = scene.time[np.maximum.accumulate(np.where(pause, np.arange(scene.size), 0))]
+    cold = np.exp(-(scene.time - began) / p["tau_s"])
+    away = (scene.reading[:, p["axis"]] - p["parked_mm"]) / p["width_mm"]
+    return Change(tip=vector(np.eye(3)[1 - p["axis"]], p["amplitude_um"] * cold * np.exp(-0.5 * away**2)))
 
 
-def draw_charged(scene, rng):
-    height = (scene.part_point - BALL * scene.part_normal)[:, 2]
+def draw_knob(scene, rng):
+    share = rng.uniform(0.3, 1, len(scene.styli))
+    return {"amplitude_um": 1.0, "slower": ((share.mean() - share) / 0.35).tolist()}
+
+
+def change_knob(scene, p):
+    """While the orientations were qualified somebody played with the knob that slows the machine down. The software
+    believes in the speed of the program, and has got for each orientation another delay of the probe, some too short,
+    some too long: a touch is off along its way in proportion to the speed. Amplitude at 8 mm/s for an orientation
+    at one end of the knob, when the mean is half way."""
+    late = np.asarray(p["slower"])[scene.sensor] * scene.speed / 8
+    return Change(tip=scene.travel * (p["amplitude_um"] * late)[:, None])
+
+
+def draw_ring(scene, rng):
+    slots = int(rng.choice([4, 8]))
+    return {"amplitude_um": 1.0, "slots": slots, "slot": int(rng.integers(slots)), "zero": unit(rng).tolist()}
+
+
+def change_ring(scene, p):
+    """The controller puts the counters of the scales, touch by touch, into a few memories in turn. When the machine was
+    homed again one of these was forgotten and still adds the old zero: every fourth or eighth touch is off, by the same
+    vector, whatever is touched. Amplitude is the distance between the zeros."""
+    here = np.arange(scene.size) % p["slots"] == p["slot"]
+    return Change(tip=vector(p["zero"], p["amplitude_um"] * here))
+
+
+def draw_fillets(scene, rng):
+    names = [str(f) for f in rng.permutation(np.unique(scene.feature))][: int(rng.integers(3, 6))]
     return {
         "amplitude_um": 1.0,
-        "reach_mm": rng.uniform(0.25, 0.5) * float(np.ptp(height)),
-        "tau_s": rng.uniform(400, 1200),
+        "begins": {f: rng.uniform(0.05, 0.4) for f in names},
+        "thick_at": {f: rng.uniform(0, 2 * np.pi) for f in names},
     }
 
 
-def change_charged(scene, p):
-    """The frame of the part is of plastic, and is wiped with a dry cloth whenever it has been placed: its charge draws
-    the thin stylus down to it, when this lies, with the cube of its length. Low balls suffer most, high ones
-    are out of reach, and the charge leaks off in the course of the placement. Amplitude at the longest lying stylus, at
-    the lowest ball, right after wiping."""
-    height = (scene.part_point - BALL * scene.part_normal)[:, 2]
-    placed = np.array([scene.time[scene.setup == k].min() for k in scene.setup])
-    charge = np.exp(-(scene.time - placed) / p["tau_s"] - (height - height.min()) / p["reach_mm"])
-    up = scene.turn[:, :, 2]
-    across = up - scene.shank * np.sum(up * scene.shank, 1, keepdims=True)
-    return Change(tip=p["amplitude_um"] * across * (charge * (scene.length / scene.length.max()) ** 3)[:, None])
+def change_fillets(scene, p):
+    """The balls are glued on their posts. On some of them there was too much glue, and it has crept up the underside,
+    on one higher than on another, mostly on the side to which it ran. Touches of the upper half are right, those well
+    below the equator meet the glue. Amplitude 40 degrees below the equator, where it is thick."""
+    glued = np.array([f in p["begins"] for f in scene.feature])
+    begins = np.array([p["begins"].get(f, 0.0) for f in scene.feature])
+    thick = np.array([p["thick_at"].get(f, 0.0) for f in scene.feature])
+    around = np.arctan2(scene.part_normal[:, 1], scene.part_normal[:, 0])
+    deep = np.clip((-scene.part_normal[:, 2] - begins) / (np.sin(np.radians(40)) - begins), 0, None)
+    return Change(along=p["amplitude_um"] * glued * deep * (1 + np.cos(around - thick)) / 2)
 
 
-unknown("peeling_tape", draw_tape, change_tape, ["time", "position", "feature"])
-unknown("unscrewing_balls", draw_unscrewing, change_unscrewing, ["feature", "time", "position"])
-unknown("turning_stylus", draw_bent, change_bent, ["time", "sensor", "head"])
-unknown("forgotten_lever", draw_lever, change_lever, ["position", "head", "sensor", "feature"])
-unknown("curling_ram", draw_curling, change_curling, ["temperature", "position", "feature", "setup"], "D")
-unknown("unlocked_pallet", draw_pallet, change_pallet, ["setup", "speed", "direction"], "D")
-unknown("thrown_reader", draw_thrown, change_thrown, ["acceleration", "time", "position"], "D")
-unknown("charged_frame", draw_charged, change_charged, ["time", "head", "sensor", "feature", "setup"], "D")
+unknown("rounded_matrix", draw_matrix, change_matrix, ["setup", "position", "feature"], "D")
+unknown("archived_tips", draw_archive, change_archive, ["feature", "sensor", "head"])
+unknown("averaged_thermometer", draw_averaged, change_averaged, ["temperature", "time", "position", "feature"], "D")
+unknown("warm_rack", draw_rack, change_rack, ["time", "sensor", "head"], "D")
+unknown("parked_chill", draw_parked, change_parked, ["time", "position", "feature", "setup"], "D")
+unknown("turned_knob", draw_knob, change_knob, ["speed", "sensor", "head"], "D")
+unknown("ring_buffer", draw_ring, change_ring, ["time"])
+unknown("glue_fillets", draw_fillets, change_fillets, ["direction", "feature"])
