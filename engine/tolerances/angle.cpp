@@ -1,5 +1,6 @@
 // ANGL: the full angle of a cone. ANGLB: the angle between two features, planes by their normals,
 // others by their directions, a plane and an axis by 90 degrees minus the angle of normal and axis.
+// ANGLWRT: the same angle, between one feature and the one that the tolerance names.
 //
 // Two features make an angle and its supplement; which one is meant is not written. It is the one that in the
 // nominal geometry is nearer to the nominal value (the middle of the limits with LIMIT). The side is chosen there and
@@ -86,6 +87,20 @@ extern const ToleranceKind angle_of_two_tolerance{
     .source = "ISO 22093:2011, TOL/ANGLB",
     .unit = Unit::rad,
     .features = 2,
+    .applies = with_directions,
+    .nominal = nominal_angle,
+    .limits = angle_limits,
+    .evaluate = angle_between,
+};
+
+extern const ToleranceKind angle_from_tolerance{
+    .word = "ANGLWRT",
+    .signature = ABBE_ANGLE_LIMITS "," ABBE_REFERENCE,
+    .help = "angle of a feature with a reference feature, as ANGLB",
+    .example = "T(A3)=TOL/ANGLWRT,NOMINL,90,-0.05,0.05,FA(PL1)",
+    .source = "ISO 22093:2011, TOL/ANGLWRT",
+    .unit = Unit::rad,
+    .features = 1,
     .applies = with_directions,
     .nominal = nominal_angle,
     .limits = angle_limits,

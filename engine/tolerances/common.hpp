@@ -14,6 +14,8 @@ namespace abbe {
 #define ABBE_ANGLE_LIMITS "( NOMINL,nominal:angle,lower:angle,upper:angle ; LIMIT,lower:angle,upper:angle )"
 // MMC and LMC widen the zone: material.hpp.
 #define ABBE_MATERIAL "[ material:MMC|LMC|RFS ]"
+// The feature with respect to which another is measured.
+#define ABBE_REFERENCE "( reference:feature ; reference:datum )"
 #define ABBE_DATUM "datum:datum,[ datum_material:MMC|LMC|RFS ]"
 
 using Elements = std::span<const Element>;

@@ -239,7 +239,7 @@ extern const ToleranceKind distance_between_tolerance{
 
 extern const ToleranceKind distance_from_tolerance{
     .word = "DISTWRT",
-    .signature = ABBE_LENGTH_LIMITS ",reference:feature,axis:XAXIS|YAXIS|ZAXIS|PT2PT,[ use:AVG|MAX|MIN ]",
+    .signature = ABBE_LENGTH_LIMITS "," ABBE_REFERENCE ",axis:XAXIS|YAXIS|ZAXIS|PT2PT,[ use:AVG|MAX|MIN ]",
     .help =
         "distance of a feature from a reference feature, as DISTB; signed only where the limits "
         "allow negative values",

@@ -45,14 +45,14 @@ struct ToleranceLimits {
 
 struct ToleranceKind {
   std::string_view word;  ///< DMIS minor word: "CYLCTY"
-  /// arguments after the word; datum operands under the name `datum`, a DISTWRT reference under `reference`
+  /// arguments after the word; datum operands under the name `datum`, what DISTWRT and ANGLWRT refer to under `reference`
   std::string_view signature;
   std::string_view help;
   std::string_view example;  ///< a complete TOL statement
   std::string_view source;   ///< standard and clause
   Unit unit;                 ///< of the value; unit_of() knows the exceptions
   int features;              ///< how many features OUTPUT must name before it: 1 or 2
-  /// nullptr when these shapes can carry the tolerance, else why not.
+  /// nullptr when these shapes, of the features and then of the reference, can carry the tolerance, else why not.
   const char* (*applies)(const Arguments&, std::span<const Shape>);
   /// The nominal value (0 for form, position, orientation zones; the nominal diameter for DIAM; ...).
   double (*nominal)(const Arguments&, std::span<const Shape>, std::span<const Element> nominal_features);

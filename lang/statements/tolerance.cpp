@@ -110,9 +110,12 @@ void evaluate(Lowering& lowering, const RawStatement& raw, const std::vector<pla
                                       use.label.kind, use.label.name));
   const std::optional<plan::ToleranceId> tolerance = instance(lowering, *symbol, use);
   if (!tolerance) return;
+  const Arguments& arguments = lowering.out.plan[*tolerance].arguments;
   std::vector<Shape> shapes;
   for (const plan::FeatureId id : features) shapes.push_back(lowering.out.plan[id].kind->shape);
-  if (const char* reason = kind.applies(lowering.out.plan[*tolerance].arguments, shapes))
+  for (const int id : arguments.features("reference"))
+    shapes.push_back(lowering.out.plan[plan::FeatureId{id}].kind->shape);
+  if (const char* reason = kind.applies(arguments, shapes))
     return lowering.error(Code::E0214, use.span, fmt::format("{} cannot be evaluated here: {}", kind.word, reason),
                           fmt::format("`abbe explain {}` says what it applies to", kind.word));
   const plan::CharacteristicId id{static_cast<int>(lowering.out.plan.characteristics.size())};

@@ -32,14 +32,15 @@ TOLERANCES = """T(POS)=TOL/POS,2D,0.1,DAT(A),DAT(B),DAT(C)
 T(PLAIN)=TOL/POS,2D,0.1
 T(Y)=TOL/CORTOL,YAXIS,-0.05,0.05
 T(FROM_B)=TOL/DISTWRT,NOMINL,40,-0.05,0.05,FA(B),YAXIS
+T(FROM_DATUM)=TOL/DISTWRT,NOMINL,40,-0.05,0.05,DAT(B),YAXIS
 T(PROFILE)=TOL/PROFS,-0.05,0.05,DAT(A),DAT(B),DAT(C)
 T(POS_U)=TOL/POS,3D,0.1,DAT(A),DAT(B),DAT(C)
 """
-OUTPUT = "OUTPUT/FA(H),TA(POS),TA(PLAIN),TA(Y),TA(FROM_B)\nOUTPUT/FA(U),TA(PROFILE),TA(POS_U)\n"
+OUTPUT = "OUTPUT/FA(H),TA(POS),TA(PLAIN),TA(Y),TA(FROM_B),TA(FROM_DATUM)\nOUTPUT/FA(U),TA(PROFILE),TA(POS_U)\n"
 OFFSET_B = '{"schema": "abbe.workpiece/1", "name": "B stands out", "surfaces": {"B": {"offset_um": 100}}}'
 
 # B lies 0.1 mm further out: bore and back lie 0.1 mm too far from it, and twice that is their deviation in the frame of A, B and C.
-FAR_FROM_B = {"POS": 0.2, "FROM_B": 40.1, "PROFILE": 0.2, "POS_U": 0.2}
+FAR_FROM_B = {"POS": 0.2, "FROM_B": 40.1, "FROM_DATUM": 40.1, "PROFILE": 0.2, "POS_U": 0.2}
 
 
 class TruePart(harness.Case):
@@ -77,7 +78,7 @@ class TruePart(harness.Case):
         # The workpiece lies where PTMEAS says in the system that stands on B: bore and back are 40 and 80 mm from it.
         self.program(DATUMS, ALIGNMENT, BORE, BORE_TOUCHES, BACK, TOLERANCES, OUTPUT)
         workpiece, recording = self.true_parts()
-        self.assert_close(self.references(*workpiece), {"POS": 0, "PLAIN": 0, "Y": 0, "FROM_B": 40, "PROFILE": 0, "POS_U": 0})
+        self.assert_close(self.references(*workpiece), {"POS": 0, "PLAIN": 0, "Y": 0, "FROM_B": 40, "FROM_DATUM": 40, "PROFILE": 0, "POS_U": 0})
         # The recording has them where the machine found them, 0.1 mm further from B. A recorded point counts along the normal only: two of
         # the bore's touches slide 0.1 mm along it, which moves the centre by some nm.
         self.assert_close(self.references(*recording), FAR_FROM_B | {"PLAIN": 0.2, "Y": 0.1}, delta=1e-5)

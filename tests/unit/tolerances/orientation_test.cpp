@@ -137,6 +137,21 @@ TEST_CASE("ANGLB is the angle of two features nearest to the nominal") {
         "a point or a sphere has no direction to make an angle with");
 }
 
+TEST_CASE("ANGLWRT is the angle with its reference") {
+  const auto of = [](const Element& reference) {
+    Evaluation e("ANGLWRT");
+    return e.number("nominal", kPi / 2)
+        .number("lower", -0.01)
+        .number("upper", 0.01)
+        .feature(Shape::plane, kUp)
+        .feature(Shape::line, reference, at({}, {0, 0, 1}));
+  };
+  CHECK(of(at({}, kLeaningX)).value() == Approx(kPi / 2 - kTilt));
+  CHECK(*of(kUp).limits().upper == Approx(kPi / 2 + 0.01));
+  CHECK(Evaluation("ANGLWRT").feature(Shape::line, kUp).feature(Shape::point, kUp).refusal() ==
+        "a point or a sphere has no direction to make an angle with");
+}
+
 TEST_CASE("The side of an angle of 90 degrees is that of the nominals, on every machine alike") {
   const double tilt = 1e-3;
   // A plane that leans by `by` against one along x, and the same with its normal reported the other way round.
