@@ -7,7 +7,7 @@ extern const ToleranceKind diameter_tolerance, radius_tolerance, flatness_tolera
     true_position_tolerance, coordinate_tolerance, perpendicularity_tolerance, parallelism_tolerance,
     angularity_tolerance, feature_angle_tolerance, angle_of_two_tolerance, angle_from_tolerance,
     concentricity_tolerance, symmetry_tolerance, circular_runout_tolerance, total_runout_tolerance,
-    surface_profile_tolerance, line_profile_tolerance, width_tolerance;
+    surface_profile_tolerance, line_profile_tolerance, point_profile_tolerance, width_tolerance;
 
 std::span<const ToleranceKind* const> tolerance_kinds() {
   static const ToleranceKind* const kinds[] = {
@@ -16,7 +16,7 @@ std::span<const ToleranceKind* const> tolerance_kinds() {
       &distance_from_tolerance, &true_position_tolerance,   &coordinate_tolerance,    &perpendicularity_tolerance,
       &parallelism_tolerance,   &angularity_tolerance,      &feature_angle_tolerance, &angle_of_two_tolerance,
       &angle_from_tolerance,    &concentricity_tolerance,   &symmetry_tolerance,      &circular_runout_tolerance,
-      &total_runout_tolerance,  &surface_profile_tolerance, &line_profile_tolerance,
+      &total_runout_tolerance,  &surface_profile_tolerance, &line_profile_tolerance,  &point_profile_tolerance,
   };
   return kinds;
 }

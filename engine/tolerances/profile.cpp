@@ -1,4 +1,4 @@
-// PROFS, PROFL: profile of a surface or a line. The deviation of a touch is how far the surface lies
+// PROFS, PROFL, PROFP: profile of a surface, a line or a point. The deviation of a touch is how far the surface lies
 // from where the program put it, along the vector of the touch, out of the material positive; the
 // limits are lower,upper as on a drawing with an unequally disposed zone.
 //
@@ -9,7 +9,8 @@
 //
 // Without datums the surface is compared where it lies in the current coordinate system: no best fit
 // takes place. With datums it is compared in the frame that they establish on each machine. PROFL is
-// the same for the touches along a line; which ones they are is up to the program.
+// the same for the touches along a line; which ones they are is up to the program. PROFP keeps the sign, which
+// tells how to mend a tool: its value is the deviation itself, of several touches their mean, between lower and upper.
 #include <algorithm>
 #include <cmath>
 
@@ -28,24 +29,50 @@ ToleranceLimits profile_limits(const Arguments& arguments, Elements) {
   return zone > 0 ? ToleranceLimits{{}, zone} : ToleranceLimits{};
 }
 
-Outcome<double> profile(const Arguments& arguments, const EvaluationInput& in) {
+const char* of_a_point(const Arguments& arguments, Shapes s) {
+  return s[0] == Shape::point || s[0] == Shape::edge_point ? few_datums(arguments, s)
+                                                           : "it is for points; a surface has PROFS, a line PROFL";
+}
+
+ToleranceLimits point_limits(const Arguments& arguments, Elements) {
+  const ToleranceLimits limits{arguments.number("lower"), arguments.number("upper")};
+  return *limits.lower == 0 && *limits.upper == 0 ? ToleranceLimits{} : limits;
+}
+
+/// Of every touch, along its vector, in the frame of the datums.
+Outcome<std::vector<double>> deviations(const EvaluationInput& in) {
   if (in.touches.empty())
-    return no_value("a profile is evaluated of the touches: the feature must be measured, not constructed");
+    return Outcome<std::vector<double>>::failed(
+        "a profile is evaluated of the touches: the feature must be measured, not constructed");
   Rigid own, meant;
   if (!in.datums.empty()) {
     const Outcome<Rigid> frame = datum_reference_frame(in.datum_shapes, in.datums);
-    if (!frame) return no_value(frame.failure);
+    if (!frame) return Outcome<std::vector<double>>::failed(frame.failure);
     const Outcome<Rigid> nominal_frame = datum_reference_frame(in.datum_shapes, in.nominal_datums);
-    if (!nominal_frame) return no_value(nominal_frame.failure);
+    if (!nominal_frame) return Outcome<std::vector<double>>::failed(nominal_frame.failure);
     own = inverse(frame.value), meant = inverse(nominal_frame.value);
   }
+  std::vector<double> found;
+  for (const TouchedPoint& touch : in.touches)
+    found.push_back(dot(own * touch.actual - meant * touch.nominal, meant.R * touch.normal));
+  return {found};
+}
+
+Outcome<double> profile(const Arguments& arguments, const EvaluationInput& in) {
+  const Outcome<std::vector<double>> found = deviations(in);
+  if (!found) return no_value(found.failure);
   const double middle = 0.5 * (arguments.number("lower") + arguments.number("upper"));
   double farthest = 0;
-  for (const TouchedPoint& touch : in.touches) {
-    const double deviation = dot(own * touch.actual - meant * touch.nominal, meant.R * touch.normal);
-    farthest = std::max(farthest, std::fabs(deviation - middle));
-  }
+  for (const double deviation : found.value) farthest = std::max(farthest, std::fabs(deviation - middle));
   return {2 * farthest};
+}
+
+Outcome<double> profile_of_point(const Arguments&, const EvaluationInput& in) {
+  const Outcome<std::vector<double>> found = deviations(in);
+  if (!found) return no_value(found.failure);
+  double sum = 0;
+  for (const double deviation : found.value) sum += deviation;
+  return {sum / static_cast<double>(found.value.size())};
 }
 
 }  // namespace
@@ -77,6 +104,21 @@ extern const ToleranceKind line_profile_tolerance{
     .nominal = no_deviation,
     .limits = profile_limits,
     .evaluate = profile,
+    .wants_touches = always,
+};
+
+extern const ToleranceKind point_profile_tolerance{
+    .word = "PROFP",
+    .signature = "lower:length,upper:length,{ " ABBE_DATUM " }",
+    .help = "profile of a point: its deviation along its vector, out of the material positive, between lower and upper",
+    .example = "T(PP)=TOL/PROFP,-0.05,0.05,DAT(A)",
+    .source = "ISO 22093:2011, TOL/PROFP",
+    .unit = Unit::mm,
+    .features = 1,
+    .applies = of_a_point,
+    .nominal = no_deviation,
+    .limits = point_limits,
+    .evaluate = profile_of_point,
     .wants_touches = always,
 };
 

@@ -24,7 +24,7 @@ bool is_standard_kind(std::string_view statement, std::string_view word) {
       {"FEAT",
        {"COMPOUND", "CONRADSEGMNT", "CYLRADSEGMNT", "ELONGCYL", "GCURVE", "GEOM", "OBJECT", "PATERN", "REVSURF",
         "SPHRADSEGMNT", "TORRADSEGMNT"}},
-      {"TOL", {"ANGLWRT", "COMPOS", "CPROFL", "CPROFS", "GTOL", "PROFP", "USETOL"}},
+      {"TOL", {"COMPOS", "CPROFL", "CPROFS", "GTOL", "USETOL"}},
       {"CONST", {"BUILD", "CONE", "GEOM", "NEARPT", "PTDATA", "RETRIEVE", "SPHERE", "TRMATX"}}};
   const auto found = kinds.find(statement);
   return found != kinds.end() && found->second.contains(word);

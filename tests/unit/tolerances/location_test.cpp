@@ -142,6 +142,22 @@ TEST_CASE("A profile is the zone about the middle of its limits that holds all t
   CHECK(none.failure().starts_with("a profile is evaluated of the touches"));
 }
 
+TEST_CASE("The profile of a point keeps its sign") {
+  Evaluation e("PROFP");
+  e.number("lower", -0.02).number("upper", 0.06).feature(Shape::point, at({1, 0, 5}));
+  e.touches = {{{1.2, 0, 4.97}, {1, 0, 5}, {0, 0, 1}}};
+  CHECK(e.value() == Approx(-0.03));  // what lies across the vector does not count
+  CHECK(*e.limits().lower == -0.02);
+  CHECK(*e.limits().upper == 0.06);
+  e.touches.push_back({{1, 0, 5.01}, {1, 0, 5}, {0, 0, 1}});
+  CHECK(e.value() == Approx(-0.01));
+  e.datum(Shape::plane, at({0, 0, 0.5}), kFace);
+  CHECK(e.refusal().empty());
+  Evaluation of_plane("PROFP");
+  of_plane.feature(Shape::plane, kFace);
+  CHECK(of_plane.refusal() == "it is for points; a surface has PROFS, a line PROFL");
+}
+
 TEST_CASE("Datums carry the frame of a profile") {
   const Rigid moved{rotation(unit({1, -2, 0.5}), 0.02), {0.4, -0.3, 0.2}};
   Evaluation e("PROFS");
