@@ -1,4 +1,5 @@
 """The command line itself: help, version, and wrong usage (exit code 2)."""
+import pathlib
 import re
 import subprocess
 
@@ -12,8 +13,17 @@ class Usage(harness.Case):
     def test_help_names_the_whole_command(self):
         self.assertIn("abbe run [OPTIONS] PROGRAM", self.abbe("run", "--help").stdout)
         self.assertIn("abbe machine screen", self.abbe("machine", "screen", "--help").stdout)
-        for command in ("run", "check", "test", "fit", "machine", "explain"):
-            self.assertIn(f"  {command} ", self.abbe("--help").stdout)
+        listed = self.abbe("--help").stdout.split("Subcommands:\n")[1].splitlines()
+        commands = [line.split()[0] for line in listed if line.startswith("  ")]
+        self.assertEqual(commands, ["run", "check", "test", "fit", "machine", "record", "diagnose", "format", "lsp", "repl", "explain"])
+        for command in commands:
+            self.assertIn(f"Usage: abbe {command} ", self.abbe(command, "--help").stdout)
+
+    def test_it_is_installed_as_one_file(self):
+        prefix, build = self.folder / "installed", pathlib.Path(self.abbe_path).parent
+        subprocess.run(["cmake", "--install", build, "--prefix", prefix], check=True, capture_output=True)
+        self.assertEqual([p.relative_to(prefix).as_posix() for p in prefix.rglob("*") if p.is_file()], ["bin/abbe"])
+        self.assertIn("coord3-mc16", subprocess.run([prefix / "bin/abbe", "machine", "list"], capture_output=True, text=True).stdout)
 
     def test_unknown_words_get_a_suggestion(self):
         self.assertIn("'explain'", self.refused("E0609", "explian"))
