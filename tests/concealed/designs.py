@@ -3,7 +3,7 @@
 A  one ball, one orientation; nearly everything looks alike: 75 touches
 C  flat plate of nine balls, five orientations, in sequence: 225
 D  nine balls off a plane, three placements (one tilted), seven orientations, two stylus lengths, speeds,
-   accelerations and temperatures, blocks in random order, oblique approaches, raw readings: 450 or 1125
+   accelerations and temperatures, blocks in random order, oblique approaches, raw readings: 450 or 1134
 E  ISO 10360-2 lengths on seven lines and an ISO 10360-5 sphere, raw readings: 300
 """
 
