@@ -1,5 +1,5 @@
-// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings and of temperature
-// logs. Fields keep their place in the file, so that a message can point at the very number that is wrong.
+// Comma-separated text (RFC 4180) with `#` lines before the header: the form of recordings, tables of values and
+// temperature logs. Fields keep their place in the file, so that a message can point at the very number that is wrong.
 #pragma once
 
 #include <string>

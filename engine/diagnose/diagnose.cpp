@@ -24,7 +24,7 @@
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/planning/design.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/noise_design.hpp"

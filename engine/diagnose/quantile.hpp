@@ -1,4 +1,4 @@
-// The upper median of a list, for checks on raw data that a single gross error must not spoil.
+// Quantiles of a list: a single gross error does not spoil them.
 #pragma once
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/diagnose/findings/scatter.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
 
 namespace abbe::diagnose {

@@ -155,7 +155,7 @@ struct Neighbours {
 enum class DrawsPer { none, machine, visit, touch };
 
 struct Effect {
-  std::string_view name;      ///< "thermal.part_expansion": interfaces.md section 5; also names its random numbers
+  std::string_view name;      ///< "thermal.part_expansion", as in machine files; also names its random numbers
   std::string_view title;     ///< a few words
   std::string_view help;      ///< what it is and what it does to measurements, for people
   std::string_view source;    ///< standard, paper, data sheet

@@ -1,5 +1,5 @@
 // Geometric errors of virtual machines: the 18 error functions of each, and what they do to the tip
-// (physics.md 1 and 2).
+// (docs/physics.md, "Geometry").
 //
 // Each error function is a linear combination of fixed basis functions of the normalised reading u in [-1, 1]:
 //   1, u, 2u^2 - 1, cos(n pi u), sin(n pi u) for n = 1..N

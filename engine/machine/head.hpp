@@ -1,4 +1,4 @@
-// The articulating head (paper section 8.2, eq. 25; physics.md section 4). A turns first, B then, both in
+// The articulating head (paper section 8.2, eq. 25). A turns first, B then, both in
 // rad; A = 0 points down.
 #pragma once
 

@@ -43,7 +43,7 @@ struct MachineAxis {
   bool reaches(double reading_mm) const { return reading_mm >= lowest_mm() && reading_mm <= highest_mm(); }
 };
 
-/// How one error function is generated (paper eq. 13-16; physics.md section 2).
+/// How one error function is generated (paper eq. 13-16).
 struct ComponentSpec {
   double linear = 0;              ///< share s of the linear term
   double curvature = 0;           ///< share c of the quadratic term

@@ -2,7 +2,7 @@
 //
 // Lanes 0..machines-1 are virtual machines. The lanes after them are *twins*: error-free machines. Lane
 // `machines` is the reference, the error-free machine that runs the program by itself. The true part lies
-// where an error-free machine would find it (language.md section 4), so every virtual machine needs to know
+// where an error-free machine would find it (docs/architecture.md, "Running a plan"), so every virtual machine needs to know
 // what an error-free machine that took the same path through the program would have seen: its twin. All
 // machines start with the reference as their twin; where machines of one twin part at a condition on measured
 // values, the twin is cloned and follows each group.

@@ -1,4 +1,4 @@
-// One touch on many lanes: from the commanded point to the point that each machine reports (physics.md section 4).
+// One touch on many lanes: from the commanded point to the point that each machine reports.
 //
 // The machine drives its tip centre along -n, n being the commanded outward normal as this machine knows its
 // own alignment, and stops where the tip meets the true surface, locally a plane. Its scales then read

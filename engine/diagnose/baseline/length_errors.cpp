@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 
 namespace abbe::diagnose {
 

@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "engine/diagnose/baseline/sudden_change.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/place.hpp"
 

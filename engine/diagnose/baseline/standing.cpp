@@ -10,7 +10,7 @@
 
 #include "engine/diagnose/baseline/round_surface.hpp"
 #include "engine/diagnose/checks/data_problems.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/math/rigid_fit.hpp"
 
 namespace abbe::diagnose {

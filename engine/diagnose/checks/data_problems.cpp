@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "engine/diagnose/checks/remedies.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/recording/units.hpp"
 
 namespace abbe::diagnose {

@@ -13,7 +13,7 @@
 
 #include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/checks/remedies.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/recording/units.hpp"
 

@@ -14,7 +14,7 @@
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/search.hpp"
-#include "engine/diagnose/median.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/values/value_estimate.hpp"
 #include "engine/diagnose/values/value_power.hpp"
 #include "engine/diagnose/values/value_search.hpp"

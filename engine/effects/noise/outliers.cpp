@@ -1,4 +1,4 @@
-// Single touches that are grossly wrong (catalogue N2).
+// Single touches that are grossly wrong.
 //
 //   r = size exp(0.7 z2)   with probability `share`,   else 0
 //

@@ -1,4 +1,4 @@
-// Rounding of a reading to the last digit (catalogue N3).
+// Rounding of a reading to the last digit.
 //
 //   r = q (U - 1/2),    U uniform in (0, 1), one per touch;    standard deviation q / sqrt(12)
 //

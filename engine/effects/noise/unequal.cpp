@@ -1,4 +1,4 @@
-// One group of touches scatters more than the others (catalogue N4).
+// One group of touches scatters more than the others.
 //
 //   r = sd sqrt(ratio^2 - 1) z   in the group,   0 outside     z: standard normal per touch
 //

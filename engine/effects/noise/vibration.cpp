@@ -1,4 +1,4 @@
-// Vibration of machine and floor (catalogue N1).
+// Vibration of machine and floor.
 //
 //   d = sd z u  (one direction)   or   r = sd z  (every way)     z: standard normal per touch
 //

@@ -1,4 +1,4 @@
-// Elastic distortion of the part by its clamps or supports (catalogue W2).
+// Elastic distortion of the part by its clamps or supports.
 //
 //   w(u, v) = b u^2 + c v^2 + t u v + p (u^3 - 3 u v^2)        u = x_part / h,  v = y_part / h
 //   displacement in the part's frame:  ( - z dw/dx,  - z dw/dy,  w ),     r = n_part . displacement

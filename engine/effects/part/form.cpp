@@ -1,4 +1,4 @@
-// Form error of the part or of the artefact (catalogue W3).
+// Form error of the part or of the artefact.
 //
 //   curved features:  r = sum_k a_k h_k(n_part)
 //   faces, points:    r = a_s sin(2 pi p / wavelength) + a_c cos(2 pi p / wavelength)

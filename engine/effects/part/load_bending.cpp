@@ -1,4 +1,4 @@
-// The table sags under the weight of the part, and the guides with it (catalogue W1).
+// The table sags under the weight of the part, and the guides with it.
 //
 //   k = 8 (sag per 500 kg) (m / 500 kg) / Lx^2,   Lx: travel of x
 //   d_z = - k [ s_x^2/2 + s_x l_x + q (s_y^2/2 + s_y l_y) ]

@@ -1,5 +1,4 @@
-// The part moves on the table while it is being measured (catalogue M10, P11: change of one moment,
-// here of the part).
+// The part moves on the table, at one moment of the measurement.
 //
 //   d = amplitude u    for t >= t0,   else 0
 //

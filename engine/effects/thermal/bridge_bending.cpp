@@ -1,5 +1,4 @@
-// A bridge with a vertical gradient in its beam, or with legs of unequal temperature (catalogue
-// T5).
+// A bridge with a vertical gradient in its beam, or with legs of unequal temperature.
 //
 //   beam:  k = a dT / h      d_z = + k s^2 / 2 + k s l_y     d_y = - k s l_z
 //          s: reading of y, l: lever from the saddle to the tip

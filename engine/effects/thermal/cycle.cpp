@@ -1,4 +1,4 @@
-// A room whose control makes the temperature swing (catalogue T7).
+// A room whose control makes the temperature swing.
 //
 //   d(t) = amplitude u sin(2 pi t / period + phase)
 //

@@ -1,4 +1,4 @@
-// Warm-up: the whole frame of the machine moves against the part, and settles (catalogue T6).
+// Warm-up: the whole frame of the machine moves against the part, and settles.
 //
 //   d(t) = amplitude u [ (1 - q) (1 - exp(-t / tau)) + q (1 - exp(-t / tau2)) ]
 //

@@ -1,4 +1,4 @@
-// Expansion of the part that the compensation does not know (catalogue T1, T2).
+// Expansion of the part that the compensation does not know.
 //
 //   e = [ (a - a_set) (T - 20) + a (T - T_set) ] (c - c0) + s (T - 20),    r = n . e
 //

@@ -1,4 +1,4 @@
-// A part that has not yet taken the temperature that the compensation reckons with (catalogue T9).
+// A part that has not yet taken the temperature that the compensation reckons with.
 //
 //   Tw(t) = Tinf + (T0 - Tinf) exp(-t / tau)
 //   e = [ a (T0 - Tinf) (c - c0) + s ] exp(-t / tau),     r = n . e

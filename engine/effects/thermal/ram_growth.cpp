@@ -1,4 +1,4 @@
-// A ram that grows below its scale's reading head (catalogue T8).
+// A ram that grows below its scale's reading head.
 //
 //   d_z = + a DT(t) (L0 - s_z),     DT(t) = DT (1 - exp(-t / tau))
 //

@@ -1,5 +1,4 @@
-// Expansion of the scales that the compensation does not know (catalogue T3, and T2 for the
-// scales).
+// Expansion of the scales that the compensation does not know.
 //
 //   d_i = - [ (a - a_set) (T_i - 20) + a (T_i - T_i,set) ] s_i      i = x, y, z
 //

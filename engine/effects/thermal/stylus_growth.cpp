@@ -1,4 +1,4 @@
-// A stylus that has grown since its qualification (catalogue T8).
+// A stylus that has grown since its qualification.
 //
 //   d = + s a L DT(t),     DT(t) = DT (1 - exp(-t / tau))     s: unit vector from the tip to the
 //   head

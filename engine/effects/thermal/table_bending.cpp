@@ -1,4 +1,4 @@
-// A table that is warmer on top than below arches, and its guide of x with it (catalogue T4).
+// A table that is warmer on top than below arches, and its guide of x with it.
 //
 //   k = a dT / h      d_z = + k s^2 / 2 + k s l_x      d_x = - k s l_z
 //   s: reading of x, l: lever from the x carriage to the tip
