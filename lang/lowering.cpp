@@ -169,7 +169,22 @@ std::vector<plan::VaryingNumber> Lowering::varying(const Match& match) {
   return out;
 }
 
+namespace {
+
+/// ISO 22093 counts polar coordinates in the working plane; here they are in that of x and y.
+void refuse_other_plane(Lowering& lowering, const Match& match) {
+  const MatchedValue* radius = match.find("r");
+  const std::string* plane = lowering.settings.find("WKPLAN");
+  if (!radius || !plane || upper(*plane) == "XYPLAN") return;
+  lowering.error(Code::E0106, radius->span,
+                 fmt::format("POL counts in the plane of x and y here, and WKPLAN chose {}", upper(*plane)),
+                 "give x,y,z with CART, or write WKPLAN/XYPLAN before it");
+}
+
+}  // namespace
+
 std::optional<Arguments> Lowering::arguments(const Match& match) {
+  refuse_other_plane(*this, match);
   Arguments values;
   for (const MatchedValue& v : match.values) {
     if (v.type == ValueType::feature || v.type == ValueType::datum) {
@@ -349,6 +364,7 @@ plan::Operand Lowering::operand(const plan::Expression& e) {
 
 plan::Point Lowering::polar(const Match& match) {
   using namespace plan;
+  refuse_other_plane(*this, match);
   const Expression r = expression(operand(*match.find("r"))), a = expression(operand(*match.find("a")));
   return {operand(combine(Op2::multiply, combine(Op1::cos, a), r)),
           operand(combine(Op2::multiply, combine(Op1::sin, a), r)), operand(*match.find("h"))};

@@ -2,10 +2,11 @@
 // - Direction of a datum: a plane's normal; the direction of a line, circle, cylinder, cone, torus.
 //   A point or a sphere has none, and so has an axis that runs along the primary direction (a bore
 //   in the primary plane): as secondary they give the direction from the origin, or from the
-//   primary axis, to their own point. ROTATE reads a feature in the same way, from the axis that it turns about.
-// - Origin of a datum: the coordinate of its point along the new axis, for every shape. For a
-//   secondary plane this is where the plane lies when it is associated at a right angle to the
-//   primary (ISO 5459:2011): through its centroid, whatever its own small tilt.
+//   primary axis, to their own point. A slot, a rectangle or an ellipse in the primary plane gives
+//   the direction along it. ROTATE reads a feature in the same way, from the axis that it turns about.
+// - Origin of a datum: the coordinate of its point (of a cone the apex) along the new axis, for every
+//   shape. For a secondary plane this is where the plane lies when it is associated at a right angle
+//   to the primary (ISO 5459:2011): through its centroid, whatever its own small tilt.
 #include "engine/features/alignment.hpp"
 
 #include "engine/features/datum_rules.hpp"
@@ -35,7 +36,8 @@ Outcome<Vec3> direction_across(Shape shape, const Element& datum, const Vec3& pr
   const bool straight = shape == Shape::plane || shape == Shape::line;
   if (!is_spot(shape) && sine > (straight ? kUseless : kNearlyParallel)) return {own / sine};
   if (straight) return Outcome<Vec3>::failed(failure.parallel);
-  const Vec3 there = perpendicular_part(datum.point - anchor, primary);
+  if (is_outline(shape)) return {unit(perpendicular_part(datum.second, primary))};
+  const Vec3 there = perpendicular_part(location_of(shape, datum) - anchor, primary);
   const double distance = norm(there);
   if (!(distance > kSameAxis_mm)) return Outcome<Vec3>::failed(failure.on_axis);
   return {there / distance};
@@ -49,8 +51,8 @@ Vec3 anchor_of(const Rigid& X_WD, std::span<const DatumUse> datums, const DatumU
   for (const DatumUse& datum : datums)
     if (&datum != &secondary && datum.shape != Shape::plane &&
         (datum.origin[(along + 1) % 3] || datum.origin[(along + 2) % 3]))
-      return datum.element.point;
-  return primary.shape == Shape::plane ? X_WD.p : primary.element.point;
+      return location_of(datum.shape, datum.element);
+  return primary.shape == Shape::plane ? X_WD.p : location_of(primary.shape, primary.element);
 }
 
 /// The axes of a DATSET: the primary alone, or with the first later datum that gives a direction.
@@ -87,7 +89,7 @@ Outcome<Rigid> datum_frame(const Rigid& X_WD, std::span<const DatumUse> datums) 
     for (int k = 0; k < 3; ++k)
       if (datum.origin[k]) {
         const Vec3 e = column(made.R, k);
-        made.p += dot(datum.element.point - made.p, e) * e;
+        made.p += dot(location_of(datum.shape, datum.element) - made.p, e) * e;
       }
   return {made};
 }

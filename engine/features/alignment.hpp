@@ -25,8 +25,9 @@ struct DatumUse {
 Outcome<Rigid> datum_frame(const Rigid& X_WD, std::span<const DatumUse> datums);
 
 /// ROTATE/axis,FA(f),dir: turns the current frame about its own `axis` until the direction of the element
-/// (frame W), projected into the plane across the axis, points along `toward`; what has no direction there (a point,
-/// a sphere, a bore along the axis) comes to lie in that direction from the origin.
+/// (frame W), projected into the plane across the axis, points along `toward`; of an outline that lies in that plane it
+/// is the one along it. What has no direction there (a point, a sphere, a bore along the axis) comes to lie in that
+/// direction from the origin.
 Outcome<Rigid> rotated_to(const Rigid& X_WD, Axis axis, Shape shape, const Element& element, AxisDirection toward);
 
 /// The datum reference frame of a tolerance, datums in order of precedence (ISO 5459): primary orients,

@@ -24,8 +24,8 @@ struct Construction {
   /// direction). Fails with a reason (parallel planes). Precondition: applies().
   Outcome<Element> (*construct)(Shape result, std::span<const Shape> shapes, std::span<const Element> from,
                                 const Element& nominal, const Arguments&);
-  /// A line or axis stands for a point: that nearest to the nominal point of its feature. Its element comes
-  /// with that as `point`.
+  /// A line or the axis of a cylinder stands for a point: that nearest to the nominal point of its feature. Its
+  /// element comes with that as `point`.
   bool axes_are_points = false;
   /// The result lies midway between two faces and reaches as far as their touches do.
   bool lies_between = false;

@@ -4,8 +4,9 @@
 // z is the direction of the first datum that has one; x the first direction across z, a datum's own
 // or the direction from the located origin to it. A plane fixes the origin along its normal, an
 // axis across itself, a point, a sphere or the centre of a torus in all directions; a cone is an
-// axis and its apex. What an earlier datum has fixed stays fixed, and a datum that adds nothing has
-// no effect.
+// axis and its apex. A slot, a rectangle or an ellipse has two directions, its normal and the one along
+// it: in the plane of the primary it stops the rotation, after a bore that it points to by where it is.
+// What an earlier datum has fixed stays fixed, and a datum that adds nothing has no effect.
 //
 // The fitted datums have no orientation constraint, so each is used at its own point: a secondary
 // plane at a right angle to the primary passes through its centroid, whatever its own small tilt. A
@@ -39,12 +40,22 @@ class Frame {
  private:
   void orient(Shape shape, const Element& datum) {
     if (!is_spot(shape)) take_direction(datum.direction);
+    if (is_outline(shape) && !points_to_origin(datum)) take_direction(datum.second);
     if (shape == Shape::plane || axes_ == 2) return;
     if (axes_ == 0 ? fixed_ == 3 : located_across()) {
       const Vec3 there = datum.point - origin_;
       const Vec3 across = axes_ == 0 ? there : perpendicular_part(there, z_);
       if (norm(across) > kSameAxis_mm) take_direction(unit(across));
     }
+  }
+
+  /// Whether the sides of an outline lie along the arm from the located origin: how far they turn about it then shows in
+  /// where they are, much more than in their own direction.
+  bool points_to_origin(const Element& outline) const {
+    if (!located_across()) return false;
+    const Vec3 arm = perpendicular_part(outline.point - origin_, z_);
+    const double along = std::fabs(dot(arm, outline.second));
+    return along > outline.size && along > norm(arm - dot(arm, outline.second) * outline.second);
   }
 
   void take_direction(const Vec3& d) {

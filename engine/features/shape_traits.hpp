@@ -33,4 +33,7 @@ inline Vec3 apex(const Element& cone) {
   return cone.angle > 0 ? cone.point - cone.size / std::tan(cone.angle) * cone.direction : cone.point;
 }
 
+/// The point by which FEAT says where a feature is. Of a cone that is the apex: Element::point is where it was touched.
+inline Vec3 location_of(Shape shape, const Element& e) { return shape == Shape::cone ? apex(e) : e.point; }
+
 }  // namespace abbe

@@ -44,7 +44,7 @@ void BlockRun::operator()(const plan::Construct& construct) {
       const Element* element = actual(i, construct.from[k]);
       if (!element) return "";
       from[k] = X_DW * *element;
-      if (construct.method->axes_are_points && has_axis(shapes[k]) && !has_centre(shapes[k]))
+      if (construct.method->axes_are_points && (shapes[k] == Shape::line || shapes[k] == Shape::cylinder))
         from[k].point = foot_on_axis(from[k], nominal_of(lane, construct.from[k]).point);
     }
     const Element nominal = inverse(twin.X_WD) * state(twin, construct.result).nominal;
@@ -111,7 +111,8 @@ void BlockRun::operator()(const plan::TranslateFrame& translate) {
       }
       const Element* element = actual(i, shift.from);
       if (!element) return "";
-      shift_D[axis] += (inverse(lane.X_WD) * element->point)[axis];
+      const Vec3 there = location_of(executor.plan_[shift.from].kind->acts_as, *element);
+      shift_D[axis] += (inverse(lane.X_WD) * there)[axis];
     }
     set_frame(lane, translate.result, {lane.X_WD.R, lane.X_WD * shift_D});
     return "";

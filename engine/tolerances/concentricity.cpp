@@ -4,7 +4,8 @@
 //
 // The datum axis is the z axis of the frame that the datums establish, so a face as primary and a
 // bore as secondary datum give the axis through the bore, square to the face. A sphere or a point as
-// the first datum is a datum centre: a sphere is compared in space, a circle in its own plane.
+// the first datum is a datum centre: a sphere is compared in space, a circle in its own plane, an axis
+// where it passes the centre.
 #include <algorithm>
 
 #include "engine/features/alignment.hpp"
@@ -20,7 +21,7 @@ const char* centred(const Arguments& arguments, Shapes shapes) {
 }
 
 double off_centre(Shape shape, const Element& e) {
-  return norm(is_spot(shape) || has_axis(shape) ? e.point : perpendicular_part(e.point, e.direction));
+  return norm(is_spot(shape) || shape == Shape::torus ? e.point : perpendicular_part(e.point, e.direction));
 }
 
 double off_axis(Shape shape, const Element& e) {

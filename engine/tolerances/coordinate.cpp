@@ -22,21 +22,18 @@ ToleranceLimits coordinate_limits(const Arguments& arguments, Elements) {
 
 Unit unit(const Arguments& arguments) { return arguments.text("axis") == "ANGLE" ? Unit::rad : Unit::mm; }
 
-Vec3 nominal_point(Shape shape, const Element& nominal) { return shape == Shape::cone ? apex(nominal) : nominal.point; }
-
 Vec3 actual_point(Shape shape, const Element& actual, const Vec3& nominal) {
   const Vec3 beside = nominal - actual.point;
   switch (shape) {
     case Shape::plane: return nominal - dot(beside, actual.direction) * actual.direction;
     case Shape::line:
     case Shape::cylinder: return nominal - perpendicular_part(beside, actual.direction);
-    case Shape::cone: return apex(actual);
-    default: return actual.point;
+    default: return location_of(shape, actual);
   }
 }
 
 Outcome<double> coordinate_deviation(const Arguments& arguments, const EvaluationInput& in) {
-  const Vec3 n = nominal_point(in.shapes[0], in.nominal[0]), a = actual_point(in.shapes[0], in.actual[0], n);
+  const Vec3 n = location_of(in.shapes[0], in.nominal[0]), a = actual_point(in.shapes[0], in.actual[0], n);
   const std::string axis = arguments.text("axis");
   if (axis == "RADIUS") return {std::hypot(a.x, a.y) - std::hypot(n.x, n.y)};
   if (axis == "ANGLE") {

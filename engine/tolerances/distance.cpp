@@ -26,9 +26,9 @@
 //
 // Extent. AVG, the default, is as above. MAX and MIN are between the far and the near ends of the
 // features along the line of measurement: r to both sides of a sphere, r sqrt(1 - (n e)^2) for a
-// circle, the measured ends of a line or an axis, the outermost touches of a plane (a constructed
-// one and a median plane have none: form, and tilt over the extent). Features that overlap have the MIN
-// distance 0.
+// circle, and so for the circles in which a cylinder or a cone ends, the measured ends of a line, the
+// outermost touches of a plane (a constructed one and a median plane have none: form, and tilt over the
+// extent). Features that overlap have the MIN distance 0.
 #include <algorithm>
 #include <cmath>
 
@@ -50,9 +50,6 @@ double outline_reach(Shape shape, const Element& o, const Vec3& e) {
   return (o.size - o.minor_size) * u + o.minor_size * std::hypot(u, v);
 }
 
-/// The point of a feature that a distance is counted from.
-Vec3 place(Shape shape, const Element& e) { return shape == Shape::cone ? apex(e) : e.point; }
-
 Interval plane_reach(const Element& plane, const Vec3& e, std::span<const TouchedPoint> touches) {
   if (!are_of_one_face(touches)) {
     const double cosine = dot(plane.direction, e), rim = plane.end * norm(cross(plane.direction, e));
@@ -67,7 +64,20 @@ Interval plane_reach(const Element& plane, const Vec3& e, std::span<const Touche
   return reached;
 }
 
-/// How far the feature reaches from its place along the unit vector e.
+/// To both ends of a line, a cylinder or a cone, and there to the rim.
+Interval axis_reach(Shape shape, const Element& axis, const Vec3& e) {
+  const double cosine = dot(axis.direction, e), sine = norm(cross(axis.direction, e)),
+               middle = dot(axis.point - location_of(shape, axis), e),
+               slope = shape == Shape::cone ? std::tan(axis.angle) : 0;
+  Interval reached{INFINITY, -INFINITY};
+  for (const double end : {axis.begin, axis.end}) {
+    const double at = middle + end * cosine, rim = shape == Shape::line ? 0 : (axis.size + end * slope) * sine;
+    reached = {std::min(reached.low, at - rim), std::max(reached.high, at + rim)};
+  }
+  return reached;
+}
+
+/// How far the feature reaches from its location along the unit vector e.
 Interval reach(Shape shape, const Element& feature, const Vec3& e, std::span<const TouchedPoint> touches) {
   const double cosine = dot(feature.direction, e);
   switch (shape) {
@@ -79,11 +89,7 @@ Interval reach(Shape shape, const Element& feature, const Vec3& e, std::span<con
     case Shape::plane: return plane_reach(feature, e, touches);
     case Shape::line:
     case Shape::cylinder:
-    case Shape::cone: {
-      const double middle = dot(feature.point - place(shape, feature), e);
-      return {middle + std::min(cosine * feature.begin, cosine * feature.end),
-              middle + std::max(cosine * feature.begin, cosine * feature.end)};
-    }
+    case Shape::cone: return axis_reach(shape, feature, e);
     case Shape::slot:
     case Shape::rectangle:
     case Shape::ellipse: {
@@ -124,7 +130,7 @@ struct Two {
   bool parallel() const { return norm(cross(nominal_direction[0], nominal_direction[1])) < kOneDegreeSine; }
   bool square() const { return std::fabs(dot(nominal_direction[0], nominal_direction[1])) < kOneDegreeSine; }
   const Vec3& direction(int k) const { return element[k]->direction; }
-  Vec3 from_to() const { return place(shape[1], *element[1]) - place(shape[0], *element[0]); }
+  Vec3 from_to() const { return location_of(shape[1], *element[1]) - location_of(shape[0], *element[0]); }
 };
 
 Ruler between_planes(const Two& two) {

@@ -13,7 +13,8 @@ namespace abbe {
 namespace {
 
 const char* plane_only(const Arguments&, Shapes s) {
-  return acts_as(s[0]) == Shape::plane ? nullptr : "flatness is for planes";
+  if (acts_as(s[0]) != Shape::plane) return "flatness is for planes";
+  return s[0] == Shape::plane ? nullptr : "flatness is of one face: measure each of the two as a PLANE";
 }
 const char* line_only(const Arguments&, Shapes s) {
   return s[0] == Shape::line ? nullptr : "straightness is for lines";

@@ -26,7 +26,7 @@ const char* few_datums(const Arguments& arguments, Shapes) {
 
 ToleranceLimits profile_limits(const Arguments& arguments, Elements) {
   const double zone = arguments.number("upper") - arguments.number("lower");
-  return zone > 0 ? ToleranceLimits{{}, zone} : ToleranceLimits{};
+  return zone != 0 ? ToleranceLimits{{}, zone} : ToleranceLimits{};
 }
 
 const char* of_a_point(const Arguments& arguments, Shapes s) {

@@ -2,10 +2,11 @@
 // 1101:2017, clause 17: circular and total run-out).
 //
 // The datum axis is the z axis of the frame that the datums establish. The distance that the
-// indicator would show is measured from it for round features (radial run-out) and along it for
-// planes (axial run-out). TRNOUT is the range over all touches, CRNOUT the largest range over one
-// section: the touches that the program put at the same height (of a plane: at the same radius),
-// within 0.1 mm. A section with a single touch has no range.
+// indicator would show is measured from it for circles and cylinders (radial run-out) and along it for
+// planes (axial run-out). On cones and spheres the indicator stands on the surface at a right angle: it
+// shows how far a touch lies from its nominal place along the normal there. TRNOUT is the range over
+// all touches, CRNOUT the largest range over one section: the touches that the program put at the same
+// height (of a plane: at the same radius), within 0.1 mm. A section with a single touch has no range.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -48,11 +49,14 @@ Outcome<std::vector<Reading>> readings(const EvaluationInput& in) {
   const Outcome<Rigid> nominal_frame = datum_reference_frame(in.datum_shapes, in.nominal_datums);
   if (!nominal_frame) return Made::failed(nominal_frame.failure);
   const Rigid own = inverse(frame.value), meant = inverse(nominal_frame.value);
-  const bool axial = in.shapes[0] == Shape::plane;
+  const bool axial = in.shapes[0] == Shape::plane,
+             along_normal = in.shapes[0] == Shape::cone || in.shapes[0] == Shape::sphere;
   Made made;
   for (const TouchedPoint& touch : in.touches) {
     const Vec3 p = own * touch.actual, q = meant * touch.nominal;
-    made.value.push_back(axial ? Reading{std::hypot(q.x, q.y), p.z} : Reading{q.z, std::hypot(p.x, p.y)});
+    made.value.push_back(axial              ? Reading{std::hypot(q.x, q.y), p.z}
+                             : along_normal ? Reading{q.z, dot(p - q, meant.R * touch.normal)}
+                                            : Reading{q.z, std::hypot(p.x, p.y)});
   }
   return made;
 }

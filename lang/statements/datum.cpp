@@ -1,6 +1,7 @@
 // Datums and coordinate systems: DATDEF, DATSET, TRANS, ROTATE, SAVE, RECALL.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lang/statement.hpp"
@@ -19,14 +20,22 @@ void bind_datum(Lowering& lowering, const RawStatement&, const Match& match) {
   if (id) lowering.symbols.datums.set(upper(datum.text), *id);
 }
 
-/// The words that follow a datum: at most one direction, any origins.
-void use_datum(plan::DatumRef& datum, std::string_view word) {
-  if (word.ends_with("ORIG")) {
-    datum.origin[static_cast<int>(axis_of(word))] = true;
-  } else {
-    datum.gives_direction = true;
-    datum.direction = direction_of(word);
+/// The words that follow the last datum: at most one direction, any origins.
+void use_datum(Lowering& lowering, std::vector<plan::DatumRef>& datums, const MatchedValue& word) {
+  plan::DatumRef& datum = datums.back();
+  if (word.text.ends_with("ORIG")) {
+    datum.origin[static_cast<int>(axis_of(word.text))] = true;
+    return;
   }
+  if (datum.gives_direction)
+    return lowering.error(Code::E0108, word.span, "a datum gives one direction, and this is a second one",
+                          "leave it out, or name another datum before it");
+  if (std::count_if(datums.begin(), datums.end(), [](const plan::DatumRef& d) { return d.gives_direction; }) == 2)
+    return lowering.warn(Code::W0266, word.span,
+                         fmt::format("the directions of two datums settle all axes: {} has no effect", word.text),
+                         "leave it out; the third axis is at a right angle to the two");
+  datum.gives_direction = true;
+  datum.direction = direction_of(word.text);
 }
 
 /// DATSET/TRMATX: nine elements by rows, each row an axis of the new system, and its origin. Files give
@@ -57,7 +66,7 @@ void set_frame(Lowering& lowering, const RawStatement& raw, const Match& match) 
     if (v.type == ValueType::datum) {
       datums.push_back({lowering.datum(v.label).value_or(plan::FeatureId{}), false, {}, {}});
     } else {
-      use_datum(datums.back(), v.text);
+      use_datum(lowering, datums, v);
     }
   }
   if (lowering.failed) return;

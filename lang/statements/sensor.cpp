@@ -3,8 +3,9 @@
 //
 // Sources disagree on the sign of the mounting vector of SNSDEF and of the lengths in SNSMNT: some
 // write the direction from the mount to the tip, some the opposite. Below a ram nothing can point
-// up, so a stylus or a mount along z hangs down in either sign. When the vector contradicts the
-// head angles by more than a degree the angles hold, with a warning.
+// up, so a stylus or a mount hangs down in either sign: a vector is turned round, of an offset from
+// the ram only the height is. When the vector contradicts the head angles by more than a degree the
+// angles hold, with a warning.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -55,22 +56,23 @@ void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& 
                 "the head angles hold; 0,0,-1 is the usual vector");
 }
 
+/// From the mount to the tip, whichever way the vector was written.
+Vec3 hanging(const Vec3& v) { return v.z > 0 ? Vec3{} - v : v; }
+
 /// CART and VEC on the head: the head turns so that the stylus reaches from the head's centre to
 /// the tip.
 void indexed_by_vector(Lowering& lowering, const Match& match, plan::SensorDef& def, bool cartesian) {
   const std::optional<Vec3> to_tip = direction_vector(lowering, match, cartesian ? "dx" : "i");
   if (!to_tip) return;
-  const Vec3 direction = to_tip->z > 0 ? -*to_tip : *to_tip;  // a stylus hangs down in either sign
-  point_head(def, direction);
+  point_head(def, hanging(*to_tip));
   def.tip_in_r = {0, 0, -(cartesian ? norm(vector_of(match, "dx")) : std::fabs(match.number("len")))};
 }
 
 void fixed(Lowering& lowering, const Match& match, plan::SensorDef& def, bool cartesian) {
   const std::optional<Vec3> along = direction_vector(lowering, match, "i");
   if (!along) return;
-  def.tip_in_r = cartesian ? vector_of(match, "dx") : std::fabs(match.number("len")) * *along;
-  const bool straight_down = std::hypot(along->x, along->y) < 1e-9;
-  if (straight_down) def.tip_in_r.z = -std::fabs(def.tip_in_r.z);
+  def.tip_in_r = cartesian ? vector_of(match, "dx") : std::fabs(match.number("len")) * hanging(*along);
+  if (def.tip_in_r.z > 0) def.tip_in_r.z = -def.tip_in_r.z;
 }
 
 void define_sensor(Lowering& lowering, const RawStatement& raw, const Match& match) {

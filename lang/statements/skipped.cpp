@@ -24,6 +24,15 @@ void read_file(Lowering& lowering, const RawStatement& raw, const Match&) {
                  "give the values with ASSIGN, or ask for them: X=PROMPT/'text' and --answer X=VALUE");
 }
 
+/// Lowering refuses POL under another plane than XYPLAN.
+void choose_plane(Lowering& lowering, const RawStatement& raw, const Match& match) {
+  const MatchedValue& plane = *match.find("plane");
+  if (plane.text == "XYPLAN" || !lowering.reported_words.insert(raw.word).second) return;
+  lowering.warn(Code::W0122, plane.span,
+                "RADIUS and ANGLE of CORTOL, and POS,2D of points and spheres, stay in the plane of x and y",
+                "the features themselves carry their own vectors");
+}
+
 void write_file(Lowering& lowering, const RawStatement& raw, const Match&) {
   if (!lowering.reported_words.insert(raw.word).second) return;
   lowering.warn(Code::W0122, raw.word_span, "WRITE makes no file here and is skipped wherever it stands",
@@ -113,10 +122,12 @@ const Statement kFinpos = {
 const Statement kWkplan = {
     .word = "WKPLAN",
     .signature = "plane:XYPLAN|YZPLAN|ZXPLAN",
-    .help = "Working plane. Every feature here carries its own vector, so nothing depends on it. Skipped.",
+    .help =
+        "Working plane. Features carry their own vectors and do not depend on it; POL is an error under another plane "
+        "than XYPLAN.",
     .example = "WKPLAN/XYPLAN",
     .source = "ISO 22093, WKPLAN",
-    .lower = skip,
+    .lower = choose_plane,
 };
 const Statement kPause = {
     .word = "PAUSE",

@@ -134,6 +134,18 @@ class TruePart(harness.Case):
             self.program(DATUMS, wall, slot, tolerances, "OUTPUT/FA(S),TA(SYM),TA(PERP),TA(PARLEL),TA(POS)\n")
             self.assert_close(self.references(), expected, delta=2e-5)
 
+    def test_a_slot_in_a_face_stops_the_rotation(self):
+        # The true slot is turned by 1 mrad about its centre at 20,40: its sides, touched 10 mm to both sides of that, lie 10 um off. In
+        # its system the bore, 30 mm from that centre, is 30 um off; in one that is turned about the corner of the part, 50,40 from it,
+        # 40 um along x and -50 um along y.
+        slot = ("F(S)=FEAT/CPARLN,INNER,ROUND,CART,20,40,-5,0,0,1,1,0,0,30,10\n"
+                + measured("CPARLN", "S", [(30, 45, -5, 0, -1, 0), (10, 45, -5, 0, -1, 0), (30, 35, -5, 0, 1, 0), (10, 35, -5, 0, 1, 0),
+                                           (35, 40, -5, -1, 0, 0), (5, 40, -5, 1, 0, 0)]) + "DATDEF/FA(S),DAT(S)\n")
+        self.program(DATUMS, BORE, BORE_TOUCHES, slot, "T(POS)=TOL/POS,2D,0.1,DAT(A),DAT(S)\nOUTPUT/FA(H),TA(POS)\n",
+                     "D(TURNED)=ROTATE/ZAXIS,DAT(S),XDIR\nT(X)=TOL/CORTOL,XAXIS,-1,1\nT(Y)=TOL/CORTOL,YAXIS,-1,1\nOUTPUT/FA(H),TA(X),TA(Y)\n")
+        recording = self.recording(lambda feature, touch: (-0.01, 0.01, 0.01, -0.01, 0, 0)[touch - 1] if feature == "S" else 0)
+        self.assert_close(self.references("--recording", recording), {"POS": 0.06, "X": 0.04, "Y": -0.05}, delta=5e-5)
+
 
 if __name__ == "__main__":
     harness.main()

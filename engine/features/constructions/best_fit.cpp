@@ -30,10 +30,11 @@ const char* best_fit_applies(Shape result, Shapes shapes) {
   return static_cast<int>(shapes.size()) < kind.minimum_points ? kTooFew : nullptr;
 }
 
-Outcome<Element> construct_best_fit(Shape result, Shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> construct_best_fit(Shape result, Shapes shapes, Elements from, const Element& nominal,
+                                    const Arguments&) {
   FitProblem problem{.shape = result, .points = {}, .normal = {}};
   problem.points.reserve(from.size());
-  for (const Element& e : from) problem.points.push_back(e.point);
+  for (std::size_t k = 0; k < from.size(); ++k) problem.points.push_back(location_of(shapes[k], from[k]));
   const FitSolution fitted = fit_points(problem);
   if (fitted.error) return cannot(reason_of(*fitted.error));
   Element made = fitted.element;

@@ -1,6 +1,7 @@
 // EXTREM: the point of a feature that lies farthest along a direction (MAX) or against it (MIN). It is
-// the point of the fitted element, over the extent of its touches: a plane reaches as far as its
-// touches, an axis and a line to their measured ends.
+// the point of the fitted element, over the extent of its touches: an axis and a line reach to their
+// measured ends, a plane as a disc about the middle of its touches to the distance of the outermost one.
+// A plane that lies across the direction has no such point: where it leans is chance.
 #include <cmath>
 
 #include "engine/base/ids.hpp"
@@ -42,7 +43,10 @@ const char* extreme_applies(Shape result, Shapes shapes) {
 Outcome<Element> extreme(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
   const Vec3 along = direction_of(arguments);
   if (!(norm(along) > 0)) return cannot("the direction of EXTREM has no length");
-  const Vec3 there = farthest(shapes[0], from[0], arguments.text("end") == "MAX" ? unit(along) : -unit(along));
+  const Vec3 e = arguments.text("end") == "MAX" ? unit(along) : -unit(along);
+  if (shapes[0] == Shape::plane && norm(cross(e, from[0].direction)) < kOneDegreeSine)
+    return cannot("the plane lies across the direction of EXTREM, so that no point of it is farther than the others");
+  const Vec3 there = farthest(shapes[0], from[0], e);
   return {{.point = from[0].point + there, .direction = nominal.direction}};
 }
 

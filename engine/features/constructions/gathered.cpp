@@ -7,9 +7,9 @@ namespace {
 
 const char* centre_applies(Shape result, Shapes) { return result == Shape::point ? nullptr : "COG makes a point"; }
 
-Outcome<Element> centre(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> centre(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   Vec3 sum;
-  for (const Element& e : from) sum += e.point;
+  for (std::size_t k = 0; k < from.size(); ++k) sum += location_of(shapes[k], from[k]);
   return {{.point = sum / static_cast<double>(from.size()), .direction = nominal.direction}};
 }
 

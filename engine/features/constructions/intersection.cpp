@@ -70,7 +70,7 @@ Outcome<Element> section(const Element& plane, Shape shape, const Element& body,
   return {in_sense_of(nominal, circle)};
 }
 
-Outcome<Element> oblique_section(const Element& plane, const Element& body) {
+Outcome<Element> oblique_section(const Element& plane, const Element& body, const Element& nominal) {
   const double cosine = std::fabs(dot(plane.direction, body.direction));
   if (cosine < kParallel) return cannot("the plane runs along the axis of the cylinder");
   const Vec3 along = perpendicular_part(body.direction, plane.direction);
@@ -79,7 +79,7 @@ Outcome<Element> oblique_section(const Element& plane, const Element& body) {
            .direction = plane.direction,
            .size = body.size / cosine,
            .minor_size = body.size,
-           .second = major}};
+           .second = dot(major, nominal.second) < 0 ? -major : major}};
 }
 
 /// What two features have in common.
@@ -118,7 +118,7 @@ Outcome<Element> intersect(Shape result, Shapes shapes, Elements from, const Ele
     case Common::point_on_plane: return point_on_plane(from[second], from[first]);
     case Common::point_of_axes: return point_of_axes(from[0], from[1], nominal);
     case Common::section: return section(from[first], shapes[second], from[second], nominal);
-    case Common::oblique_section: return oblique_section(from[first], from[second]);
+    case Common::oblique_section: return oblique_section(from[first], from[second], nominal);
     case Common::round: return round_intersection(shapes, from, nominal);
     case Common::nothing: break;
   }

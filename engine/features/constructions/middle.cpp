@@ -24,8 +24,9 @@ const char* middle_point_applies(Shape result, Shapes) {
   return result == Shape::point ? nullptr : "MIDPT makes a point";
 }
 
-Outcome<Element> middle_point(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
-  return {{.point = 0.5 * (from[0].point + from[1].point), .direction = nominal.direction}};
+Outcome<Element> middle_point(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+  return {{.point = 0.5 * (location_of(shapes[0], from[0]) + location_of(shapes[1], from[1])),
+           .direction = nominal.direction}};
 }
 
 const char* middle_line_applies(Shape result, Shapes shapes) {

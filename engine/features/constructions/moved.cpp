@@ -11,10 +11,10 @@ const char* move_point_applies(Shape result, Shapes shapes) {
   return nullptr;
 }
 
-Outcome<Element> move_point(Shape, Shapes, Elements from, const Element& nominal, const Arguments& arguments) {
+Outcome<Element> move_point(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments& arguments) {
   Vec3 by{arguments.number("dx"), arguments.number("dy"), arguments.number("dz")};
   if (from.size() == 2) by = arguments.number("distance") * from[1].direction;
-  return {{.point = from[0].point + by, .direction = nominal.direction}};
+  return {{.point = location_of(shapes[0], from[0]) + by, .direction = nominal.direction}};
 }
 
 const char* offset_applies(Shape result, Shapes shapes) {

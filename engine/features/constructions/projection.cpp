@@ -12,9 +12,10 @@ const char* project_point_applies(Shape result, Shapes shapes) {
 
 Outcome<Element> project_point(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   const Element& onto = from[1];
+  const Vec3 point = location_of(shapes[0], from[0]);
   if (shapes[1] == Shape::plane)
-    return {{.point = foot_on_plane(onto.point, onto.direction, from[0].point), .direction = onto.direction}};
-  return {{.point = foot_on_line(onto.point, onto.direction, from[0].point), .direction = nominal.direction}};
+    return {{.point = foot_on_plane(onto.point, onto.direction, point), .direction = onto.direction}};
+  return {{.point = foot_on_line(onto.point, onto.direction, point), .direction = nominal.direction}};
 }
 
 const char* project_line_applies(Shape result, Shapes shapes) {

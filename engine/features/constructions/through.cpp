@@ -26,19 +26,20 @@ const char* perpendicular_applies(Shape result, Shapes shapes) {
 }
 
 Outcome<Element> perpendicular(Shape result, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
-  const Element &to = from[0], &through = from[1];
+  const Element& to = from[0];
+  const Vec3 through = location_of(shapes[1], from[1]);
   const bool to_plane = shapes[0] == Shape::plane, to_axis = has_axis(shapes[0]);
   if ((result == Shape::line && to_plane) || (result == Shape::plane && to_axis))
-    return made(nominal, through.point, to.direction);
+    return made(nominal, through, to.direction);
   if (result == Shape::line) {
-    const Vec3 across = foot_on_line(to.point, to.direction, through.point) - through.point;
+    const Vec3 across = foot_on_line(to.point, to.direction, through) - through;
     if (!(norm(across) > kNoDistance_mm))
       return cannot("the point lies on the line to which the new one should be perpendicular");
-    return made(nominal, through.point, unit(across));
+    return made(nominal, through, unit(across));
   }
-  const Vec3 n = cross(to.direction, through.direction);
+  const Vec3 n = cross(to.direction, from[1].direction);
   if (norm(n) < kParallel) return cannot("the line is perpendicular to the plane, so that no single plane contains it");
-  return made(nominal, through.point, unit(n));
+  return made(nominal, through, unit(n));
 }
 
 const char* parallel_applies(Shape result, Shapes shapes) {
@@ -47,8 +48,8 @@ const char* parallel_applies(Shape result, Shapes shapes) {
   return planes || lines ? nullptr : "PARTO makes a plane parallel to a plane or a line parallel to a line";
 }
 
-Outcome<Element> parallel_to(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
-  return made(nominal, from[1].point, from[0].direction);
+Outcome<Element> parallel_to(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
+  return made(nominal, location_of(shapes[1], from[1]), from[0].direction);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@ namespace {
 
 const char* vector_applies(Shape result, Shapes) { return result == Shape::point ? nullptr : "VECBLD makes a point"; }
 
-Outcome<Element> build_vector(Shape, Shapes, Elements from, const Element& nominal, const Arguments&) {
+Outcome<Element> build_vector(Shape, Shapes shapes, Elements from, const Element& nominal, const Arguments&) {
   FitProblem problem{.shape = Shape::plane, .points = {}, .normal = {}};
-  for (const Element& e : from) problem.points.push_back(e.point);
+  for (std::size_t k = 0; k < from.size(); ++k) problem.points.push_back(location_of(shapes[k], from[k]));
   const FitSolution plane = fit_points(problem);
   if (plane.error) return cannot("the points of the features do not determine a plane");
-  return {in_sense_of(nominal, {.point = from[0].point, .direction = plane.element.direction})};
+  return {in_sense_of(nominal, {.point = problem.points[0], .direction = plane.element.direction})};
 }
 
 }  // namespace

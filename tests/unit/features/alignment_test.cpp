@@ -147,6 +147,47 @@ TEST_CASE("ROTATE toward what has no direction across the axis looks at its plac
         "the feature lies on the axis of rotation and gives no direction");
 }
 
+TEST_CASE("An outline in the primary plane gives the direction along it") {
+  const Vec3 along = unit({3, 1, 0}), across{-along.y, along.x, 0};
+  const Element outline =
+      kPose * Element{.point = {30, 5, -4}, .direction = {0, 0, -1}, .size = 15, .minor_size = 5, .second = along};
+  const Element top = kPose * at({40, 30, 0}, {0, 0, 1}), bore = kPose * at({0, 0, -7}, {0, 0, 1});
+  const Mat3 turned{along, across, {0, 0, 1}};
+  for (const Shape shape : {Shape::slot, Shape::rectangle, Shape::ellipse}) {
+    CAPTURE(static_cast<int>(shape));
+    const Rigid rotated = rotated_to(kPose, Axis::z, shape, outline, {Axis::y, -1}).value;
+    check_near(transpose(kPose.R) * rotated.R.cy, -along);
+    const DatumUse datums[] = {use(Shape::plane, top, Axis::z, 1, "Z"), use(shape, outline, Axis::x, 1, "XY")};
+    check_near(datum_frame({}, datums).value, kPose * Rigid{turned, {30, 5, 0}});
+    const Shape shapes[] = {Shape::plane, shape, Shape::cylinder};
+    const Element slot_before[] = {top, outline, bore}, slot_after[] = {top, bore, outline};
+    check_near(datum_reference_frame(shapes, slot_before).value, kPose * Rigid{turned, {30, 5, 0}});
+    const Shape reordered[] = {Shape::plane, Shape::cylinder, shape};
+    const Vec3 to_slot = unit({30, 5, 0});  // an arm of 30 mm turns more surely than the slot of 30 mm by itself
+    check_near(datum_reference_frame(reordered, slot_after).value,
+               kPose * Rigid{Mat3{to_slot, {-to_slot.y, to_slot.x, 0}, {0, 0, 1}}, {}});
+    const Element near_bore = kPose * at({33, -4, -7}, {0, 0, 1}), slot_near[] = {top, near_bore, outline};
+    check_near(datum_reference_frame(reordered, slot_near).value, kPose * Rigid{turned, {33, -4, 0}});
+    // In a side face it is the normal, as of any feature there.
+    Element aside = outline;
+    aside.direction = kPose.R * Vec3{1, 0, 0}, aside.second = kPose.R * Vec3{0, 0.6, 0.8};
+    check_near(rotated_to(kPose, Axis::z, shape, aside, {Axis::x, 1}).value, kPose);
+  }
+}
+
+TEST_CASE("A cone locates by its apex, wherever it was touched") {
+  const Vec3 apex_at{10, 20, -40}, axis = unit({0.1, 0, 1});
+  for (const double touched_mm : {5.0, 25.0}) {
+    const Element cone = kPose *
+        Element{
+            .point = apex_at + touched_mm * axis, .direction = axis, .size = touched_mm * std::tan(0.3), .angle = 0.3};
+    const DatumUse datums[] = {locating(Shape::cone, cone, "XYZ")};
+    check_near(datum_frame(kPose, datums).value, {kPose.R, kPose * apex_at});
+    const Rigid seen = rotated_to(kPose, Axis::z, Shape::cone, cone, {Axis::x, 1}).value;
+    check_near(transpose(kPose.R) * seen.R.cx, unit({10, 20, 0}));
+  }
+}
+
 TEST_CASE("Datum reference frames of ISO 5459") {
   auto frame = [](std::initializer_list<Shape> shapes, std::vector<Element> datums) {
     return datum_reference_frame({shapes.begin(), shapes.size()}, datums).value;

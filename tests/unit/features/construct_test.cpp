@@ -200,6 +200,25 @@ TEST_CASE("Moved and gathered features") {
   CHECK(reason("TR", Shape::sphere, {point({})}) == "TR takes over a feature of the same kind");
 }
 
+TEST_CASE("A cone stands for its apex where a point is asked for") {
+  // Touched 8 mm above its apex at (1, 2, 3).
+  const Operand cone{Shape::cone, {.point = {1, 2, 11}, .size = 8 * std::tan(0.4), .angle = 0.4}};
+  const Operand top = plane({0, 0, 9}, {0, 0, 1}), spot = point({1, 2, 5});
+  Arguments by;
+  by.add_number("dx", 0), by.add_number("dy", 0), by.add_number("dz", -1);
+  check_near(made("MIDPT", Shape::point, {cone, spot}).point, {1, 2, 4});
+  check_near(made("COG", Shape::point, {cone, spot}).point, {1, 2, 4});
+  check_near(made("MOVEPT", Shape::point, {cone}, {0, 0, 1}, by).point, {1, 2, 2});
+  check_near(made("PROJPT", Shape::point, {cone, line({0, 0, 0}, {0, 0, 1})}).point, {0, 0, 3});
+  check_near(made("PARTO", Shape::plane, {top, cone}).point, {1, 2, 3});
+  check_near(made("PERPTO", Shape::line, {top, cone}).point, {1, 2, 3});
+  check_near(made("VECBLD", Shape::point, {cone, point({5, 2, 3}), point({1, 9, 3})}).direction, {0, 0, 1});
+  check_near(made("BF", Shape::line, {cone, point({5, 2, 3})}, {1, 0, 0}).direction, {1, 0, 0});
+  const Element same = made("TR", Shape::cone, {cone});
+  check_near(same.point, cone.element.point);
+  CHECK(same.size == cone.element.size);
+}
+
 TEST_CASE("BF through features") {
   const Element flat =
       made("BF", Shape::plane,

@@ -105,6 +105,20 @@ TEST_CASE("Extreme points") {
   CHECK_FALSE(build_near("EXTREM", Shape::line, {rod}, {}, z));
 }
 
+TEST_CASE("The extreme point of a plane is on the disc of its touches, if it leans") {
+  const auto roof = [](Vec3 normal) {
+    return Operand{Shape::plane, {.point = {1, 2, 3}, .direction = unit(normal), .begin = -10, .end = 10}};
+  };
+  check_near(made_near("EXTREM", Shape::point, {roof({-3, 0, 4})}, {}, extreme("MAX", {0, 0, 1})).point, {9, 2, 9});
+  check_near(made_near("EXTREM", Shape::point, {roof({-3, 0, 4})}, {}, extreme("MIN", {0, 0, 1})).point, {-7, 2, -3});
+  for (const double lean : {0.0, 0.002, -0.01}) {
+    const Outcome<Element> level =
+        build_near("EXTREM", Shape::point, {roof({lean, 0, 1})}, {}, extreme("MAX", {0, 0, 1}));
+    REQUIRE_FALSE(level);
+    CHECK(std::string(level.failure).starts_with("the plane lies across the direction of EXTREM"));
+  }
+}
+
 TEST_CASE("A vector is built of its neighbours") {
   const std::vector<Operand> three = {point({0, 0, 1}), point({10, 0, 1}), point({0, 10, 11})};
   const Element e = made_near("VECBLD", Shape::point, three, {.point = {}, .direction = {0, 0, 1}});
@@ -148,6 +162,9 @@ TEST_CASE("A plane cuts a cylinder in an ellipse") {
   CHECK(e.size == doctest::Approx(5));
   CHECK(e.minor_size == 4);
   CHECK(std::fabs(dot(e.second, unit({4, 0, -3}))) == doctest::Approx(1));
+  for (const double sense : {1.0, -1.0})  // as the foci of the nominal stand
+    CHECK(made_near("INTOF", Shape::ellipse, {rod, slant}, {.point = {}, .second = {sense, 0, 0}}).second.x ==
+          doctest::Approx(0.8 * sense));
   CHECK(reason_near("INTOF", Shape::ellipse, {rod, {Shape::plane, {.point = {}, .direction = {1, 0, 0}}}}) ==
         "the plane runs along the axis of the cylinder");
 }

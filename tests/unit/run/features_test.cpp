@@ -202,6 +202,35 @@ TEST_CASE("the uncertainty of a 3-2-1 alignment is that of the closed form") {
   }
 }
 
+TEST_CASE("the point of a cone is its apex in coordinate systems and constructions") {
+  // Cones of 90 degrees, open upwards; their apexes lie 20 mm below the part, those of their nominals 21.
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  std::vector<plan::FeatureId> cones;
+  for (const double x : {0.0, 60.0}) {
+    std::vector<std::pair<Vec3, Vec3>> touches;
+    for (const double height : {8.0, 14.0})
+      for (const Vec3 out : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}})
+        touches.push_back({Vec3{x, 0, height - 20} + height * out, unit(out - Vec3{0, 0, 1})});
+    cones.push_back(
+        measured(b, Shape::cone, {.point = {x, 0, -21}, .direction = {0, 0, 1}, .angle = kPi / 4}, touches));
+  }
+  const auto row = b.feature(Shape::line, {.point = kPart, .direction = {1, 0, 0}, .second = {0, 0, 1}});
+  b.append(plan::Construct{row, find_construction("BF"), cones, {}});
+  b.plan.frames.push_back({"APEX"});
+  b.append(plan::TranslateFrame{{0}, {{Axis::z, cones[0], {}}}});
+  const auto mark = b.point({700, 400, 20}, {0, 0, 1});
+  b.append(plan::Output{{mark}, {}});
+  b.plan.frames.push_back({"MACHINE"});
+  b.append(plan::SetMachineFrame{{1}});
+  b.append(plan::Output{{row, mark}, {}});
+  const RunResult r = run(b.plan, 0);
+  REQUIRE(r.reference_outputs.size() == 2);
+  CHECK(r.reference_outputs[0].features[0].point.z == Approx(20));
+  CHECK(r.reference_outputs[1].features[0].point.z == Approx(kPart.z - 20));
+  CHECK(r.reference_outputs[1].features[1].point.z == Approx(kPart.z));
+}
+
 TEST_CASE("a coordinate system recalled is the one that was made") {
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});

@@ -81,6 +81,33 @@ TEST_CASE("MAX and MIN reach to the far and near ends") {
   CHECK(value("MIN", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) == Approx(29.8));
 }
 
+TEST_CASE("MAX and MIN of cylinders and cones go to their rims") {
+  const Element bore = sized(spanning(at({0, 0, -4}), -2, 2), 5), other = sized(spanning(at({60, 0, -7}), -2, 2), 5);
+  const auto apart_by = [&](const char* axis, const char* use, Shape shape, const Element& a) {
+    return nominal_distance("DISTB", axis, 60, -1, 1)
+        .word("use", use)
+        .feature(shape, a)
+        .feature(Shape::cylinder, other)
+        .value();
+  };
+  for (const char* axis : {"XAXIS", "PT2PT"}) {
+    CHECK(apart_by(axis, "AVG", Shape::cylinder, bore) == Approx(60));
+    CHECK(apart_by(axis, "MAX", Shape::cylinder, bore) == Approx(70));
+    CHECK(apart_by(axis, "MIN", Shape::cylinder, bore) == Approx(50));
+    CHECK(apart_by(axis, "MAX", Shape::line, bore) == Approx(65));  // the axis alone
+  }
+  // Leaning by 30 degrees in x: its upper rim reaches 2 sin 30 + 5 cos 30 back, its lower one as far ahead.
+  Element leaning_bore = bore;
+  leaning_bore.direction = {-0.5, 0, std::sqrt(0.75)};
+  CHECK(apart_by("XAXIS", "MAX", Shape::cylinder, leaning_bore) == Approx(60 + 1 + 5 * std::sqrt(0.75) + 5));
+  CHECK(apart_by("XAXIS", "MIN", Shape::cylinder, leaning_bore) == Approx(60 - 1 - 5 * std::sqrt(0.75) - 5));
+  // A cone of 90 degrees with its apex at z = -9: its radius is 5 + 2 at the upper end.
+  Element cone = bore;
+  cone.angle = kPi / 4;
+  CHECK(apart_by("XAXIS", "MAX", Shape::cone, cone) == Approx(72));
+  CHECK(apart_by("XAXIS", "MIN", Shape::cone, cone) == Approx(48));
+}
+
 TEST_CASE("DISTWRT measures from its reference") {
   Evaluation e = nominal_distance("DISTWRT", "ZAXIS", 25, -0.1, 0.1);
   e.feature(Shape::sphere, at({1, 2, 3}))

@@ -50,6 +50,15 @@ TEST_CASE("Concentricity with a face, and about a centre") {
   Evaluation ring("CONCEN");
   ring.feature(Shape::circle, at({1.3, 2.4, 9})).datum(Shape::sphere, at({1, 2, 3}));
   CHECK(ring.value() == Approx(1.0));
+  // An axis where it passes the centre, wherever along itself it was touched; a torus has a centre of its own.
+  for (const Shape shape : {Shape::cylinder, Shape::cone, Shape::line}) {
+    Evaluation rod("CONCEN");
+    rod.feature(shape, spanning(at({1.3, 2.4, 50}), -5, 5)).datum(Shape::sphere, at({1, 2, 3}));
+    CHECK(rod.value() == Approx(1.0));
+  }
+  Evaluation bead("CONCEN");
+  bead.feature(Shape::torus, at({1, 2, 3.5})).datum(Shape::sphere, at({1, 2, 3}));
+  CHECK(bead.value() == Approx(1.0));
   Evaluation face_alone("CONCEN");
   face_alone.feature(Shape::circle, at({1, 2, 9})).datum(Shape::plane, kFace);
   CHECK(face_alone.failure() == "a concentricity needs a datum with an axis or a centre");
@@ -112,6 +121,24 @@ TEST_CASE("Circular run-out looks at one section, total run-out at all") {
   }
 }
 
+TEST_CASE("The run-out of cones and spheres is along the normal of the surface") {
+  // A touch of four lies 0.03 out along a normal at 45 degrees to the axis; the other sections are true.
+  const Rigid moved{rotation(unit({1, -2, 0.5}), 0.02), {0.4, -0.3, 0.2}};
+  for (const Shape shape : {Shape::cone, Shape::sphere}) {
+    for (const double side : {1.0, -1.0}) {  // outer, inner
+      Evaluation e("CRNOUT");
+      e.feature(shape, at({10, 20, 0})).datum(Shape::cylinder, moved * kBore, kBore);
+      for (const double z : {0.0, 5.0})
+        for (const Vec3 out : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-1, 0, 0}, Vec3{0, -1, 0}}) {
+          const Vec3 normal = side * unit(out - Vec3{0, 0, 1}), meant = Vec3{10, 20, z} + (30 + z) * out;
+          const double off = z == 5 && out.x == 1 ? 0.03 : 0;
+          e.touches.push_back({moved * (meant + off * normal), meant, normal});
+        }
+      CHECK(e.value() == Approx(0.03));
+    }
+  }
+}
+
 TEST_CASE("Run-outs say what they lack") {
   Evaluation made("TRNOUT");
   made.feature(Shape::circle, at({})).datum(Shape::cylinder, kBore);
@@ -135,6 +162,11 @@ TEST_CASE("A profile is the zone about the middle of its limits that holds all t
   CHECK(e.value() == Approx(0.06));  // 0.03 below the middle at 0.02
   CHECK(*e.limits().upper == Approx(0.08));
   CHECK_FALSE(e.limits().lower.has_value());
+  for (const char* word : {"PROFS", "PROFL"}) {
+    CHECK(*Evaluation(word).number("lower", 0.05).number("upper", -0.05).limits().upper ==
+          Approx(-0.1));  // none conforms
+    CHECK_FALSE(Evaluation(word).number("lower", 0.05).number("upper", 0.05).limits().upper.has_value());
+  }
   e.touches[1].actual.z = 4.97;  // 0.03 below nominal: outside -0.02
   CHECK(e.value() == Approx(0.10));
   Evaluation none("PROFL");

@@ -50,6 +50,9 @@ TEST_CASE("Form is the spread of the residuals") {
   CHECK(Evaluation("CYLCTY").feature(Shape::cylinder, e).value() == Approx(0.007));
   CHECK(Evaluation("FLAT").feature(Shape::plane, at({})).value() == 0);
   CHECK(Evaluation("FLAT").feature(Shape::line, e).refusal() == "flatness is for planes");
+  for (const Shape pair : {Shape::parallel_planes, Shape::symmetry_plane})
+    CHECK(Evaluation("FLAT").feature(pair, e).refusal() ==
+          "flatness is of one face: measure each of the two as a PLANE");
   CHECK(Evaluation("STRGHT").feature(Shape::plane, e).refusal() == "straightness is for lines");
   CHECK(Evaluation("CIRLTY").feature(Shape::cylinder, e).refusal() == "circularity is for circles and spheres");
   CHECK(Evaluation("CYLCTY").feature(Shape::circle, e).refusal() == "cylindricity is for cylinders");
