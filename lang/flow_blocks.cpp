@@ -80,6 +80,10 @@ constexpr double kTurnSlack = 1e-9;
 plan::Expression fixed_number(double v) { return {plan::PushConstant{v}}; }
 plan::Expression number_in(plan::ColumnId id) { return {plan::PushColumn{id}}; }
 
+bool is_whole(const MatchedValue& v) {
+  return v.column.valid() ? v.value->type == Type::integer : v.number == std::floor(v.number);
+}
+
 Value number_of(const MatchedValue& v, const Value& known) {
   return v.column.valid() ? Value{Type::real, {{plan::PushColumn{v.column}}}} : known;
 }
@@ -92,8 +96,11 @@ Flow::Step Flow::loop(int at) {
   const auto match = matched(line.raw);
   if (!match) return lost(at, end);
   const std::string variable = match->text("variable");
-  if (!find_variable(lowering_, variable)) declare(lowering_, variable, Type::integer, 0, 0, false);
   const MatchedValue *first = match->find("first"), *limit = match->find("limit"), *step = match->find("step");
+  if (!find_variable(lowering_, variable)) {
+    const bool counts = is_whole(*first) && (!step || is_whole(*step));
+    declare(lowering_, variable, counts ? Type::integer : Type::real, 0, 0, false);
+  }
   const double by = step ? step->number : 1;
   if (by == 0 && !(step && step->column.valid())) {
     lowering_.error(Code::E0242, step->span, "a DO with a step of 0 never ends", "leave the step out for 1");

@@ -57,6 +57,7 @@ Value chained(Values& a, Texts&) {
   }
   return v;
 }
+Value angle_of_point(Values& a, Texts&) { return real(combine(Op2::atan2, std::move(a[0].parts[0]), a[1].parts[0])); }
 Value degrees_to_radians(Values& a, Texts&) { return real(times(std::move(a[0].parts[0]), constant_of(kPi / 180))); }
 Value radians_to_degrees(Values& a, Texts&) { return real(times(std::move(a[0].parts[0]), constant_of(180 / kPi))); }
 template <std::size_t k>
@@ -182,7 +183,7 @@ constexpr std::array kIntrinsics = {
     Intrinsic{"ACOS", "ACOS(x)", "n", "arc cosine, radians", function<Op1::acos>},
     Intrinsic{"ASIN", "ASIN(x)", "n", "arc sine, radians", function<Op1::asin>},
     Intrinsic{"ATAN", "ATAN(x)", "n", "arc tangent, radians", function<Op1::atan>},
-    Intrinsic{"ATAN2", "ATAN2(y,x)", "nn", "angle of the point (x,y), radians, -pi to pi", chained<Op2::atan2>},
+    Intrinsic{"ATAN2", "ATAN2(y,x)", "nn", "angle of the point (x,y), radians, -pi to pi", angle_of_point},
     Intrinsic{"COS", "COS(x)", "n", "cosine of an angle in radians", function<Op1::cos>},
     Intrinsic{"SIN", "SIN(x)", "n", "sine of an angle in radians", function<Op1::sin>},
     Intrinsic{"TAN", "TAN(x)", "n", "tangent of an angle in radians", function<Op1::tan>},

@@ -141,6 +141,7 @@ class Matcher {
     }
     if (!rest_taken_ && at_ < arguments_.size()) {
       if (furthest_.argument < at_) furthest_ = {at_, {}, {}, {}};
+      furthest_.complete = furthest_.argument == at_;
       furthest_.mistake = mistake_at(furthest_.argument);
       return std::move(furthest_);
     }
@@ -379,7 +380,8 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
                          fmt::format("{} takes no argument {} ('{}')", what, number, written.text), see);
   const bool computed = written.kind == RawArgument::Kind::expression;
   const std::string as_written = written.kind == RawArgument::Kind::empty ? "empty" : "'" + written.text + "'";
-  const std::string message = fmt::format("argument {} of {} is {}, expected {}", number, what, as_written, expected);
+  const std::string message = fmt::format("argument {} of {} is {}, expected {}{}", number, what, as_written, expected,
+                                          mismatch.complete ? " or nothing more" : "");
   if (computed)
     return diagnostic_at(source, written.span, Code::E0111, message, "an expression gives a number or a logical value");
   const std::vector<std::string_view> words(mismatch.words.begin(), mismatch.words.end());

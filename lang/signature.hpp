@@ -87,6 +87,7 @@ struct Mismatch {
   std::vector<std::string> expected;  ///< descriptions; empty when an argument is one too many
   std::vector<std::string> words;     ///< the words that could have stood there
   std::optional<Mistake> mistake;     ///< the argument is an expression that has no value: why
+  bool complete = false;              ///< what stands before the argument is all that is needed
 };
 
 /// The value of an argument that is an expression.

@@ -36,10 +36,13 @@ std::vector<CsvField> split(const SourceFile& file, std::string_view line, std::
           break;
       }
       at = std::min(line.find(',', i), line.size());
-      if (i >= line.size())
+      const bool closed = i < line.size();
+      const std::size_t wrong = closed ? i + 1 : from;
+      if (!closed || !trimmed(line.substr(wrong, at - wrong)).empty())
         sink.add(diagnostic_at(
-            file, {begin + static_cast<std::uint32_t>(from), begin + static_cast<std::uint32_t>(line.size())},
-            Code::E0521, "this quote is not closed on its line", "write \"\" for a quote inside a quoted field"));
+            file, {begin + static_cast<std::uint32_t>(wrong), begin + static_cast<std::uint32_t>(at)}, Code::E0521,
+            closed ? "this stands behind the quote that closes the field" : "this quote is not closed on its line",
+            "write \"\" for a quote inside a quoted field"));
     } else {
       at = std::min(line.find(',', from), line.size());
       text = trimmed(line.substr(from, at - from));

@@ -35,8 +35,8 @@ struct CsvTable {
   std::vector<CsvRow> rows;  ///< blank lines are left out
 };
 
-/// Reads the table. Throws UserError: no header, a column twice, a quote that is not closed, a row of another
-/// length than the header.
+/// Reads the table. Throws UserError: no header, a column twice, quotes that do not enclose a whole field, a row of
+/// another length than the header.
 CsvTable read_csv(const SourceFile&);
 
 /// A text as a field: in quotes where it needs them.

@@ -9,7 +9,7 @@ namespace {
 
 using Line = CharacteristicReport::BudgetLine;
 
-double without_rounding(double u, Unit unit) { return u < smallest_u(unit) ? 0 : u; }
+double significant(double u, Unit unit) { return u < smallest_u(unit) ? 0 : u; }
 
 /// The values of the machines that are in every one of three samples.
 struct Matched {
@@ -51,7 +51,7 @@ std::vector<Line> variance_budget(const std::vector<ContributorRun>& alone, cons
   for (const ContributorRun& run : alone) {
     const Samples* own = counterpart(samples, index, run.result);
     if (!own || own->value.size() < 2) return {};
-    const double u = without_rounding(summarize(own->value).u, unit);
+    const double u = significant(summarize(own->value).u, unit);
     lines.push_back({run.name, u * u, factor * u});
     total += u * u;
   }
@@ -65,9 +65,9 @@ std::vector<Line> alignment_split(const Samples& all, const Samples& alignment, 
   const Matched m = matched(all, alignment, feature);
   if (m.all.size() < 2) return {};
   const double variance = covariance(m.all, m.all);
-  const bool varies = without_rounding(std::sqrt(variance), unit) > 0;
+  const bool varies = significant(std::sqrt(variance), unit) > 0;
   const auto line = [&](const char* name, const std::vector<double>& part) {
-    const double u = without_rounding(std::sqrt(covariance(part, part)), unit);
+    const double u = significant(std::sqrt(covariance(part, part)), unit);
     return Line{name, varies && u > 0 ? covariance(part, m.all) / variance : 0, factor * u};
   };
   std::vector<Line> lines{line("alignment", m.alignment), line("feature", m.feature)};

@@ -14,15 +14,17 @@
 
 namespace abbe {
 
-/// Standard deviations below this are rounding of coordinates of about a metre, in mm or, over that length, in rad.
-constexpr double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-9 : 1e-12; }
+/// A standard deviation below this, mm or rad, counts as none: 1 nm, which no coordinate measuring machine resolves, or
+/// the angle of 1 nm over a metre. What is smaller is rounding, or what products of errors leave of a quantity that no
+/// touch shows: the point of a bore, 5 um off its place and carried along an axis that leans by 40 um/m, moves by 0.2 nm.
+constexpr double smallest_u(Unit unit) { return unit == Unit::mm ? 1e-6 : 1e-9; }
 
 /// An interaction below this share is left out.
 inline constexpr double kSmallestInteraction = 0.01;
 
 /// Of entry `index` of the samples of the run with all sources; `factor` turns its unit into that of
-/// the report. Empty when a source's own run left too few values to tell. Variances of rounding count
-/// as 0.
+/// the report. Empty when a source's own run left too few values to tell. Variances below that of
+/// smallest_u count as 0.
 std::vector<CharacteristicReport::BudgetLine> variance_budget(const std::vector<ContributorRun>& alone,
                                                               const std::vector<Samples>& samples, std::size_t index,
                                                               Unit unit, double factor);

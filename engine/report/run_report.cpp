@@ -104,12 +104,6 @@ CharacteristicReport characteristic_report(const plan::Plan& plan, const Samples
 
 }  // namespace
 
-std::vector<Diagnostic> general_messages(const RunReport& report) {
-  std::vector<Diagnostic> out = report.messages;
-  std::erase_if(out, [](const Diagnostic& d) { return d.span.has_value(); });
-  return out;
-}
-
 std::vector<int> occurrences(const plan::Plan& plan, const std::vector<Samples>& samples) {
   std::map<std::pair<int, std::vector<std::string>>, int> met;
   std::vector<int> numbers;

@@ -32,8 +32,8 @@ struct CharacteristicReport {
   double nominal = 0;
   std::optional<double> reference;  ///< none where a condition sends the error-free machine elsewhere
   Summary summary;                  ///< of the values
-  /// false: nothing that is modelled changes the value, a circle through three touches has no form: its u is unknown and
-  /// not 0, and nothing is decided on it
+  /// false: nothing that is modelled changes the value, a circle through three touches has no form, and no touch shows
+  /// where a bore lies along itself: its u is unknown and not 0, and nothing is decided on it
   bool varies = true;
   Histogram histogram;             ///< of the values
   std::optional<double> lcl, ucl;  ///< limits of the 95 % interval minus reference
@@ -104,9 +104,6 @@ struct RunReport {
   std::vector<Diagnostic> messages;
 };
 
-/// Messages without a place in a file; those with one are shown when the program is read.
-std::vector<Diagnostic> general_messages(const RunReport&);
-
 /// The run in which only one contributor acted, on the same machines and with the same random
 /// numbers.
 struct ContributorRun {
@@ -125,8 +122,8 @@ std::vector<int> occurrences(const plan::Plan&, const std::vector<Samples>& samp
 
 /// Turns samples into the figures of the report; angles become degrees here. Characteristics that
 /// fewer than two machines reached have no figures and are left out. A contributor's share is the
-/// variance of its own run over the sum of those variances; variances of rounding, below (1e-9
-/// mm)^2 or (1e-12 rad)^2, count as 0. With `coverage` each has an interval of that probability.
+/// variance of its own run over the sum of those variances; what is below smallest_u (budget.hpp)
+/// counts as 0. With `coverage` each has an interval of that probability.
 std::vector<CharacteristicReport> characteristic_reports(const plan::Plan&, const RunResult&,
                                                          const std::vector<ContributorRun>& alone,
                                                          const BudgetRuns* budget = nullptr,

@@ -273,8 +273,8 @@ class StudyRun {
           fmt::format("line {}: FA({}),TA({}): every machine finds the same value, because nothing that is modelled "
                       "changes it: its uncertainty is not known",
                       c.line, fmt::join(c.features, "),FA("), c.tolerance),
-          "a form shows only where more points were touched than settle the feature, as three settle a circle; what is "
-          "constructed of other features has none of its own");
+          "a form shows only where more points were touched than settle the feature, as three settle a circle, and not in "
+          "what is constructed of other features; no touch shows where a feature lies along itself, as a bore along its axis");
     }
     if (fixed > kShown)
       message(Code::W0621, fmt::format("{} characteristics in all come out the same on every machine", fixed),

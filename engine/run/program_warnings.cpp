@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "engine/features/nominal_normal.hpp"
@@ -77,6 +78,50 @@ void warn_of_sides(const Executor::Observed& observed, const plan::Plan& plan, W
   }
 }
 
+/// Of the reference: the operations of its touches, in the order in which they were made.
+std::vector<int> touch_operations(const std::vector<Executor::Stop>& stops) {
+  std::vector<int> operations;
+  for (const Executor::Stop& stop : stops)
+    if (stop.touch) operations.push_back(stop.operation);
+  return operations;
+}
+
+/// The angle between the vector of each touch and the normal of the surface there: that of the element which the
+/// error-free machine found, because a FEAT may be a dummy. Nothing of points and lines, where only the vectors tell how
+/// the surface lies.
+std::vector<double> angles_rad(const FeatureKind& kind, const Executor::Measured& measured) {
+  std::vector<double> angles;
+  if (kind.acts_as == Shape::point || kind.acts_as == Shape::line) return angles;
+  for (const Target& touch : measured.targets) {
+    const Outcome<Vec3> normal = kind.normal(measured.actual, touch.point);
+    angles.push_back(normal ? std::acos(std::min(1.0, std::fabs(dot(normal.value, touch.normal)))) : 0);
+  }
+  return angles;
+}
+
+/// Errors move a touch along its vector: one that lies in the surface shows none of them, and u comes out too small. Radial
+/// vectors on a cone are meant, up to a countersink of 120 degrees.
+void warn_of_vectors(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
+  constexpr double kMeant_rad = 61 * kPi / 180;
+  const std::vector<int> operations = touch_operations(observed.stops);
+  std::size_t first = 0;  // of the touches of a feature
+  for (const Executor::Measured& measured : observed.measured) {
+    const plan::FeatureDef& def = plan[measured.feature];
+    const std::vector<double> angles = angles_rad(*def.kind, measured);
+    const auto beside = [](double angle) { return angle > kMeant_rad; };
+    if (const auto found = std::find_if(angles.begin(), angles.end(), beside); found != angles.end()) {
+      const auto touch = static_cast<std::size_t>(found - angles.begin());
+      const auto count = std::count_if(found, angles.end(), beside);
+      out.add(operations.at(first + touch), Code::W0312,
+              fmt::format("the vector of touch {} of F({}) lies {:.0f} degrees from the normal of its surface{}",
+                          touch + 1, def.label, *found * 180 / kPi,
+                          count > 1 ? fmt::format(", the first of {} such vectors", count) : ""),
+              "write the normal of the surface in PTMEAS: errors act along the vector of a touch, and u is too small");
+    }
+    first += measured.targets.size();
+  }
+}
+
 void warn_of_thick_balls(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
   for (const Executor::Measured& measured : observed.measured) {
     const plan::FeatureDef& def = plan[measured.feature];
@@ -97,6 +142,7 @@ std::vector<Diagnostic> program_warnings(const Executor::Observed& observed, con
   Warnings out(plan, source);
   warn_of_far_moves(observed, machine, out);
   warn_of_sides(observed, plan, out);
+  warn_of_vectors(observed, plan, out);
   warn_of_thick_balls(observed, plan, out);
   return out.take();
 }

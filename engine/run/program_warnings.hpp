@@ -1,5 +1,5 @@
 // What is suspect in what a program asks of a machine, though an error-free machine carries it out: a move beyond the
-// travel, touches from the side that FEAT does not name, a ball that does not fit into its bore.
+// travel, touches from the side that FEAT does not name or along the surface, a ball that does not fit into its bore.
 #pragma once
 
 #include <vector>

@@ -20,6 +20,8 @@ namespace abbe::lang {
 
 namespace {
 
+constexpr double kMostTouches = 1e6;  ///< that a block announces
+
 /// What holds where a touch is made and where the feature is fitted decides whether the measurement can be relied on.
 void doubt_what_is_measured(Lowering& lowering) {
   OpenMeasure& block = *lowering.measuring;
@@ -62,8 +64,13 @@ void open_block(Lowering& lowering, const RawStatement& raw, const Match& match)
   block.span = raw.span;
   block.place = lowering.here().first;
   block.line = raw.line;
-  block.declared = static_cast<int>(match.number("count"));
   block.count_span = match.find("count")->span;
+  if (const double count = match.number("count"); count >= 0 && count <= kMostTouches)
+    block.declared = static_cast<int>(count);
+  else
+    lowering.error(Code::E0106, block.count_span,
+                   fmt::format("{:g} touches: {} takes 0 to {}", count, raw.word, kMostTouches),
+                   "give the number of touches in the block");
   block.first_operation = lowering.out.plan.operations.size();
   if (const auto feature = lowering.defined_feature(match.find("feature")->label)) {
     block.feature = *feature;

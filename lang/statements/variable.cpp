@@ -53,7 +53,7 @@ bool assign_to_label(Lowering& lowering, const RawStatement& raw, Value value) {
 
 namespace {
 
-constexpr double kMostElements = 10000;
+constexpr double kMostElements = 10000, kMostCharacters = 65536;
 
 Type type_of(const std::string& word) {
   return word == "BOOL"                   ? Type::boolean
@@ -101,6 +101,10 @@ std::optional<std::pair<std::string, int>> declared(Lowering& lowering, const Ra
 void declare_all(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const Type type = type_of(match.text("type"));
   const std::string scope = match.text("scope", lowering.scopes.empty() ? "GLOBAL" : "LOCAL");
+  const MatchedValue* size = match.find("length");
+  if (size && !(size->number >= 1 && size->number <= kMostCharacters))
+    return lowering.error(Code::E0243, size->span, fmt::format("a CHAR holds 1 to {} characters", kMostCharacters),
+                          "for example: DECL/CHAR,20,TEXT");
   const int length = static_cast<int>(match.number("length"));
   if (match.used >= raw.arguments.size())
     lowering.error(Code::E0107, raw.span, "DECL ends where a variable is expected", "for example: DECL/REAL,X,Y,Z[10]");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/base/files.hpp"
 #include "engine/report/dmis_result.hpp"
@@ -29,11 +30,16 @@ int run_command(const RunCommandOptions& options) {
   const ReportWriter* writer = find_report_writer(options.format);
   const lang::CompileOptions as_asked{options.request.answers, options.request.only_valid};
   CompiledProgram program = compile_program(options.request.program, as_asked);
-  print_messages(program.messages);
+  std::set<std::string> told;  // the report repeats what was said when the program was read
+  const auto tell = [&](const std::vector<Diagnostic>& messages) {
+    for (const Diagnostic& d : messages)
+      if (told.insert(render(d)).second) print_messages({d});
+  };
+  tell(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
   const StudyInputs inputs = read_inputs(program, options.request.settings);
   refuse_overwriting(inputs.files, files_given({options.report, options.csv, options.dmo}));
-  if (options.request.only_valid) print_messages(leave_out_what_is_impossible(program, as_asked, inputs));
+  if (options.request.only_valid) tell(leave_out_what_is_impossible(program, as_asked, inputs));
 
   ProgressLine line;
   const Study study =
@@ -43,7 +49,7 @@ int run_command(const RunCommandOptions& options) {
     write_whole(*options.dmo,
                 dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
   if (options.report) write_whole(*options.report, find_report_writer("html")->write(study.report));
-  print_messages(general_messages(study.report));
+  tell(study.report.messages);
   print_result(writer->write(study.report));
   return kDone;
 }

@@ -52,12 +52,13 @@ int line_count(const std::string& text) { return static_cast<int>(std::count(tex
 int decimals_for(double u) { return u > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 0, 9) : 6; }
 
 std::string result_line(const CharacteristicReport& c) {
-  const double u95 = (c.summary.symmetric.high - c.summary.symmetric.low) / 2;
+  const double u95 = c.varies ? (c.summary.symmetric.high - c.summary.symmetric.low) / 2 : 0;
   const int digits = decimals_for(u95);
   const std::string value =
       c.reference ? fmt::format("{:.{}f} {}", *c.reference, digits, c.unit) : "no value on the error-free machine";
-  return fmt::format("TA({}) of FA({}): {}, u95 {:.{}f} {}\n", c.tolerance, fmt::join(c.features, "), FA("), value, u95,
-                     digits, c.unit);
+  const std::string uncertainty = c.varies ? fmt::format("{:.{}f} {}", u95, digits, c.unit) : "not known";
+  return fmt::format("TA({}) of FA({}): {}, u95 {}\n", c.tolerance, fmt::join(c.features, "), FA("), value,
+                     uncertainty);
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ std::string Session::evaluate(const CompiledProgram& program, int after) {
     if (c.line > after) out += result_line(c);
   for (const LostCharacteristic& l : report.lost)
     if (l.line > after) out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
-  for (const Diagnostic& d : general_messages(report)) {
+  for (const Diagnostic& d : report.messages) {
     std::string rendered = render(d);
     if (told_.insert(rendered).second) out += rendered;
   }

@@ -72,7 +72,7 @@ class Session {
   StudySettings settings_;
   std::vector<Entry> entries_;  ///< accepted
   std::string pending_;         ///< the beginning of an entry
-  std::set<std::string> told_;  ///< general messages that have been shown
+  std::set<std::string> told_;  ///< what runs had to say and has been shown
   std::string path_;            ///< of the program that was loaded or saved
   bool finished_ = false;
 };

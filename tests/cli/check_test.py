@@ -47,6 +47,32 @@ class Check(harness.Case):
             line = text[:text.rindex("ENDMES")].count("\n") + 1
             self.assertEqual(self.told(text, code=0), [("W0310", line)])
 
+    def test_vectors_that_lie_in_the_surface(self):
+        def told(feature, *touches):
+            """The messages about a feature with these touches: (code, number of the touch)."""
+            begin = harness.LENGTH.replace("ENDFIL\n", f"F(M)=FEAT/{feature}\nMEAS/{feature.split(',')[0]},F(M),{len(touches)}\n")
+            text = begin + "".join(f"PTMEAS/CART,{touch}\n" for touch in touches) + "ENDMES\nENDFIL\n"
+            return [(code, line - begin.count("\n")) for code, line in self.told(text, code=0)]
+
+        bore, right, back = "CIRCLE,INNER,CART,0,0,0,0,0,1,20", "10,0,0,-1,0,0", "-10,0,0,1,0,0"
+        self.assertEqual(told(bore, right, "0,10,0,0,-1,0", back), [])
+        self.assertEqual(told(bore, right, "0,10,0,0,-0.70710678,0.70710678", back), [])
+        self.assertEqual(told(bore, right, "0,10,0,0,0,1", back), [("W0312", 2)])
+        self.assertEqual(told(bore, right, "0,10,0,1,0,0", "-10,0,0,0,1,0"), [("W0312", 2)])
+        message = json.loads(self.abbe("check", "program.dmi", "--format", "json").stdout)["messages"][0]["message"]
+        self.assertEqual(message, "the vector of touch 2 of F(M) lies 90 degrees from the normal of its surface, the first of 2 such vectors")
+        # A FEAT may be a dummy: the plane is that of the touches.
+        for nominal in ("0,0,1", "0,1,0"):
+            self.assertEqual(told(f"PLANE,CART,0,0,0,{nominal}", "0,0,0,0,0,1", "9,0,0,0,0,1", "0,9,0,0,0,1"), [])
+            self.assertEqual(told(f"PLANE,CART,0,0,0,{nominal}", "0,0,0,0,0,1", "9,0,0,0,0,1", "0,9,0,1,0,0"), [("W0312", 3)])
+        # Radial vectors on a countersink are 60 degrees off.
+        round_it = [(1, 0), (-0.5, 0.8660254), (-0.5, -0.8660254)]
+        sink = [f"{r * c:.6f},{r * s:.6f},{z},{-c},{-s},0" for r, z in ((8.6602540, -5), (17.3205081, 0)) for c, s in round_it]
+        self.assertEqual(told("CONE,INNER,CART,0,0,-10,0,0,1,120", *sink), [])
+        # Of these only the vectors say how the surface lies.
+        self.assertEqual(told("LINE,UNBND,CART,0,0,0,1,0,0,0,0,1", "0,0,0,1,0,0", "9,0,0,1,0,0"), [])
+        self.assertEqual(told("GSURF", "0,0,0,1,0,0", "9,0,0,1,0,0", "0,9,0,1,0,0"), [])
+
     def test_a_ball_that_does_not_fit(self):
         bore = harness.LENGTH.replace("ENDFIL", "F(C)=FEAT/CIRCLE,INNER,CART,20,20,0,0,0,1,{}\nMEAS/CIRCLE,F(C),4\nENDMES\nENDFIL")
         self.assertEqual(self.told(bore.format(4.5), code=0), [])

@@ -63,6 +63,14 @@ class Repl(harness.Case):
         again = self.session(STATEMENTS + ".run\n")
         self.assertEqual(again.count("TA(LEN) of"), 2)
 
+    def test_what_a_run_shows_of_the_program_is_told_once(self):
+        out = self.session(STATEMENTS + "GOTO/99999,0,0\nOUTPUT/FA(A),FA(B),TA(LEN)\n.run\n")
+        self.assertEqual(out.count("W0309"), 1, out)
+
+    def test_an_unknown_uncertainty_is_no_zero(self):
+        out = self.session(STATEMENTS + "T(RO)=TOL/CIRLTY,0.1\nF(C)=FEAT/CIRCLE,INNER,CART,0,0,0,0,0,1,50\nMEAS/CIRCLE,F(C),3\nENDMES\nOUTPUT/FA(C),TA(RO)\n")
+        self.assertIn("TA(RO) of FA(C): 0.000000 mm, u95 not known\n", out)
+
     def test_mistakes_keep_the_session_alive(self):
         broken = STATEMENTS.replace("MEAS/POINT,F(B),1", "MAES/POINT,F(B),1\nMEAS/POINT,F(B),1").replace("T(LEN)=TOL", "T(LEN)=TLO/X\nT(LEN)=TOL")
         out = self.session(broken + "OUTPUT/FA(C),TA(LEN)\nGOTO/9000,0,0\n.undo\nOUTPUT/FA(A),FA(B),TA(LEN)\n")

@@ -72,6 +72,29 @@ class Figures(harness.Case):
         self.assertEqual([row[4:9] + [row[11]] for row in rows], [["mm", "0.0000", "-", "-", "-", "-"]])
         self.assertEqual(len([line for line in (self.folder / "three.dmo").read_text().splitlines() if line.startswith("$$! u TA(RO)")]), 1)
 
+    def test_where_a_bore_lies_along_itself_is_not_known(self):
+        round_it = [(1, 0), (-0.5, 0.8660254), (-0.5, -0.8660254)]
+        touches = "".join(f"PTMEAS/CART,{25 * c},{25 * s},{z},{-c},{-s},0\n" for z in (-5, -25) for c, s in round_it)
+        self.write("along.dmi", LENGTH.replace("ENDFIL\n", "F(Y)=FEAT/CYLNDR,INNER,CART,0,0,0,0,0,1,50\nMEAS/CYLNDR,F(Y),6\n" + touches + "ENDMES\n"
+                                               "T(Z)=TOL/CORTOL,ZAXIS,-0.1,0.1\nT(X)=TOL/CORTOL,XAXIS,-0.1,0.1\nOUTPUT/FA(Y),TA(Z),TA(X)\nENDFIL\n"))
+        report = self.run_json("along.dmi", "--machines", 200)
+        _, z, x = report["characteristics"]
+        self.assertEqual([z[key] for key in ("u", "conformance_probability", "decision")], [None] * 3)
+        self.assertGreater(x["u"], 1e-4)
+        told, = [m for m in report["messages"] if m["code"] == "W0621"]
+        self.assertIn("TA(Z)", told["message"])
+        self.assertIn("as a bore along its axis", told["help"])
+
+    def test_each_message_is_told_once_and_is_on_the_page(self):
+        self.write("far.dmi", LENGTH.replace("ENDFIL\n", "N=ASSIGN/3\nGOTO/99999,0,0\nENDFIL\n"))
+        done = self.abbe("run", "far.dmi", "--machines", 50, "--format", "json", "--report", "page.html")
+        page = (self.folder / "page.html").read_text()
+        for line, code in ((17, "W0124"), (18, "W0309")):
+            self.assertEqual(done.stderr.count(f"far.dmi:{line}:1: warning {code}: "), 1)
+            self.assertEqual(page.count(f"far.dmi:{line}:1: warning {code}: "), 1)
+            self.assertEqual([m["code"] for m in json.loads(done.stdout)["messages"]].count(code), 1)
+        self.assertEqual(done.stderr.count("W0416"), 1)
+
     def test_a_line_without_ends_has_none_in_the_result_file(self):
         line = "F({0})=FEAT/LINE,{1},0,0,1\nMEAS/LINE,F({0}),2\nPTMEAS/CART,0,0,0,0,0,1\nPTMEAS/CART,50,0,0,0,0,1\nENDMES\nOUTPUT/FA({0})\n"
         self.write("lines.dmi", LENGTH.replace("ENDFIL\n", line.format("U", "UNBND,CART,0,0,0,1,0,0") + line.format("W", "BND,CART,0,0,0,50,0,0") + "ENDFIL\n"))

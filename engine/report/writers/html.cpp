@@ -25,7 +25,7 @@ std::string characteristics(const RunReport& r) {
   titles.insert(titles.end(), contributors.begin(), contributors.end());
   std::string rows = html_row(titles, "th");
   for (const CharacteristicReport& c : r.characteristics) {
-    const int decimals = decimals_for(c.summary.u);
+    const int decimals = decimals_for(c);
     std::vector<std::string> cells{std::to_string(c.line),
                                    name_of(c),
                                    c.unit,
@@ -47,7 +47,7 @@ std::string decisions(const RunReport& r) {
   std::string rows;
   for (const CharacteristicReport& c : r.characteristics)
     if (c.decision)
-      rows += html_row({std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals_for(c.summary.u)),
+      rows += html_row({std::to_string(c.line), name_of(c), c.unit, decimal(c.reference, decimals_for(c)),
                         accepted(c, *c.decision), std::string(name(c.decision->verdict)),
                         tolerance_to_uncertainty(*c.decision)});
   return rows.empty() ? ""
@@ -117,9 +117,19 @@ std::string influences(const RunReport& r) {
   return "<h2>Influences</h2>\n" + html_table(rows);
 }
 
+/// As on stderr, but without the line and the mark under it: those need letters of one width.
+std::string all_messages(const RunReport& r) {
+  std::string out;
+  for (Diagnostic d : r.messages) {
+    if (d.span) d.file += fmt::format(":{}:{}", d.place.line, d.place.column);
+    d.span.reset();
+    out += render(d);
+  }
+  return out;
+}
+
 std::string write_html(const RunReport& r) {
-  std::string remarks = report_remarks(r);
-  for (const Diagnostic& d : general_messages(r)) remarks += render(d);
+  const std::string remarks = report_remarks(r) + all_messages(r);
   return html_page("Uncertainty of " + r.program,
                    "<h1>Measurement uncertainty</h1>\n" + html_paragraphs(report_header(r)) +
                        "<h2>Characteristics</h2>\n" + characteristics(r) + decisions(r) + distributions(r) +

@@ -68,6 +68,8 @@ int decimals_for(double u) {
   return std::clamp(1 - exponent, kFewestDecimals, kMostDecimals);
 }
 
+int decimals_for(const CharacteristicReport& c) { return decimals_for(known(c, c.summary.u).value_or(0)); }
+
 int decimals_of(std::optional<double> limit) {
   constexpr double kRounding = 1e-9;
   int decimals = kFewestDecimals;
@@ -87,8 +89,8 @@ std::string tolerance_name(const CharacteristicReport& c) {
 }
 
 std::string from_reference(const CharacteristicReport& c, const Interval& i) {
-  if (!c.reference) return "-";
-  const int decimals = decimals_for(c.summary.u);
+  if (!c.reference || !c.varies) return "-";
+  const int decimals = decimals_for(c);
   return decimal(i.low - *c.reference, decimals, true) + " to " + decimal(i.high - *c.reference, decimals, true);
 }
 
@@ -158,7 +160,7 @@ std::string inwards(double limit, int decimals, double way) {
 
 std::string accepted(const CharacteristicReport& c, const CharacteristicReport::Decision& d) {
   if (!d.guard_band) return "none";
-  const int decimals = decimals_for(c.summary.u);
+  const int decimals = decimals_for(c);
   return (d.lower ? inwards(*d.lower, decimals, 1) + " to " : "up to ") + inwards(*d.upper, decimals, -1);
 }
 

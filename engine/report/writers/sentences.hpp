@@ -17,6 +17,8 @@ std::optional<double> known(const CharacteristicReport&, std::optional<double> f
 
 /// Decimals that show two significant digits of u. Below 1 pm it is the rounding of coordinates.
 int decimals_for(double u);
+/// Those of the figures of one characteristic: the fewest where its u is not known.
+int decimals_for(const CharacteristicReport&);
 
 /// Decimals that show a tolerance limit to 1 pm, as the program states it.
 int decimals_of(std::optional<double> limit);
@@ -27,7 +29,7 @@ std::string decimal(std::optional<double> value, int decimals, bool sign = false
 /// "SIZE (DIAM)", of a further evaluation "SIZE (DIAM) #2".
 std::string tolerance_name(const CharacteristicReport&);
 
-/// "-0.0012 to +0.0034": the ends of an interval of values, minus the reference; "-" where there is none.
+/// "-0.0012 to +0.0034": the ends of an interval of values, minus the reference; "-" where there is none, or u is not known.
 std::string from_reference(const CharacteristicReport&, const Interval&);
 
 /// The share of the k-th contributor: "62 %"; "-" where it is not known.

@@ -23,7 +23,7 @@ std::string aligned(std::optional<double> value, int decimals, int most, bool si
 /// Decimals of the figures with the most.
 int most_decimals(const RunReport& r) {
   int most = 0;
-  for (const auto& c : r.characteristics) most = std::max(most, decimals_for(c.summary.u));
+  for (const auto& c : r.characteristics) most = std::max(most, decimals_for(c));
   return most;
 }
 
@@ -44,7 +44,7 @@ std::string characteristics_table(const RunReport& r) {
   const std::vector<std::string> contributors = contributor_names(r);
   Table table(columns(contributors));
   for (const auto& c : r.characteristics) {
-    const int decimals = decimals_for(c.summary.u);
+    const int decimals = decimals_for(c);
     std::vector<std::string> cells{std::to_string(c.line),
                                    joined(c.features),
                                    tolerance_name(c),
@@ -79,7 +79,7 @@ std::string decision_table(const RunReport& r) {
     if (!c.decision) continue;
     any = true;
     table.add({std::to_string(c.line), joined(c.features), tolerance_name(c), c.unit,
-               aligned(c.reference, decimals_for(c.summary.u), most), accepted(c, *c.decision),
+               aligned(c.reference, decimals_for(c), most), accepted(c, *c.decision),
                std::string(name(c.decision->verdict)), tolerance_to_uncertainty(*c.decision)});
   }
   if (!any) return "";

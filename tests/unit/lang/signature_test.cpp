@@ -75,6 +75,13 @@ TEST_CASE("a mismatch names the furthest argument and all that could stand there
   CHECK(mismatched("n:integer", "2.5").argument == 0);
 }
 
+TEST_CASE("a mismatch says whether all that is needed stands before it") {
+  CHECK(mismatched("x:number, [ m:MMC|RFS ]", "1,FA(a)").complete);
+  CHECK(mismatched("x:number", "1,2").complete);
+  CHECK_FALSE(mismatched("x:number, [ i:number, j:number ]", "1,2").complete);
+  CHECK_FALSE(mismatched("x:number, m:MMC|RFS", "1,FA(a)").complete);
+}
+
 TEST_CASE("text that is not in the notation is a mistake of ours") {
   for (const char* bad : {"x:lenght", "[ x:number", "x:", "( a:number", "cart", "]"})
     CHECK_THROWS_AS(parse_signature(bad), InternalError);

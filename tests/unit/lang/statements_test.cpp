@@ -113,6 +113,12 @@ TEST_CASE("messages say what was written and offer the nearest word") {
   CHECK(c.sink.list()[1].help == "did you mean PROG?");
 }
 
+TEST_CASE("where a statement may end, the message about an argument says so") {
+  const Compiled c = compile_text("DMISMN/'end'\nT(P)=TOL/PERP,0.05,RFS,DAT(A),DAT(B)\nENDFIL\n");
+  REQUIRE(c.sink.list().size() == 1);
+  CHECK(c.sink.list()[0].message == "argument 5 of TOL/PERP is 'DAT(B)', expected MMC|LMC|RFS or nothing more");
+}
+
 TEST_CASE("what is lost says why") {
   const Compiled c = compile_text(
       "DMISMN/'lost'\nSNSLCT/SA(P)\nF(A)=FEAT/POINT,CART,0,0,0,0,0\nT(T)=TOL/CORTOL,XAXIS,-1,1\n"
@@ -192,6 +198,8 @@ TEST_CASE("the turns of a DO are counted, not added up") {
   REQUIRE(tenths.size() == 5);
   for (int k = 0; k < 5; ++k) CHECK(tenths[k] == doctest::Approx(0.1 * k));
   CHECK(places("DECL/INTGR,I\nDO/I,0,2,0.5\nGOTO/I,0,0\nENDDO\n") == std::vector<double>{0, 0, 1, 1, 2});
+  CHECK(places("DO/X,0,1,0.5\nGOTO/X,0,0\nENDDO\n") == std::vector<double>{0, 0.5, 1});
+  CHECK(places("DO/X,0.5,2\nGOTO/X,0,0\nENDDO\n") == std::vector<double>{0.5, 1.5});
   CHECK(places("DO/I,3,1,-1\nGOTO/I,0,0\nENDDO\n") == std::vector<double>{3, 2, 1});
   CHECK(places("DO/I,3,1\nGOTO/I,0,0\nENDDO\n").empty());
 }

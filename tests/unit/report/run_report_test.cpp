@@ -212,8 +212,15 @@ TEST_CASE("what is the same on every machine has no conformity, for its uncertai
   CHECK(report(1e-6).conformance_probability);
   CHECK(!report(0).varies);
   CHECK(!report(1e-14).varies);
+  CHECK(!report(1e-9).varies);  // u = 0.3 nm
   CHECK(!report(0).conformance_probability);
   CHECK(!report(0).decision);
+  const auto angle_varies = [](double spread_rad) {
+    const RunResult run = run_of({samples(1, 1, {}, ramp(1, spread_rad))}, 1000);
+    return characteristic_reports(length_and_angle(), run, {})[0].varies;
+  };
+  CHECK(angle_varies(1e-11));  // u = 2.9e-9 rad
+  CHECK(!angle_varies(1e-12));
 }
 
 TEST_CASE("a coverage that is asked for gives its intervals beside those of 95 %") {

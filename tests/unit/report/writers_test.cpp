@@ -181,10 +181,11 @@ TEST_CASE("the text report reads at a glance") {
       "Not modelled: part temperature, operator.\n");
 }
 
-TEST_CASE("messages without a place are on the page, and told beside the text") {
-  REQUIRE(general_messages(report()).size() == 1);
-  CHECK(general_messages(report())[0].code == Code::W0416);
-  CHECK(written("html", report()).find("only 36.9 % pass") != std::string::npos);
+TEST_CASE("all messages are on the page, those of a place with it but without its line") {
+  const std::string page = written("html", report());
+  CHECK(page.find("only 36.9 % pass") != std::string::npos);
+  CHECK(page.find("<p>block.dmi:1:1: error E0604: about a place</p>") != std::string::npos);
+  CHECK(page.find("FOO/1") == std::string::npos);
 }
 
 TEST_CASE("a bounded influence shows its bound and who stated it") {
@@ -332,6 +333,17 @@ TEST_CASE("an uncertainty that is rounding asks for no decimals") {
   RunReport r = report();
   r.characteristics[0].summary.u = 3e-13;
   CHECK(written("text", r).find("  500.0000  0.0000  ") != std::string::npos);
+}
+
+TEST_CASE("an uncertainty that is not known asks for no decimals and has no interval") {
+  RunReport r = report();
+  CharacteristicReport& c = r.characteristics[0];
+  c.varies = false, c.summary.u = 2e-7;
+  c.interval = {0.99, {500, 500}, {500, 500}};
+  const std::string text = written("text", r);
+  INFO(text);
+  CHECK(text.find("500.00000") == std::string::npos);
+  CHECK(text.find("0 to +0") == std::string::npos);
 }
 
 TEST_CASE("a report without characteristics says so") {

@@ -105,6 +105,11 @@ TEST_CASE("a DO whose limit is measured has the turns of one that is known") {
       values(loop + "N=ASSIGN/0\nLAST=ASSIGN/0\nDO/I,0,2+ZERO,0.5\nN=ASSIGN/N+1\nLAST=ASSIGN/10*LAST+I\nENDDO\n",
              {"ASSIGN/N", "ASSIGN/LAST"});
   CHECK(halves == std::vector<double>{5, 112});
+  // Nor is a beginning that is measured cut off where nobody declared the variable.
+  const std::vector<double> begun =
+      values(loop + "N=ASSIGN/0\nDO/K,0.5+ZERO,2\nN=ASSIGN/N+1\nENDDO\n", {"ASSIGN/N", "ASSIGN/K"});
+  CHECK(begun[0] == 2);
+  CHECK(begun[1] == Approx(2.5));
   // A body that sets the variable is left early.
   CHECK(values(loop + "N=ASSIGN/0\nDO/I,1,9+ZERO\nN=ASSIGN/N+1\nI=ASSIGN/I+3\nENDDO\n", {"ASSIGN/N"}) ==
         std::vector<double>{3});
