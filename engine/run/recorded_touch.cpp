@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <numeric>
 #include <variant>
@@ -124,26 +125,37 @@ std::vector<int> order_of(const Recording& recording) {
   return order;
 }
 
-/// The sensors of a recording, resolved once each: by name, and by the angles of the head where rows give them.
+/// The sensors of a recording, resolved once each: by name, and by the angles of the head where rows give them. Angles
+/// that were read back scatter by thousandths of a degree about those that the head was sent to.
 class Sensors {
  public:
   Sensors(const Machine& machine, const std::string& file) : machine_(machine), file_(file) {}
 
   const Sensor& of(const RecordingRow& row, RecordedTouches& out) {
     const std::string name = row.sensor.value_or("");
-    const std::string key =
-        fmt::format("{}|{}|{}", upper(name), row.head_a_deg.value_or(1e9), row.head_b_deg.value_or(1e9));
-    const auto found = known_.find(key);
-    if (found != known_.end()) return found->second;
+    std::deque<Known>& same_name = known_[upper(name)];
+    for (const Known& known : same_name)
+      if (is_near(known.a_deg, row.head_a_deg) && is_near(known.b_deg, row.head_b_deg)) return known.sensor;
     Sensor sensor = resolve(name, row, out);
     sensor.ordinal = stylus_ordinal(sensor, met_);
     met_.push_back(sensor);
     sensor.tip_ordinal = out.tips = static_cast<int>(met_.size());
     if (static_cast<int>(out.styli.size()) < sensor.ordinal) out.styli.push_back(sensor.name);
-    return known_.emplace(key, std::move(sensor)).first->second;
+    same_name.push_back({row.head_a_deg, row.head_b_deg, std::move(sensor)});
+    return same_name.back().sensor;
   }
 
  private:
+  struct Known {
+    std::optional<double> a_deg, b_deg;
+    Sensor sensor;
+  };
+
+  static bool is_near(const std::optional<double>& a_deg, const std::optional<double>& b_deg) {
+    constexpr double kReadBack_deg = 0.1;
+    return a_deg && b_deg ? std::abs(*a_deg - *b_deg) < kReadBack_deg : a_deg.has_value() == b_deg.has_value();
+  }
+
   Sensor resolve(const std::string& name, const RecordingRow& row, RecordedTouches& out) {
     plan::SensorDef def;
     def.label = name;
@@ -201,7 +213,7 @@ class Sensors {
 
   const Machine& machine_;
   std::string file_;
-  std::map<std::string, Sensor> known_;
+  std::map<std::string, std::deque<Known>> known_;  ///< by name
   std::vector<Sensor> met_;
   bool said_ = false;
 };

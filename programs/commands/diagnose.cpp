@@ -71,19 +71,21 @@ void continue_runs(const Recording& before, Recording& next, const std::string& 
       "give every repeat its own number in the column 'run'")});
 }
 
-/// Between two files the styli may have been qualified anew, unless both say by the column `qualification` that they were
+/// Between two files the styli may have been qualified anew, unless all say by the column `qualification` that they were
 /// not.
-void doubt_qualifications(Recording& before, Recording& next) {
+void doubt_qualifications(std::vector<Recording>& files) {
   const auto unsaid = [](const RecordingRow& row) { return !row.qualification; };
-  const bool said = std::none_of(before.rows.begin(), before.rows.end(), unsaid) &&
-      std::none_of(next.rows.begin(), next.rows.end(), unsaid);
-  if (said) return;
-  int last = 0;
-  for (RecordingRow& row : before.rows) {
-    if (unsaid(row)) row.qualification = 1;
-    last = std::max(last, *row.qualification);
+  const auto says = [&](const Recording& r) { return std::none_of(r.rows.begin(), r.rows.end(), unsaid); };
+  if (files.size() < 2 || std::all_of(files.begin(), files.end(), says)) return;
+  int before = 0;
+  for (Recording& r : files) {
+    int last = before;
+    for (RecordingRow& row : r.rows) {
+      row.qualification = before + row.qualification.value_or(1);
+      last = std::max(last, *row.qualification);
+    }
+    before = last;
   }
-  for (RecordingRow& row : next.rows) row.qualification = last + row.qualification.value_or(1);
 }
 
 /// A file given twice is no repeat: nothing was measured again.
@@ -109,31 +111,34 @@ void doubt_machine(const Recording& first, const std::string& name, const Record
         "judge each machine by its own recordings")});
 }
 
-/// Several files are one recording; their frames must agree.
+/// Files that are one recording have positions of one kind.
+void refuse_unlike(const Recording& first, const std::string& name, const Recording& next, const std::string& file) {
+  if (next.in_part_frame != first.in_part_frame || next.point != first.point)
+    throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", name, file),
+                               "the lines '# frame:' and '# point:' must say the same in all files"));
+  const auto surfaces = said(first.metadata, "surfaces"), others = said(next.metadata, "surfaces");
+  if (surfaces && others && *surfaces != *others)
+    throw UserError(diagnostic(
+        Code::E0707, fmt::format("'# surfaces:' says {} in '{}' and {} in '{}'", *surfaces, name, *others, file),
+        "judge them one by one, or say of both what holds for both"));
+}
+
+/// Several files are one recording.
 Recording joined(const std::vector<SourceFile>& files, Positions positions) {
-  Recording all;
-  for (std::size_t k = 0; k < files.size(); ++k) {
+  std::vector<Recording> read;
+  for (const SourceFile& file : files) {
+    read.push_back(read_recording(file, positions));
+    refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
+    for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
+  }
+  doubt_qualifications(read);
+  Recording all = std::move(read.front());
+  for (std::size_t k = 1; k < files.size(); ++k) {
     const std::string& name = files[k].name();
-    Recording one = read_recording(files[k], positions);
-    if (k == 0) {
-      all = std::move(one);
-      continue;
-    }
-    if (one.in_part_frame != all.in_part_frame || one.point != all.point)
-      throw UserError(diagnostic(Code::E0707,
-                                 fmt::format("'{}' and '{}' have different frames or points", files[0].name(), name),
-                                 "the lines '# frame:' and '# point:' must say the same in all files"));
-    const auto surfaces = said(all.metadata, "surfaces"), others = said(one.metadata, "surfaces");
-    if (surfaces && others && *surfaces != *others)
-      throw UserError(diagnostic(
-          Code::E0707,
-          fmt::format("'# surfaces:' says {} in '{}' and {} in '{}'", *surfaces, files[0].name(), *others, name),
-          "judge them one by one, or say of both what holds for both"));
-    refuse_copy(all, files[0].name(), one, name);
+    Recording& one = read[k];
     doubt_machine(all, files[0].name(), one, name);
     continue_clock(all, one, name);
     continue_runs(all, one, name);
-    doubt_qualifications(all, one);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     // new styli; of what is said twice the first counts
     all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());

@@ -342,7 +342,9 @@ class Mistakes(Input):
         first = lambda row: row | {"x": repr(float(row["x"]) + 0.003)}
         other = self.changed(self.recording, first, "other.csv").read_text().splitlines()
         self.refused("E0713", "diagnose", self.write("two.csv", "\n".join(lines + other[-30:]) + "\n"))
-        self.refused("E0713", "diagnose", self.recording, self.write("again.csv", self.recording.read_text()))
+        copy = self.write("again.csv", self.recording.read_text())
+        self.refused("E0713", "diagnose", self.recording, copy)
+        self.refused("E0713", "diagnose", self.write("other.csv", "\n".join(other) + "\n"), self.recording, copy)
 
     def test_tables_of_another_kind(self):
         text = self.recording.read_text()
