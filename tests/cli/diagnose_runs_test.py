@@ -196,6 +196,29 @@ class DiagnoseRuns(harness.Case):
         said = self.diagnosis(*recordings)
         self.assertEqual((said["verdict"], said["effects"], said["unexplained"]["factor"]), ("unexplained", [], "feature"))
 
+    def test_points_that_nothing_is_compared_with_are_not_quiet(self):
+        """Of unknown surfaces only what was touched twice tells anything; the other touches fit whatever they are."""
+        for seed in range(3):
+            whole = self.record(1, "--seed", seed)
+            again = self.changed(self.folder / self.record(2, "--seed", seed), lambda row: row if row["head_A_deg"] == "0.0000" else None, "again.csv")
+            unknown = self.write("unknown.csv", "# surfaces: unknown\n" + (self.folder / whole).read_text())
+            said = self.diagnosis(unknown, again)
+            self.assertEqual((said["verdict"], said["effects"], said["touches"]), ("no_mismatch", [], 150), seed)
+
+    def test_angles_that_were_read_back_are_those_that_the_head_was_sent_to(self):
+        draw = random.Random(3)
+        recorded = self.folder / self.record(1, "--seed", 3)
+        read_back = self.changed(recorded, lambda row: row | {a: f"{float(row[a]) + draw.gauss(0, 0.003):.4f}" for a in ("head_A_deg", "head_B_deg")})
+        said, sent = self.diagnosis(read_back), self.diagnosis(recorded)
+        self.assertEqual(said["verdict"], sent["verdict"])
+        self.assertAlmostEqual(said["p_value"], sent["p_value"], delta=0.05)
+        self.assertAlmostEqual(said["smallest_detectable"][0]["detect_um"], sent["smallest_detectable"][0]["detect_um"], delta=0.02)
+
+    def test_of_three_files_each_is_qualified_by_itself_unless_all_say_otherwise(self):
+        first, second, third = (self.record(run, "--seed", 7) for run in (1, 2, 3))
+        stated = self.changed(self.folder / third, lambda row: row | {"qualification": "1"}, "stated.csv")
+        self.assertEqual(self.diagnosis(first, second, stated)["p_value"], self.diagnosis(first, second, third)["p_value"])
+
     def test_what_is_there_in_all_runs_is_not_new(self):
         lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")
         said = self.diagnosis(self.record(1, *lobing), self.record(2, *lobing))

@@ -164,6 +164,19 @@ class Planted(harness.Case):
         for parameter, truth in ((shift["amplitude_um"], 12), (shift["t0_s"], 250), (squareness["squareness_urad"], 60)):
             self.assertLess(abs(parameter["value"] - truth), 3 * parameter["u"], parameter)
 
+    def test_two_faults_of_one_kind_are_two(self):
+        """Of one axis and of another; each by itself would leave what no effect explains, or be something else."""
+        for effect, size, figure, where, planted in (("machine.squareness", 40, "squareness_urad", "which", ("cwy", "awz")),
+                                                     ("machine.backlash", 4, "backlash_um", "axis", ("x", "y"))):
+            with self.subTest(effect):
+                two = [word for each in planted for word in ("--with", f"{effect}:{figure}={size},{where}={each}")]
+                self.abbe("record", "frame.dmi", "--machine", MACHINE, "--workpiece", "part.json", "--seed", 5, "-o", "two.csv", *two)
+                said = self.diagnosis("two.csv")
+                self.assertEqual([e["members"] for e in said["effects"]], [[effect], [effect]])
+                self.assertEqual({e["parameters"][where]["value"] for e in said["effects"]}, set(planted))
+                for found in (e["parameters"][figure] for e in said["effects"]):
+                    self.assertLess(abs(found["value"] - size), 3 * found["u"], found)
+
     def test_readings_tell_a_scale_error_beside_a_large_effect(self):
         """The period is 20 um; lobing moves the readings by 12 um, and what the readings do not explain would pass for vibration."""
         self.recorded("two.csv", ["probe.pretravel_lobing", "machine.scale_interpolation"])

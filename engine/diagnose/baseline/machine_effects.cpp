@@ -42,4 +42,12 @@ void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& ba
   }
 }
 
+void add_rounding(const Machine& machine, double rounding_um, LinearModel& m) {
+  const auto& in_file = machine.effects;
+  if (std::any_of(in_file.begin(), in_file.end(), [](const EffectSetting& s) { return s.name == "noise.resolution"; }))
+    return;
+  m.noise_um = (m.noise_um.array().square() + rounding_um * rounding_um).sqrt();
+  m.quietest = std::max(m.quietest, rounding_um / m.noise_um.mean());
+}
+
 }  // namespace abbe::diagnose

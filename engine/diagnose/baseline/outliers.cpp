@@ -5,15 +5,19 @@
 // orientation are noise of its own.
 #include "engine/diagnose/baseline/outliers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "engine/diagnose/baseline/sudden_change.hpp"
-#include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/place.hpp"
+#include "engine/diagnose/quantile.hpp"
 
 namespace abbe::diagnose {
 
@@ -34,27 +38,31 @@ double spoilt(const Vector& standardised) {
   return std::min(1.0, kTails * kNormal * median(std::move(size)));
 }
 
-/// Gross outliers out, the rest fitted again, until none is left. Those `kept` are none.
-void mask(Case& c, const std::vector<char>& kept) {
-  c.masked.assign(c.touches.touches.size(), 0);
+/// Gross outliers among these touches out, the rest fitted again, until none is left.
+void mask(Case& c, const std::vector<char>& candidates) {
+  c.masked.assign(candidates.size(), 0);
   const LinearModel whole = compact(c.baseline.model);
-  for (int round = 0; round < kMaskings; ++round) {
-    c.model = without_rows(whole, c.masked);
+  bool found = true;
+  for (int round = 0; found; ++round) {
+    take_part(c, whole);
     c.hyper = estimate(c.model);
+    if (round == kMaskings) return;
     const Vector loo = leave_one_out(c.model, c.hyper);
-    Eigen::Index k = 0;
-    bool found = false;
-    const double worst = loo.cwiseAbs().maxCoeff(), limit = kOutlier * spoilt(loo);
-    for (std::size_t i = 0; i < c.masked.size(); ++i) {
-      if (c.masked[i]) continue;
-      // Only what is near the worst: a gross touch spoils its neighbours, which come back once it is out.
-      const double size = std::abs(loo(k++));
-      if (size > limit && size > worst / 2 && !kept[i]) c.masked[i] = found = true;
+    const double limit = kOutlier * spoilt(loo);
+    std::vector<std::pair<double, std::size_t>> gross;
+    double worst = 0;
+    for (Eigen::Index k = 0; k < loo.size(); ++k) {
+      const auto i = static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)]);
+      const double size = std::abs(loo(k));
+      if (!candidates[i] || size <= limit) continue;
+      gross.emplace_back(size, i);
+      worst = std::max(worst, size);
     }
-    if (!found) break;
+    // Only what is near the worst: a gross touch spoils its neighbours, which come back once it is out.
+    for (const auto& [size, i] : gross)
+      if (size > worst / 2) c.masked[i] = 1;
+    found = !gross.empty();
   }
-  c.model = without_rows(whole, c.masked);
-  c.hyper = estimate(c.model);
 }
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -69,13 +77,6 @@ Pairs followers(const RecordedTouches& t, Key key) {
     if (!first) out.emplace_back(at->second, i), at->second = i;
   }
   return out;
-}
-
-/// Upper tail of a Poisson law.
-double at_least(int n, double expected) {
-  double term = std::exp(-expected), below = 0;
-  for (int k = 0; k < n; ++k) below += term, term *= expected / (k + 1);
-  return std::max(0.0, 1 - below);
 }
 
 /// Outliers that are no chance: in more pairs of neighbours than chance makes.
@@ -109,7 +110,8 @@ std::vector<char> systematic(const RecordedTouches& t, const RecordingRow* rows,
   for (const Pairs& pairs : relations) {
     int both = 0;
     for (const auto& [a, b] : pairs) both += masked[a] && masked[b] ? 1 : 0;
-    if (both < kLeastPairs || at_least(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance)
+    if (both < kLeastPairs ||
+        poisson_tail(both, static_cast<double>(pairs.size()) * m * (m - 1) / (n * (n - 1))) > kChance)
       continue;
     for (const auto& [a, b] : pairs)
       if (masked[a] && masked[b]) out[a] = out[b] = 1;
@@ -143,7 +145,10 @@ bool part_noisy_tip(Case& c) {
     if (at_least_of(here, struck, own / all) * double(tips.size()) > kChance) continue;
     for (const std::size_t i : rows) m.noise_group[i] = m.noise_groups;
     ++m.noise_groups;
-    c.baseline.noise_names.emplace_back(c.touches.touches[rows.front()].scene.stylus.name);
+    for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
+    const StylusScene& s = c.touches.touches[rows.front()].scene.stylus;
+    c.baseline.noise_names.push_back(
+        fmt::format("{} at A {:.1f} B {:.1f}", s.name, s.head_a_rad / kDegree, s.head_b_rad / kDegree));
     return true;
   }
   return false;
@@ -151,19 +156,36 @@ bool part_noisy_tip(Case& c) {
 
 }  // namespace
 
+void take_part(Case& c, const LinearModel& all) {
+  const std::vector<char> among_unmasked = alone(without_rows(all, c.masked));
+  c.alone.assign(c.masked.size(), 0);
+  if (std::count(among_unmasked.begin(), among_unmasked.end(), 0) > 0) {
+    auto next = among_unmasked.begin();
+    for (std::size_t i = 0; i < c.masked.size(); ++i)
+      if (!c.masked[i]) c.alone[i] = *next++;
+  }
+  std::vector<char> left_out = c.masked;
+  c.rows.clear();
+  for (std::size_t i = 0; i < c.masked.size(); ++i) {
+    left_out[i] |= c.alone[i];
+    if (!left_out[i]) c.rows.push_back(static_cast<int>(i));
+  }
+  c.model = without_rows(all, left_out);
+}
+
 void mask_outliers(Case& c) {
-  const std::vector<char> none(c.touches.touches.size(), 0);
-  mask(c, none);
-  if (part_noisy_tip(c)) mask(c, none);
-  std::vector<char> kept = systematic(c.touches, c.recording->rows.data(), c.masked);
-  const std::vector<char> changed = put_there_by_a_sudden_change(c);
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] |= changed[i];
-  if (std::count(kept.begin(), kept.end(), 1) > 0) mask(c, kept);
+  const std::vector<char> all(c.touches.touches.size(), 1);
+  mask(c, all);
+  if (part_noisy_tip(c)) mask(c, all);
+  const std::vector<char> related = systematic(c.touches, c.recording->rows.data(), c.masked),
+                          changed = put_there_by_a_sudden_change(c);
+  // What is kept spoils its neighbours: nothing is dirt beside it that was none before.
+  std::vector<char> dirt = c.masked;
+  for (std::size_t i = 0; i < dirt.size(); ++i)
+    if (related[i] || changed[i]) dirt[i] = 0;
+  if (dirt != c.masked) mask(c, dirt);
   if (std::count(c.masked.begin(), c.masked.end(), 1) > 0)
     c.off_um = beyond_prediction(compact(c.baseline.model), c.hyper, c.masked);
-  c.rows.clear();
-  for (std::size_t i = 0; i < c.masked.size(); ++i)
-    if (!c.masked[i]) c.rows.push_back(static_cast<int>(i));
 }
 
 }  // namespace abbe::diagnose

@@ -29,7 +29,7 @@ Vec3 across(const Vec3& v, const std::optional<Vec3>& axis) { return axis ? v - 
 std::optional<RoundSurface> RoundSurface::through(const std::vector<Vec3>& targets, const std::vector<Vec3>& normals) {
   constexpr std::size_t kFewest = 5;
   constexpr double kOn_mm = 0.02;  // targets and normals come rounded
-  constexpr double kSpread = 1e-4;
+  constexpr double kSpread = 1e-4, kPoint_mm = 1e-3;
   if (targets.size() < kFewest) return std::nullopt;
   RoundSurface out;
   out.axis_ = axis_of(normals);
@@ -44,6 +44,7 @@ std::optional<RoundSurface> RoundSurface::through(const std::vector<Vec3>& targe
   }
   if (spread < kSpread) return std::nullopt;
   out.radius_mm_ = both / spread;
+  if (std::abs(out.radius_mm_) < kPoint_mm) return std::nullopt;  // coordinates of one centre bend nowhere
   out.middle_ = target - out.radius_mm_ * normal;
   for (std::size_t i = 0; i < targets.size(); ++i)
     if (norm(across(targets[i], out.axis_) - out.middle_ - out.radius_mm_ * normals[i]) > kOn_mm) return std::nullopt;

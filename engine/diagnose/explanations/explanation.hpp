@@ -71,6 +71,10 @@ struct Block {
   bool joined = false;  ///< columns are combinations of the original ones: no parameter can be read from them
 };
 
+/// Whether two variants of one effect are one fault: they differ at most in values that have others between them. A size
+/// in all runs and a change from one run to the next are two, and so are those of two styli or two axes.
+bool alike(const Block&, const Block&);
+
 struct Explanation {
   std::string name;                ///< of the effect, or "OTHER time"
   const Effect* effect = nullptr;  ///< none: OTHER

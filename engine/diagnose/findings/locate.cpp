@@ -244,7 +244,7 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
   u.sentence = fmt::format("A pattern over {} ({}) of {} um rms is in the recording", u.factor, u.shape,
                            two_digits(u.amplitude_um));
-  const Finding name = finding_of(c.explanations, f.evidence, true);
+  const CredibleSet name = credible_set(c.explanations, f.evidence, true);
   const bool as_good = kAsWell * name.probability >= f.probability;
   const std::string leaves = fmt::format("leaves more than chance does (p = {:.1f} %)", 100 * result.adequacy);
   const bool alone = result.nearest && name.set.size() == 1 && name.explanation == result.nearest->explanation;

@@ -27,10 +27,12 @@ double weight_of_all(const Case& c, const Finding& f) {
   return sum;
 }
 
-/// Whether a machine can have what was found of the first member: where its file has the effect already, both together.
-bool possible(const Case& c, const Finding& f, const std::vector<DiagnosedParameter>& found) {
-  const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
-  if (c.explanations.blocks[static_cast<std::size_t>(f.block)].change.gone()) return plausible(found);
+/// Whether a machine can have what was found of a member: where its file has the effect already, both together.
+bool possible(const Case& c, const SearchResult& result, std::size_t k, int member) {
+  const Finding& f = result.findings[k];
+  const std::vector<DiagnosedParameter> found = estimate_size(c, result, k, member).parameters;
+  const Effect& effect = *c.explanations.list[static_cast<std::size_t>(member)].effect;
+  if (c.explanations.blocks[static_cast<std::size_t>(f.variant_of(member))].change.gone()) return plausible(found);
   const auto known = known_effect(*c.machine, effect, abbe::diagnose::setting_of(std::string(effect.name), found));
   if (!known) return plausible(found);
   return known->gone || plausible(effect, nearest_possible(effect, known->now));
@@ -79,7 +81,7 @@ void put_judged_members_first(const Case& c, SearchResult& result) {
     if (!judged(c, f) || can_be(f.set.front())) continue;
     std::stable_partition(f.set.begin(), f.set.end(), can_be);
     const int first = f.set.front();
-    f.block = best_block(c.explanations, first, f.evidence);
+    f.block = f.variant_of(first);
     f.explanation = first;
   }
 }
@@ -99,12 +101,12 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
       const double impossible = as_found.probability * dropped / all;
       f.probability = (as_found.probability - impossible) / (1 - impossible);
     };
-    bool possible_head = possible(c, f, estimate_size(c, result, k).parameters);
+    bool possible_head = possible(c, result, k, f.explanation);
     while (!possible_head && f.set.size() > 1) {
       strike(0);
+      f.block = f.variant_of(f.set.front());
       f.explanation = f.set.front();
-      f.block = best_block(c.explanations, f.explanation, f.evidence);
-      possible_head = possible(c, f, estimate_size(c, result, k).parameters);
+      possible_head = possible(c, result, k, f.explanation);
     }
     if (!possible_head) {
       f = as_found;
@@ -112,12 +114,10 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
     }
     // The others of those that are told with a size of their own.
     for (std::size_t at = 1; at < std::min(f.set.size(), kSized);) {
-      const int member = f.set[at];
-      if (plausible(estimate_size(c, result, k, member).parameters)) {
+      if (possible(c, result, k, f.set[at]))
         ++at;
-        continue;
-      }
-      strike(at);
+      else
+        strike(at);
     }
     if (!struck.empty()) fill_up(c, f, struck);
   }

@@ -107,11 +107,12 @@ std::optional<NoiseFinding> resolution(const Case& c) {
   return f;
 }
 
-/// Whether touches along one axis scatter much as those along another do.
-bool alike_along_all_axes(const Case& c, const Residuals& r) {
+/// Whether touches along one axis scatter much as those along another do; nothing where those of fewer than two tell.
+std::optional<bool> alike_along_all_axes(const Case& c, const Residuals& r) {
   constexpr double kAlong = 0.8, kAlike = 1.6;
   constexpr int kEnough = 8;
   double least = std::numeric_limits<double>::infinity(), most = 0;
+  int axes = 0;
   for (int axis = 0; axis < 3; ++axis) {
     double square = 0;
     int count = 0;
@@ -121,10 +122,11 @@ bool alike_along_all_axes(const Case& c, const Residuals& r) {
       square += std::pow(r.standardised(static_cast<Eigen::Index>(k)), 2), ++count;
     }
     if (count < kEnough) continue;
+    ++axes;
     const double rms = std::sqrt(square / count);
     least = std::min(least, rms), most = std::max(most, rms);
   }
-  return most <= kAlike * least;
+  return axes < 2 ? std::nullopt : std::optional(most <= kAlike * least);
 }
 
 /// Scatter that depends on the direction of the normal, or that is far above the machine's in touches that do
@@ -159,8 +161,11 @@ std::optional<NoiseFinding> vibration(const Case& c, const Residuals& r, const V
   const double sd = spec * std::sqrt(excess * excess - 1), u_sd = spec * excess * u / std::sqrt(excess * excess - 1);
   NoiseFinding f{find_effect("noise.vibration"), p, {figure("sd_um", "um", sd, u_sd)}, {}};
   f.certain = other_each_time(c, r, quiet, 1 - 1 / (excess * excess));
+  const std::optional<bool> alike = alike_along_all_axes(c, r);
   f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says{}.", excess,
-                           alike_along_all_axes(c, r) ? ", in every direction" : ", not alike in all directions");
+                           !alike       ? ""
+                               : *alike ? ", in every direction"
+                                        : ", not alike in all directions");
   return f;
 }
 
@@ -202,7 +207,7 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
                by_noise = all * std::erfc(kOutlier / std::sqrt(2.0));
   const auto known = in_file(c, "noise.outliers", "share");
   const double expected = by_noise + (known ? all * (known->value + 2 * known->u) : 0);
-  const double p = chance_of_outliers(n, expected);
+  const double p = poisson_tail(n, expected);
   if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
   constexpr double kLogSpread = 0.7;  // of the effect
   const double median = std::copysign(std::exp(log_sum / n), outwards);

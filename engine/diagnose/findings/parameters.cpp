@@ -122,8 +122,7 @@ class Estimator {
     Explanations mine = only(c.explanations, {member});
     // Scale and noise as they are once everything named is taken out.
     std::vector<const Matrix*> all = others;
-    const int block = member == f.explanation ? f.block : best_block(c.explanations, member, f.evidence);
-    all.push_back(&c.explanations.blocks[static_cast<std::size_t>(block)].signature);
+    all.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.variant_of(member))].signature);
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     EvidenceSearch search(with_free(c.model, others), hyper, mine);
     if (!result.refined.contains(member)) refine(c, mine, search);
@@ -135,7 +134,7 @@ class Estimator {
     };
     const int likeliest =
         *std::max_element(blocks.begin(), blocks.end(), [&](int a, int b) { return belief(a) < belief(b); });
-    std::vector<double> logs;
+    std::vector<double> logs;  // told is the likeliest fault, over the values of what has a value between any two
     for (const int b : blocks)
       logs.push_back(alike(at(b), at(likeliest)) ? belief(b) : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
@@ -195,16 +194,6 @@ class Estimator {
   }
 
   static double largest(const Vector& shift_um) { return shift_um.cwiseAbs().maxCoeff(); }
-
-  /// A size in all runs and a change from one run to the next are two figures, and so are those of two styli
-  /// or two axes: told is that of the likeliest variant, over the values of what has a value between any two.
-  static bool alike(const Block& a, const Block& b) {
-    if (a.change != b.change || a.group != b.group) return false;
-    for (std::size_t p = 0; p < a.theta.size(); ++p)
-      if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
-        return false;
-    return true;
-  }
 
   void add(std::size_t p, std::vector<DiagnosedParameter>& out) const {
     const EffectParameter& parameter = explanation_.effect->parameters[p];

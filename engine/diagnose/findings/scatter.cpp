@@ -50,10 +50,6 @@ double chance_of_ratio(double ratio, double relative_u) {
   return std::erfc(z / std::sqrt(2.0)) / 2;
 }
 
-double chance_of_outliers(double count, double expected) {
-  return std::exp(count * std::log(expected) - std::lgamma(count + 1));
-}
-
 namespace {
 
 DiagnosedParameter limit(const char* name, const char* unit, double value) {

@@ -50,8 +50,6 @@ double chance_of_excess(double chi2);
 /// Of a ratio to the probe's specification as large as this where the true one is what is worth telling; `relative_u`: its
 /// relative standard uncertainty. Squares of so uncertain a ratio have the law of chi-squared (Wilson & Hilferty 1931).
 double chance_of_ratio(double ratio, double relative_u);
-/// Of so many outliers or more where few are expected: the first term of the tail of a Poisson law, nearly all of it.
-double chance_of_outliers(double count, double expected);
 
 /// A group of noise.unequal.
 struct Split {

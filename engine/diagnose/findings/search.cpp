@@ -44,6 +44,13 @@ int likeliest_block(const Explanations& explanations, const Evidence& evidence) 
   return best_block(explanations, static_cast<int>(std::max_element(p.begin(), p.end()) - p.begin()), evidence);
 }
 
+std::vector<int> best_blocks(const Explanations& explanations, const Evidence& evidence) {
+  std::vector<int> out;
+  for (std::size_t k = 0; k < explanations.list.size(); ++k)
+    out.push_back(explanations.list[k].blocks.empty() ? -1 : best_block(explanations, static_cast<int>(k), evidence));
+  return out;
+}
+
 struct Named {
   Finding name, pattern;
 };
@@ -56,6 +63,7 @@ Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
   refine(c, fine, search);
   const Evidence& evidence = search.evidence();
   Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
+  out.name.best = out.pattern.best = best_blocks(c.explanations, evidence);
   const auto belief = [&](int b) {
     return evidence.block_log_bayes[static_cast<std::size_t>(b)] +
         std::log(fine.blocks[static_cast<std::size_t>(b)].weight);
@@ -120,6 +128,7 @@ std::vector<Finding> second_thoughts(const Case& c, const Evidence& evidence, in
     f.probability = p[static_cast<std::size_t>(k)];
     f.explanation = k;
     f.block = best_block(c.explanations, k, evidence);
+    f.best = best_blocks(c.explanations, evidence);
     out.push_back(std::move(f));
   }
   return out;
@@ -271,32 +280,45 @@ void drop_needless(const Case& c, SearchResult& result) {
   }
 }
 
-/// Names every finding again, given all others. Two rounds may have named one effect twice: then one name is
-/// enough, but an effect and its change from one run to the next are two.
+bool same_fault(const Case& c, const Finding& a, const Finding& b) {
+  const auto variant = [&](const Finding& f) -> const Block& {
+    return c.explanations.blocks[static_cast<std::size_t>(f.block)];
+  };
+  return a.explanation == b.explanation && alike(variant(a), variant(b));
+}
+
+/// Names every finding again, given all others. Two rounds may have named one fault twice: then one name is enough.
 void name_again(Case& c, SearchResult& result) {
   const std::vector<Finding> before = std::exchange(result.findings, {});
+  bool two_patterns = false;
   for (std::size_t k = 0; k < before.size(); ++k) {
     auto [f, pattern] = renamed(c, before, k, result.other);
-    const auto change = [&](const Finding& d) {
-      return c.explanations.blocks[static_cast<std::size_t>(d.block)].change;
-    };
-    const bool known = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& d) {
-      return d.explanation == f.explanation && change(d) == change(f);
-    });
-    if (!pattern && !known)
-      result.findings.push_back(std::move(f));
-    else if (pattern && !result.other)
-      result.other = std::move(f);
+    const bool known = std::any_of(result.findings.begin(), result.findings.end(),
+                                   [&](const Finding& other) { return same_fault(c, other, f); });
+    if (pattern && result.other)
+      two_patterns = true;
     else if (pattern)
-      result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
+      result.other = std::move(f);
+    else if (!known)
+      result.findings.push_back(std::move(f));
   }
+  if (two_patterns)
+    result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
+}
+
+/// Whether the names are other ones than before.
+bool others(const Case& c, const std::vector<Finding>& now, const std::vector<Finding>& before) {
+  return !std::equal(now.begin(), now.end(), before.begin(), before.end(),
+                     [&](const Finding& a, const Finding& b) { return same_fault(c, a, b); });
 }
 
 }  // namespace
 
 SearchResult search(Case& c, EvidenceSearch& first) {
   const std::size_t grid = c.explanations.blocks.size();
+  const std::vector<Explanation> on_grid = c.explanations.list;
   SearchResult result = found_in_rounds(c, first);
+  const std::vector<Finding> in_rounds = result.findings;
   const auto keep = [&] {
     result.refined = keep_variants(c, result.findings);
     first.extend(c.explanations, grid);
@@ -304,10 +326,14 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   };
   keep();
   drop_names_beside_a_pattern(c, result);
-  const std::size_t found = result.findings.size();
+  const bool several = result.findings.size() > 1;
   drop_needless(c, result);
-  if (found > 1) name_again(c, result), keep();
-  if (result.findings.size() < found && !result.findings.empty())
+  if (several) {
+    c.explanations.list = on_grid;  // all variants are rivals again
+    name_again(c, result);
+    keep();
+  }
+  if (several && !result.findings.empty() && others(c, result.findings, in_rounds))
     result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
   add_what_names_leave(c, result);
   result.hyper =
@@ -315,7 +341,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   return result;
 }
 
-Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
+CredibleSet credible_set(const Explanations& all, const Evidence& evidence, bool catalogue) {
   constexpr double kSaysNothing = 0.4;  // nats: what is free already does as much
   const std::vector<double> p = probabilities(all, evidence);
   std::vector<int> order = likeliest_first(all, p, catalogue);
@@ -324,16 +350,24 @@ Finding finding_of(const Explanations& all, const Evidence& evidence, bool catal
   });
   double total = 0;
   for (const int k : order) total += p[static_cast<std::size_t>(k)];
-  Finding f;
-  f.evidence = evidence;
-  if (order.empty()) return f;
+  CredibleSet out;
+  if (order.empty()) return out;
+  out.explanation = order.front();
   for (const int k : order) {
-    if (!f.set.empty() && f.probability >= kCredible * total) break;
-    f.set.push_back(k);
-    f.probability += p[k];
+    if (!out.set.empty() && out.probability >= kCredible * total) break;
+    out.set.push_back(k);
+    out.probability += p[static_cast<std::size_t>(k)];
   }
-  f.explanation = order.front();
+  return out;
+}
+
+Finding finding_of(const Explanations& all, const Evidence& evidence, bool catalogue) {
+  Finding f;
+  static_cast<CredibleSet&>(f) = credible_set(all, evidence, catalogue);
+  f.evidence = evidence;
+  if (f.explanation < 0) return f;
   f.block = best_block(all, f.explanation, evidence);
+  f.best = best_blocks(all, evidence);
   return f;
 }
 

@@ -200,6 +200,14 @@ Hyperparameters estimate(const LinearModel& m) {
   return h;
 }
 
+std::vector<char> alone(const LinearModel& m) {
+  constexpr double kNothing = 1e-6;  // of a row that X leaves
+  const Matrix x = independent(m.noise_um.cwiseInverse().asDiagonal() * m.free);
+  std::vector<char> out;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) out.push_back(1 - x.row(i).squaredNorm() < kNothing);
+  return out;
+}
+
 Vector leave_one_out(const LinearModel& m, const Hyperparameters& h) {
   const Rotated rotated(m, h);
   // With the inverse covariance K of the touches, X projected out, (K y)_i / K_ii is row i minus its

@@ -64,6 +64,10 @@ Hyperparameters estimate_uncorrelated(const LinearModel&);
 /// models of other noise apart.
 double log_density(const LinearModel&, const Hyperparameters&);
 
+/// By row: whether the others say nothing of it, because an unknown of its own takes it up, as that of a surface point
+/// that was touched once does.
+std::vector<char> alone(const LinearModel&);
+
 /// Standardised residual of each row, predicted from all other rows: of the touch itself, where neighbours
 /// have noise in common too.
 Vector leave_one_out(const LinearModel&, const Hyperparameters&);

@@ -70,6 +70,13 @@ Vector NoiseLaw::simulated(Eigen::Index count, std::uint64_t seed, std::uint32_t
   return standard_normal(count, seed, stream, replicate);
 }
 
+double poisson_tail(double count, double expected) {
+  constexpr double kNegligible = 1e-17;
+  double sum = 0, term = std::exp(count * std::log(expected) - expected - std::lgamma(count + 1));
+  for (double k = count; k < expected || term > kNegligible * sum; term *= expected / ++k) sum += term;
+  return std::min(1.0, sum);
+}
+
 Vector standard_normal(Eigen::Index count, std::uint64_t seed, std::uint32_t stream, int replicate) {
   Vector v(count);
   for (Eigen::Index i = 0; i < count; i += 2) {

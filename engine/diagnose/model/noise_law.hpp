@@ -34,6 +34,9 @@ class NoiseLaw {
   std::vector<std::pair<double, double>> student_;  ///< degrees of freedom, and the belief in them
 };
 
+/// The probability of so many or more where so many are expected, each by chance.
+double poisson_tail(double count, double expected);
+
 /// Independent standard normal numbers.
 Vector standard_normal(Eigen::Index count, std::uint64_t seed, std::uint32_t stream, int replicate);
 

@@ -154,20 +154,21 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
   std::vector<int> rows;
   for (std::size_t i = 0; i < masked.size(); ++i)
     if (!masked[i]) rows.push_back(static_cast<int>(i));
+  std::vector<Eigen::Index> of_first;  // among `rows`: what takes part in the first recording
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (std::binary_search(c.rows.begin(), c.rows.end(), rows[k])) of_first.push_back(static_cast<Eigen::Index>(k));
   const Baseline baseline = baseline_of(c, longer);
-  Hyperparameters hyper = fitted;
-  hyper.noise = Vector::Constant(baseline.model.noise_groups, fitted.noise.mean());
   const std::vector<Matrix> beside = signatures_beside(c, question, longer, rows);
   std::vector<const Matrix*> removed;
   for (const Matrix& m : beside) removed.push_back(&m);
-  const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), hyper);
+  const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), fitted);
   std::vector<Contender> out;
   for (const int rival : question.rivals) {
     const Explanations own =
         named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
     Contender contender;
     for (const Block& b : own.blocks) {
-      contender.first.push_back(first.seen(b.signature.topRows(static_cast<Eigen::Index>(c.rows.size()))));
+      contender.first.push_back(first.seen(b.signature(of_first, Eigen::all)));
       contender.both.push_back(both.seen(b.signature));
     }
     suppose(first.y(), contender);

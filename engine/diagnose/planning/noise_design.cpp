@@ -162,14 +162,9 @@ bool add_unequal(const Case& c, const ScatterDesign& design, std::vector<Detecta
 void add_outliers(const Case& c, const ScatterDesign& design, std::vector<Detectable>& out) {
   const double touches = double(c.masked.size()), expected = touches * std::erfc(kOutlier / std::sqrt(2.0));
   double count = 2;
-  while (count < touches && chance_of_outliers(count, expected) > kNoiseAlarm) ++count;
+  while (count < touches && poisson_tail(count, expected) > kNoiseAlarm) ++count;
   // Of so many in the mean, that many or more are there in 80 % of recordings.
-  const auto fewer = [&](double mean) {
-    double term = std::exp(-mean), sum = 0;
-    for (double k = 0; k < count; ++k) sum += term, term *= mean / (k + 1);
-    return sum;
-  };
-  const double mean = least(10 * count, [&](double m) { return fewer(m) <= 0.2; });
+  const double mean = least(10 * count, [&](double m) { return poisson_tail(count, m) >= 0.8; });
   if (mean > touches) return;
   Detectable d = smallest("noise.outliers", "share", "1");
   d.detect = mean / touches, d.name = d.detect;

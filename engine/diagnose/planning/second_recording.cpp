@@ -74,7 +74,7 @@ bool displaced(const RecordedTouches& t) {
 }  // namespace
 
 std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t most) {
-  Longer out{*c.recording, *c.machine, {}, 0};
+  Longer out{*c.recording, *c.machine, {}, 0, {}};
   const Last last = last_of(*c.recording);
   const std::vector<int> rows = selected(c, change.reversed, most);
   const double begin_s = c.recording->rows[static_cast<std::size_t>(rows.front())].time_s.value_or(0);
@@ -94,6 +94,13 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
   }
   out.touches = recorded_touches(out.recording, out.machine, "");
   out.first = c.touches.touches.size();
+  std::vector<int> touch_of_row(c.recording->rows.size());
+  for (std::size_t i = 0; i < out.first; ++i)
+    touch_of_row[static_cast<std::size_t>(c.touches.touches[i].row)] = static_cast<int>(i);
+  for (const RecordedTouch& t : out.touches.touches) {
+    const auto row = static_cast<std::size_t>(t.row), own = touch_of_row.size();
+    out.same_as.push_back(touch_of_row[row < own ? row : static_cast<std::size_t>(rows[row - own])]);
+  }
   constexpr unsigned kReadings = static_cast<unsigned>(Covariate::raw_reading);
   out.touches.known |= c.touches.known & kReadings;
   out.touches.varying |= c.touches.known & kReadings;
@@ -116,6 +123,12 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
   add_doubts(EffectSet(longer.machine.effects, EffectUse::left_in, longer.machine.name), longer.touches, out);
   if (c.options.workpiece)
     calibrate(recorded_part(*c.options.workpiece, longer.recording, longer.touches, ""), longer.touches, out);
+  if (c.rounding_um > 0) add_rounding(longer.machine, c.rounding_um, out.model);
+  LinearModel& m = out.model;
+  m.noise_groups = c.baseline.model.noise_groups;
+  for (std::size_t i = 0; i < m.noise_group.size(); ++i)
+    m.noise_group[i] = c.baseline.model.noise_group[static_cast<std::size_t>(longer.same_as[i])];
+  for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
   return out;
 }
 

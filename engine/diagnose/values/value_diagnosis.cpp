@@ -154,7 +154,8 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& 
 
 void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   const Explanation& e = closer.explanation(f);
-  const Vector pattern = closer.block(f).signature * sizes_of(closer.search, f.block, c.deviation).mean;
+  const Vector all = closer.block(f).signature * sizes_of(closer.search, f.block, c.deviation).mean,
+               pattern = all(of_figures(c.ensemble.values));
   const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())),
                u = rms / std::sqrt(2.0 * double(pattern.size()));
   out.unexplained = Unexplained{
@@ -239,17 +240,20 @@ void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f
     for (std::size_t k = 0; k < group.size(); ++k)
       if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
   }
-  const double n = double(gain.size()), k = double(c.deviation.size());
+  const double n = double(gain.size());
   i.log_score_gain = std::accumulate(gain.begin(), gain.end(), 0.0);
   double square = 0;
   for (const double g : gain) square += std::pow(g - i.log_score_gain / n, 2);
   i.se = n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
-  const Vector before = c.deviation - c.judges.mean, after = before - predicted;
-  i.rms_before_um = std::sqrt(before.squaredNorm() / k), i.rms_after_um = std::sqrt(after.squaredNorm() / k);
-  const Vector sense = predicted.array().sign();
-  i.bias_before_um = before.dot(sense) / k, i.bias_after_um = after.dot(sense) / k;
-  i.chi2_per_dof_before = c.search->white(c.deviation).squaredNorm() / k;
-  i.chi2_per_dof_after = c.search->white(c.deviation - predicted).squaredNorm() / k;
+  const std::vector<Eigen::Index> told = of_figures(c.ensemble.values);
+  const Vector before = (c.deviation - c.judges.mean)(told), after = before - predicted(told);
+  const double of_told = double(told.size()), values = double(c.deviation.size());
+  i.rms_before_um = std::sqrt(before.squaredNorm() / of_told),
+  i.rms_after_um = std::sqrt(after.squaredNorm() / of_told);
+  const Vector sense = predicted(told).array().sign();
+  i.bias_before_um = before.dot(sense) / of_told, i.bias_after_um = after.dot(sense) / of_told;
+  i.chi2_per_dof_before = c.search->white(c.deviation).squaredNorm() / values;
+  i.chi2_per_dof_after = c.search->white(c.deviation - predicted).squaredNorm() / values;
   out.improvement = i;
 }
 

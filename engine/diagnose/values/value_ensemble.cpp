@@ -186,6 +186,14 @@ class EnsembleRuns {
 
 }  // namespace
 
+std::vector<Eigen::Index> of_figures(const std::vector<RecordedValue>& values) {
+  const bool lengths = std::any_of(values.begin(), values.end(), [](const RecordedValue& v) { return !v.angle; });
+  std::vector<Eigen::Index> out;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k].angle != lengths) out.push_back(static_cast<Eigen::Index>(k));
+  return out;
+}
+
 double RecordedValue::reported() const { return angle ? 180 / std::numbers::pi / kUradPerRad : 1 / kUmPerMm; }
 
 Matrix complete_rows(const Matrix& m) {

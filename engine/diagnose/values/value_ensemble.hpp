@@ -22,6 +22,9 @@ struct RecordedValue {
   double reported() const;  ///< mm or degrees per um or urad
 };
 
+/// The values that figures of a whole file are of: the lengths, um; of a file without any the angles, urad.
+std::vector<Eigen::Index> of_figures(const std::vector<RecordedValue>&);
+
 struct ValueEnsemble {
   std::vector<RecordedValue> values;
   Matrix simulated;           ///< machines x values: deviations

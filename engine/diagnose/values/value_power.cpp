@@ -144,7 +144,7 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
     const Block& block = all.blocks[static_cast<std::size_t>(of.block)];
     const Column& column = block.columns[static_cast<std::size_t>(of.column)];
     const EffectParameter& p = e.effect->parameters[static_cast<std::size_t>(column.parameter)];
-    const double largest = block.signature.col(of.column).cwiseAbs().maxCoeff();
+    const double largest = block.signature(of_figures(bench.values), of.column).cwiseAbs().maxCoeff();
     Detectable d{.effect = e.name,
                  .parameter = std::string(p.name),
                  .unit = std::string(p.unit),

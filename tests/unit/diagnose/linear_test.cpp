@@ -221,6 +221,18 @@ TEST_CASE("unknowns that the rows do not determine do no harm") {
   CHECK(leave_one_out(m, h).norm() > 1);
 }
 
+TEST_CASE("a row with an unknown of its own is alone") {
+  LinearModel m = model_of(80, 1, 1, 0, 5);
+  CHECK(alone(m) == std::vector<char>(80, 0));
+  m.free.conservativeResize(Eigen::NoChange, m.free.cols() + 2);
+  m.free.rightCols(2).setZero();
+  m.free(7, m.free.cols() - 2) = 0.3;
+  m.free(8, m.free.cols() - 1) = m.free(9, m.free.cols() - 1) = 1;  // shared by two: their difference tells
+  std::vector<char> expected(80, 0);
+  expected[7] = 1;
+  CHECK(alone(m) == expected);
+}
+
 TEST_CASE("what an unknown does whatever its unit is nothing") {
   LinearModel m = model_of(80, 1, 1, 0, 9);
   m.free.col(0) *= 1e9;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/planning/alignment.hpp"
+#include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/path.hpp"
 #include "engine/diagnose/planning/shape.hpp"
 
@@ -124,6 +126,28 @@ TEST_CASE("of several placements each has a setup of its own, in the program and
     for (const int setup : {1, 2})
       CHECK(program.find(fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
                                      setup, anew ? setup + 2 : setup)) != std::string::npos);
+  }
+}
+
+TEST_CASE("a repetition has the noise of what it repeats") {
+  TouchedBlock block;
+  Case& c = block.c;
+  c.baseline = baseline_of(c.touches, block.machine, {});
+  LinearModel& own = c.baseline.model;
+  own.noise_groups = 2;
+  for (std::size_t i = own.noise_group.size() / 2; i < own.noise_group.size(); ++i) own.noise_group[i] = 1;
+  c.rounding_um = 3;
+  add_rounding(block.machine, c.rounding_um, own);
+  const auto longer = repeated(c, block.change("once more"));
+  REQUIRE(longer);
+  REQUIRE(longer->touches.touches.size() == 2 * longer->first);
+  const LinearModel both = baseline_of(c, *longer).model;
+  CHECK(both.noise_groups == 2);
+  for (std::size_t i = 0; i < longer->touches.touches.size(); ++i) {
+    const int same = longer->same_as[i];
+    CHECK(feature_of(*longer, i) == c.touches.features[c.touches.touches[same].scene.feature]);
+    CHECK(both.noise_um(static_cast<Eigen::Index>(i)) == doctest::Approx(own.noise_um(same)));
+    CHECK(both.noise_group[i] == own.noise_group[static_cast<std::size_t>(same)]);
   }
 }
 

@@ -48,7 +48,11 @@ TEST_CASE("the chances of unequal scatter and of outliers are those of their law
   CHECK(chance(20, 45.315) == doctest::Approx(0.001).epsilon(0.05));
   CHECK(chance(200, 233.994) == doctest::Approx(0.05).epsilon(0.02));
   CHECK(chance_of_ratio(10, 0.25) < 1e-6);  // ten times the scatter shows in ten touches
-  CHECK(chance_of_outliers(2, 0.01) == doctest::Approx(5e-5));
+  CHECK(poisson_tail(2, 0.01) == doctest::Approx(1 - 1.01 * std::exp(-0.01)).epsilon(1e-9));
+  CHECK(poisson_tail(0, 3) == doctest::Approx(1));
+  CHECK(poisson_tail(4, 3) == doctest::Approx(1 - 13 * std::exp(-3)));
+  CHECK(poisson_tail(40, 14) < 2e-8);
+  CHECK(poisson_tail(2, 14) > 0.9999);  // fewer than expected are no alarm
 }
 
 TEST_CASE("a sum of squares varies more where tails are heavy or residuals have much in common") {

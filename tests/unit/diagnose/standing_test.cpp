@@ -141,6 +141,8 @@ TEST_CASE("balls and cylinders are known from their targets, a box is none") {
   std::vector<Vec3> targets, normals, sides, faces;
   for (const RecordingRow& row : box({}).rows) sides.push_back(*row.target_mm), faces.push_back(*row.normal);
   CHECK(!RoundSurface::through(sides, faces));
+  const std::vector<Vec3> centre(6);  // three coordinates of it, twice
+  CHECK(!RoundSurface::through(centre, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
   for (const double radius : {20.0, -20.0}) {
     targets.clear(), normals.clear();
     for (int k = 0; k < 12; ++k) {

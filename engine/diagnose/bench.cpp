@@ -1,0 +1,72 @@
+#include "engine/diagnose/bench.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/diagnose/baseline/calibrated_part.hpp"
+#include "engine/diagnose/baseline/known_state.hpp"
+#include "engine/diagnose/baseline/length_errors.hpp"
+#include "engine/diagnose/baseline/machine_effects.hpp"
+#include "engine/diagnose/baseline/standing.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
+#include "engine/diagnose/findings/scatter.hpp"
+#include "engine/diagnose/warnings.hpp"
+
+namespace abbe::diagnose {
+
+Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options,
+                  std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
+  Case c;
+  c.recording = &recording;
+  c.machine = &machine;
+  c.options = options;
+  c.touches = recorded_touches(recording, machine, file);
+  out.messages.insert(out.messages.end(), c.touches.messages.begin(), c.touches.messages.end());
+  c.styli_unlogged = styli_unlogged(recording, file, out.messages);
+  constexpr int kLeastTouches = 12;
+  if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
+    throw UserError(diagnostic(
+        Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
+        fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
+  if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
+  if (!options.design_only && !surfaces) check_tips(c.touches, file);
+  constexpr int kMostTouches = 4000;  // minutes, and less than 2 GB
+  if (static_cast<int>(c.touches.touches.size()) > kMostTouches)
+    throw UserError(diagnostic(
+        Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, c.touches.touches.size()),
+        fmt::format("at most {}: leave out repeats, or diagnose a part of the runs at a time", kMostTouches)));
+  const EffectSet effects(machine.effects, EffectUse::left_in, machine.name);
+  remove_estimates(effects, c.touches);
+  std::optional<RecordedPart> part;
+  if (options.workpiece) part = recorded_part(*options.workpiece, recording, c.touches, file);
+  if (part)
+    remove_expected(*part, c.touches),
+        out.messages.insert(out.messages.end(), part->messages.begin(), part->messages.end());
+  std::optional<KnownGeometry> known;
+  if (machine.known_state) known = known_geometry(*machine.known_state);
+  if (!surfaces && within_mm(c.touches, kHalfOfThem) > kBeyondMachines_mm) {
+    surfaces = Surfaces::unknown;
+    out.messages.push_back(not_its_targets(c.touches, kHalfOfThem, file));
+  }
+  c.baseline =
+      baseline_of(c.touches, machine,
+                  {surfaces.value_or(Surfaces::calibrated), known ? &*known : nullptr, options.seed, options.threads});
+  if (!known && c.baseline.surfaces == Surfaces::calibrated && !options.design_only)
+    out.beyond = c.baseline.beyond = beyond_specification(c.touches, without_placement(c.baseline.model), machine);
+  if (out.beyond) hold_to_specification(c.baseline.model);
+  add_doubts(effects, c.touches, c.baseline);
+  if (part) calibrate(*part, c.touches, c.baseline);
+  return c;
+}
+
+void judge_rounding(double step_um, Case& c) {
+  c.step_um = step_um;
+  const double rounding_um = step_um / std::sqrt(12.0);
+  LinearModel& model = c.baseline.model;
+  if (rounding_um < kLeastRounding * model.noise_um.mean()) return;
+  c.rounding_um = rounding_um;
+  add_rounding(*c.machine, rounding_um, model);
+}
+
+}  // namespace abbe::diagnose

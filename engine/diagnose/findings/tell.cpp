@@ -1,0 +1,161 @@
+#include "engine/diagnose/findings/tell.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "engine/diagnose/explanations/same_phase.hpp"
+#include "engine/diagnose/findings/caveats.hpp"
+#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/empirical.hpp"
+#include "engine/diagnose/findings/improvement.hpp"
+#include "engine/diagnose/findings/known_effect.hpp"
+#include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/findings/members.hpp"
+#include "engine/diagnose/findings/parameters.hpp"
+#include "engine/diagnose/words.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// One recording in so many has a change of the scatter.
+constexpr double kPriorScatter = 0.01;
+
+/// Whether several runs share one placement of the part.
+bool stays_in_its_setup(const Case& c) {
+  std::map<int, int> run_of;
+  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const TouchScene& s = c.touches.touches[static_cast<std::size_t>(row)].scene;
+    return run_of.try_emplace(s.setup, s.run).first->second != s.run;
+  });
+}
+
+constexpr const char* kOfThisPart = " It is of this part: a machine file with it holds for no other part.";
+
+/// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides
+/// whether that is plausible, and says what is to be said.
+std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters,
+                              Diagnosis& out) {
+  EffectSetting setting = setting_of(std::string(effect.name), parameters);
+  std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
+  const auto& taken = out.superseded;
+  if (before && std::find(taken.begin(), taken.end(), before->index) != taken.end()) before.reset();
+  if (before) setting = before->now;
+  setting = nearest_possible(effect, setting);
+  const bool gone = before && before->gone;
+  const bool possible = gone || plausible(effect, setting);
+  for (DiagnosedParameter& p : parameters) p.plausible = possible;
+  if (!possible) return kNoSuchSize;
+  if (before) out.superseded.push_back(before->index);
+  if (!gone) out.model_effects.push_back(std::move(setting));
+  if (!before) return effect.stage == Stage::part ? kOfThisPart : "";
+  return gone           ? " The machine file has the opposite: it is not there any more."
+      : before->instead ? " It takes the place of what the machine file has of it."
+                        : " That is beside what the machine file has of it.";
+}
+
+/// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
+/// finding, it is that.
+RunChange change_of(const Block& variant, const Block& found) {
+  const bool holds = variant.change.is_like(found.change) && variant.runs.low <= found.runs.low &&
+      found.runs.high <= variant.runs.high;
+  return holds ? found.change : variant.change;
+}
+
+/// Whether it is the period of a scale, of which this recording shows one phase in each direction.
+bool is_same_phase(const Case& c, const Finding& f) {
+  const Effect* effect = c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
+  return effect && needs_raw_reading(*effect) &&
+      SameDirection(c.touches, c.rows).is_alike(c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+}
+
+}  // namespace
+
+void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    const Finding& f = result.findings[k];
+    DiagnosedEffect e;
+    for (const int m : f.set) {
+      const Explanation& member = c.explanations.list[m];
+      e.members.push_back(member.name);
+      e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(f.variant_of(m))],
+                                   c.explanations.blocks[static_cast<std::size_t>(f.block)]));
+    }
+    const bool something_else = result.other || result.adequacy < kInadequate;
+    FoundSize size = estimate_size(c, result, k);
+    e.parameters = std::move(size.parameters);
+    e.largest_um = size.largest_um;
+    const RunChange change = e.change.front();
+    const bool rounding = may_be_rounding(c, e.largest_um);
+    const Effect& effect = *c.explanations.list[f.explanation].effect;
+    const std::string clock = whose_clock(c, effect);
+    const std::string in_file = change.gone() ? " It is gone: the machine file needs nothing of it."
+        : !clock.empty()                      ? " Until then no machine file carries it."
+        : rounding
+        ? fmt::format(
+              " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
+              c.step_um)
+        : belief_in_first(c, f) < kCarried ? " It is one of so many that no machine file carries it."
+                                           : tell_machine_file(c, effect, e.parameters, out);
+    const bool possible = plausible(e.parameters);
+    const bool same_phase = is_same_phase(c, f);
+    const bool doubted = something_else || rounding || c.styli_unlogged || same_phase || effect.only_spread ||
+        !judged(c, f) || !possible || !shown(out.improvement);
+    e.probability = believed(f.probability, doubted);
+    if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
+    std::vector<std::string_view> titles;
+    for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
+    const bool unsure = e.probability < kTold;
+    e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
+        pattern_beside(c, f) + (same_phase ? kSamePhase : "") + much_like_it(effect) + whose_coordinates(c, effect) +
+        clock + in_file;
+    if (change.any() && stays_in_its_setup(c))
+      e.sentence +=
+          " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
+    out.effects.push_back(std::move(e));
+  }
+}
+
+void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out) {
+  const bool as_well =
+      out.improvement && out.runner_up && out.runner_up->log_score_gain >= out.improvement->log_score_gain;
+  out.unexplained = describe_unexplained(
+      c, result, as_well ? fmt::format("{}", fmt::join(out.runner_up->members, " or ")) : std::string());
+  EmpiricalModel model = empirical_model(c, result);
+  if (model.follows) out.unexplained->model_follows = abbe::diagnose::name(*model.follows);
+  if (!model.settings.empty()) out.unexplained->model = model.settings.front().name;
+  for (EffectSetting& setting : model.settings) out.model_effects.push_back(std::move(setting));
+}
+
+void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) {
+  for (NoiseFinding& n : noise) {
+    const std::string in_file = tell_machine_file(c, *n.effect, n.parameters, out);
+    if (n.factor && out.effects.empty() && !out.unexplained)
+      out.location.push_back({std::string(abbe::diagnose::name(*n.factor)), n.where, 1, n.p});
+    out.effects.push_back({{std::string(n.effect->name)},
+                           believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain),
+                           n.parameters,
+                           n.sentence});
+    if (!n.certain)
+      out.effects.back().sentence +=
+          " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
+    out.effects.back().sentence += in_file;
+    out.p_value = std::min(out.p_value, n.p);
+  }
+}
+
+Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d) {
+  if (result.other) return Verdict::unexplained;
+  if (result.findings.empty()) return d.effects.empty() ? Verdict::no_mismatch : Verdict::named;
+  bool open = c.styli_unlogged, several = false;
+  for (const Finding& f : result.findings) {
+    open = open || !judged(c, f);
+    several = several || f.set.size() > 1;
+  }
+  return open ? Verdict::cannot_judge : several ? Verdict::one_of : Verdict::named;
+}
+
+}  // namespace abbe::diagnose
