@@ -1,13 +1,16 @@
 // FLAT, STRGHT, CIRLTY, CYLCTY: the spread high - low of the residuals about the fitted element: the
 // least-squares one (reference element LS of ISO 12781, 12780, 12181 and 12180) unless GEOALG chose
 // another; then the minimum zone, or the spread about the inscribed or circumscribed element. Of a
-// line see form.hpp.
+// line see form.hpp. The circularity of a cylinder is that of its sections, the largest of them: in each the touches
+// about the least-squares circle of the section, as distances from the fitted axis less a constant and a cosine (the
+// centre of the section beside the axis); what that leaves out is a thousandth of a micrometre for centres 5 um apart.
 #include "engine/tolerances/form.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/tolerances/common.hpp"
+#include "engine/tolerances/sections.hpp"
 
 namespace abbe {
 namespace {
@@ -20,13 +23,65 @@ const char* line_only(const Arguments&, Shapes s) {
   return s[0] == Shape::line ? nullptr : "straightness is for lines";
 }
 const char* round_only(const Arguments&, Shapes s) {
-  return acts_as(s[0]) == Shape::circle || s[0] == Shape::sphere ? nullptr : "circularity is for circles and spheres";
+  return acts_as(s[0]) == Shape::circle || s[0] == Shape::sphere || s[0] == Shape::cylinder
+      ? nullptr
+      : "circularity is for circles, cylinders and spheres";
 }
 const char* cylinder_only(const Arguments&, Shapes s) {
   return s[0] == Shape::cylinder ? nullptr : "cylindricity is for cylinders";
 }
 
 Outcome<double> spread(const Arguments&, const EvaluationInput& in) { return {in.actual[0].high - in.actual[0].low}; }
+
+/// Of distances from an axis, as seen from it in the direction (cos, sin): how far apart they lie beside a constant and a
+/// cosine that fit best.
+struct Polar {
+  double distance, cosine, sine;
+};
+double range_about_circle(const std::vector<Polar>& points) {
+  Mat3 normal{{}, {}, {}};
+  Vec3 right;
+  for (const Polar& p : points) {
+    const Vec3 row{1, p.cosine, p.sine};
+    normal.cx += row, normal.cy += p.cosine * row, normal.cz += p.sine * row;
+    right += p.distance * row;
+  }
+  const double determinant = dot(normal.cx, cross(normal.cy, normal.cz));
+  const Vec3 fit = 1 / determinant *
+      Vec3{dot(right, cross(normal.cy, normal.cz)), dot(normal.cx, cross(right, normal.cz)),
+           dot(normal.cx, cross(normal.cy, right))};
+  std::vector<double> left;
+  for (const Polar& p : points) left.push_back(p.distance - dot(fit, {1, p.cosine, p.sine}));
+  const auto [low, high] = std::minmax_element(left.begin(), left.end());
+  return *high - *low;
+}
+
+/// The largest circularity of the sections of a cylinder.
+Outcome<double> circularity_of_sections(const EvaluationInput& in) {
+  constexpr std::size_t kShowsForm = 4;  // three settle a circle
+  const Element& axis = in.actual[0];
+  std::vector<double> heights;
+  for (const TouchedPoint& touch : in.touches)
+    heights.push_back(dot(in.nominal[0].direction, touch.nominal - in.nominal[0].point));
+  const Vec3 e1 = any_perpendicular(axis.direction), e2 = cross(axis.direction, e1);
+  std::optional<double> largest;
+  for (const std::vector<std::size_t>& section : sections(heights)) {
+    if (section.size() < kShowsForm) continue;
+    std::vector<Polar> points;
+    for (const std::size_t k : section) {
+      const Vec3 arm = perpendicular_part(in.touches[k].actual - axis.point, axis.direction);
+      const double distance = norm(arm);
+      points.push_back({distance, dot(arm, e1) / distance, dot(arm, e2) / distance});
+    }
+    largest = std::max(largest.value_or(0), range_about_circle(points));
+  }
+  return largest ? Outcome<double>{*largest}
+                 : no_value("no section of the cylinder was touched four times: it shows no circularity");
+}
+
+Outcome<double> circularity(const Arguments& arguments, const EvaluationInput& in) {
+  return in.shapes[0] == Shape::cylinder ? circularity_of_sections(in) : spread(arguments, in);
+}
 
 Outcome<double> straightness_value(const Arguments&, const EvaluationInput& in) { return {straightness(in)}; }
 
@@ -116,7 +171,9 @@ extern const ToleranceKind straightness_tolerance{
 extern const ToleranceKind circularity_tolerance{
     .word = "CIRLTY",
     .signature = "zone:length",
-    .help = "circularity: spread of the touches about the fitted circle or sphere",
+    .help =
+        "circularity: spread of the touches about the fitted circle or sphere; of a cylinder about the circles of its "
+        "sections, the largest",
     .example = "T(C1)=TOL/CIRLTY,0.01",
     .source = "ISO 1101:2017, clause 17; ISO 12181-1 (LSCI)",
     .unit = Unit::mm,
@@ -124,7 +181,8 @@ extern const ToleranceKind circularity_tolerance{
     .applies = round_only,
     .nominal = no_deviation,
     .limits = zone_limits,
-    .evaluate = spread,
+    .evaluate = circularity,
+    .wants_touches = always,
 };
 
 extern const ToleranceKind cylindricity_tolerance{

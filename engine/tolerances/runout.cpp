@@ -5,19 +5,18 @@
 // indicator would show is measured from it for circles and cylinders (radial run-out) and along it for
 // planes (axial run-out). On cones and spheres the indicator stands on the surface at a right angle: it
 // shows how far a touch lies from its nominal place along the normal there. TRNOUT is the range over
-// all touches, CRNOUT the largest range over one section: the touches that the program put at the same
-// height (of a plane: at the same radius), within 0.1 mm. A section with a single touch has no range.
+// all touches, CRNOUT the largest range over one section (of a plane: of one radius). A section with a single touch has
+// no range.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "engine/features/alignment.hpp"
 #include "engine/tolerances/common.hpp"
+#include "engine/tolerances/sections.hpp"
 
 namespace abbe {
 namespace {
-
-constexpr double kSameSection_mm = 0.1;
 
 const char* turned(Shape written) {
   const Shape s = acts_as(written);
@@ -73,14 +72,15 @@ Outcome<double> total(const Arguments&, const EvaluationInput& in) {
 }
 
 Outcome<double> circular(const Arguments&, const EvaluationInput& in) {
-  auto all = readings(in);
+  const auto all = readings(in);
   if (!all) return no_value(all.failure);
-  std::vector<Reading>& list = all.value;
-  std::stable_sort(list.begin(), list.end(), [](const Reading& a, const Reading& b) { return a.section < b.section; });
+  std::vector<double> heights;
+  for (const Reading& reading : all.value) heights.push_back(reading.section);
   double largest = 0;
-  for (std::size_t first = 0, end; first < list.size(); first = end) {
-    for (end = first + 1; end < list.size() && list[end].section - list[end - 1].section <= kSameSection_mm;) ++end;
-    largest = std::max(largest, range(std::span(list).subspan(first, end - first)));
+  for (const std::vector<std::size_t>& section : sections(heights)) {
+    std::vector<Reading> list;
+    for (const std::size_t k : section) list.push_back(all.value[k]);
+    largest = std::max(largest, range(list));
   }
   return {largest};
 }

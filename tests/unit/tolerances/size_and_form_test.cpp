@@ -21,6 +21,28 @@ TEST_CASE("Every tolerance describes itself and is found by its word") {
   CHECK(find_tolerance_kind("DIAMETER") == nullptr);
 }
 
+TEST_CASE("The circularity of a cylinder is the largest of its sections") {
+  const Vec3 axis = unit({0.1, -0.2, 1}), e1 = any_perpendicular(axis), e2 = cross(axis, e1);
+  Evaluation e("CIRLTY");
+  e.feature(Shape::cylinder, sized(at({1, 2, 3}, axis), 20), sized(at({1, 2, 3}, axis), 20));
+  const auto section = [&](double height, int touches, double oval_mm) {
+    for (int k = 0; k < touches; ++k) {
+      const double a = 2 * kPi * k / touches;
+      const Vec3 out = std::cos(a) * e1 + std::sin(a) * e2, nominal = Vec3{1, 2, 3} + height * axis + 20 * out;
+      // beside the axis by 5 um and 3 um larger: neither is form
+      const Vec3 actual = nominal + (0.003 + oval_mm * std::cos(2 * a)) * out + 0.005 * e2 + 0.02 * axis;
+      e.touches.push_back({actual, nominal, out});
+    }
+  };
+  section(0, 3, 0.5);
+  CHECK(e.failure().starts_with("no section of the cylinder was touched four times"));
+  section(10, 8, 0.004);
+  section(30, 12, 0.002);
+  CHECK(e.value() == Approx(0.008).epsilon(1e-3));
+  e.touches.resize(3), section(10, 8, 0);
+  CHECK(e.value() < 2e-6);
+}
+
 TEST_CASE("Sizes are compared with the nominal size") {
   Evaluation d("DIAM");
   d.number("lower", -0.1).number("upper", 0.2).feature(Shape::cylinder, sized(at({}), 10.01), sized(at({}), 10));
@@ -54,7 +76,7 @@ TEST_CASE("Form is the spread of the residuals") {
     CHECK(Evaluation("FLAT").feature(pair, e).refusal() ==
           "flatness is of one face: measure each of the two as a PLANE");
   CHECK(Evaluation("STRGHT").feature(Shape::plane, e).refusal() == "straightness is for lines");
-  CHECK(Evaluation("CIRLTY").feature(Shape::cylinder, e).refusal() == "circularity is for circles and spheres");
+  CHECK(Evaluation("CIRLTY").feature(Shape::cone, e).refusal() == "circularity is for circles, cylinders and spheres");
   CHECK(Evaluation("CYLCTY").feature(Shape::circle, e).refusal() == "cylindricity is for cylinders");
   for (const auto& [word, shape] : {std::pair{"FLAT", Shape::plane},
                                     {"STRGHT", Shape::line},
