@@ -1,5 +1,5 @@
-// DIAM, RAD: the diameter 2 r or the radius r of the fitted feature; limits are deviations from the
-// nominal size.
+// DIAM, RAD: the diameter 2 r or the radius r of the fitted feature, which is what AVG asks for; limits are deviations
+// from the nominal size.
 #include "engine/tolerances/common.hpp"
 
 namespace abbe {
@@ -29,7 +29,7 @@ Outcome<double> size(const Arguments&, const EvaluationInput& in) {
 
 extern const ToleranceKind diameter_tolerance{
     .word = "DIAM",
-    .signature = "lower:length,upper:length",
+    .signature = "lower:length,upper:length,[ use:AVG ]",
     .help = "diameter of a circle, cylinder or sphere; deviations from the nominal diameter",
     .example = "T(D1)=TOL/DIAM,-0.1,0.1",
     .source = "ISO 22093:2011, TOL/DIAM; least-squares size (GG) of ISO 14405-1",
@@ -44,7 +44,7 @@ extern const ToleranceKind diameter_tolerance{
 
 extern const ToleranceKind radius_tolerance{
     .word = "RAD",
-    .signature = "lower:length,upper:length",
+    .signature = "lower:length,upper:length,[ use:AVG ]",
     .help = "radius of a circle, cylinder or sphere; deviations from the nominal radius",
     .example = "T(R1)=TOL/RAD,-0.05,0.05",
     .source = "ISO 22093:2011, TOL/RAD",
