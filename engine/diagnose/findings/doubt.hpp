@@ -32,8 +32,11 @@ inline double believed(double probability, bool doubted) {
 /// Of several names the machine file gets the first, but not one that is believed less than this.
 inline constexpr double kCarried = 0.1;
 
-/// Whether held-out touches are predicted better by more than the standard error of the gain.
-inline bool shown(const std::optional<Improvement>& i) { return i && i->log_score_gain > i->se; }
+/// Whether held-out touches are predicted better by more than the standard error of the gain, and lie closer. A score may
+/// gain because a model is less sure of itself.
+inline bool shown(const std::optional<Improvement>& i) {
+  return i && i->log_score_gain > i->se && i->rms_after_um <= i->rms_before_um;
+}
 
 /// Whether every size is inside the catalogue's range.
 inline bool plausible(const std::vector<DiagnosedParameter>& parameters) {

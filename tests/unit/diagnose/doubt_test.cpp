@@ -22,12 +22,15 @@ TEST_CASE("a size beside the range is possible where its uncertainty reaches the
   CHECK_FALSE(plausible(bending, force(2.5, 0.1)));
 }
 
-TEST_CASE("a gain on touches left out counts beyond its standard error") {
+TEST_CASE("a gain on touches left out counts beyond its standard error, and where they lie closer") {
   const auto of = [](double gain, double se) { return Improvement{"leave-one-setup-out", gain, se}; };
   CHECK_FALSE(shown(std::nullopt));
   CHECK_FALSE(shown(of(1.4, 4.2)));
   CHECK_FALSE(shown(of(-3, 1)));
   CHECK(shown(of(5.2, 2.2)));
+  Improvement farther = of(5.2, 2.2);
+  farther.rms_before_um = 0.55, farther.rms_after_um = 0.56;
+  CHECK_FALSE(shown(farther));
 }
 
 TEST_CASE("a machine that is none of its specification counts as a mismatch, named or not") {
