@@ -13,6 +13,7 @@
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/effects/noise/noise.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -204,7 +205,7 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
   }
   const auto n = static_cast<double>(out.size());
   const double all = static_cast<double>(c.masked.size()), share = n / all,
-               by_noise = all * std::erfc(kOutlier / std::sqrt(2.0));
+               by_noise = all * 2 * normal_below(-kOutlier);
   const auto known = in_file(c, "noise.outliers", "share");
   const double expected = by_noise + (known ? all * (known->value + 2 * known->u) : 0);
   const double p = poisson_tail(n, expected);

@@ -14,6 +14,7 @@
 #include "engine/diagnose/explanations/refine.hpp"
 #include "engine/diagnose/explanations/search_grid.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -26,8 +27,6 @@ struct MixtureTerm {
   bool even = false;
   bool length = false;  ///< of a vector: never less than nothing
 };
-
-double normal_below(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// The share of a term below x.
 double below(const MixtureTerm& c, double x) {

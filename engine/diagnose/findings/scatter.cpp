@@ -7,6 +7,7 @@
 
 #include "engine/diagnose/place.hpp"
 #include "engine/effects/noise/noise.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -42,12 +43,12 @@ double inflation(double tails, const Matrix& coupling, const Vector& rows) {
   return tails - 1 + rows.dot(coupling * rows) / rows.squaredNorm();
 }
 
-double chance_of_excess(double chi2) { return std::erfc(std::sqrt(std::max(0.0, chi2) / 2)) / 2; }
+double chance_of_excess(double chi2) { return normal_below(-std::sqrt(std::max(0.0, chi2))); }
 
 double chance_of_ratio(double ratio, double relative_u) {
   const double spread = 4.0 / 9 * relative_u * relative_u;  // of the cube root; 2 / (9 nu), where nu = 1 / (2 u^2)
   const double z = (std::pow(ratio / kLeastExcess, 2.0 / 3) - (1 - spread)) / std::sqrt(spread);
-  return std::erfc(z / std::sqrt(2.0)) / 2;
+  return normal_below(-z);
 }
 
 namespace {

@@ -19,6 +19,7 @@
 
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/model/power.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -284,7 +285,7 @@ class Design {
 /// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).
 double chi2_above(double x, double n) {
   const double z = (std::cbrt(x / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n));
-  return 0.5 * std::erfc(z / std::sqrt(2.0));
+  return normal_below(-z);
 }
 
 }  // namespace

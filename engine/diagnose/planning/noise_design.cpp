@@ -11,6 +11,7 @@
 
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -160,7 +161,7 @@ bool add_unequal(const Case& c, const ScatterDesign& design, std::vector<Detecta
 }
 
 void add_outliers(const Case& c, const ScatterDesign& design, std::vector<Detectable>& out) {
-  const double touches = double(c.masked.size()), expected = touches * std::erfc(kOutlier / std::sqrt(2.0));
+  const double touches = double(c.masked.size()), expected = touches * 2 * normal_below(-kOutlier);
   double count = 2;
   while (count < touches && poisson_tail(count, expected) > kNoiseAlarm) ++count;
   // Of so many in the mean, that many or more are there in 80 % of recordings.

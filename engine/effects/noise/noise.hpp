@@ -20,7 +20,4 @@ inline bool same_orientation(const StylusScene& s, double a_rad, double b_rad) {
       std::fabs(std::remainder(s.head_b_rad - b_rad, 2 * kPi)) < kUpright_rad;
 }
 
-/// The probability below a standard normal number: makes a uniform draw of a normal one.
-inline double normal_probability(double z) { return 0.5 * std::erfc(-z * std::sqrt(0.5)); }
-
 }  // namespace abbe

@@ -11,6 +11,7 @@
 // pass for a form error. Software that removes touches beyond k sigma around the fit biases the
 // spread.
 #include "engine/effects/noise/noise.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe {
 namespace {
@@ -35,7 +36,7 @@ constexpr EffectParameter kOutliersParameters[] = {
 };
 
 Vec3 outliers(const TouchScene& scene, const double* theta, const double* z) {
-  if (normal_probability(z[0]) >= theta[0]) return {};
+  if (normal_below(z[0]) >= theta[0]) return {};
   return along_normal(scene, theta[1] * kUm * std::exp(kLogSpread * z[1]));
 }
 

@@ -10,6 +10,7 @@
 // Source: JCGM 100 F.2.2.1; Widrow & Kollar, Quantization Noise (2008).
 // Confused with: any small white noise, unless the digits are looked at.
 #include "engine/effects/noise/noise.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe {
 namespace {
@@ -25,7 +26,7 @@ constexpr EffectParameter kResolutionParameters[] = {
 };
 
 Vec3 resolution(const TouchScene& scene, const double* theta, const double* z) {
-  return along_normal(scene, theta[0] * kUm * (normal_probability(z[0]) - 0.5));
+  return along_normal(scene, theta[0] * kUm * (normal_below(z[0]) - 0.5));
 }
 
 }  // namespace

@@ -11,12 +11,12 @@
 
 #include "engine/machine/acceptance/acceptance.hpp"
 #include "engine/machine/head.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe {
 namespace {
 
 double normal_pdf(double x) { return std::exp(-0.5 * x * x) / std::sqrt(2 * kPi); }
-double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
 
 /// P(no range of the test exceeds limit).
 double share_within(const std::vector<double>& sd_mm, double limit_mm) {
@@ -59,7 +59,7 @@ double range_of_three_cdf(double r) {
   constexpr double kEnd = 9, kStep = 1.0 / 16;
   double sum = 0;
   for (double x = -kEnd; x <= kEnd; x += kStep) {
-    const double between = normal_cdf(x + r) - normal_cdf(x);
+    const double between = normal_below(x + r) - normal_below(x);
     sum += normal_pdf(x) * between * between;
   }
   return r > 0 ? 3 * kStep * sum : 0;

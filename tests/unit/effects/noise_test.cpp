@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "engine/math/normal.hpp"
 #include "tests/unit/effects/bench.hpp"
 
 namespace abbe {
@@ -16,7 +17,7 @@ double quantile(double p) {
   double low = -10, high = 10;
   for (int i = 0; i < 80; ++i) {
     const double middle = (low + high) / 2;
-    (normal_probability(middle) < p ? low : high) = middle;
+    (normal_below(middle) < p ? low : high) = middle;
   }
   return (low + high) / 2;
 }
