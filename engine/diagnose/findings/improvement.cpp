@@ -85,15 +85,8 @@ struct HeldOut {
 /// The likeliest variant of the one explanation of a search at its likeliest size, over all rows.
 Matrix likeliest(const EvidenceSearch& search, const Explanations& on_all_rows) {
   const int block = best_block(on_all_rows, 0, search.evidence());
-  const auto info = search.information(block);
-  double most = -std::numeric_limits<double>::infinity(), factor = 1;
-  for (const Size& s : search.sizes(block)) {
-    const Eigen::LLT<Matrix> llt(Matrix::Identity(info.g.rows(), info.g.cols()) + s.factor * s.factor * info.g);
-    const Vector explained = s.factor * llt.matrixL().solve(info.u);
-    const double belief = s.log_prior + 0.5 * explained.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum();
-    if (belief > most) most = belief, factor = s.factor;
-  }
-  return factor * on_all_rows.blocks[static_cast<std::size_t>(block)].signature;
+  return likeliest_size(search.information(block), search.sizes(block)).factor *
+      on_all_rows.blocks[static_cast<std::size_t>(block)].signature;
 }
 
 HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model,

@@ -5,7 +5,6 @@
 #include "engine/diagnose/findings/locate.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -25,20 +24,9 @@ struct Pattern {
 };
 
 Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) {
-  const auto info = search.information(index);
-  Pattern best;
-  double best_score = -1e300;
-  for (const auto& [s, log_prior] : search.sizes(index)) {
-    const Matrix m = info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (s * s);
-    const Eigen::LLT<Matrix> llt(m);
-    const Vector mean = llt.solve(info.u);
-    const double score = 0.5 * info.u.dot(mean) - llt.matrixLLT().diagonal().array().log().sum() -
-        double(info.g.rows()) * std::log(s) + log_prior;
-    if (score < best_score) continue;
-    best_score = score;
-    best = {block.signature * mean, info.u.dot(mean)};
-  }
-  return best;
+  const Information info = search.information(index);
+  const LikeliestSize size = likeliest_size(info, search.sizes(index));
+  return {block.signature * size.coefficients, info.u.dot(size.coefficients)};
 }
 
 /// What was logged of temperature.

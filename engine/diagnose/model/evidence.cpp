@@ -1,8 +1,10 @@
 #include "engine/diagnose/model/evidence.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "engine/base/ids.hpp"
 #include "engine/base/on_threads.hpp"
@@ -215,5 +217,19 @@ double log_sum_exp(std::span<const double> v) {
 }
 
 double log_sum_exp(const Vector& v) { return log_sum_exp(std::span(v.data(), static_cast<std::size_t>(v.size()))); }
+
+LikeliestSize likeliest_size(const Information& info, const std::vector<Size>& sizes) {
+  LikeliestSize out;
+  out.coefficients = Vector::Zero(info.u.size());
+  for (const Size& size : sizes) {
+    const double s2 = size.factor * size.factor;
+    const Eigen::LLT<Matrix> posterior(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / s2);
+    Vector coefficients = posterior.solve(info.u);
+    const double log_belief = size.log_prior + 0.5 * info.u.dot(coefficients) -
+        0.5 * double(info.g.rows()) * std::log(s2) - posterior.matrixLLT().diagonal().array().log().sum();
+    if (log_belief > out.log_belief) out = {size.factor, std::move(coefficients), log_belief};
+  }
+  return out;
+}
 
 }  // namespace abbe::diagnose

@@ -9,6 +9,7 @@
 // so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "engine/diagnose/model/ensemble.hpp"
@@ -28,6 +29,15 @@ struct Information {
   Matrix g;
   Vector u;
 };
+
+/// The size at which a block explains the data best, given what is believed of sizes, and its coefficients there.
+struct LikeliestSize {
+  double factor = 1;
+  Vector coefficients;
+  double log_belief = -std::numeric_limits<double>::infinity();  ///< in the size, times the evidence at it
+};
+/// Among these; the first of those that are as likely.
+LikeliestSize likeliest_size(const Information&, const std::vector<Size>&);
 
 /// How many recordings without a mismatch are simulated.
 struct Replicates {

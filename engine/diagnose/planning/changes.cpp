@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/run/motion.hpp"
 
 namespace abbe::diagnose {

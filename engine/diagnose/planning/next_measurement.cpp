@@ -119,18 +119,10 @@ void suppose(const Seen& y, Contender& c) {
       c.shift_first = w * size, c.shift_both = c.both[k] * size;
       continue;
     }
-    const Vector u = inner(w, y);
-    for (const Size& size : sizes_of(g.trace())) {
-      const double s2 = size.factor * size.factor;
-      const Matrix posterior = g + Matrix::Identity(g.rows(), g.cols()) / s2;
-      const Eigen::LLT<Matrix> llt(posterior);
-      const Vector theta = llt.solve(u);
-      const double log_bayes = size.log_prior + 0.5 * u.dot(theta) - 0.5 * double(g.rows()) * std::log(s2) -
-          Matrix(llt.matrixL()).diagonal().array().log().sum();
-      if (log_bayes <= most) continue;
-      most = log_bayes;
-      c.shift_first = w * theta, c.shift_both = c.both[k] * theta;
-    }
+    const LikeliestSize size = likeliest_size({g, inner(w, y)}, sizes_of(g.trace()));
+    if (size.log_belief <= most) continue;
+    most = size.log_belief;
+    c.shift_first = w * size.coefficients, c.shift_both = c.both[k] * size.coefficients;
   }
 }
 
