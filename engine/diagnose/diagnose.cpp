@@ -178,7 +178,13 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   const bool known = machine.known_state.has_value();
   if (plan) {
     out.baseline = summary(c, c.hyper, known);
-    if (as_planned) return out;
+    if (as_planned) {
+      out.judgeable = false, out.targets_only = true;
+      out.verdict = Verdict::cannot_judge;
+      out.otherwise =
+          "Record measured positions: those of a real machine differ from their targets in the last digits.";
+      return out;
+    }
     at("the next measurement");
     out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
     return out;

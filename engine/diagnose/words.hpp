@@ -42,7 +42,7 @@ std::string capitalised(std::string);
 /// What is said of a diagnosis first: the first of these that holds.
 enum class Headline {
   plan,                  ///< no value was looked at
-  nothing_judged,        ///< the unknowns take up all that was touched
+  nothing_judged,        ///< the unknowns take up all that was touched, or there is nothing but targets
   beyond_specification,  ///< nothing was found, but lengths are beyond the machine's specification
   another_machine,       ///< not the machine that its file knows
   verdict,

@@ -56,6 +56,9 @@ std::string first_sentence(const Diagnosis& d) {
       return fmt::format("No value was looked at: this is what a recording of {} could tell.",
                          d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
     case Headline::nothing_judged:
+      if (d.targets_only)
+        return fmt::format("Nothing can be judged: all {} touches are exactly where an error-free machine has them.",
+                           d.touches);
       return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.",
                          d.touches);
     case Headline::beyond_specification:
