@@ -24,8 +24,7 @@ struct Case {
   double rounding_um = 0;    ///< standard uncertainty by that, where it counts beside the probe's
   std::vector<char> masked;  ///< by touch: a gross outlier
   Vector off_um;             ///< by touch: how far a masked one lies from what the others predict
-  std::vector<char> alone;   ///< by touch: not masked, but no other touch says anything of it
-  std::vector<int> rows;     ///< touches that take part: the others
+  std::vector<int> rows;     ///< touches that take part: not masked, and others say something of them
   LinearModel model;         ///< of `rows`
   Hyperparameters hyper;
   bool rough = false;         ///< the machine's errors are rougher than the specification's ensemble

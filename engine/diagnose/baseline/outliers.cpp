@@ -157,17 +157,13 @@ bool part_noisy_tip(Case& c) {
 }  // namespace
 
 void take_part(Case& c, const LinearModel& all) {
-  const std::vector<char> among_unmasked = alone(without_rows(all, c.masked));
-  c.alone.assign(c.masked.size(), 0);
-  if (std::count(among_unmasked.begin(), among_unmasked.end(), 0) > 0) {
-    auto next = among_unmasked.begin();
-    for (std::size_t i = 0; i < c.masked.size(); ++i)
-      if (!c.masked[i]) c.alone[i] = *next++;
-  }
+  const std::vector<char> is_alone = alone(without_rows(all, c.masked));  // of those that are not masked
+  const bool judged = std::count(is_alone.begin(), is_alone.end(), 0) > 0;
   std::vector<char> left_out = c.masked;
   c.rows.clear();
+  auto next = is_alone.begin();
   for (std::size_t i = 0; i < c.masked.size(); ++i) {
-    left_out[i] |= c.alone[i];
+    if (!c.masked[i]) left_out[i] = *next++ && judged;
     if (!left_out[i]) c.rows.push_back(static_cast<int>(i));
   }
   c.model = without_rows(all, left_out);

@@ -72,9 +72,15 @@ Vector NoiseLaw::simulated(Eigen::Index count, std::uint64_t seed, std::uint32_t
 
 double poisson_tail(double count, double expected) {
   constexpr double kNegligible = 1e-17;
-  double sum = 0, term = std::exp(count * std::log(expected) - expected - std::lgamma(count + 1));
-  for (double k = count; k < expected || term > kNegligible * sum; term *= expected / ++k) sum += term;
-  return std::min(1.0, sum);
+  double sum = 0;
+  if (count <= expected) {
+    double term = std::exp(-expected);
+    for (double k = 0; k < count; term *= expected / ++k) sum += term;
+    return 1 - sum;
+  }
+  double term = std::exp(count * std::log(expected) - expected - std::lgamma(count + 1));
+  for (double k = count; term > kNegligible * sum; term *= expected / ++k) sum += term;
+  return sum;
 }
 
 Vector standard_normal(Eigen::Index count, std::uint64_t seed, std::uint32_t stream, int replicate) {
