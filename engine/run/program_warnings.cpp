@@ -99,8 +99,8 @@ std::vector<double> angles_rad(const FeatureKind& kind, const Executor::Measured
   return angles;
 }
 
-/// Errors move a touch along its vector: one that lies in the surface shows none of them, and u comes out too small. Radial
-/// vectors on a cone are meant, up to a countersink of 120 degrees.
+/// Errors move a touch along its vector: where that lies along the surface they are not those of the surface, and u is
+/// wrong. Radial vectors on a cone are meant, up to a countersink of 120 degrees.
 void warn_of_vectors(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
   constexpr double kMeant_rad = 61 * kPi / 180;
   const std::vector<int> operations = touch_operations(observed.stops);
@@ -116,7 +116,7 @@ void warn_of_vectors(const Executor::Observed& observed, const plan::Plan& plan,
               fmt::format("the vector of touch {} of F({}) lies {:.0f} degrees from the normal of its surface{}",
                           touch + 1, def.label, *found * 180 / kPi,
                           count > 1 ? fmt::format(", the first of {} such vectors", count) : ""),
-              "write the normal of the surface in PTMEAS: errors act along the vector of a touch, and u is too small");
+              "write the normal of the surface in PTMEAS: errors act along the vector of a touch, and u is wrong");
     }
     first += measured.targets.size();
   }

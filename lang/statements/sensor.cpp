@@ -57,7 +57,7 @@ void indexed_by_angles(Lowering& lowering, const Match& match, plan::SensorDef& 
 }
 
 /// From the mount to the tip, whichever way the vector was written.
-Vec3 hanging(const Vec3& v) { return v.z > 0 ? Vec3{} - v : v; }
+Vec3 hanging(const Vec3& v) { return v.z > 0 ? -v : v; }
 
 /// CART and VEC on the head: the head turns so that the stylus reaches from the head's centre to
 /// the tip.
