@@ -10,6 +10,7 @@
 #include "engine/base/numbers.hpp"
 #include "engine/base/utf8.hpp"
 #include "engine/math/axis.hpp"
+#include "engine/math/units.hpp"
 #include "lang/expression.hpp"
 
 namespace abbe::lang {
@@ -58,8 +59,10 @@ Value chained(Values& a, Texts&) {
   return v;
 }
 Value angle_of_point(Values& a, Texts&) { return real(combine(Op2::atan2, std::move(a[0].parts[0]), a[1].parts[0])); }
-Value degrees_to_radians(Values& a, Texts&) { return real(times(std::move(a[0].parts[0]), constant_of(kPi / 180))); }
-Value radians_to_degrees(Values& a, Texts&) { return real(times(std::move(a[0].parts[0]), constant_of(180 / kPi))); }
+Value degrees_to_radians(Values& a, Texts&) { return real(times(std::move(a[0].parts[0]), constant_of(kDegree))); }
+Value radians_to_degrees(Values& a, Texts&) {
+  return real(times(std::move(a[0].parts[0]), constant_of(in_degrees(1))));
+}
 template <std::size_t k>
 Value part(Values& a, Texts&) {
   return real(std::move(a[0].parts[k]));

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "engine/math/units.hpp"
 #include "lang/lines.hpp"
 #include "lang/parser.hpp"
 #include "lang/signature.hpp"
@@ -42,7 +43,7 @@ class ResultReader {
       const std::string& w = argument.word;
       if (w == "MM" || w == "CM" || w == "M") units_.mm_per_unit = w == "MM" ? 1 : w == "CM" ? 10 : 1000;
       if (w == "INCH" || w == "FEET") units_.mm_per_unit = w == "INCH" ? 25.4 : 304.8;
-      if (w.starts_with("ANG")) units_.rad_per_unit = w == "ANGRAD" ? 1 : Units::kRadPerDegree;
+      if (w.starts_with("ANG")) units_.rad_per_unit = w == "ANGRAD" ? 1 : kDegree;
     }
   }
 

@@ -37,7 +37,7 @@ std::optional<double> constant(const RawArgument& argument, Quantity quantity, c
   const bool plain = argument.kind == RawArgument::Kind::number;
   if (quantity == Quantity::angle && argument.kind == RawArgument::Kind::expression) {
     const std::optional<double> degrees = sexagesimal(argument.text);
-    return degrees ? std::optional(*degrees * Units::kRadPerDegree) : std::nullopt;
+    return degrees ? std::optional(*degrees * kDegree) : std::nullopt;
   }
   if (!plain) return std::nullopt;
   const double value = argument.number * unit_of(quantity, units);

@@ -4,14 +4,14 @@
 
 #include <optional>
 
+#include "engine/math/units.hpp"
 #include "lang/parser.hpp"
 
 namespace abbe::lang {
 
 struct Units {
   double mm_per_unit = 1;
-  double rad_per_unit = kRadPerDegree;
-  static constexpr double kRadPerDegree = 3.14159265358979323846 / 180;
+  double rad_per_unit = kDegree;
 };
 
 enum class Quantity { number, length, angle };

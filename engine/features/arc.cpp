@@ -8,6 +8,7 @@
 #include "engine/features/nominal.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 

@@ -5,6 +5,7 @@
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/points_fit.hpp"
 #include "engine/features/shape_traits.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 namespace {

@@ -17,7 +17,6 @@ FeatArguments written_location(const Element&);
 Vec3 location(const Arguments&);
 /// The unit vector along (i, j, k); fails when its length is zero or not finite.
 Outcome<Vec3> direction(const Arguments&);
-constexpr double in_degrees(double angle_rad) { return angle_rad * 180 / kPi; }
 /// Half of the diameter under `name`, mm; fails unless it is positive.
 Outcome<double> radius(const Arguments&, const char* name);
 

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 
+#include "engine/math/units.hpp"
+
 namespace abbe {
 
 namespace {
-
-constexpr double kMmPerUm = 1e-3;
 
 constexpr InfluenceQuantity kQuantities[] = {
     {"geometry", true},
@@ -62,7 +62,7 @@ std::vector<InfluenceBound> read_bounds(JsonObject& root) {
   for (JsonObject& object : root.object_list("bounds")) {
     InfluenceBound bound;
     bound.influence = object.text("influence");
-    bound.at_most_mm = kMmPerUm * object.number("at_most_um", kPositive);
+    bound.at_most_mm = kUm * object.number("at_most_um", kPositive);
     bound.source = object.text("source");
     const InfluenceQuantity* quantity = find_quantity(bound.influence);
     const bool twice = std::any_of(bounds.begin(), bounds.end(),

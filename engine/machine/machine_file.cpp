@@ -11,15 +11,12 @@
 #include "engine/base/limits.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/machine.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
 namespace {
 
-constexpr double kMmPerUm = 1e-3;
-constexpr double kPpm = 1e-6;  ///< um/m, and um/m^2 per m
-constexpr double kRadPerDegree = kPi / 180;
-constexpr double kRadPerArcsec = kPi / 180 / 3600;
 constexpr int kMostHarmonics = 64;
 
 constexpr std::string_view kAxisNames[3] = {"x", "y", "z"};
@@ -88,7 +85,7 @@ void read_offsets(JsonObject offsets, Machine& machine) {
 ComponentSpec default_component(Component c) {
   if (is_rotation(c)) return {0.6, 0, 10 * kPpm, {}};
   const bool positioning = static_cast<int>(c) % 6 == static_cast<int>(axis_of(c));
-  return positioning ? ComponentSpec{0.8, 0.1, 7 * kMmPerUm, {}} : ComponentSpec{0.5, 0.4, 7 * kMmPerUm, {}};
+  return positioning ? ComponentSpec{0.8, 0.1, 7 * kUm, {}} : ComponentSpec{0.5, 0.4, 7 * kUm, {}};
 }
 
 void check_shares(JsonObject& object, const ComponentSpec& spec, int harmonics) {
@@ -118,7 +115,7 @@ void read_geometry(JsonObject geometry, Machine& machine) {
     const auto component = static_cast<Component>(k);
     ComponentSpec spec = default_component(component);
     JsonObject object = components.object_or_absent(name(component));
-    const double unit = is_rotation(component) ? kPpm : kMmPerUm;
+    const double unit = is_rotation(component) ? kPpm : kUm;
     spec.linear = object.number_or("s", spec.linear, kShare);
     spec.curvature = object.number_or("c", spec.curvature, kShare);
     spec.e_max = object.number_or("e_max", spec.e_max / unit, kNotNegative) * unit;
@@ -134,9 +131,9 @@ void read_geometry(JsonObject geometry, Machine& machine) {
 
 LengthMpe read_length_mpe(JsonObject mpe) {
   LengthMpe out;
-  out.a_mm = mpe.number("a_um", kNotNegative) * kMmPerUm;
+  out.a_mm = mpe.number("a_um", kNotNegative) * kUm;
   out.k = mpe.number("k_um_per_m", kNotNegative) * kPpm;
-  out.b_mm = mpe.number_or("b_um", kInfinity, kPositive) * kMmPerUm;
+  out.b_mm = mpe.number_or("b_um", kInfinity, kPositive) * kUm;
   if (mpe.has("a_um") && mpe.has("k_um_per_m") && out.a_mm == 0 && out.k == 0)
     mpe.fault("a_um", Code::E0414, "a and k are both 0: no machine has a maximum permissible error of 0",
               "MPE(l) = a + k l, as the data sheet gives it: 5 + 5 um/m is \"a_um\": 5, "
@@ -145,14 +142,14 @@ LengthMpe read_length_mpe(JsonObject mpe) {
     mpe.fault("b_um", Code::E0414,
               fmt::format("b is {:g} um, less than a: MPE(l) = min(a + k l, b) would be b at every "
                           "length",
-                          out.b_mm / kMmPerUm),
+                          out.b_mm / kUm),
               "for an MPE that does not grow with the length, set a to it, k to 0 and leave b out");
   return out;
 }
 
 std::optional<double> read_limit_um(JsonObject& object, std::string_view key) {
   const double limit_um = object.number_or(key, 0, kPositive);  // 0: not given
-  return limit_um > 0 ? std::optional(limit_um * kMmPerUm) : std::nullopt;
+  return limit_um > 0 ? std::optional(limit_um * kUm) : std::nullopt;
 }
 
 /// E150 and R0 came with the edition of 2009.
@@ -196,9 +193,9 @@ void read_head(JsonObject object, HeadSpec& head) {
   head.model = object.text_or("model", "");
   head.l_r_mm = object.number_or("l_r_mm", 0, kDistance_mm);
   JsonObject sd = object.object("angle_sd_arcsec");
-  head.sd_a_rad = sd.number("A", kNotNegative) * kRadPerArcsec;
-  head.sd_b_rad = sd.number("B", kNotNegative) * kRadPerArcsec;
-  head.mounting_rad = object.object_or_absent("mounting").number_or("turn_deg", 0, kTurn_deg) * kRadPerDegree;
+  head.sd_a_rad = sd.number("A", kNotNegative) * kArcsec;
+  head.sd_b_rad = sd.number("B", kNotNegative) * kArcsec;
+  head.mounting_rad = object.object_or_absent("mounting").number_or("turn_deg", 0, kTurn_deg) * kDegree;
 }
 
 struct Material {
@@ -214,8 +211,8 @@ constexpr Material kMaterials[] = {{"tungsten carbide", NamedSensor::kUsualYoung
 NamedSensor read_sensor(JsonObject object) {
   NamedSensor sensor;
   const std::vector<double> head = object.numbers_or("head_deg", {0, 0}, 2, kTurn_deg);
-  sensor.head_a_rad = head[0] * kRadPerDegree;
-  sensor.head_b_rad = head[1] * kRadPerDegree;
+  sensor.head_a_rad = head[0] * kDegree;
+  sensor.head_b_rad = head[1] * kDegree;
   if (!object.has("tip_in_r_mm"))
     object.fault("tip_in_r_mm", Code::E0404, "a sensor needs \"tip_in_r_mm\", the centre of its tip seen from the head",
                  "a straight stylus of 100 mm is \"tip_in_r_mm\": [0, 0, -100]");
@@ -324,7 +321,7 @@ Machine parse_machine(const std::string& file, const std::string& text) {
   read_specification(root.object("specification"), machine.specification);
   read_head(root.object_or_absent("head"), machine.head);
   machine.probe.sd_mm =
-      vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kNotNegative)) * kMmPerUm;
+      vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kNotNegative)) * kUm;
   JsonObject motion = root.object_or_absent("motion");
   machine.motion.speed_mm_s = motion.number_or("speed_mm_s", 200, kPositive);
   machine.motion.probing_speed_mm_s = motion.number_or("probing_speed_mm_s", 5, kPositive);

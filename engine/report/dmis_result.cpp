@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "engine/math/units.hpp"
+
 namespace abbe {
 
 namespace {
@@ -23,8 +25,6 @@ std::string dmis_text(const std::string& text) {
   for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
   return out + "'";
 }
-
-double degrees(double rad) { return rad * 180 / kPi; }
 
 struct ArgumentText {
   std::string operator()(std::string_view word) const { return std::string(word); }
@@ -47,7 +47,7 @@ bool inside(double value, const ToleranceLimits& limits) {
 }
 
 std::string tolerance_arguments(const plan::ToleranceDef& def, const OutputRecord::Evaluated& result) {
-  const double value = unit_of(*def.kind, def.arguments) == Unit::rad ? degrees(result.value) : result.value;
+  const double value = unit_of(*def.kind, def.arguments) == Unit::rad ? in_degrees(result.value) : result.value;
   const std::string status = inside(result.value, result.limits) ? "INTOL" : "OUTOL";
   const std::string word(def.kind->word);
   const std::string axis = def.arguments.text("axis");

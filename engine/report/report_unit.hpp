@@ -3,8 +3,7 @@
 // converts them itself.
 #pragma once
 
-#include <numbers>
-
+#include "engine/math/units.hpp"
 #include "engine/plan/plan.hpp"
 
 namespace abbe {
@@ -16,8 +15,7 @@ struct ReportUnit {
 
 inline ReportUnit report_unit(const plan::Plan& plan, plan::CharacteristicId id) {
   const plan::ToleranceDef& tolerance = plan[plan[id].tolerance];
-  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad ? ReportUnit{"deg", 180 / std::numbers::pi}
-                                                                    : ReportUnit{};
+  return unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad ? ReportUnit{"deg", in_degrees(1)} : ReportUnit{};
 }
 
 }  // namespace abbe

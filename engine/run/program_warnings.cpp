@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/features/nominal_normal.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
@@ -102,7 +103,7 @@ std::vector<double> angles_rad(const FeatureKind& kind, const Executor::Measured
 /// Errors move a touch along its vector: where that lies along the surface they are not those of the surface, and u is
 /// wrong. Radial vectors on a cone are meant, up to a countersink of 120 degrees.
 void warn_of_vectors(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
-  constexpr double kMeant_rad = 61 * kPi / 180;
+  constexpr double kMeant_rad = 61 * kDegree;
   const std::vector<int> operations = touch_operations(observed.stops);
   std::size_t first = 0;  // of the touches of a feature
   for (const Executor::Measured& measured : observed.measured) {
@@ -114,7 +115,7 @@ void warn_of_vectors(const Executor::Observed& observed, const plan::Plan& plan,
       const auto count = std::count_if(found, angles.end(), beside);
       out.add(operations.at(first + touch), Code::W0312,
               fmt::format("the vector of touch {} of F({}) lies {:.0f} degrees from the normal of its surface{}",
-                          touch + 1, def.label, *found * 180 / kPi,
+                          touch + 1, def.label, in_degrees(*found),
                           count > 1 ? fmt::format(", the first of {} such vectors", count) : ""),
               "write the normal of the surface in PTMEAS: errors act along the vector of a touch, and u is wrong");
     }

@@ -109,7 +109,7 @@ bool same_stylus(const NamedSensor& a, const NamedSensor& b) {
 std::string place_of(const NamedSensor& s) {
   const Vec3& t = s.tip_in_r_mm;
   return fmt::format("{:g} {:g} {:g} mm with head angles {:g} {:g} and a ball of {:g} mm", t.x, t.y, t.z,
-                     s.head_a_rad / kDegree, s.head_b_rad / kDegree, 2 * s.radius_mm);
+                     in_degrees(s.head_a_rad), in_degrees(s.head_b_rad), 2 * s.radius_mm);
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ std::pair<std::string, std::string> sensor_line(const Sensor& s, const Machine& 
       std::string(kKey) + s.name,
       fmt::format(
           "head_deg {:.6g} {:.6g} tip_in_r_mm {:.6f} {:.6f} {:.6f} diameter_mm {:.6g} shaft_diameter_mm {:.6g} young_GPa {:.6g} cte_ppm_per_K {:.6g}",
-          s.head_a_rad / kDegree, s.head_b_rad / kDegree, tip.x, tip.y, tip.z, 2 * s.radius_mm, s.shaft_diameter_mm,
+          in_degrees(s.head_a_rad), in_degrees(s.head_b_rad), tip.x, tip.y, tip.z, 2 * s.radius_mm, s.shaft_diameter_mm,
           s.young_MPa / 1e3, 1e6 * s.cte_per_K)};
 }
 

@@ -12,6 +12,7 @@
 
 #include "engine/base/letter_case.hpp"
 #include "engine/machine/geometry.hpp"
+#include "engine/math/units.hpp"
 #include "engine/run/curved_features.hpp"
 #include "engine/run/motion.hpp"
 #include "engine/run/part_frame.hpp"
@@ -168,8 +169,8 @@ class Sensors {
     // The head may stand elsewhere than the machine file says of this stylus system.
     Machine turned = machine_;
     NamedSensor& s = turned.sensors.at(sensor.name);
-    s.head_a_rad = *row.head_a_deg * kPi / 180;
-    s.head_b_rad = *row.head_b_deg * kPi / 180;
+    s.head_a_rad = *row.head_a_deg * kDegree;
+    s.head_b_rad = *row.head_b_deg * kDegree;
     return resolve_sensor(def, turned, nowhere);
   }
 
@@ -197,8 +198,8 @@ class Sensors {
     } else {
       def.label = "assumed";
       def.indexed = row.head_a_deg && row.head_b_deg;
-      def.head_a_rad = row.head_a_deg.value_or(0) * kPi / 180;
-      def.head_b_rad = row.head_b_deg.value_or(0) * kPi / 180;
+      def.head_a_rad = row.head_a_deg.value_or(0) * kDegree;
+      def.head_b_rad = row.head_b_deg.value_or(0) * kDegree;
       def.tip_in_r = {0, 0, -100};
       def.radius_mm = 1;
     }

@@ -2,6 +2,7 @@
 #include <map>
 
 #include "engine/base/letter_case.hpp"
+#include "engine/math/units.hpp"
 #include "engine/run/block_run.hpp"
 #include "engine/run/scene_terms.hpp"
 
@@ -161,8 +162,8 @@ RecordingRow BlockRun::recording_row(const plan::Touch& touch, int slot) const {
   row.normal = true_normal;
   row.sensor = sensor.name;
   if (sensor.indexed) {
-    row.head_a_deg = sensor.head_a_rad * 180 / kPi;
-    row.head_b_deg = sensor.head_b_rad * 180 / kPi;
+    row.head_a_deg = in_degrees(sensor.head_a_rad);
+    row.head_b_deg = in_degrees(sensor.head_b_rad);
     row.visit = static_cast<int>(lane.indexings);
   }
   row.time_s = twin.last_touch.time_s;

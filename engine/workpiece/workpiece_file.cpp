@@ -7,13 +7,13 @@
 
 #include "engine/base/letter_case.hpp"
 #include "engine/base/limits.hpp"
+#include "engine/math/units.hpp"
 #include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
 
 namespace {
 
-constexpr double kMmPerUm = 1e-3, kPpm = 1e-6;
 constexpr int kMostUndulations = 500;
 constexpr NumberRange kTemperature{kColdest_C, kHottest_C, true, true, "between -50 and 150"};
 // Of surfaces, um: none lies further than 100 mm from where the drawing has it.
@@ -122,7 +122,7 @@ FormHarmonic read_harmonic(JsonObject object) {
   h.undulations = object.integer_or("undulations", 2, 1, kMostUndulations);
   if (!object.has("amplitude_um"))
     object.fault("amplitude_um", Code::E0404, "a form error needs \"amplitude_um\"", "half of its peak to valley");
-  h.amplitude_mm = kMmPerUm * read_uncertain(object, "amplitude_um", 0, kDeviation);
+  h.amplitude_mm = kUm * read_uncertain(object, "amplitude_um", 0, kDeviation);
   if (object.kind_of("phase_deg") == JsonNode::Kind::text) {
     object.one_of("phase_deg", object.text("phase_deg"), {"random"});
   } else {
@@ -136,15 +136,15 @@ Surface read_surface(JsonObject object, std::string label, Span label_span) {
   s.label = std::move(label);
   s.label_span = label_span;
   for (const char* key : {"diameter_mm", "diameter_deviation_um", "offset_um"}) object.offer(key);
-  s.offset_mm = kMmPerUm * read_uncertain(object, "offset_um", 0, kDeviation);
+  s.offset_mm = kUm * read_uncertain(object, "offset_um", 0, kDeviation);
   if (object.has("diameter_mm")) s.diameter_mm = read_uncertain(object, "diameter_mm", 0, kPositive);
   if (object.has("diameter_deviation_um"))
-    s.diameter_deviation_mm = kMmPerUm * read_uncertain(object, "diameter_deviation_um", 0, kDeviation);
+    s.diameter_deviation_mm = kUm * read_uncertain(object, "diameter_deviation_um", 0, kDeviation);
   if (s.diameter_mm && s.diameter_deviation_mm) twice(object, "diameter_deviation_um", "\"diameter_mm\"");
   if (object.has("offset_um") && (s.diameter_mm || s.diameter_deviation_mm))
     twice(object, "offset_um", s.diameter_mm ? "\"diameter_mm\"" : "\"diameter_deviation_um\"");
   for (const JsonObject& harmonic : object.object_list("form")) s.form.push_back(read_harmonic(harmonic));
-  s.random_form_mm = kMmPerUm * read_uncertain(object, "random_form_um", 0, kSpread);
+  s.random_form_mm = kUm * read_uncertain(object, "random_form_um", 0, kSpread);
   return s;
 }
 

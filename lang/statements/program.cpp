@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/math/units.hpp"
 #include "lang/statement.hpp"
 
 namespace abbe::lang {
@@ -28,7 +29,7 @@ void set_units(Lowering& lowering, const RawStatement& raw, const Match& match) 
       : length == "M"                         ? 1000
       : length == "INCH"                      ? 25.4
                                               : 304.8;
-  lowering.units.rad_per_unit = match.text("angle") == "ANGRAD" ? 1 : Units::kRadPerDegree;
+  lowering.units.rad_per_unit = match.text("angle") == "ANGRAD" ? 1 : kDegree;
   lowering.unit_doubt.clear();
   const bool changed =
       before.mm_per_unit != lowering.units.mm_per_unit || before.rad_per_unit != lowering.units.rad_per_unit;

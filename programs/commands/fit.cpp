@@ -11,6 +11,7 @@
 #include "engine/features/feature.hpp"
 #include "engine/features/fit.hpp"
 #include "engine/features/points_csv.hpp"
+#include "engine/math/units.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
 
@@ -56,7 +57,7 @@ Json result_of(const FitNames& names, const FitSolution& solution, std::size_t p
   };
   add(names.point, components(e.point));
   add(names.direction, components(e.direction));
-  add(names.half_angle, e.angle * 180 / kPi);
+  add(names.half_angle, in_degrees(e.angle));
   add(names.size, e.size);
   add(names.minor_size, e.minor_size);
   add(names.apex, components(solution.apex));

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/machine/error_state.hpp"
+#include "engine/math/units.hpp"
 #include "programs/commands/machine_report.hpp"
 
 namespace abbe {
@@ -36,9 +37,9 @@ Json messages(const std::vector<Diagnostic>& list) {
 Json specification(const Specification& spec) {
   Json out{{"standard", spec.standard}, {"mpe", length_mpe_json(spec.mpe)}};
   if (spec.e150_mpe) out["e150_mpe"] = length_mpe_json(*spec.e150_mpe);
-  if (spec.r0_mpl_mm) out["r0_mpl_um"] = as_given(*spec.r0_mpl_mm * 1e3);
-  if (spec.form_mpe_mm) out["probing"]["p_form_mpe_um"] = as_given(*spec.form_mpe_mm * 1e3);
-  if (spec.size_mpe_mm) out["probing"]["p_size_mpe_um"] = as_given(*spec.size_mpe_mm * 1e3);
+  if (spec.r0_mpl_mm) out["r0_mpl_um"] = as_given(*spec.r0_mpl_mm * kUmPerMm);
+  if (spec.form_mpe_mm) out["probing"]["p_form_mpe_um"] = as_given(*spec.form_mpe_mm * kUmPerMm);
+  if (spec.size_mpe_mm) out["probing"]["p_size_mpe_um"] = as_given(*spec.size_mpe_mm * kUmPerMm);
   out["v_min"] = spec.v_min;
   out["v_max"] = std::isfinite(spec.v_max) ? Json(spec.v_max) : Json("unlimited");
   out["longest_share"] = spec.longest_share;
@@ -81,7 +82,7 @@ Json axes_json(const Machine& machine) {
 Json sensors_json(const Machine& machine) {
   Json out = Json::object();
   for (const auto& [label, s] : machine.sensors)
-    out[label] = {{"head_deg", {as_given(s.head_a_rad * kDegreesPerRad), as_given(s.head_b_rad * kDegreesPerRad)}},
+    out[label] = {{"head_deg", {as_given(in_degrees(s.head_a_rad)), as_given(in_degrees(s.head_b_rad))}},
                   {"tip_in_r_mm", triple_json(s.tip_in_r_mm)},
                   {"diameter_mm", 2 * s.radius_mm},
                   {"shaft_diameter_mm", s.shaft_diameter_mm},
@@ -105,7 +106,8 @@ Json effects_json(const Machine& machine) {
 Json bounds_json(const Machine& machine) {
   Json out = Json::array();
   for (const InfluenceBound& b : machine.bounds)
-    out.push_back({{"influence", b.influence}, {"at_most_um", as_given(b.at_most_mm * 1e3)}, {"source", b.source}});
+    out.push_back(
+        {{"influence", b.influence}, {"at_most_um", as_given(b.at_most_mm * kUmPerMm)}, {"source", b.source}});
   return out;
 }
 
@@ -113,7 +115,7 @@ std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error
 
 Json test_line_json(const TestLine& line) {
   Json mpe_um = Json::array();
-  for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * 1e3);
+  for (const double mpe_mm : line.mpe_mm) mpe_um.push_back(mpe_mm * kUmPerMm);
   return {{"name", line.name},
           {"test", line.test},
           {"start_reading_mm", triple_json(line.start_mm)},
@@ -134,7 +136,7 @@ Json tested_lines_json(const MachineReport& report) {
   Json out = Json::array();
   for (std::size_t k = 0; k < report.lines.size(); ++k) {
     Json line = test_line_json(report.lines[k]);
-    for (const double error_mm : report.tested.error_mm[k]) line["error_um"].push_back(error_mm * 1e3);
+    for (const double error_mm : report.tested.error_mm[k]) line["error_um"].push_back(error_mm * kUmPerMm);
     out.push_back(line);
   }
   return out;
@@ -150,7 +152,7 @@ Json error_state_json(const MachineReport& report) {
     Json& d_um = out[fmt::format("d_{}_um", kAxisNames[axis])];
     for (int ix = 0; ix < kReadings; ++ix)
       for (int iy = 0; iy < kReadings; ++iy)
-        for (int iz = 0; iz < kReadings; ++iz) d_um[ix][iy].push_back(1e3 * state.at(ix, iy, iz)[axis]);
+        for (int iz = 0; iz < kReadings; ++iz) d_um[ix][iy].push_back(kUmPerMm * state.at(ix, iy, iz)[axis]);
   }
   return out;
 }
@@ -164,8 +166,8 @@ Json suggestion_json(const std::optional<SuggestedFactor>& suggested) {
 }  // namespace
 
 Json length_mpe_json(const LengthMpe& mpe) {
-  Json out{{"a_um", as_given(mpe.a_mm * 1e3)}, {"k_um_per_m", as_given(mpe.k * 1e6)}};
-  if (std::isfinite(mpe.b_mm)) out["b_um"] = as_given(mpe.b_mm * 1e3);
+  Json out{{"a_um", as_given(mpe.a_mm * kUmPerMm)}, {"k_um_per_m", as_given(mpe.k / kPpm)}};
+  if (std::isfinite(mpe.b_mm)) out["b_um"] = as_given(mpe.b_mm * kUmPerMm);
   return out;
 }
 
@@ -191,11 +193,9 @@ std::string machine_report_json(const MachineReport& report) {
        {"head",
         {{"model", m.head.model},
          {"l_r_mm", m.head.l_r_mm},
-         {"angle_sd_arcsec",
-          {{"A", as_given(m.head.sd_a_rad * kDegreesPerRad * 3600)},
-           {"B", as_given(m.head.sd_b_rad * kDegreesPerRad * 3600)}}},
-         {"mounting", {{"turn_deg", as_given(m.head.mounting_rad * kDegreesPerRad)}}}}},
-       {"probe", {{"sd_um", triple_json(1e3 * m.probe.sd_mm)}}},
+         {"angle_sd_arcsec", {{"A", as_given(m.head.sd_a_rad / kArcsec)}, {"B", as_given(m.head.sd_b_rad / kArcsec)}}},
+         {"mounting", {{"turn_deg", as_given(in_degrees(m.head.mounting_rad))}}}}},
+       {"probe", {{"sd_um", triple_json(kUmPerMm * m.probe.sd_mm)}}},
        {"motion",
         {{"speed_mm_s", m.motion.speed_mm_s},
          {"probing_speed_mm_s", m.motion.probing_speed_mm_s},
@@ -217,8 +217,8 @@ std::string screening_json(const ScreeningReport& report) {
   Json probe = Json::array();
   for (const ProbeCheck& check : report.probe)
     probe.push_back({{"name", check.name},
-                     {"limit_um", as_given(check.limit_mm * 1e3)},
-                     {"median_um", check.median_mm * 1e3},
+                     {"limit_um", as_given(check.limit_mm * kUmPerMm)},
+                     {"median_um", check.median_mm * kUmPerMm},
                      {"share_passed", check.share_passed}});
   return dump({{"schema", "abbe.screening/1"},
                {"machine", report.machine.name},

@@ -7,6 +7,7 @@
 
 #include "engine/base/ids.hpp"
 #include "engine/machine/error_state.hpp"
+#include "engine/math/units.hpp"
 #include "programs/commands/machine_report.hpp"
 
 namespace abbe {
@@ -41,7 +42,7 @@ class Canvas {
     std::string out;
     for (int row = 0; row < kRows; ++row) {
       const bool labelled = row % (kRows / 2) == 0;
-      const double error_um = 1e3 * range_mm_ * (kRows / 2 - row) / (kRows / 2);
+      const double error_um = kUmPerMm * range_mm_ * (kRows / 2 - row) / (kRows / 2);
       out += labelled ? fmt::format("  {:>7.2f} ┤", error_um) : fmt::format("  {:>7} │", "");
       for (const std::string& c : rows_[row]) out += c;
       out += "\n";
@@ -87,7 +88,7 @@ std::string length_rows(const MachineReport& report, std::size_t first, std::siz
     double worst = 0;
     for (int m = 0; m < kLengthsPerLine; ++m) {
       const double error_mm = report.tested.error_mm[k][m];
-      out += fmt::format("{:>8.2f}", shown(error_mm * 1e3));
+      out += fmt::format("{:>8.2f}", shown(error_mm * kUmPerMm));
       worst = std::max(worst, std::fabs(error_mm) / line.mpe_mm[m]);
     }
     out += fmt::format("{:>14.1f}{:>10.2f}\n", line.length_mm.back(), worst);
@@ -113,7 +114,7 @@ std::string error_state_text(const MachineReport& report) {
     for (int iy = 0; iy < kReadings; ++iy) {
       out += fmt::format("  {:>8g} {:>8g}", state.reading_mm[0][ix] + 0.0, state.reading_mm[1][iy] + 0.0);
       for (int iz = 0; iz < kReadings; ++iz) {
-        const Vec3 d_um = 1e3 * state.at(ix, iy, iz);
+        const Vec3 d_um = kUmPerMm * state.at(ix, iy, iz);
         out += fmt::format(" |{:>7.2f} {:>7.2f} {:>6.2f}", shown(d_um.x), shown(d_um.y), shown(d_um.z));
       }
       out += "\n";

@@ -13,7 +13,6 @@
 namespace abbe {
 
 inline constexpr std::string_view kAxisNames[] = {"x", "y", "z"};
-inline constexpr double kDegreesPerRad = 180 / kPi;
 
 /// A machine and the first virtual machine of a seed that satisfies its specification.
 struct MachineReport {

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/units.hpp"
 #include "programs/commands/machine_report.hpp"
 
 namespace abbe {
 
 namespace {
-
-constexpr double kArcsecPerRad = 180 * 3600 / kPi;
 
 std::string triple_text(const Vec3& v) { return fmt::format("{:9.6g} {:9.6g} {:9.6g}", v.x, v.y, v.z); }
 
@@ -45,7 +44,7 @@ std::string components_text(const Machine& machine) {
     const double e_max = spec.e_max * (rotation ? 1e6 : 1e3);
     out += fmt::format("  {}  s {:<5g} c {:<5g} {:>6g} {:<7}{:>7.3g} {}\n", name(component), spec.linear,
                        spec.curvature, e_max, rotation ? "um/m2" : "um/m",
-                       e_max * machine[axis_of(component)].travel_mm * 1e-3, rotation ? "um/m" : "um");
+                       e_max * machine[axis_of(component)].travel_mm * kUm, rotation ? "um/m" : "um");
   }
   return out +
       fmt::format("  known squareness: cwy {:g}, bwz {:g}, awz {:g} um/m\n", machine.squareness_cwy_rad * 1e6,
@@ -62,7 +61,7 @@ std::string accepted_range(const Specification& spec) {
 std::string limits_text(const Specification& spec) {
   std::string out;
   const auto limit = [&](std::string_view name, const std::optional<double>& mm) {
-    if (mm) out += fmt::format("{:<15}{} at most {:g} um\n", "", name, *mm * 1e3);
+    if (mm) out += fmt::format("{:<15}{} at most {:g} um\n", "", name, *mm * kUmPerMm);
   };
   if (spec.e150_mpe) out += fmt::format("{:<15}E150: MPE(l) = {}\n", "", length_mpe_text(*spec.e150_mpe));
   limit("R0", spec.r0_mpl_mm);
@@ -74,15 +73,15 @@ std::string limits_text(const Specification& spec) {
 std::string equipment_text(const Machine& machine) {
   const Specification& spec = machine.specification;
   const HeadSpec& head = machine.head;
-  const Vec3 sd_um = 1e3 * machine.probe.sd_mm;
+  const Vec3 sd_um = kUmPerMm * machine.probe.sd_mm;
   std::string out = fmt::format(
       "\nSpecification  {}: MPE(l) = {}; accepted {}; lines over {:g} of the "
       "travel\n",
       spec.standard, length_mpe_text(spec.mpe), accepted_range(spec), spec.longest_share);
   out += limits_text(spec);
   out += fmt::format("Head           {}: l_r {:g} mm; repeatability A {:.3g}, B {:.3g} arcsec; turned {:g} deg\n",
-                     head.model.empty() ? "none" : head.model, head.l_r_mm, head.sd_a_rad * kArcsecPerRad,
-                     head.sd_b_rad * kArcsecPerRad, head.mounting_rad * kDegreesPerRad);
+                     head.model.empty() ? "none" : head.model, head.l_r_mm, head.sd_a_rad / kArcsec,
+                     head.sd_b_rad / kArcsec, in_degrees(head.mounting_rad));
   out += fmt::format(
       "Probe          standard deviations {:g}, {:g}, {:g} um along the axes of the head's last "
       "link\n",
@@ -92,8 +91,8 @@ std::string equipment_text(const Machine& machine) {
   out += "Sensors\n";
   for (const auto& [label, s] : machine.sensors)
     out += fmt::format("  {:<12} A {:>5.6g}, B {:>5.6g} deg  tip {} mm  diameter {:g} mm, shaft {:g} mm {}\n", label,
-                       s.head_a_rad * kDegreesPerRad, s.head_b_rad * kDegreesPerRad, triple_text(s.tip_in_r_mm),
-                       2 * s.radius_mm, s.shaft_diameter_mm, s.material);
+                       in_degrees(s.head_a_rad), in_degrees(s.head_b_rad), triple_text(s.tip_in_r_mm), 2 * s.radius_mm,
+                       s.shaft_diameter_mm, s.material);
   out += "Effects\n";
   for (const EffectSetting& effect : machine.effects) {
     out += "  " + effect.name;
@@ -106,7 +105,7 @@ std::string equipment_text(const Machine& machine) {
   if (machine.effects.empty()) out += "  none beyond geometry, head and probe\n";
   if (!machine.bounds.empty()) out += "Bounds on influences that are not propagated\n";
   for (const InfluenceBound& b : machine.bounds)
-    out += fmt::format("  {}  at most {:g} um at a touch ({})\n", b.influence, b.at_most_mm * 1e3, b.source);
+    out += fmt::format("  {}  at most {:g} um at a touch ({})\n", b.influence, b.at_most_mm * kUmPerMm, b.source);
   return out;
 }
 
@@ -161,7 +160,7 @@ std::string lines_text(const std::vector<LineReport>& lines) {
   for (const LineReport& report : lines) {
     const TestLine& line = report.line;
     out += fmt::format("  {:<5} {:<5} {:>10.1f} {:>8.2f} {:>8.2f} {:>6.2f} {:>8.2f}  {}\n", line.test, line.name,
-                       line.length_mm.back(), line.mpe_mm.back() * 1e3, report.median, report.p95, report.largest,
+                       line.length_mm.back(), line.mpe_mm.back() * kUmPerMm, report.median, report.p95, report.largest,
                        bar(report.median));
   }
   return out;
@@ -189,16 +188,16 @@ std::string probe_text(const std::vector<ProbeCheck>& checks) {
       "\nThe probe by its standard deviations alone (R0: largest of 35 ranges)\n"
       "  quantity          limit um  median um  tests passed\n";
   for (const ProbeCheck& check : checks)
-    out += fmt::format("  {:<16} {:>9.2f} {:>10.2f} {:>11.1f} %\n", check.name, check.limit_mm * 1e3,
-                       check.median_mm * 1e3, 100 * check.share_passed);
+    out += fmt::format("  {:<16} {:>9.2f} {:>10.2f} {:>11.1f} %\n", check.name, check.limit_mm * kUmPerMm,
+                       check.median_mm * kUmPerMm, 100 * check.share_passed);
   return out;
 }
 
 }  // namespace
 
 std::string length_mpe_text(const LengthMpe& mpe) {
-  const std::string rising = fmt::format("{:g} um + {:g} um/m", mpe.a_mm * 1e3, mpe.k * 1e6);
-  return std::isfinite(mpe.b_mm) ? fmt::format("{}, at most {:g} um", rising, mpe.b_mm * 1e3) : rising;
+  const std::string rising = fmt::format("{:g} um + {:g} um/m", mpe.a_mm * kUmPerMm, mpe.k / kPpm);
+  return std::isfinite(mpe.b_mm) ? fmt::format("{}, at most {:g} um", rising, mpe.b_mm * kUmPerMm) : rising;
 }
 
 std::string machine_report_text(const MachineReport& report) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "engine/math/units.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/placement.hpp"
 #include "lang/result_reader.hpp"
@@ -34,7 +35,7 @@ ValueRecording from_result(const SourceFile& file) {
   for (const lang::ResultValue& v : result.values) {
     ValueRow row;
     row.characteristic = v.label;
-    row.value = is_angle(v) ? v.value * 180 / std::numbers::pi : v.value;
+    row.value = is_angle(v) ? in_degrees(v.value) : v.value;
     row.ordinal = ++met[v.label];
     row.span = {file.line_begin(v.line), file.line_begin(v.line) + 1};
     out.rows.push_back(std::move(row));

@@ -148,7 +148,7 @@ bool part_noisy_tip(Case& c) {
     for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
     const StylusScene& s = c.touches.touches[rows.front()].scene.stylus;
     c.baseline.noise_names.push_back(
-        fmt::format("{} at A {:.1f} B {:.1f}", s.name, s.head_a_rad / kDegree, s.head_b_rad / kDegree));
+        fmt::format("{} at A {:.1f} B {:.1f}", s.name, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad)));
     return true;
   }
   return false;

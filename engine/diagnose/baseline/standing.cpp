@@ -129,7 +129,7 @@ Back placement_of(const Rows& rows) {
 
 double angle_deg(const Mat3& R) {
   const Vec3 twice_sine{R.cy.z - R.cz.y, R.cz.x - R.cx.z, R.cx.y - R.cy.x};
-  return std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1) * 180 / kPi;
+  return in_degrees(std::atan2(norm(twice_sine), R.cx.x + R.cy.y + R.cz.z - 1));
 }
 
 /// Whether a tip explains it with the part where it should be, and the placement only with the part turned

@@ -182,7 +182,7 @@ void check_axes_of_normals(const Recording& r, const std::string& file) {
 
 /// Angles of the head in radians: none above a full turn, and each a usual one once it is taken for degrees.
 void check_head(const Recording& r, const std::string& file) {
-  constexpr double kStep_deg = 2.5, kReads_deg = 0.1, kDegrees = 180 / kPi;
+  constexpr double kStep_deg = 2.5, kReads_deg = 0.1;
   const auto usual = [](double deg) { return std::abs(deg - kStep_deg * std::round(deg / kStep_deg)) < kReads_deg; };
   bool small = true, as_degrees = true, as_radians = true;
   for (const RecordingRow& row : r.rows) {
@@ -190,7 +190,7 @@ void check_head(const Recording& r, const std::string& file) {
       if (!angle) continue;
       small = small && std::abs(*angle) < 2 * kPi;
       as_degrees = as_degrees && usual(*angle);
-      as_radians = as_radians && usual(kDegrees * *angle);
+      as_radians = as_radians && usual(in_degrees(*angle));
     }
   }
   if (small && as_radians && !as_degrees)

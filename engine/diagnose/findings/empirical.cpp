@@ -76,7 +76,7 @@ Pieces offsets(const Case& c, bool by_sensor) {
   for (const int i : c.rows) {
     const StylusScene& s = c.touches.touches[static_cast<std::size_t>(i)].scene.stylus;
     groups.insert(by_sensor ? std::vector<double>{0, double(s.ordinal), 0, 0}
-                            : std::vector<double>{1, 0, s.head_a_rad / kDegree, s.head_b_rad / kDegree});
+                            : std::vector<double>{1, 0, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad)});
   }
   Pieces list;
   for (const std::vector<double>& g : groups) {

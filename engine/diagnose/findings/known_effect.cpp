@@ -91,9 +91,9 @@ KnownEffect added(std::size_t index, const Effect& effect, std::size_t direction
     if (p.linear) set(p, {size, u, {}});
   set(effect.parameters[direction], {0, 0, std::string(kDirectionChoices[3])});
   set(effect.parameters[direction + 1],
-      {std::atan2(sum.y, sum.x) / kDegree, std::min(180.0, u / std::max(flat, u) / kDegree), {}});
+      {in_degrees(std::atan2(sum.y, sum.x)), std::min(180.0, in_degrees(u / std::max(flat, u))), {}});
   set(effect.parameters[direction + 2],
-      {std::atan2(sum.z, flat) / kDegree, std::min(90.0, u / std::max(size, u) / kDegree), {}});
+      {in_degrees(std::atan2(sum.z, flat)), std::min(90.0, in_degrees(u / std::max(size, u))), {}});
   return out;
 }
 

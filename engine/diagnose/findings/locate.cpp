@@ -122,8 +122,8 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
     }
     case Factor::head:
       return {{"head", label([](const TouchScene& s) {
-                 return fmt::format("A {:.1f} B {:.1f}", s.stylus.head_a_rad * 180 / kPi,
-                                    s.stylus.head_b_rad * 180 / kPi);
+                 return fmt::format("A {:.1f} B {:.1f}", in_degrees(s.stylus.head_a_rad),
+                                    in_degrees(s.stylus.head_b_rad));
                })}};
     case Factor::sensor: return {{"sensor", label([](const TouchScene& s) { return std::string(s.stylus.name); })}};
     case Factor::setup: return {{"setup", label([](const TouchScene& s) { return std::to_string(s.setup); })}};

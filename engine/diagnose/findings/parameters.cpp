@@ -266,7 +266,7 @@ class Estimator {
     for (const RecordedTouch& touch : touches_.touches) {
       const StylusScene& s = touch.scene.stylus;
       if (tip && s.tip_ordinal == number)
-        return fmt::format("{} at A {:.1f} B {:.1f}", s.name, s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi);
+        return fmt::format("{} at A {:.1f} B {:.1f}", s.name, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad));
       if (!tip && s.ordinal == number) return touches_.styli[static_cast<std::size_t>(number - 1)];
     }
     return "";
@@ -296,9 +296,10 @@ class Estimator {
     out.push_back({.name = "direction", .unit = "", .word = std::string(parameters[p].choices[axis])});
     if (!d->whole) out.back().called = "as far as these touches see";
     if (axis < 3) return;
-    const double flat = std::hypot(d->x, d->y), degree = kPi / 180;
-    out.push_back(told(parameters[p + 1], {std::atan2(d->y, d->x) / degree, d->u / std::max(flat, d->u) / degree}));
-    out.push_back(told(parameters[p + 2], {std::atan2(d->z, flat) / degree, d->u / degree}));
+    const double flat = std::hypot(d->x, d->y);
+    out.push_back(
+        told(parameters[p + 1], {in_degrees(std::atan2(d->y, d->x)), in_degrees(d->u / std::max(flat, d->u))}));
+    out.push_back(told(parameters[p + 2], {in_degrees(std::atan2(d->z, flat)), in_degrees(d->u)}));
     out.back().low = std::max(out.back().low, -90.0), out.back().high = std::min(out.back().high, 90.0);
   }
 

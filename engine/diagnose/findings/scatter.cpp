@@ -66,7 +66,7 @@ std::vector<Split> orientations(const Case& c, const std::vector<Split>& others)
     Vector in(static_cast<Eigen::Index>(c.rows.size()));
     for (Eigen::Index k = 0; k < in.size(); ++k)
       in(k) = same_orientation(scene_of_row(c, k).stylus, head.head_a_rad, head.head_b_rad);
-    const double a = head.head_a_rad / kDegree, b = head.head_b_rad / kDegree;
+    const double a = in_degrees(head.head_a_rad), b = in_degrees(head.head_b_rad);
     const std::string orientation = fmt::format("A {:.1f} B {:.1f}", a, b);
     out.push_back({"one orientation",
                    "touches with the head at " + orientation,

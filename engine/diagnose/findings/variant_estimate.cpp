@@ -187,8 +187,8 @@ std::optional<SpannedDirection> VariantEstimate::direction() const {
 std::optional<Estimate> VariantEstimate::phase_deg(int parameter) const {
   const std::optional<Motion> m = phases_ > 1 ? motion(parameter) : std::nullopt;
   if (!m || m->size == 0) return std::nullopt;
-  return Estimate{std::atan2(m->phase(1), m->phase(0)) / kDegree,
-                  std::sqrt(across_phases(m->covariance, m->along, m->phase)) / m->size / kDegree};
+  return Estimate{in_degrees(std::atan2(m->phase(1), m->phase(0))),
+                  in_degrees(std::sqrt(across_phases(m->covariance, m->along, m->phase)) / m->size)};
 }
 
 }  // namespace abbe::diagnose

@@ -98,9 +98,9 @@ void add_styli(const Case& c, std::vector<Change>& list) {
                   .minutes = 3,
                   .apply = [](RecordingRow& row, Machine& machine) {
                     mount(row, machine, "_B60", [&](NamedSensor& s) {
-                      if (row.head_b_deg) s.head_b_rad = *row.head_b_deg * kPi / 180;
+                      if (row.head_b_deg) s.head_b_rad = *row.head_b_deg * kDegree;
                       s.head_b_rad = std::remainder(s.head_b_rad + kPi / 3, 2 * kPi);
-                      if (row.head_b_deg) row.head_b_deg = s.head_b_rad * 180 / kPi;
+                      if (row.head_b_deg) row.head_b_deg = in_degrees(s.head_b_rad);
                     });
                   }});
 }

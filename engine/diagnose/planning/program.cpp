@@ -133,12 +133,12 @@ class Writer {
                turned = row(k).head_a_deg.value_or(0) != 0 || row(k).head_b_deg.value_or(0) != 0;
     if (s.indexed && is_straight(tip) && (angles || !has_star()))
       return fmt::format("S({})=SNSDEF/PROBE,INDEX,POL,{:.4f},{:.4f},0,0,-1,{:.4f},{:.4f}\n", label,
-                         s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi, norm(tip), ball);
+                         in_degrees(s.head_a_rad), in_degrees(s.head_b_rad), norm(tip), ball);
     if (s.indexed && turned)
       say(
           fmt::format("{}: the head stands at A {:.4f}, B {:.4f} deg; DMIS defines no star on a turned head, so it is "
                       "written as it stands.",
-                      label, s.head_a_rad * 180 / kPi, s.head_b_rad * 180 / kPi));
+                      label, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad)));
     const Vec3 offset = angles || !s.indexed ? s.tip_from_mount_mm : tip, along = -s.to_head;
     return fmt::format("S({})=SNSDEF/PROBE,FIXED,CART,{:.4f},{:.4f},{:.4f},{:.6f},{:.6f},{:.6f},{:.4f}\n", label,
                        offset.x, offset.y, offset.z, along.x, along.y, along.z, ball);

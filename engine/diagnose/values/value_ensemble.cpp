@@ -194,7 +194,7 @@ std::vector<Eigen::Index> of_figures(const std::vector<RecordedValue>& values) {
   return out;
 }
 
-double RecordedValue::reported() const { return angle ? 180 / std::numbers::pi / kUradPerRad : 1 / kUmPerMm; }
+double RecordedValue::reported() const { return angle ? in_degrees(1) / kUradPerRad : 1 / kUmPerMm; }
 
 Matrix complete_rows(const Matrix& m) {
   std::vector<Eigen::Index> kept;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/effects/terms.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
@@ -20,7 +21,6 @@ extern const Effect kRamGrowth;
 extern const Effect kStylusGrowth;
 extern const Effect kPartSoak;
 
-inline constexpr double kPpm = 1e-6;
 inline constexpr double kReference_C = 20;  ///< ISO 1
 
 /// Time constant of a body that exchanges heat with the air, s: density times heat capacity times

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "engine/machine/acceptance/acceptance.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
@@ -42,16 +43,16 @@ std::vector<Diagnostic> probe_warnings(const Machine& machine, std::span<const P
   std::vector<Diagnostic> warnings;
   for (const ProbeCheck& check : checks)
     if (check.share_passed < 0.5)
-      warnings.push_back(diagnostic(
-          Code::W0418,
-          fmt::format("the probe of \"{}\" would pass only {:.3g} % of the tests of {}: "
-                      "the median is {:.3g} um, the limit "
-                      "{:.3g} um",
-                      machine.name, 100 * check.share_passed, check.name, 1e3 * check.median_mm, 1e3 * check.limit_mm),
-          fmt::format("check \"probe.sd_um\" and the limit against the data sheet: with "
-                      "the standard deviations multiplied "
-                      "by {:.2f}, half of the tests would pass",
-                      check.limit_mm / check.median_mm)));
+      warnings.push_back(diagnostic(Code::W0418,
+                                    fmt::format("the probe of \"{}\" would pass only {:.3g} % of the tests of {}: "
+                                                "the median is {:.3g} um, the limit "
+                                                "{:.3g} um",
+                                                machine.name, 100 * check.share_passed, check.name,
+                                                kUmPerMm * check.median_mm, kUmPerMm * check.limit_mm),
+                                    fmt::format("check \"probe.sd_um\" and the limit against the data sheet: with "
+                                                "the standard deviations multiplied "
+                                                "by {:.2f}, half of the tests would pass",
+                                                check.limit_mm / check.median_mm)));
   return warnings;
 }
 

@@ -1,6 +1,7 @@
 #include <functional>
 #include <set>
 
+#include "engine/math/units.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 #include "engine/report/json_value.hpp"
 
@@ -175,8 +176,8 @@ std::string diagnosis_json(const Diagnosis& d) {
       {"times_known_uncertainty", d.beyond_known ? Json(number(*d.beyond_known)) : Json()},
       {"length_beyond_mpe",
        d.beyond ? Json{{"length_mm", number(d.beyond->length_mm)},
-                       {"error_um", number(1e3 * d.beyond->error_mm)},
-                       {"mpe_um", number(1e3 * d.beyond->mpe_mm)}}
+                       {"error_um", number(kUmPerMm * d.beyond->error_mm)},
+                       {"mpe_um", number(kUmPerMm * d.beyond->mpe_mm)}}
                 : Json()},
       {"rivals", d.rivals ? rivals(*d.rivals) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) {

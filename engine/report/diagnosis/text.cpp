@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/diagnose/words.hpp"
+#include "engine/math/units.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 
 namespace abbe {
@@ -64,7 +65,7 @@ std::string first_sentence(const Diagnosis& d) {
     case Headline::beyond_specification:
       return fmt::format(
           "Lengths between the touches are wrong by {:.3g} um, where the specification allows {:.3g} um: such a machine fails its acceptance test, or the part is not as calibrated.",
-          1e3 * std::abs(d.beyond->error_mm), 1e3 * d.beyond->mpe_mm);
+          kUmPerMm * std::abs(d.beyond->error_mm), kUmPerMm * d.beyond->mpe_mm);
     case Headline::another_machine:
       return fmt::format(
           "This is not the machine that its file knows, or it has changed as a whole: {}it differs by {:.1f} times what was uncertain of it.",

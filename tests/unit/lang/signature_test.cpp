@@ -49,7 +49,7 @@ TEST_CASE("lengths and angles take the units in force, numbers do not") {
   CHECK(m.number("x") == 50.8);
   CHECK(m.number("a") == 0.5);
   CHECK(m.number("n") == 3);
-  CHECK(matched("a:angle", "-90:30:00").number("a") == doctest::Approx(-90.5 * Units::kRadPerDegree).epsilon(1e-15));
+  CHECK(matched("a:angle", "-90:30:00").number("a") == doctest::Approx(-90.5 * kDegree).epsilon(1e-15));
 }
 
 TEST_CASE("optional items are all or nothing, repeats append, the first alternative wins") {

@@ -1,4 +1,5 @@
 #include "engine/report/run_report.hpp"
+#include "engine/math/units.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,8 +15,6 @@ using namespace abbe;
 using namespace abbe::test;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 /// 1000 values around 500 in steps of `step`.
 std::vector<double> ramp(double middle, double step) {
