@@ -166,7 +166,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   at("what each explanation would do to these touches");
   c.explanations = explanations_without_readings(c.touches, c.rows);
   EvidenceSearch first(c.model, c.hyper, c.explanations);
-  const std::size_t without_readings = c.explanations.blocks.size();
+  const std::size_t without_readings = c.explanations.variants.size();
   if (!plan) free_readings_of_noise(c, first);
   add_explanations_of_readings(c.touches, c.rows, c.step_um, c.explanations);
   first.extend(c.explanations, without_readings);

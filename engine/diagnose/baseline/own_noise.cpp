@@ -55,9 +55,9 @@ void free_readings_of_noise(Case& c, const EvidenceSearch& first) {
   Hyperparameters hyper = c.hyper;
   Evidence evidence = first.evidence();
   for (int round = 1; evidence.statistic >= kPlain; ++round) {
-    const auto& bayes = evidence.block_log_bayes;
+    const auto& bayes = evidence.variant_log_bayes;
     const auto best = static_cast<std::size_t>(std::max_element(bayes.begin(), bayes.end()) - bayes.begin());
-    model = with_free(model, {&c.explanations.blocks[best].signature});
+    model = with_free(model, {&c.explanations.variants[best].signature});
     hyper = estimate(model);
     if (round == kMost) break;
     evidence = EvidenceSearch(model, hyper, c.explanations).evidence();

@@ -71,16 +71,16 @@ class Evaluation {
 };
 
 /// Every combination of the values tried, with what each stands for.
-std::vector<Block> settings(const Effect& effect, const std::vector<Search>& search) {
-  std::vector<Block> list(1);
+std::vector<Variant> settings(const Effect& effect, const std::vector<Search>& search) {
+  std::vector<Variant> list(1);
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const bool linear = effect.parameters[p].linear, varied = !linear && search[p].kind == Search::Kind::tried;
     const std::vector<double> values = linear ? std::vector{0.0}
         : varied                              ? search[p].values
                                               : std::vector{search[p].values[0]};
     const std::vector<Cell> cells = varied ? cells_of(search[p]) : std::vector<Cell>{{values[0], values[0]}};
-    std::vector<Block> longer;
-    for (const Block& prefix : list) {
+    std::vector<Variant> longer;
+    for (const Variant& prefix : list) {
       for (std::size_t k = 0; k < values.size(); ++k) {
         longer.push_back(prefix);
         longer.back().theta.push_back(values[k]);
@@ -93,13 +93,13 @@ std::vector<Block> settings(const Effect& effect, const std::vector<Search>& sea
 }
 
 /// The same with all parameters, and with those of each group alone.
-std::vector<Block> by_groups(const std::vector<Block>& all, const Effect& effect) {
+std::vector<Variant> by_groups(const std::vector<Variant>& all, const Effect& effect) {
   std::set<std::string_view> groups{""};
   for (const EffectParameter& p : effect.parameters) groups.insert(p.group);
-  std::vector<Block> list;
+  std::vector<Variant> list;
   for (const std::string_view group : groups) {
-    for (const Block& block : all) {
-      list.push_back(block);
+    for (const Variant& variant : all) {
+      list.push_back(variant);
       list.back().group = group;
     }
   }
@@ -113,18 +113,18 @@ constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
 /// a crash, a mend or a change of the weather; what is gone, a dirty tip that was cleaned; and what came and went. What
 /// happens at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by
 /// itself.
-std::vector<Block> with_changes(std::vector<Block> list, const Effect& effect, const std::vector<LaterRun>& later) {
+std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effect, const std::vector<LaterRun>& later) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
-  const std::vector<Block> in_all = list;
+  const std::vector<Variant> in_all = list;
   const auto add = [&](const LaterRun& at, RunChange change) {
-    for (Block block : in_all) {
-      if (moment && block.theta[*moment] != in_all.front().theta[*moment]) continue;
-      if (moment) block.theta[*moment] = at.between_s(), block.cells[*moment] = at.gap_s;
-      block.change = change;
-      block.runs = at.runs;
-      list.push_back(std::move(block));
+    for (Variant variant : in_all) {
+      if (moment && variant.theta[*moment] != in_all.front().theta[*moment]) continue;
+      if (moment) variant.theta[*moment] = at.between_s(), variant.cells[*moment] = at.gap_s;
+      variant.change = change;
+      variant.runs = at.runs;
+      list.push_back(std::move(variant));
     }
   };
   for (const LaterRun& at : in_stretches(later, kMostChanges)) add(at, {.from = at.from_run});
@@ -146,50 +146,50 @@ class VariantColumns {
     }
   }
 
-  void fill(Block& block) const {
+  void fill(Variant& variant) const {
     for (std::size_t p = 0; p < effect_.parameters.size(); ++p)
-      if (effect_.parameters[p].linear && (block.group.empty() || block.group == effect_.parameters[p].group))
-        add_parameter(static_cast<int>(p), block);
+      if (effect_.parameters[p].linear && (variant.group.empty() || variant.group == effect_.parameters[p].group))
+        add_parameter(static_cast<int>(p), variant);
     if (effect_.draws > 0) {
-      block.signature = compressed(block.signature);
-      block.joined = true;
+      variant.signature = compressed(variant.signature);
+      variant.joined = true;
     }
   }
 
  private:
-  void add_parameter(int p, Block& block) const {
+  void add_parameter(int p, Variant& variant) const {
     const double unit = effect_.parameters[p].typical;
     for (int d = 0; d < (direction_ >= 0 ? 3 : 1); ++d) {
       for (int phase = 0; phase < (phases_.empty() ? 1 : 2); ++phase) {
-        std::vector<double> theta = block.theta;
+        std::vector<double> theta = variant.theta;
         theta[p] = unit;
         if (direction_ >= 0) theta[direction_] = d;
         for (const int at : phases_) theta[at] = 90.0 * phase;
         const Column column{p, d + 3 * phase, unit};
         if (effect_.draws == 0)
-          append(block, column, evaluate_.column(theta, block.change, {}));
+          append(variant, column, evaluate_.column(theta, variant.change, {}));
         else
-          add_draws(theta, column, block);
+          add_draws(theta, column, variant);
       }
     }
   }
 
-  void add_draws(const std::vector<double>& theta, const Column& column, Block& block) const {
+  void add_draws(const std::vector<double>& theta, const Column& column, Variant& variant) const {
     const std::set<int> visits = effect_.draws_per == DrawsPer::visit ? evaluate_.visits() : std::set<int>{-1};
     for (int j = 0; j < effect_.draws; ++j) {
       std::vector<double> z(effect_.draws, 0.0);
       z[j] = 1;
       for (const int visit : visits)
-        append(block, {-1, column.part, column.unit}, evaluate_.column(theta, block.change, z, visit));
+        append(variant, {-1, column.part, column.unit}, evaluate_.column(theta, variant.change, z, visit));
     }
   }
 
-  static void append(Block& block, const Column& column, const Vector& values) {
+  static void append(Variant& variant, const Column& column, const Vector& values) {
     constexpr double kNothing_um = 1e-6;
     if (values.cwiseAbs().maxCoeff() < kNothing_um) return;
-    block.columns.push_back(column);
-    block.signature.conservativeResize(values.size(), block.signature.cols() + 1);
-    block.signature.col(block.signature.cols() - 1) = values;
+    variant.columns.push_back(column);
+    variant.signature.conservativeResize(values.size(), variant.signature.cols() + 1);
+    variant.signature.col(variant.signature.cols() - 1) = values;
   }
 
   const Effect& effect_;
@@ -211,13 +211,13 @@ class Variants {
   Variants(const Variants&) = delete;
   Variants& operator=(const Variants&) = delete;
 
-  void fill(Block& block) const {
-    Block as_planned = block;
-    columns_.fill(block);
+  void fill(Variant& variant) const {
+    Variant as_planned = variant;
+    columns_.fill(variant);
     if (!planned_) return;
     planned_->columns.fill(as_planned);
     if (as_planned.signature.cols() > 0 && planned_->direction.is_alike(as_planned.signature))
-      block = std::move(as_planned);
+      variant = std::move(as_planned);
   }
 
  private:
@@ -242,23 +242,23 @@ class Variants {
 
 /// The earlier variant of the same explanation that has the same columns: the two differ in what has no influence
 /// here. -1: none.
-int repeated(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
-  for (const int k : of.blocks) {
-    const Matrix& other = blocks[k].signature;
-    if (other.cols() == block.signature.cols() && (other - block.signature).cwiseAbs().maxCoeff() < 1e-9) return k;
+int repeated(const Variant& variant, const Explanation& of, const std::vector<Variant>& variants) {
+  for (const int k : of.variants) {
+    const Matrix& other = variants[k].signature;
+    if (other.cols() == variant.signature.cols() && (other - variant.signature).cwiseAbs().maxCoeff() < 1e-9) return k;
   }
   return -1;
 }
 
 /// A variant stands for what another one with the same columns stands for too, where nothing lies between: no touch
 /// tells the values apart.
-void cover(Block& block, const Block& same) {
-  if (block.change != same.change) return;
-  for (std::size_t p = 0; p < block.cells.size(); ++p)
-    if (!adjoin(block.cells[p], same.cells[p])) return;
-  for (std::size_t p = 0; p < block.cells.size(); ++p) {
-    block.cells[p].low = std::min(block.cells[p].low, same.cells[p].low);
-    block.cells[p].high = std::max(block.cells[p].high, same.cells[p].high);
+void cover(Variant& variant, const Variant& same) {
+  if (variant.change != same.change) return;
+  for (std::size_t p = 0; p < variant.cells.size(); ++p)
+    if (!adjoin(variant.cells[p], same.cells[p])) return;
+  for (std::size_t p = 0; p < variant.cells.size(); ++p) {
+    variant.cells[p].low = std::min(variant.cells[p].low, same.cells[p].low);
+    variant.cells[p].high = std::max(variant.cells[p].high, same.cells[p].high);
   }
 }
 
@@ -307,21 +307,21 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.missing = missing_of(effect, t);
   const std::vector<Search> search = searches(effect, t, least_period_um);
   const Variants variants(effect, search, t, rows);
-  for (Block& block : with_changes(by_groups(settings(effect, search), effect), effect, later_runs(t, rows))) {
-    block.explanation = static_cast<int>(out.list.size());
-    variants.fill(block);
-    if (block.signature.cols() == 0) continue;
-    if (const int before = repeated(block, explanation, out.blocks); before >= 0) {
-      cover(out.blocks[static_cast<std::size_t>(before)], block);
+  for (Variant& variant : with_changes(by_groups(settings(effect, search), effect), effect, later_runs(t, rows))) {
+    variant.explanation = static_cast<int>(out.list.size());
+    variants.fill(variant);
+    if (variant.signature.cols() == 0) continue;
+    if (const int before = repeated(variant, explanation, out.variants); before >= 0) {
+      cover(out.variants[static_cast<std::size_t>(before)], variant);
       continue;
     }
-    explanation.blocks.push_back(static_cast<int>(out.blocks.size()));
-    out.blocks.push_back(std::move(block));
+    explanation.variants.push_back(static_cast<int>(out.variants.size()));
+    out.variants.push_back(std::move(variant));
   }
-  share_belief(explanation, out.blocks);
-  if (explanation.missing || explanation.blocks.empty())
+  share_belief(explanation, out.variants);
+  if (explanation.missing || explanation.variants.empty())
     out.unjudged.push_back({&effect, explanation.missing, explanation.missing & t.known});
-  if (!explanation.blocks.empty()) out.list.push_back(std::move(explanation));
+  if (!explanation.variants.empty()) out.list.push_back(std::move(explanation));
 }
 
 void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out,
@@ -375,27 +375,28 @@ std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::siz
   return out;
 }
 
-Block variant_like(const Block& other, const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) {
-  Block block;
-  block.theta = other.theta;
-  block.group = other.group;
-  block.change = other.change;
-  Variants(effect, searches(effect, t), t, rows).fill(block);
-  return block;
+Variant variant_like(const Variant& other, const Effect& effect, const RecordedTouches& t,
+                     const std::vector<int>& rows) {
+  Variant variant;
+  variant.theta = other.theta;
+  variant.group = other.group;
+  variant.change = other.change;
+  Variants(effect, searches(effect, t), t, rows).fill(variant);
+  return variant;
 }
 
-void share_belief(const Explanation& e, std::vector<Block>& blocks) {
+void share_belief(const Explanation& e, std::vector<Variant>& variants) {
   double constant = 0, changing = 0;
   std::map<std::string_view, double> in_group;
-  for (const int k : e.blocks) ++in_group[blocks[static_cast<std::size_t>(k)].group];
-  const auto weight = [&](const Block& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
-  for (const int k : e.blocks) {
-    const Block& b = blocks[static_cast<std::size_t>(k)];
+  for (const int k : e.variants) ++in_group[variants[static_cast<std::size_t>(k)].group];
+  const auto weight = [&](const Variant& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
+  for (const int k : e.variants) {
+    const Variant& b = variants[static_cast<std::size_t>(k)];
     (b.change.any() ? changing : constant) += weight(b);
   }
   const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
-  for (const int k : e.blocks) {
-    Block& b = blocks[static_cast<std::size_t>(k)];
+  for (const int k : e.variants) {
+    Variant& b = variants[static_cast<std::size_t>(k)];
     b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
   }
 }
@@ -447,10 +448,10 @@ Explanations only(const Explanations& all, const std::vector<int>& kept) {
   Explanations out;
   for (const int k : kept) {
     Explanation e = all.list[k];
-    for (int& b : e.blocks) {
-      out.blocks.push_back(all.blocks[b]);
-      out.blocks.back().explanation = static_cast<int>(out.list.size());
-      b = static_cast<int>(out.blocks.size()) - 1;
+    for (int& b : e.variants) {
+      out.variants.push_back(all.variants[b]);
+      out.variants.back().explanation = static_cast<int>(out.list.size());
+      b = static_cast<int>(out.variants.size()) - 1;
     }
     out.list.push_back(std::move(e));
   }
@@ -459,7 +460,7 @@ Explanations only(const Explanations& all, const std::vector<int>& kept) {
 
 Explanations rows_of(const Explanations& all, const std::vector<Eigen::Index>& rows) {
   Explanations out = all;
-  for (Block& b : out.blocks) b.signature = Matrix(b.signature(rows, Eigen::all));
+  for (Variant& b : out.variants) b.signature = Matrix(b.signature(rows, Eigen::all));
   return out;
 }
 

@@ -1,6 +1,6 @@
 // What may explain a mismatch: every effect of the registry, and OTHER, a flexible pattern in each factor for
-// physics that the catalogue does not have. An explanation is a list of blocks (its variants: which axis,
-// which period, which moment); a block is a set of columns, um per prior standard deviation, whose
+// physics that the catalogue does not have. An explanation is a list of variants (which axis,
+// which period, which moment); a variant is a set of columns, um per prior standard deviation, whose
 // coefficients are drawn together.
 #pragma once
 
@@ -27,7 +27,7 @@ inline constexpr double kConfounded = 0.7;
 enum class Factor { time, position, direction, head, sensor, setup, feature, run, temperature, speed };
 std::string_view name(Factor);
 
-/// One column of a block before its columns are joined: which linear parameter (or draw) it belongs to.
+/// One column of a variant before its columns are joined: which linear parameter (or draw) it belongs to.
 struct Column {
   int parameter = -1;  ///< index into the effect's parameters; -1: a coefficient without a name (OTHER, draws)
   int part = 0;        ///< along which direction (0, 1, 2) or phase (0, 1) it is taken; both: direction + 3 phase
@@ -42,7 +42,7 @@ struct Cell {
 /// Whether two cells overlap or touch.
 bool adjoin(const Cell&, const Cell&);
 
-/// How large the coefficients of a block are, in standard deviations of their prior, and how much that is
+/// How large the coefficients of a variant are, in standard deviations of their prior, and how much that is
 /// believed before the data.
 struct Size {
   double factor = 1;
@@ -52,7 +52,7 @@ struct Size {
 /// hold the touch's own error: it tells nothing of the effect.
 inline constexpr double kWidest = 30;
 
-struct Block {
+struct Variant {
   int explanation = 0;
   std::vector<double> theta;  ///< the effect's parameters; those of `columns` are placeholders
   /// by parameter: what its value stands for; nothing (low = high) where no value between the tried ones is
@@ -73,7 +73,7 @@ struct Block {
 
 /// Whether two variants of one effect are one fault: they differ at most in values that have others between them. A size
 /// in all runs and a change from one run to the next are two, and so are those of two styli or two axes.
-bool alike(const Block&, const Block&);
+bool alike(const Variant&, const Variant&);
 
 struct Explanation {
   std::string name;                ///< of the effect, or "OTHER time"
@@ -83,12 +83,12 @@ struct Explanation {
   double share = 1;      ///< of the belief in all effects, or in all patterns: so many times that of most
   double prior = 0;      ///< probability among all explanations
   unsigned missing = 0;  ///< covariates that are absent or constant: it cannot be judged
-  std::vector<int> blocks;
+  std::vector<int> variants;
 };
 
 struct Explanations {
   std::vector<Explanation> list;
-  std::vector<Block> blocks;
+  std::vector<Variant> variants;
   struct Unjudged {
     const Effect* effect;
     unsigned missing;
@@ -115,7 +115,7 @@ std::vector<CannotJudge> cannot_judge(const Explanations&);
 Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows,
                                 const std::vector<std::string>& names);
 
-/// Appends the blocks of OTHER (patterns/).
+/// Appends the variants of OTHER (patterns/).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
 /// Where something may have changed between runs: in front of one of a stretch of runs.
@@ -135,12 +135,12 @@ std::optional<std::size_t> moment_of(const Effect&);
 
 /// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
 /// nothing there.
-Block variant_like(const Block&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);
+Variant variant_like(const Variant&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);
 
 /// Belief in each variant of an explanation: the same for each group of parameters, and within a group for each
 /// variant, but for those that change between runs, which hold a tenth together. What is gone counts half of what is
 /// new: where only differences between runs are seen, the two are the same.
-void share_belief(const Explanation&, std::vector<Block>&);
+void share_belief(const Explanation&, std::vector<Variant>&);
 
 /// The explanations of one kind only; `kept` by index into the list.
 Explanations only(const Explanations&, const std::vector<int>& kept);

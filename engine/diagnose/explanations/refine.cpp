@@ -18,9 +18,9 @@ constexpr double kFarBelow = 3;
 constexpr double kSame_um = 1e-9;
 
 /// Whether a change between runs stands for several of them.
-bool of_several_runs(const Block& b) { return b.runs.high > b.runs.low + 1; }
+bool of_several_runs(const Variant& b) { return b.runs.high > b.runs.low + 1; }
 
-bool divisible(const Block& b) {
+bool divisible(const Variant& b) {
   return !b.finest && (of_several_runs(b) || std::any_of(b.cells.begin(), b.cells.end(), [](const Cell& cell) {
                          return cell.high > cell.low;
                        }));
@@ -41,7 +41,7 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
 
 /// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is
 /// that of the runs.
-bool neighbours(const Block& a, const Block& b, const Effect& effect) {
+bool neighbours(const Variant& a, const Variant& b, const Effect& effect) {
   if (a.group != b.group) return false;
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
   if (a.change != b.change && !(of_runs && a.change.is_like(b.change) && adjoin(a.runs, b.runs))) return false;
@@ -53,16 +53,16 @@ bool neighbours(const Block& a, const Block& b, const Effect& effect) {
 /// The likeliest divisible variants, and those beside the likeliest: the value that stands for a cell may be
 /// the wrong one.
 std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, const Evidence& evidence) {
-  const auto block = [&](int b) -> const Block& { return all.blocks[static_cast<std::size_t>(b)]; };
+  const auto variant = [&](int b) -> const Variant& { return all.variants[static_cast<std::size_t>(b)]; };
   const auto belief = [&](int b) {
-    return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(block(b).weight);
+    return evidence.variant_log_bayes[static_cast<std::size_t>(b)] + std::log(variant(b).weight);
   };
-  std::vector<int> order = e.blocks, list;
+  std::vector<int> order = e.variants, list;
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool likely = k < kMostCells && belief(order[k]) > belief(order[0]) - kFarBelow;
-    if (divisible(block(order[k])) && (likely || neighbours(block(order[0]), block(order[k]), *e.effect)))
+    if (divisible(variant(order[k])) && (likely || neighbours(variant(order[0]), variant(order[k]), *e.effect)))
       list.push_back(order[k]);
   }
   return list;
@@ -100,14 +100,14 @@ std::vector<Part> thirds_of_touches(const Cell& cell, const RecordedTouches& t) 
 }
 
 /// A stretch of runs in thirds; else what stands for one run, or for none, as it is. No parameters yet.
-std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun>& changes) {
+std::vector<Variant> thirds_of_runs(const Variant& whole, const std::vector<LaterRun>& changes) {
   std::vector<LaterRun> stretch;
   for (const LaterRun& c : changes)
     if (c.runs.low >= whole.runs.low && c.runs.high <= whole.runs.high) stretch.push_back(c);
   const std::vector<LaterRun> parts = of_several_runs(whole)
       ? in_stretches(stretch, kParts)
       : std::vector<LaterRun>{{whole.change.first(), whole.runs, {}}};
-  std::vector<Block> list(parts.size());
+  std::vector<Variant> list(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) {
     list[k].explanation = whole.explanation;
     list[k].group = whole.group;
@@ -120,7 +120,7 @@ std::vector<Block> thirds_of_runs(const Block& whole, const std::vector<LaterRun
 }
 
 /// What happens between runs happens at the moment of the change that stands for them.
-void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& changes) {
+void set_moment(Variant& part, const Effect& effect, const std::vector<LaterRun>& changes) {
   const std::optional<std::size_t> moment = moment_of(effect);
   if (!moment || !part.change.any()) return;
   for (const LaterRun& c : changes)
@@ -128,18 +128,18 @@ void set_moment(Block& part, const Effect& effect, const std::vector<LaterRun>& 
 }
 
 /// The cell in thirds along every parameter that it has an extent in, and along its runs.
-std::vector<Block> parts_of(const Block& whole, const Effect& effect, const RecordedTouches& t,
-                            const std::vector<LaterRun>& changes) {
-  std::vector<Block> list = thirds_of_runs(whole, changes);
+std::vector<Variant> parts_of(const Variant& whole, const Effect& effect, const RecordedTouches& t,
+                              const std::vector<LaterRun>& changes) {
+  std::vector<Variant> list = thirds_of_runs(whole, changes);
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
     const std::vector<Part> parts = cell.high <= cell.low ? std::vector<Part>{{cell, whole.theta[p]}}
         : effect.parameters[p].sought == Sought::moment   ? thirds_of_touches(cell, t)
                                                           : thirds(cell);
-    std::vector<Block> longer;
-    for (const Block& prefix : list) {
+    std::vector<Variant> longer;
+    for (const Variant& prefix : list) {
       for (const Part& at : parts) {
-        Block part = prefix;
+        Variant part = prefix;
         part.cells.push_back(at.cell);
         part.theta.push_back(at.value);
         part.weight /= double(parts.size());
@@ -148,40 +148,40 @@ std::vector<Block> parts_of(const Block& whole, const Effect& effect, const Reco
     }
     list = std::move(longer);
   }
-  for (Block& part : list) set_moment(part, effect, changes);
+  for (Variant& part : list) set_moment(part, effect, changes);
   return list;
 }
 
-bool same(const Block& a, const Block& b) {
+bool same(const Variant& a, const Variant& b) {
   return a.signature.cols() == b.signature.cols() && (a.signature - b.signature).cwiseAbs().maxCoeff() < kSame_um;
 }
 
 /// Divides one variant of an explanation, unless its parts are all the same.
 void divide(const Case& c, Explanations& all, int explanation, int which) {
   Explanation& e = all.list[static_cast<std::size_t>(explanation)];
-  std::vector<Block> parts =
-      parts_of(all.blocks[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
-  for (Block& part : parts) {
-    Block made = variant_like(part, *e.effect, c.touches, c.rows);
+  std::vector<Variant> parts =
+      parts_of(all.variants[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
+  for (Variant& part : parts) {
+    Variant made = variant_like(part, *e.effect, c.touches, c.rows);
     part.columns = std::move(made.columns);
     part.signature = std::move(made.signature);
     part.joined = made.joined;
   }
-  std::erase_if(parts, [](const Block& b) { return b.signature.cols() == 0; });
-  if (std::all_of(parts.begin(), parts.end(), [&](const Block& b) { return same(b, parts.front()); })) {
-    all.blocks[static_cast<std::size_t>(which)].finest = true;
+  std::erase_if(parts, [](const Variant& b) { return b.signature.cols() == 0; });
+  if (std::all_of(parts.begin(), parts.end(), [&](const Variant& b) { return same(b, parts.front()); })) {
+    all.variants[static_cast<std::size_t>(which)].finest = true;
     return;
   }
-  e.blocks.erase(std::find(e.blocks.begin(), e.blocks.end(), which));
-  for (Block& part : parts) {
-    e.blocks.push_back(static_cast<int>(all.blocks.size()));
-    all.blocks.push_back(std::move(part));
+  e.variants.erase(std::find(e.variants.begin(), e.variants.end(), which));
+  for (Variant& part : parts) {
+    e.variants.push_back(static_cast<int>(all.variants.size()));
+    all.variants.push_back(std::move(part));
   }
 }
 
 }  // namespace
 
-bool alike(const Block& a, const Block& b) {
+bool alike(const Variant& a, const Variant& b) {
   if (a.change != b.change || a.group != b.group) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
     if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
@@ -191,11 +191,11 @@ bool alike(const Block& a, const Block& b) {
 
 void refine(const Case& c, Explanations& all, EvidenceSearch& search) {
   for (int step = 0; step < kSteps; ++step) {
-    const std::size_t before = all.blocks.size();
+    const std::size_t before = all.variants.size();
     for (const int k : candidates(all, search.evidence()))
       for (const int b : cells_to_divide(all, all.list[static_cast<std::size_t>(k)], search.evidence()))
         divide(c, all, k, b);
-    if (all.blocks.size() == before) return;
+    if (all.variants.size() == before) return;
     search.extend(all, before);
   }
 }

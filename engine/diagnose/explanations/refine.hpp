@@ -7,7 +7,7 @@
 namespace abbe::diagnose {
 
 /// Finer variants of the effects that a recording speaks for: moments, periods and the like between those of
-/// the grid. They are appended to the blocks and take the place of the coarse ones in their explanations; the
+/// the grid. They are appended to the variants and take the place of the coarse ones in their explanations; the
 /// search judges them too.
 void refine(const Case&, Explanations&, EvidenceSearch&);
 

@@ -243,9 +243,9 @@ Following best_following(const Case& c, const LinearModel& beside, const Hyperpa
   Explanations each;
   const auto add = [&](Matrix signature) {
     Explanation e;
-    e.blocks = {static_cast<int>(each.blocks.size())};
+    e.variants = {static_cast<int>(each.variants.size())};
     each.list.push_back(std::move(e));
-    each.blocks.emplace_back().signature = std::move(signature);
+    each.variants.emplace_back().signature = std::move(signature);
   };
   add(pattern);
   for (const Factor factor : factors) {
@@ -267,7 +267,7 @@ Following best_following(const Case& c, const LinearModel& beside, const Hyperpa
   Following out = std::move(all[best - 1]);
   out.log_bayes = belief[best];
   const Fit found = fitted(search.information(0)), fit = fitted(search.information(static_cast<int>(best)));
-  const Matrix& followed = each.blocks[best].signature;
+  const Matrix& followed = each.variants[best].signature;
   const Vector whole = visible * found.value, left = whole - shown(placement, followed) * fit.value;
   out.share = 1 - left.squaredNorm() / whole.squaredNorm();
   out.value = weights[best - 1] * fit.value;
@@ -282,7 +282,7 @@ EmpiricalModel empirical_model(const Case& c, const SearchResult& result) {
   if (!result.other) return {};
   const Factor factor = c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor;
   if (of_the_occasion(factor)) return {};
-  const Matrix& pattern = c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature;
+  const Matrix& pattern = c.explanations.variants[static_cast<std::size_t>(result.other->variant)].signature;
   const LinearModel beside = with_free(c.model, signatures_of(c, result.findings));
   const auto follows = [](const Following& f) { return f.log_bayes > 0 && f.share >= kFollows; };
   Following best = best_following(c, beside, result.hyper, pattern, {factor});

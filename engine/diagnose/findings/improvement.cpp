@@ -84,9 +84,9 @@ struct HeldOut {
 
 /// The likeliest variant of the one explanation of a search at its likeliest size, over all rows.
 Matrix likeliest(const EvidenceSearch& search, const Explanations& on_all_rows) {
-  const int block = best_block(on_all_rows, 0, search.evidence());
-  return likeliest_size(search.information(block), search.sizes(block)).factor *
-      on_all_rows.blocks[static_cast<std::size_t>(block)].signature;
+  const int variant = best_variant(on_all_rows, 0, search.evidence());
+  return likeliest_size(search.information(variant), search.sizes(variant)).factor *
+      on_all_rows.variants[static_cast<std::size_t>(variant)].signature;
 }
 
 HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model,
@@ -94,7 +94,7 @@ HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const Lin
   Explanations all = only(c.explanations, {explanation});
   const EvidenceSearch sizes(model, h, all);
   // one prior for all groups
-  for (std::size_t b = 0; b < all.blocks.size(); ++b) all.blocks[b].sizes = sizes.sizes(static_cast<int>(b));
+  for (std::size_t b = 0; b < all.variants.size(); ++b) all.variants[b].sizes = sizes.sizes(static_cast<int>(b));
   const Evidence complete = EvidenceSearch(model, h, all).evidence();
   HeldOut out;
   for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end())) {
@@ -175,16 +175,16 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   Vector before = Vector::Zero(machine.y.size());
   for (const int g : groups) before += beyond_prediction(machine, result.hyper, of_group(scheme, g));
   std::vector<int> named;
-  std::vector<int> blocks;
-  for (const Finding& f : result.findings) named.push_back(f.explanation), blocks.push_back(f.block);
-  if (result.other) named.push_back(result.other->explanation), blocks.push_back(result.other->block);
+  std::vector<int> variants;
+  for (const Finding& f : result.findings) named.push_back(f.explanation), variants.push_back(f.variant);
+  if (result.other) named.push_back(result.other->explanation), variants.push_back(result.other->variant);
   if (named.empty()) return tell_residuals(c, before, before, out);
   const std::vector<double> baseline = held_out(c, scheme, named.front(), c.model, c.hyper).null;
   std::vector<double> gain(groups.size(), 0);
   std::vector<Matrix> columns(groups.size(), Matrix(machine.y.size(), 0));
   for (std::size_t k = 0; k < named.size(); ++k) {
     std::vector<const Matrix*> found;
-    for (std::size_t j = 0; j < k; ++j) found.push_back(&c.explanations.blocks[blocks[j]].signature);
+    for (std::size_t j = 0; j < k; ++j) found.push_back(&c.explanations.variants[variants[j]].signature);
     const HeldOut h = held_out(c, scheme, named[k], with_free(c.model, found), result.hyper);
     for (std::size_t g = 0; g < gain.size(); ++g)
       gain[g] += h.gain[g] + (k == 0 ? h.null[g] - baseline[g] : 0), append(columns[g], h.columns[g]);
@@ -227,8 +227,8 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   }
   if (second < 0) return;
   const Explanation& e = c.explanations.list[static_cast<std::size_t>(second)];
-  const int block = best_block(c.explanations, second, result.first);
-  const Matrix& signature = c.explanations.blocks[static_cast<std::size_t>(block)].signature;
+  const int variant = best_variant(c.explanations, second, result.first);
+  const Matrix& signature = c.explanations.variants[static_cast<std::size_t>(variant)].signature;
   const HeldOut h = held_out(c, scheme, second, c.model, estimate(with_free(c.model, {&signature})));
   out.runner_up = RunnerUp{{e.name}, sum(h.gain) + sum(h.null) - sum(baseline)};
 }

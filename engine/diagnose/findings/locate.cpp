@@ -17,16 +17,16 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// The pattern that a block takes in this recording, um by row: the posterior mean at its best size.
+/// The pattern that a variant takes in this recording, um by row: the posterior mean at its best size.
 struct Pattern {
   Vector values;
   double energy = 0;  ///< twice the log-likelihood that it gains
 };
 
-Pattern pattern_of(const EvidenceSearch& search, const Block& block, int index) {
+Pattern pattern_of(const EvidenceSearch& search, const Variant& variant, int index) {
   const Information info = search.information(index);
   const LikeliestSize size = likeliest_size(info, search.sizes(index));
-  return {block.signature * size.coefficients, info.u.dot(size.coefficients)};
+  return {variant.signature * size.coefficients, info.u.dot(size.coefficients)};
 }
 
 /// What was logged of temperature.
@@ -156,8 +156,8 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
   std::map<Factor, Located> out;
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
-    const int block = best_block(all, static_cast<int>(k), evidence);
-    const bool changes = all.blocks[static_cast<std::size_t>(block)].change.any();
+    const int variant = best_variant(all, static_cast<int>(k), evidence);
+    const bool changes = all.variants[static_cast<std::size_t>(variant)].change.any();
     out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k]);
   }
   return out;
@@ -183,8 +183,8 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   };
   std::vector<Entry> entries;
   for (const auto& [factor, located] : by_factor(c, result.first)) {
-    const int block = best_block(all, located.best, result.first);
-    const Pattern pattern = pattern_of(search, all.blocks[block], block);
+    const int variant = best_variant(all, located.best, result.first);
+    const Pattern pattern = pattern_of(search, all.variants[variant], variant);
     entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
                         tail_probability(result.on_grid.log_bayes[located.best], simulated)},
                        log_sum_exp(located.log_belief),
@@ -220,8 +220,8 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   const LinearModel rest = with_free(c.model, signatures_of(c, result.findings));
   const EvidenceSearch search(rest, result.hyper, c.explanations);
   const Explanation& e = c.explanations.list[f.explanation];
-  const Block& block = c.explanations.blocks[f.block];
-  const Pattern pattern = pattern_of(search, block, f.block);
+  const Variant& variant = c.explanations.variants[f.variant];
+  const Pattern pattern = pattern_of(search, variant, f.variant);
   Unexplained u;
   u.factor = std::string(abbe::diagnose::name(e.factor));
   u.shape = e.shape;

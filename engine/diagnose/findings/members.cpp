@@ -32,7 +32,7 @@ bool possible(const Case& c, const SearchResult& result, std::size_t k, int memb
   const Finding& f = result.findings[k];
   const std::vector<DiagnosedParameter> found = estimate_size(c, result, k, member).parameters;
   const Effect& effect = *c.explanations.list[static_cast<std::size_t>(member)].effect;
-  if (c.explanations.blocks[static_cast<std::size_t>(f.variant_of(member))].change.gone()) return plausible(found);
+  if (c.explanations.variants[static_cast<std::size_t>(f.variant_of(member))].change.gone()) return plausible(found);
   const auto known = known_effect(*c.machine, effect, abbe::diagnose::setting_of(std::string(effect.name), found));
   if (!known) return plausible(found);
   return known->gone || plausible(effect, nearest_possible(effect, known->now));
@@ -81,7 +81,7 @@ void put_judged_members_first(const Case& c, SearchResult& result) {
     if (!judged(c, f) || can_be(f.set.front())) continue;
     std::stable_partition(f.set.begin(), f.set.end(), can_be);
     const int first = f.set.front();
-    f.block = f.variant_of(first);
+    f.variant = f.variant_of(first);
     f.explanation = first;
   }
 }
@@ -104,7 +104,7 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
     bool possible_head = possible(c, result, k, f.explanation);
     while (!possible_head && f.set.size() > 1) {
       strike(0);
-      f.block = f.variant_of(f.set.front());
+      f.variant = f.variant_of(f.set.front());
       f.explanation = f.set.front();
       possible_head = possible(c, result, k, f.explanation);
     }

@@ -177,7 +177,7 @@ Vector beyond_found(const Case& c, const SearchResult& result) {
   std::iota(all.begin(), all.end(), 0);
   std::vector<Matrix> found;
   for (const Finding& f : result.findings) {
-    const Block& b = c.explanations.blocks[static_cast<std::size_t>(f.block)];
+    const Variant& b = c.explanations.variants[static_cast<std::size_t>(f.variant)];
     const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
     found.push_back(variant_like(b, effect, c.touches, all).signature);
   }

@@ -117,46 +117,46 @@ class Estimator {
     const Finding& f = result.findings[which];
     std::vector<const Matrix*> others;
     for (std::size_t k = 0; k < result.findings.size(); ++k)
-      if (k != which) others.push_back(&c.explanations.blocks[result.findings[k].block].signature);
+      if (k != which) others.push_back(&c.explanations.variants[result.findings[k].variant].signature);
     Explanations mine = only(c.explanations, {member});
     // Scale and noise as they are once everything named is taken out.
     std::vector<const Matrix*> all = others;
-    all.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.variant_of(member))].signature);
+    all.push_back(&c.explanations.variants[static_cast<std::size_t>(f.variant_of(member))].signature);
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     EvidenceSearch search(with_free(c.model, others), hyper, mine);
     if (!result.refined.contains(member)) refine(c, mine, search);
     const Evidence& evidence = search.evidence();
-    const std::vector<int>& blocks = mine.list.front().blocks;
-    const auto at = [&](int b) -> const Block& { return mine.blocks[static_cast<std::size_t>(b)]; };
+    const std::vector<int>& variants = mine.list.front().variants;
+    const auto at = [&](int b) -> const Variant& { return mine.variants[static_cast<std::size_t>(b)]; };
     const auto belief = [&](int b) {
-      return evidence.block_log_bayes[static_cast<std::size_t>(b)] + std::log(at(b).weight);
+      return evidence.variant_log_bayes[static_cast<std::size_t>(b)] + std::log(at(b).weight);
     };
     const int likeliest =
-        *std::max_element(blocks.begin(), blocks.end(), [&](int a, int b) { return belief(a) < belief(b); });
+        *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
     std::vector<double> logs;  // told is the likeliest fault, over the values of what has a value between any two
-    for (const int b : blocks)
+    for (const int b : variants)
       logs.push_back(alike(at(b), at(likeliest)) ? belief(b) : -std::numeric_limits<double>::infinity());
     const double total = log_sum_exp(logs);
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
+    for (std::size_t k = 0; k < variants.size(); ++k) {
       const double weight = std::exp(logs[k] - total);
       if (weight < 1e-4) continue;
-      if (blocks[k] == likeliest) likeliest_ = variants_.size();
-      variants_.push_back({weight, at(blocks[k]), {}, search.information(blocks[k])});
+      if (variants[k] == likeliest) likeliest_ = variants_.size();
+      variants_.push_back({weight, at(variants[k]), {}, search.information(variants[k])});
     }
-    for (Variant& v : variants_) v.estimate.emplace(*explanation_.effect, v.block, v.info);
+    for (Candidate& v : variants_) v.estimate.emplace(*explanation_.effect, v.variant, v.info);
     for (const EffectParameter& p : explanation_.effect->parameters) search_.push_back(search_of(p, c.touches));
   }
 
   /// What the likeliest variant does at the touch where it does most. Draws have no parameters: they are
   /// taken at the spread that is told.
   double largest_um() const {
-    const Variant& likeliest = variants_[likeliest_];
+    const Candidate& likeliest = variants_[likeliest_];
     if (explanation_.effect->draws == 0) return largest(likeliest.estimate->shift_um());
     double spread = 0;
     for (const MixtureTerm& c : spread_estimate(likeliest.info, 1)) spread += c.weight * c.value;
     const Matrix& g = likeliest.info.g;
     const Eigen::LLT<Matrix> posterior(g + Matrix::Identity(g.rows(), g.cols()) / (spread * spread));
-    return largest(likeliest.block.signature * posterior.solve(likeliest.info.u));
+    return largest(likeliest.variant.signature * posterior.solve(likeliest.info.u));
   }
 
   std::vector<DiagnosedParameter> all() const {
@@ -167,9 +167,9 @@ class Estimator {
   }
 
  private:
-  struct Variant {
+  struct Candidate {
     double weight;
-    Block block;
+    Variant variant;
     std::optional<VariantEstimate> estimate;
     Information info;
   };
@@ -178,7 +178,7 @@ class Estimator {
   void doubt_contradictions(std::vector<DiagnosedParameter>& told) const {
     const Effect& effect = *explanation_.effect;
     if (!effect.contradiction) return;
-    std::vector<double> theta = variants_[likeliest_].block.theta;
+    std::vector<double> theta = variants_[likeliest_].variant.theta;
     const auto parameter_of = [&](const DiagnosedParameter& t) {
       return static_cast<std::size_t>(std::find_if(effect.parameters.begin(), effect.parameters.end(),
                                                    [&](const EffectParameter& p) { return p.name == t.name; }) -
@@ -196,7 +196,7 @@ class Estimator {
 
   void add(std::size_t p, std::vector<DiagnosedParameter>& out) const {
     const EffectParameter& parameter = explanation_.effect->parameters[p];
-    const Variant& likeliest = variants_[likeliest_];
+    const Candidate& likeliest = variants_[likeliest_];
     if (parameter.linear) {
       const auto mixture = explanation_.effect->draws > 0 ? spread(parameter) : linear(static_cast<int>(p));
       if (!mixture.empty()) out.push_back(summary(parameter, mixture));
@@ -212,13 +212,13 @@ class Estimator {
       case Search::Kind::tried: break;
     }
     if (!matters(p)) return;
-    const double value = likeliest.block.theta[p];
+    const double value = likeliest.variant.theta[p];
     const bool standard = value == parameter.standard;
     if (search_[p].between && !(standard && search_[p].values.size() < 2)) {
       const std::vector<MixtureTerm> mixture = searched(p);
       // A size goes with a period or a time constant: told are those that fit together.
       const bool place = parameter.sought == Sought::moment || parameter.sought == Sought::reading;
-      out.push_back(summary(parameter, mixture, place ? mean_beside(mixture, likeliest.block.cells[p]) : value));
+      out.push_back(summary(parameter, mixture, place ? mean_beside(mixture, likeliest.variant.cells[p]) : value));
       if (parameter.sought == Sought::moment) out.back().called = run_at(value);
     } else if (!parameter.choices.empty())
       out.push_back({.name = std::string(parameter.name),
@@ -234,8 +234,8 @@ class Estimator {
   /// Whether another value would do anything else to these touches: where a step lies along an axis, it has no moment.
   bool matters(std::size_t p) const {
     constexpr double kNothing_um = 1e-6;
-    const Block& likeliest = variants_[likeliest_].block;
-    Block at = likeliest;
+    const Variant& likeliest = variants_[likeliest_].variant;
+    Variant at = likeliest;
     if (search_[p].values.size() < 2) return true;
     return std::any_of(search_[p].values.begin(), search_[p].values.end(), [&](double value) {
       at.theta[p] = value;
@@ -306,7 +306,7 @@ class Estimator {
   std::vector<MixtureTerm> linear(int p) const {
     std::vector<MixtureTerm> mixture;
     double total = 0;
-    for (const Variant& v : variants_) {
+    for (const Candidate& v : variants_) {
       const auto size = v.estimate->size(p);
       if (!size) continue;
       total += v.weight;
@@ -321,12 +321,13 @@ class Estimator {
     std::vector<MixtureTerm> mixture;
     std::vector<double> period, half_width;
     const std::size_t sought = of_period();
-    for (const Variant& v : variants_) {
+    for (const Candidate& v : variants_) {
       const auto phase = v.estimate->phase_deg(size);
       if (!phase) continue;
       mixture.push_back({v.weight, at + std::remainder(phase->value - at, 360), phase->u});
-      period.push_back(sought < search_.size() ? v.block.theta[sought] : 0);
-      half_width.push_back(sought < search_.size() ? (v.block.cells[sought].high - v.block.cells[sought].low) / 2 : 0);
+      period.push_back(sought < search_.size() ? v.variant.theta[sought] : 0);
+      half_width.push_back(sought < search_.size() ? (v.variant.cells[sought].high - v.variant.cells[sought].low) / 2
+                                                   : 0);
     }
     mixture = normalised(mixture);
     // A longer period begins later to be the same in the middle of the recording: so within a cell, too.
@@ -356,7 +357,7 @@ class Estimator {
 
   std::vector<MixtureTerm> spread(const EffectParameter& parameter) const {
     std::vector<MixtureTerm> mixture;
-    for (const Variant& v : variants_) {
+    for (const Candidate& v : variants_) {
       for (MixtureTerm c : spread_estimate(v.info, parameter.typical)) {
         c.weight *= v.weight;
         mixture.push_back(c);
@@ -367,8 +368,8 @@ class Estimator {
 
   std::vector<MixtureTerm> searched(std::size_t p) const {
     std::vector<MixtureTerm> mixture;
-    for (const Variant& v : variants_) {
-      const Cell& cell = v.block.cells[p];
+    for (const Candidate& v : variants_) {
+      const Cell& cell = v.variant.cells[p];
       mixture.push_back({v.weight, (cell.low + cell.high) / 2, (cell.high - cell.low) / std::sqrt(12.0), true});
     }
     return normalised(mixture);
@@ -384,7 +385,7 @@ class Estimator {
   const RecordedTouches& touches_;
   const std::vector<int>& rows_;
   const Explanation& explanation_;
-  std::vector<Variant> variants_;
+  std::vector<Candidate> variants_;
   std::size_t likeliest_ = 0;   ///< of them
   std::vector<Search> search_;  ///< by parameter
 };

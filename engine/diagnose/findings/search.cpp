@@ -39,15 +39,16 @@ std::vector<int> likeliest_first(const Explanations& explanations, const std::ve
 }
 
 /// The likeliest variant of the likeliest explanation.
-int likeliest_block(const Explanations& explanations, const Evidence& evidence) {
+int likeliest_variant(const Explanations& explanations, const Evidence& evidence) {
   const std::vector<double> p = probabilities(explanations, evidence);
-  return best_block(explanations, static_cast<int>(std::max_element(p.begin(), p.end()) - p.begin()), evidence);
+  return best_variant(explanations, static_cast<int>(std::max_element(p.begin(), p.end()) - p.begin()), evidence);
 }
 
-std::vector<int> best_blocks(const Explanations& explanations, const Evidence& evidence) {
+std::vector<int> best_variants(const Explanations& explanations, const Evidence& evidence) {
   std::vector<int> out;
   for (std::size_t k = 0; k < explanations.list.size(); ++k)
-    out.push_back(explanations.list[k].blocks.empty() ? -1 : best_block(explanations, static_cast<int>(k), evidence));
+    out.push_back(explanations.list[k].variants.empty() ? -1
+                                                        : best_variant(explanations, static_cast<int>(k), evidence));
   return out;
 }
 
@@ -56,27 +57,27 @@ struct Named {
 };
 
 /// What a round has found, on a grid that is refined where the recording asks for it. The grid of the case
-/// stays as it is, for what is sought next; the variants of the name that count are appended to its blocks.
+/// stays as it is, for what is sought next; the variants of the name that count are appended to it.
 Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
   constexpr double kOutOfQuestion = 12;  // nats
   Explanations fine = c.explanations;
   refine(c, fine, search);
   const Evidence& evidence = search.evidence();
   Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
-  out.name.best = out.pattern.best = best_blocks(c.explanations, evidence);
+  out.name.best = out.pattern.best = best_variants(c.explanations, evidence);
   const auto belief = [&](int b) {
-    return evidence.block_log_bayes[static_cast<std::size_t>(b)] +
-        std::log(fine.blocks[static_cast<std::size_t>(b)].weight);
+    return evidence.variant_log_bayes[static_cast<std::size_t>(b)] +
+        std::log(fine.variants[static_cast<std::size_t>(b)].weight);
   };
-  const std::vector<int>& variants = fine.list[static_cast<std::size_t>(out.name.explanation)].blocks;
+  const std::vector<int>& variants = fine.list[static_cast<std::size_t>(out.name.explanation)].variants;
   double best = -std::numeric_limits<double>::infinity();
   for (const int b : variants) best = std::max(best, belief(b));
-  const int likeliest = out.name.block;
+  const int likeliest = out.name.variant;
   for (const int b : variants) {
     if (b != likeliest && belief(b) < best - kOutOfQuestion) continue;
-    if (b == likeliest) out.name.block = static_cast<int>(c.explanations.blocks.size());
-    out.name.variants.push_back(static_cast<int>(c.explanations.blocks.size()));
-    c.explanations.blocks.push_back(std::move(fine.blocks[static_cast<std::size_t>(b)]));
+    if (b == likeliest) out.name.variant = static_cast<int>(c.explanations.variants.size());
+    out.name.variants.push_back(static_cast<int>(c.explanations.variants.size()));
+    c.explanations.variants.push_back(std::move(fine.variants[static_cast<std::size_t>(b)]));
   }
   return out;
 }
@@ -102,8 +103,8 @@ struct Round {
 Round round(const Case& c, const EvidenceSearch& search, int number) {
   Round r{search.evidence(), {}, 1};
   // Beside the likeliest explanation: a mismatch has tails too.
-  const int likeliest = likeliest_block(c.explanations, r.evidence);
-  const NoiseLaw law(search.residuals_beside(c.explanations.blocks[static_cast<std::size_t>(likeliest)]));
+  const int likeliest = likeliest_variant(c.explanations, r.evidence);
+  const NoiseLaw law(search.residuals_beside(c.explanations.variants[static_cast<std::size_t>(likeliest)]));
   begins(c.options.progress,
          number > 0 ? "simulated recordings without what was found" : "simulated recordings without a mismatch");
   r.null = search.bootstrap(r.evidence.statistic, law, {c.options.replicates, alarm_of(number)},
@@ -127,8 +128,8 @@ std::vector<Finding> second_thoughts(const Case& c, const Evidence& evidence, in
     f.set = {k};
     f.probability = p[static_cast<std::size_t>(k)];
     f.explanation = k;
-    f.block = best_block(c.explanations, k, evidence);
-    f.best = best_blocks(c.explanations, evidence);
+    f.variant = best_variant(c.explanations, k, evidence);
+    f.best = best_variants(c.explanations, evidence);
     out.push_back(std::move(f));
   }
   return out;
@@ -229,9 +230,9 @@ std::set<int> keep_variants(Case& c, const std::vector<Finding>& findings) {
   std::set<int> refined;
   for (const Finding& f : findings) {
     if (f.variants.empty()) continue;
-    std::vector<int>& blocks = c.explanations.list[static_cast<std::size_t>(f.explanation)].blocks;
-    if (refined.insert(f.explanation).second) blocks.clear();
-    blocks.insert(blocks.end(), f.variants.begin(), f.variants.end());
+    std::vector<int>& variants = c.explanations.list[static_cast<std::size_t>(f.explanation)].variants;
+    if (refined.insert(f.explanation).second) variants.clear();
+    variants.insert(variants.end(), f.variants.begin(), f.variants.end());
   }
   return refined;
 }
@@ -281,8 +282,8 @@ void drop_needless(const Case& c, SearchResult& result) {
 }
 
 bool same_fault(const Case& c, const Finding& a, const Finding& b) {
-  const auto variant = [&](const Finding& f) -> const Block& {
-    return c.explanations.blocks[static_cast<std::size_t>(f.block)];
+  const auto variant = [&](const Finding& f) -> const Variant& {
+    return c.explanations.variants[static_cast<std::size_t>(f.variant)];
   };
   return a.explanation == b.explanation && alike(variant(a), variant(b));
 }
@@ -315,7 +316,7 @@ bool others(const Case& c, const std::vector<Finding>& now, const std::vector<Fi
 }  // namespace
 
 SearchResult search(Case& c, EvidenceSearch& first) {
-  const std::size_t grid = c.explanations.blocks.size();
+  const std::size_t grid = c.explanations.variants.size();
   const std::vector<Explanation> on_grid = c.explanations.list;
   SearchResult result = found_in_rounds(c, first);
   const std::vector<Finding> in_rounds = result.findings;
@@ -366,8 +367,8 @@ Finding finding_of(const Explanations& all, const Evidence& evidence, bool catal
   static_cast<CredibleSet&>(f) = credible_set(all, evidence, catalogue);
   f.evidence = evidence;
   if (f.explanation < 0) return f;
-  f.block = best_block(all, f.explanation, evidence);
-  f.best = best_blocks(all, evidence);
+  f.variant = best_variant(all, f.explanation, evidence);
+  f.best = best_variants(all, evidence);
   return f;
 }
 
@@ -382,23 +383,24 @@ bool leaves_less(double pattern_adequacy, double name_adequacy) {
 
 std::vector<const Matrix*> signatures_of(const Case& c, const std::vector<Finding>& findings) {
   std::vector<const Matrix*> list;
-  for (const Finding& f : findings) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+  for (const Finding& f : findings)
+    list.push_back(&c.explanations.variants[static_cast<std::size_t>(f.variant)].signature);
   return list;
 }
 
 std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& result) {
   std::vector<const Matrix*> list = signatures_of(c, result.findings);
-  if (result.other) list.push_back(&c.explanations.blocks[static_cast<std::size_t>(result.other->block)].signature);
+  if (result.other) list.push_back(&c.explanations.variants[static_cast<std::size_t>(result.other->variant)].signature);
   return list;
 }
 
-int best_block(const Explanations& all, int explanation, const Evidence& evidence) {
-  const std::vector<int>& blocks = all.list[static_cast<std::size_t>(explanation)].blocks;
+int best_variant(const Explanations& all, int explanation, const Evidence& evidence) {
+  const std::vector<int>& variants = all.list[static_cast<std::size_t>(explanation)].variants;
   const auto belief = [&](int b) {
-    return evidence.block_log_bayes[static_cast<std::size_t>(b)] +
-        std::log(all.blocks[static_cast<std::size_t>(b)].weight);
+    return evidence.variant_log_bayes[static_cast<std::size_t>(b)] +
+        std::log(all.variants[static_cast<std::size_t>(b)].weight);
   };
-  return *std::max_element(blocks.begin(), blocks.end(), [&](int a, int b) { return belief(a) < belief(b); });
+  return *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
 }
 
 }  // namespace abbe::diagnose

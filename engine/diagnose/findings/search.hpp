@@ -9,7 +9,7 @@
 namespace abbe::diagnose {
 
 /// The likeliest variant of an explanation, given the data and what was believed of it before.
-int best_block(const Explanations&, int explanation, const Evidence&);
+int best_variant(const Explanations&, int explanation, const Evidence&);
 
 /// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind.
 struct CredibleSet {
@@ -21,12 +21,12 @@ CredibleSet credible_set(const Explanations&, const Evidence&, bool catalogue);
 
 /// One mismatch that the search has found.
 struct Finding : CredibleSet {
-  int block = -1;             ///< the likeliest variant of its likeliest explanation
-  std::vector<int> variants;  ///< blocks, those of its variants that count; empty: those of its explanation
-  Evidence evidence;          ///< given the findings before; of blocks as they were numbered then
+  int variant = -1;           ///< the likeliest variant of its likeliest explanation
+  std::vector<int> variants;  ///< those of its explanation that count, on a finer grid; empty: all
+  Evidence evidence;          ///< given the findings before; of variants as they were numbered then
   std::vector<int> best;      ///< by explanation: the likeliest of the variants that the case had then
 
-  int variant_of(int member) const { return member == explanation ? block : best[static_cast<std::size_t>(member)]; }
+  int variant_of(int member) const { return member == explanation ? variant : best[static_cast<std::size_t>(member)]; }
 };
 
 struct SearchResult {
@@ -46,7 +46,7 @@ struct SearchResult {
 /// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
 SearchResult search(Case&, EvidenceSearch& first);
 
-/// The credible set with variants, of the blocks that the evidence has seen.
+/// The credible set with variants, of the variants that the evidence has seen.
 Finding finding_of(const Explanations&, const Evidence&, bool catalogue);
 /// A name must be so many times as likely as no name. One that leaves something of the mismatch, where a pattern
 /// leaves less, must be far likelier: physics that the catalogue does not have looks like its nearest effect.

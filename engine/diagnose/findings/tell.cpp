@@ -59,7 +59,7 @@ std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<D
 
 /// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
 /// finding, it is that.
-RunChange change_of(const Block& variant, const Block& found) {
+RunChange change_of(const Variant& variant, const Variant& found) {
   const bool holds = variant.change.is_like(found.change) && variant.runs.low <= found.runs.low &&
       found.runs.high <= variant.runs.high;
   return holds ? found.change : variant.change;
@@ -69,7 +69,7 @@ RunChange change_of(const Block& variant, const Block& found) {
 bool is_same_phase(const Case& c, const Finding& f) {
   const Effect* effect = c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
   return effect && needs_raw_reading(*effect) &&
-      SameDirection(c.touches, c.rows).is_alike(c.explanations.blocks[static_cast<std::size_t>(f.block)].signature);
+      SameDirection(c.touches, c.rows).is_alike(c.explanations.variants[static_cast<std::size_t>(f.variant)].signature);
 }
 
 }  // namespace
@@ -81,8 +81,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     for (const int m : f.set) {
       const Explanation& member = c.explanations.list[m];
       e.members.push_back(member.name);
-      e.change.push_back(change_of(c.explanations.blocks[static_cast<std::size_t>(f.variant_of(m))],
-                                   c.explanations.blocks[static_cast<std::size_t>(f.block)]));
+      e.change.push_back(change_of(c.explanations.variants[static_cast<std::size_t>(f.variant_of(m))],
+                                   c.explanations.variants[static_cast<std::size_t>(f.variant)]));
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
     FoundSize size = estimate_size(c, result, k);

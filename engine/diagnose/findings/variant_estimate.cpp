@@ -28,10 +28,10 @@ double own_share(const Matrix& g, const std::vector<Eigen::Index>& columns, cons
 
 /// Columns that say something of their own: of parameters that do the same, those of the first, `later` after the others.
 /// Draws are no parameters.
-std::vector<Eigen::Index> telling(const Block& block, const Matrix& g, const std::set<int>& later) {
+std::vector<Eigen::Index> telling(const Variant& variant, const Matrix& g, const std::set<int>& later) {
   std::map<std::pair<bool, int>, std::vector<Eigen::Index>> by_parameter;
-  for (std::size_t k = 0; k < block.columns.size() && !block.joined; ++k) {
-    const int parameter = block.columns[k].parameter;
+  for (std::size_t k = 0; k < variant.columns.size() && !variant.joined; ++k) {
+    const int parameter = variant.columns[k].parameter;
     by_parameter[{later.contains(parameter), parameter}].push_back(static_cast<Eigen::Index>(k));
   }
   std::vector<Eigen::Index> kept;
@@ -74,23 +74,24 @@ bool keep_told_directions(Matrix& motion, Matrix& covariance) {
 
 }  // namespace
 
-VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const Information& info)
+VariantEstimate::VariantEstimate(const Effect& effect, const Variant& variant, const Information& info)
     : effect_(effect),
-      block_(block),
+      variant_(variant),
       mean_(Vector::Zero(info.u.size())),
       covariance_(Matrix::Zero(info.u.size(), info.u.size())) {
-  for (const Column& c : block.columns)
+  for (const Column& c : variant.columns)
     directions_ = std::max(directions_, c.part % 3 > 0 ? 3 : 1), phases_ = std::max(phases_, c.part / 3 + 1);
   solve(info, {});
   // What a parameter cannot be, one that does the same to these touches may: a force is never negative, its change is.
   std::set<int> impossible;
-  for (std::size_t k = 0; k < block.columns.size(); ++k) {
-    const int p = block.columns[k].parameter;
+  for (std::size_t k = 0; k < variant.columns.size(); ++k) {
+    const int p = variant.columns[k].parameter;
     if (p < 0 || directions_ * phases_ > 1) continue;
     constexpr double kSurely = 1.96;
     const EffectParameter& parameter = effect.parameters[static_cast<std::size_t>(p)];
     const auto at = static_cast<Eigen::Index>(k);
-    const double size = block.columns[k].unit * mean_(at), u = block.columns[k].unit * std::sqrt(covariance_(at, at));
+    const double size = variant.columns[k].unit * mean_(at),
+                 u = variant.columns[k].unit * std::sqrt(covariance_(at, at));
     if (size + kSurely * u < parameter.low || size - kSurely * u > parameter.high) impossible.insert(p);
   }
   if (!impossible.empty()) solve(info, impossible);
@@ -98,7 +99,7 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Block& block, const
 
 void VariantEstimate::solve(const Information& info, const std::set<int>& later) {
   mean_.setZero(), covariance_.setZero();
-  const std::vector<Eigen::Index> kept = telling(block_, info.g, later);
+  const std::vector<Eigen::Index> kept = telling(variant_, info.g, later);
   const auto count = static_cast<Eigen::Index>(kept.size());
   const Eigen::LLT<Matrix> llt(info.g(kept, kept) + Matrix::Identity(count, count) / (kWidest * kWidest));
   mean_(kept) = Vector(llt.solve(Vector(info.u(kept))));
@@ -109,8 +110,8 @@ std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) co
   Matrix m = Matrix::Zero(directions_, phases_);
   std::vector<Eigen::Index> column(static_cast<std::size_t>(directions_ * phases_), -1);
   double unit = 0;
-  for (std::size_t k = 0; k < block_.columns.size(); ++k) {
-    const Column& c = block_.columns[k];
+  for (std::size_t k = 0; k < variant_.columns.size(); ++k) {
+    const Column& c = variant_.columns[k];
     if (c.parameter != parameter || covariance_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) == 0)
       continue;
     unit = c.unit;

@@ -33,7 +33,7 @@ struct SpannedDirection {
 /// component is positive where there is a phase to take its sign; the size is positive.
 class VariantEstimate {
  public:
-  VariantEstimate(const Effect&, const Block&, const Information&);
+  VariantEstimate(const Effect&, const Variant&, const Information&);
 
   /// Of a parameter in which displacements are linear; nothing where no column tells it.
   std::optional<Estimate> size(int parameter) const;
@@ -42,7 +42,7 @@ class VariantEstimate {
   /// Of that parameter, deg; nothing where no phases are spanned.
   std::optional<Estimate> phase_deg(int parameter) const;
   /// What the coefficients do along the normal of every touch, um.
-  Vector shift_um() const { return block_.signature * mean_; }
+  Vector shift_um() const { return variant_.signature * mean_; }
 
  private:
   /// sigma u w' of the coefficients of one parameter, by direction and phase.
@@ -58,7 +58,7 @@ class VariantEstimate {
   void solve(const Information&, const std::set<int>& later);
 
   const Effect& effect_;
-  const Block& block_;
+  const Variant& variant_;
   int directions_ = 1, phases_ = 1;
   Vector mean_;  ///< by column; 0 for one that is told by others
   Matrix covariance_;

@@ -73,20 +73,20 @@ void Ensemble::prepare(const std::vector<Matrix>& uneven) {
   prepare(list, nullptr);
 }
 
-void Ensemble::add(const std::vector<Block>& blocks) {
+void Ensemble::add(const std::vector<Variant>& variants) {
   std::vector<const Matrix*> list;
-  for (const Block& b : blocks) list.push_back(&b.signature);
-  prepare(list, &blocks);
+  for (const Variant& b : variants) list.push_back(&b.signature);
+  prepare(list, &variants);
 }
 
 void Ensemble::keep(std::size_t count) {
-  blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(functions_ + count), blocks_.end());
-  const Eigen::Index columns = blocks_.empty() ? 0 : blocks_.back().first + blocks_.back().count;
+  variants_.erase(variants_.begin() + static_cast<std::ptrdiff_t>(functions_ + count), variants_.end());
+  const Eigen::Index columns = variants_.empty() ? 0 : variants_.back().first + variants_.back().count;
   coordinates_.conservativeResize(Eigen::NoChange, columns);
   remainder_.conservativeResize(Eigen::NoChange, columns);
 }
 
-void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::vector<Block>* blocks) {
+void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants) {
   Eigen::Index first = coordinates_.cols(), columns = first;
   for (const Matrix* m : signatures) columns += m->cols();
   coordinates_.conservativeResize(rotated_.rank(), columns);
@@ -96,21 +96,21 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::
     const Matrix projected = rotated_.project_patterns(*m);
     coordinates_.middleCols(first, m->cols()) = rotated_.coordinates(projected);
     remainder_.middleCols(first, m->cols()) = rotated_.remainder(projected, coordinates_.middleCols(first, m->cols()));
-    blocks_.push_back(prepared(first, m->cols(), blocks ? &(*blocks)[k] : nullptr));
+    variants_.push_back(prepared(first, m->cols(), variants ? &(*variants)[k] : nullptr));
     first += m->cols();
   }
 }
 
-Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, const Block* block) const {
+Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, const Variant* variant) const {
   Prepared b;
   b.first = first;
   b.count = count;
   const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
   const Matrix outside = rest.transpose() * rest;
   const double information = (a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace();
-  const bool own_sizes = block && block->sizes.empty(),
+  const bool own_sizes = variant && variant->sizes.empty(),
              tells_nothing = own_sizes && information * kWidest * kWidest < 1;
-  b.sizes = !block ? kLarger : own_sizes ? sizes_of(information) : block->sizes;
+  b.sizes = !variant ? kLarger : own_sizes ? sizes_of(information) : variant->sizes;
   const auto sizes = static_cast<Eigen::Index>(b.sizes.size());
   b.log_weight.resize(sizes, precision_.cols());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
@@ -121,7 +121,7 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
     Axes axes{solver.eigenvectors().transpose(), Matrix(sizes, count)};
     for (Eigen::Index s = 0; s < sizes; ++s) {
       const auto& [factor, log_prior] = b.sizes[static_cast<std::size_t>(s)];
-      const double size = block ? factor : factor * scales_[static_cast<std::size_t>(j)], s2 = size * size;
+      const double size = variant ? factor : factor * scales_[static_cast<std::size_t>(j)], s2 = size * size;
       axes.share.row(s) = (tells_nothing ? 0 : s2) / (1 + s2 * d.array());
       b.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
     }
@@ -143,8 +143,8 @@ std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
   return out;
 }
 
-Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& blocks) const {
-  const Eigen::Index scales = precision_.cols(), asked = static_cast<Eigen::Index>(functions_ + blocks.size());
+Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variants) const {
+  const Eigen::Index scales = precision_.cols(), asked = static_cast<Eigen::Index>(functions_ + variants.size());
   Verdicts out{{}, Matrix(scales, asked), {}, Matrix(scales, asked)};
   Vector z = y.of.z, rest = y.of.rest;
   if (y.added) z += y.times * y.added->z, rest += y.times * y.added->rest;
@@ -186,7 +186,7 @@ Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& blocks)
   };
   for (Eigen::Index k = 0; k < asked; ++k) {
     const auto at = static_cast<std::size_t>(k);
-    judge(at < functions_ ? blocks_[at] : of(blocks[at - functions_]), k);
+    judge(at < functions_ ? variants_[at] : of(variants[at - functions_]), k);
   }
   return out;
 }
@@ -220,8 +220,8 @@ Matrix Ensemble::between(const Level& level, int a, int b) const {
       remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
 }
 
-Vector Ensemble::with_data(const Level& level, int block, const Vector& recording) const {
-  const Prepared& b = of(block);
+Vector Ensemble::with_data(const Level& level, int variant, const Vector& recording) const {
+  const Prepared& b = of(variant);
   const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
       remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;

@@ -1,7 +1,7 @@
-// One family of baselines: an ensemble of machines whose errors are scaled by g, and what every block of
+// One family of baselines: an ensemble of machines whose errors are scaled by g, and what every variant of
 // columns gains on it.
 //
-// With V_g the covariance of the recording and P_g its inverse with X projected out, a block with signature H
+// With V_g the covariance of the recording and P_g its inverse with X projected out, a variant with signature H
 // whose coefficients are drawn at size s has, with a common factor on all variances integrated out (inverse
 // gamma prior), the marginal likelihood
 //
@@ -23,7 +23,7 @@ namespace abbe::diagnose {
 /// Signal-to-noise ratios that an explanation of a certain size has on average.
 inline constexpr double kRatios[] = {3, 6, 12, 24, 96};
 
-/// The sizes at which a block has these ratios. `information`: the trace of G at a size of 1.
+/// The sizes at which a variant has these ratios. `information`: the trace of G at a size of 1.
 std::vector<Size> sizes_of(double information);
 
 /// Factors on the variances of machine and noise.
@@ -35,24 +35,24 @@ class Ensemble {
  public:
   /// `log_prior`: of this family among others.
   Ensemble(const LinearModel&, const Hyperparameters&, double log_prior);
-  /// Makes it ready to judge error functions that are larger than the others. Before any block.
+  /// Makes it ready to judge error functions that are larger than the others. Before any variant.
   void prepare(const std::vector<Matrix>& uneven);
-  /// Makes it ready to judge blocks, after those before.
-  void add(const std::vector<Block>&);
-  /// Forgets the blocks after the first `count`.
+  /// Makes it ready to judge variants, after those before.
+  void add(const std::vector<Variant>&);
+  /// Forgets the variants after the first `count`.
   void keep(std::size_t count);
 
   /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
   struct Verdicts {
-    Vector alone;         ///< without any block
-    Matrix with;          ///< a column for each error function, then for each block that was asked for
+    Vector alone;         ///< without any variant
+    Matrix with;          ///< a column for each error function, then for each variant that was asked for
     Vector squares;       ///< what is left of the sum of squares alone
     Matrix squares_with;  ///< likewise, with each of them at its best size
   };
   /// What the family sees of a recording.
   struct Seen {
     Vector z, rest;  ///< by eigenvector, and off the model
-    Matrix u;        ///< H' P_g y of the columns of all blocks, by scale
+    Matrix u;        ///< H' P_g y of the columns of all variants, by scale
   };
   /// A recording, and some of another added to it: what is seen of them adds up.
   struct Sum {
@@ -62,27 +62,27 @@ class Ensemble {
   };
   /// Of recordings, um, one a column: several at once take less time than one after the other.
   std::vector<Seen> seen(const Matrix& recordings) const;
-  Verdicts judge(const Sum&, const std::vector<int>& blocks) const;
+  Verdicts judge(const Sum&, const std::vector<int>& variants) const;
   /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
   Level level(const Vector& log_belief, const Vector& squares) const;
 
   /// A recording of such a machine, um, without what nothing is known of.
   Vector simulated(const Level&, const NoiseLaw&, std::uint64_t seed, int replicate) const;
 
-  /// H_a' P H_b, H_a' P y, and H' P h of the columns of all blocks with some of them; at a level.
+  /// H_a' P H_b, H_a' P y, and H' P h of the columns of all variants with some of them; at a level.
   Matrix between(const Level&, int a, int b) const;
-  Vector with_data(const Level&, int block, const Vector& y) const;
+  Vector with_data(const Level&, int variant, const Vector& y) const;
   Matrix against_all(const Level&, const std::vector<Eigen::Index>& columns) const;
 
-  const std::vector<Size>& sizes(int block) const { return of(block).sizes; }
-  /// Where the columns of a block begin among those of all.
-  Eigen::Index first_column(int block) const { return of(block).first; }
+  const std::vector<Size>& sizes(int variant) const { return of(variant).sizes; }
+  /// Where the columns of a variant begin among those of all.
+  Eigen::Index first_column(int variant) const { return of(variant).first; }
 
  private:
-  /// What a block asks of the family at one scale, where H' P_g H = E diag(d) E'.
+  /// What a variant asks of the family at one scale, where H' P_g H = E diag(d) E'.
   struct Axes {
     Matrix e;      ///< E'
-    Matrix share;  ///< s^2 / (1 + s^2 d): of a square of E' u, what the block takes; one row for each size
+    Matrix share;  ///< s^2 / (1 + s^2 d): of a square of E' u, what the variant takes; one row for each size
   };
   struct Prepared {
     Eigen::Index first = 0, count = 0;  ///< columns
@@ -90,10 +90,10 @@ class Ensemble {
     std::vector<Axes> axes;             ///< by scale
     Matrix log_weight;                  ///< by size and scale: prior and determinant
   };
-  /// `blocks`: whose signatures they are; none: error functions of the machine.
-  void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Block>* blocks);
-  Prepared prepared(Eigen::Index first, Eigen::Index count, const Block*) const;
-  const Prepared& of(int block) const { return blocks_[functions_ + static_cast<std::size_t>(block)]; }
+  /// `variants`: whose signatures they are; none: error functions of the machine.
+  void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);
+  Prepared prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
+  const Prepared& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
   Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
   Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
 
@@ -103,8 +103,8 @@ class Ensemble {
   Matrix precision_;                ///< 1 / (g^2 lambda + 1), one column for each scale
   Vector log_scale_;                ///< log prior of family and scale, and its determinant
   Matrix coordinates_, remainder_;  ///< of all columns: U' h, h - U U' h
-  std::size_t functions_ = 0;       ///< of the machine; blocks follow them
-  std::vector<Prepared> blocks_;
+  std::size_t functions_ = 0;       ///< of the machine; variants follow them
+  std::vector<Prepared> variants_;
 };
 
 }  // namespace abbe::diagnose

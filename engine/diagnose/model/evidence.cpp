@@ -52,8 +52,8 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   rough_ = add_machines(model, h, std::log(correlated));
   if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
   functions_ = model.uneven.size();
-  for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.blocks);
-  for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
+  for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.variants);
+  for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (!plan) evidence_ = judge(seen(model_.y), &alone_, &with_);
 }
@@ -69,12 +69,12 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
 }
 
 void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {
-  const std::vector<Block> more(explanations.blocks.begin() + static_cast<std::ptrdiff_t>(same),
-                                explanations.blocks.end());
+  const std::vector<Variant> more(explanations.variants.begin() + static_cast<std::ptrdiff_t>(same),
+                                  explanations.variants.end());
   for (Ensemble& e : ensembles_) e.keep(same), e.add(more);
   explanations_ = explanations.list;
   log_weight_.clear();
-  for (const Block& b : explanations.blocks) log_weight_.push_back(std::log(b.weight));
+  for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
   if (model_.y.squaredNorm() > 0) evidence_ = judge(seen(model_.y), &alone_, &with_);
 }
 
@@ -88,14 +88,14 @@ std::vector<std::vector<Ensemble::Seen>> EvidenceSearch::seen_of_each(const Matr
 }
 
 EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& y,
-                                              const std::vector<int>& blocks) const {
+                                              const std::vector<int>& variants) const {
   Weighed out;
   const auto families = static_cast<Eigen::Index>(ensembles_.size()), functions = static_cast<Eigen::Index>(functions_);
-  Matrix with(families, functions + static_cast<Eigen::Index>(blocks.size()));
+  Matrix with(families, functions + static_cast<Eigen::Index>(variants.size()));
   out.alone.resize(families);
   for (Eigen::Index e = 0; e < families; ++e) {
     const auto at = static_cast<std::size_t>(e);
-    const Ensemble::Verdicts& v = out.verdicts.emplace_back(ensembles_[at].judge(y[at], blocks));
+    const Ensemble::Verdicts& v = out.verdicts.emplace_back(ensembles_[at].judge(y[at], variants));
     out.alone(e) = log_sum_exp(v.alone);
     with.row(e) = log_sums_exp(v.with);
   }
@@ -104,15 +104,15 @@ EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& 
   no_mismatch << log_sum_exp(out.alone) + std::log(functions > 0 ? 1 - kPriorUneven : 1),
       log_bayes.head(functions).array() + std::log(kPriorUneven / double(std::max<Eigen::Index>(functions, 1)));
   out.log_null = log_sum_exp(no_mismatch);
-  const Vector of_blocks = log_bayes.tail(log_bayes.size() - functions).array() - out.log_null;
-  out.log_bayes.assign(of_blocks.begin(), of_blocks.end());
+  const Vector of_variants = log_bayes.tail(log_bayes.size() - functions).array() - out.log_null;
+  out.log_bayes.assign(of_variants.begin(), of_variants.end());
   return out;
 }
 
-double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<double>& by_own_block) const {
+double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<double>& by_own_variant) const {
   std::vector<double> variants;
-  for (std::size_t k = 0; k < x.blocks.size(); ++k)
-    variants.push_back(by_own_block[k] + log_weight_[static_cast<std::size_t>(x.blocks[k])]);
+  for (std::size_t k = 0; k < x.variants.size(); ++k)
+    variants.push_back(by_own_variant[k] + log_weight_[static_cast<std::size_t>(x.variants[k])]);
   return log_sum_exp(variants);
 }
 
@@ -121,22 +121,22 @@ double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& of, const s
   const Explanation& x = explanations_[static_cast<std::size_t>(explanation)];
   std::vector<Ensemble::Sum> y;
   for (std::size_t e = 0; e < of.size(); ++e) y.push_back({of[e], &added[e], times});
-  return std::log(x.prior) + log_bayes_of(x, weigh(y, x.blocks).log_bayes);
+  return std::log(x.prior) + log_bayes_of(x, weigh(y, x.variants).log_bayes);
 }
 
 Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const {
-  std::vector<int> blocks(log_weight_.size());
-  std::iota(blocks.begin(), blocks.end(), 0);
+  std::vector<int> variants(log_weight_.size());
+  std::iota(variants.begin(), variants.end(), 0);
   std::vector<Ensemble::Sum> whole;
   for (const Ensemble::Seen& seen : y) whole.push_back({seen});
-  Weighed weighed = weigh(whole, blocks);
+  Weighed weighed = weigh(whole, variants);
   Evidence out;
   out.log_null = weighed.log_null;
-  out.block_log_bayes = std::move(weighed.log_bayes);
+  out.variant_log_bayes = std::move(weighed.log_bayes);
   std::vector<double> all;
   for (const Explanation& x : explanations_) {
     std::vector<double> own;
-    for (const int k : x.blocks) own.push_back(out.block_log_bayes[static_cast<std::size_t>(k)]);
+    for (const int k : x.variants) own.push_back(out.variant_log_bayes[static_cast<std::size_t>(k)]);
     out.log_bayes.push_back(log_bayes_of(x, own));
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
@@ -146,14 +146,14 @@ Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* a
   const std::vector<Ensemble::Verdicts>& verdicts = weighed.verdicts;
   const std::size_t e = index_of_largest(weighed.alone);
   *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, verdicts[e].squares)};
-  const auto best = std::max_element(out.block_log_bayes.begin(), out.block_log_bayes.end());
+  const auto best = std::max_element(out.variant_log_bayes.begin(), out.variant_log_bayes.end());
   if (*best <= 0) return out;
-  const Eigen::Index block = static_cast<Eigen::Index>(functions_) + (best - out.block_log_bayes.begin());
+  const Eigen::Index variant = static_cast<Eigen::Index>(functions_) + (best - out.variant_log_bayes.begin());
   Vector logs(weighed.alone.size());
   for (Eigen::Index k = 0; k < logs.size(); ++k)
-    logs(k) = log_sum_exp(Vector(verdicts[static_cast<std::size_t>(k)].with.col(block)));
+    logs(k) = log_sum_exp(Vector(verdicts[static_cast<std::size_t>(k)].with.col(variant)));
   const std::size_t f = index_of_largest(logs);
-  *with = {f, ensembles_[f].level(verdicts[f].with.col(block), verdicts[f].squares_with.col(block))};
+  *with = {f, ensembles_[f].level(verdicts[f].with.col(variant), verdicts[f].squares_with.col(variant))};
   return out;
 }
 

@@ -3,7 +3,7 @@
 // The baseline is the ensemble of the specification or, less probably, one of the same size and rougher
 // functions; at any scale (ensemble.hpp); and one of the error functions, or those of one axis, may be more uneven than the others,
 // which is no physics left out either. The Bayes factor of an explanation is its likelihood averaged over
-// ensembles, scales, sizes and its blocks, over that of the baseline, averaged likewise. The statistic of the
+// ensembles, scales, sizes and its variants, over that of the baseline, averaged likewise. The statistic of the
 // search is the logarithm of the average Bayes factor of all explanations; its distribution without any
 // mismatch is simulated at the fitted baseline and evaluated with the same averages (parametric bootstrap),
 // so that one p-value holds for all that was looked for. [MacKay 2003, ch. 28; Davison & Hinkley 1997, ch. 4]
@@ -17,20 +17,20 @@
 namespace abbe::diagnose {
 
 struct Evidence {
-  std::vector<double> log_bayes;        ///< by explanation
-  std::vector<double> block_log_bayes;  ///< by block, sizes averaged
-  double statistic = 0;                 ///< log of the average Bayes factor of all explanations
+  std::vector<double> log_bayes;          ///< by explanation
+  std::vector<double> variant_log_bayes;  ///< by variant, sizes averaged
+  double statistic = 0;                   ///< log of the average Bayes factor of all explanations
   double log_null = 0;  ///< log likelihood of the baseline, but for what recordings of as many rows share
 };
 
-/// What the data say of the sizes of a block with signature H, where P is the precision of the baseline: G = H' P H and
+/// What the data say of the sizes of a variant with signature H, where P is the precision of the baseline: G = H' P H and
 /// u = H' P y.
 struct Information {
   Matrix g;
   Vector u;
 };
 
-/// The size at which a block explains the data best, given what is believed of sizes, and its coefficients there.
+/// The size at which a variant explains the data best, given what is believed of sizes, and its coefficients there.
 struct LikeliestSize {
   double factor = 1;
   Vector coefficients;
@@ -52,7 +52,7 @@ class EvidenceSearch {
 
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
-  /// Judges a list whose blocks are new after the first `same`; a plan has nothing to judge.
+  /// Judges a list whose variants are new after the first `same`; a plan has nothing to judge.
   void extend(const Explanations&, std::size_t same);
 
   /// Touches of a recording.
@@ -83,22 +83,22 @@ class EvidenceSearch {
     return likely().simulated(with_.level, {}, seed, replicate);
   }
 
-  /// Standardised residuals beside a block of any size: each row against its prediction from all others.
-  Vector residuals_beside(const Block& b) const { return leave_one_out(with_free(model_, {&b.signature}), hyper_); }
+  /// Standardised residuals beside a variant of any size: each row against its prediction from all others.
+  Vector residuals_beside(const Variant& b) const { return leave_one_out(with_free(model_, {&b.signature}), hyper_); }
 
-  /// G and u of a block at the level of the recording, which is that with the likeliest explanation.
-  Information information(int block) const {
-    return {between(block, block), likely().with_data(with_.level, block, model_.y)};
+  /// G and u of a variant at the level of the recording, which is that with the likeliest explanation.
+  Information information(int variant) const {
+    return {between(variant, variant), likely().with_data(with_.level, variant, model_.y)};
   }
   /// H_a' P H_b at the level of the recording.
   Matrix between(int a, int b) const { return likely().between(with_.level, a, b); }
-  /// H' P h of the columns of all blocks, one after the other, with some of them.
+  /// H' P h of the columns of all variants, one after the other, with some of them.
   Matrix against_all(const std::vector<Eigen::Index>& columns) const {
     return likely().against_all(with_.level, columns);
   }
-  Eigen::Index first_column(int block) const { return likely().first_column(block); }
-  /// The sizes at which a block was judged.
-  const std::vector<Size>& sizes(int block) const { return likely().sizes(block); }
+  Eigen::Index first_column(int variant) const { return likely().first_column(variant); }
+  /// The sizes at which a variant was judged.
+  const std::vector<Size>& sizes(int variant) const { return likely().sizes(variant); }
 
  private:
   /// Ensembles of the specification and, if that is not out of the question, of rougher errors, with this
@@ -110,13 +110,13 @@ class EvidenceSearch {
   };
   struct Weighed {
     std::vector<Ensemble::Verdicts> verdicts;  ///< by ensemble
-    Vector alone;                              ///< likewise: log likelihood without any block
+    Vector alone;                              ///< likewise: log likelihood without any variant
     double log_null = 0;
-    std::vector<double> log_bayes;  ///< by block that was asked for
+    std::vector<double> log_bayes;  ///< by variant that was asked for
   };
-  Weighed weigh(const std::vector<Ensemble::Sum>& y, const std::vector<int>& blocks) const;
-  /// Of the blocks of an explanation, averaged over them.
-  double log_bayes_of(const Explanation&, const std::vector<double>& by_own_block) const;
+  Weighed weigh(const std::vector<Ensemble::Sum>& y, const std::vector<int>& variants) const;
+  /// Of the variants of an explanation, averaged over them.
+  double log_bayes_of(const Explanation&, const std::vector<double>& by_own_variant) const;
   Evidence judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const;
   const Ensemble& likely() const { return ensembles_[with_.ensemble]; }
 
@@ -124,8 +124,8 @@ class EvidenceSearch {
   Hyperparameters hyper_;
   std::vector<Explanation> explanations_;
   std::vector<Ensemble> ensembles_;
-  std::vector<double> log_weight_;  ///< by block
-  std::size_t functions_ = 0;       ///< uneven error functions, before the blocks
+  std::vector<double> log_weight_;  ///< by variant
+  std::size_t functions_ = 0;       ///< uneven error functions, before the variants
   Evidence evidence_;
   Baseline alone_, with_;
   double rough_ = 0;

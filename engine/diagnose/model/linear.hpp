@@ -196,7 +196,7 @@ class Rotated {
   int rest_dof_ = 0;
 };
 
-/// The model with the signatures of some blocks as unknowns without a prior.
+/// The model with the signatures of some variants as unknowns without a prior.
 LinearModel with_free(const LinearModel&, const std::vector<const Matrix*>& signatures);
 
 }  // namespace abbe::diagnose

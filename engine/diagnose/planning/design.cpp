@@ -31,18 +31,18 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// One form of an effect: a column of a variant.
 struct Form {
-  int block = 0;
-  Eigen::Index column = 0, place = 0;  ///< in the block, and among the forms
+  int variant = 0;
+  Eigen::Index column = 0, place = 0;  ///< in the variant, and among the forms
   double per_snr = 0, um_per_snr = 0;  ///< size and largest displacement of a touch at a signal-to-noise of 1
   double named = kNever;               ///< signal-to-noise from which on it is named
 };
 
-/// What a block makes of a shift: all that its evidence needs.
+/// What a variant makes of a shift: all that its evidence needs.
 struct Judged {
   Matrix axes;
   Vector information;  ///< along them
   std::vector<Size> sizes;
-  Eigen::Index first = 0;          ///< of its columns among those of all blocks
+  Eigen::Index first = 0;          ///< of its columns among those of all variants
   std::vector<double> log_belief;  ///< by size: before the shift, with the determinant
 };
 
@@ -50,7 +50,7 @@ class Design {
  public:
   Design(const Case& c, const EvidenceSearch& search, const Power& power)
       : all_(c.explanations), search_(search), power_(power) {
-    for (int b = 0; b < static_cast<int>(all_.blocks.size()); ++b) {
+    for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b) {
       const Matrix g = search.between(b, b);
       const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
       Judged judged{solver.eigenvectors(),
@@ -58,11 +58,11 @@ class Design {
                     search.sizes(b),
                     search.first_column(b),
                     {}};
-      const double log_weight = std::log(std::max(all_.blocks[static_cast<std::size_t>(b)].weight, 1e-300));
+      const double log_weight = std::log(std::max(all_.variants[static_cast<std::size_t>(b)].weight, 1e-300));
       for (const Size& size : judged.sizes)
         judged.log_belief.push_back(log_weight + size.log_prior -
                                     0.5 * (1 + size.factor * size.factor * judged.information.array()).log().sum());
-      blocks_.push_back(std::move(judged));
+      variants_.push_back(std::move(judged));
       diagonal_.push_back(g.diagonal());
     }
   }
@@ -76,10 +76,10 @@ class Design {
     const EffectParameter& parameter = e.effect->parameters[static_cast<std::size_t>(parameter_of(e))];
     std::vector<double> belief(all_.list.size(), 0.0);
     std::vector<Eigen::Index> columns;
-    for (const Form& f : forms) columns.push_back(blocks_[static_cast<std::size_t>(f.block)].first + f.column);
+    for (const Form& f : forms) columns.push_back(variants_[static_cast<std::size_t>(f.variant)].first + f.column);
     const Matrix seen = search_.against_all(columns);
     const auto shift_of_form = [&](const Form& f) {
-      return shift_of(seen.col(f.place) / std::sqrt(diagonal_[static_cast<std::size_t>(f.block)](f.column)));
+      return shift_of(seen.col(f.place) / std::sqrt(diagonal_[static_cast<std::size_t>(f.variant)](f.column)));
     };
     for (std::size_t i = 0; i < forms.size(); ++i) {
       Form& f = forms[i];
@@ -111,23 +111,23 @@ class Design {
   }
 
  private:
-  /// What all blocks see of a form, at a signal-to-noise of 1.
+  /// What all variants see of a form, at a signal-to-noise of 1.
   struct Shift {
-    std::vector<std::vector<double>> gain;  ///< by block and size: nats
+    std::vector<std::vector<double>> gain;  ///< by variant and size: nats
     std::vector<double> left;               ///< by explanation: the share of the information that it cannot imitate
   };
 
   /// The signal-to-noise from which on a form is seen.
   double detected_from(const Form& f, std::size_t explanation, const Shift& shift) const {
     constexpr double kMost = 100;
-    const Block& block = all_.blocks[static_cast<std::size_t>(f.block)];
-    const Vector& information = diagonal_[static_cast<std::size_t>(f.block)];
-    if (block.joined)  // no other explanation makes all that may be drawn
-      return power_.detected_from(block.signature / std::sqrt(information.sum()), static_cast<int>(explanation), 1,
+    const Variant& variant = all_.variants[static_cast<std::size_t>(f.variant)];
+    const Vector& information = diagonal_[static_cast<std::size_t>(f.variant)];
+    if (variant.joined)  // no other explanation makes all that may be drawn
+      return power_.detected_from(variant.signature / std::sqrt(information.sum()), static_cast<int>(explanation), 1,
                                   kMost);
     std::vector<double> belief;
     for (std::size_t j = 0; j < all_.list.size(); ++j) belief.push_back(log_belief(j, shift, kDetects));
-    return power_.detected_from(block.signature.col(f.column) / std::sqrt(information(f.column)),
+    return power_.detected_from(variant.signature.col(f.column) / std::sqrt(information(f.column)),
                                 static_cast<int>(explanation), std::exp(belief[explanation] - log_sum_exp(belief)),
                                 kMost);
   }
@@ -136,11 +136,11 @@ class Design {
   int parameter_of(const Explanation& e) const {
     const auto most = [&](int b) { return diagonal_[static_cast<std::size_t>(b)].maxCoeff(); };
     const int strongest =
-        *std::max_element(e.blocks.begin(), e.blocks.end(), [&](int a, int b) { return most(a) < most(b); });
-    const Block& block = all_.blocks[static_cast<std::size_t>(strongest)];
+        *std::max_element(e.variants.begin(), e.variants.end(), [&](int a, int b) { return most(a) < most(b); });
+    const Variant& variant = all_.variants[static_cast<std::size_t>(strongest)];
     Eigen::Index column = 0;
     diagonal_[static_cast<std::size_t>(strongest)].maxCoeff(&column);
-    if (!block.joined) return std::max(0, block.columns[static_cast<std::size_t>(column)].parameter);
+    if (!variant.joined) return std::max(0, variant.columns[static_cast<std::size_t>(column)].parameter);
     const auto& p = e.effect->parameters;
     const auto linear = std::find_if(p.begin(), p.end(), [](const EffectParameter& x) { return x.linear; });
     return linear == p.end() ? 0 : static_cast<int>(linear - p.begin());
@@ -150,32 +150,32 @@ class Design {
   /// size that is told.
   std::vector<Form> forms_of(const Explanation& e, bool changing) const {
     constexpr std::size_t kVariants = 7;
-    std::vector<int> blocks;
-    for (const int b : e.blocks)
+    std::vector<int> variants;
+    for (const int b : e.variants)
       if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12 &&
-          (all_.blocks[static_cast<std::size_t>(b)].change.any()) == changing)
-        blocks.push_back(b);
-    std::stable_sort(blocks.begin(), blocks.end(), [&](int a, int b) {
+          (all_.variants[static_cast<std::size_t>(b)].change.any()) == changing)
+        variants.push_back(b);
+    std::stable_sort(variants.begin(), variants.end(), [&](int a, int b) {
       return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff();
     });
-    const std::size_t n = blocks.size(), m = std::min(n, kVariants);
+    const std::size_t n = variants.size(), m = std::min(n, kVariants);
     std::vector<Form> out;
-    if (blocks.empty()) return out;
+    if (variants.empty()) return out;
     const int told = parameter_of(e);
     for (std::size_t i = 0; i < m; ++i) {
-      const int b = blocks[m == 1 ? 0 : i * (n - 1) / (m - 1)];
-      const Block& block = all_.blocks[static_cast<std::size_t>(b)];
-      for (Eigen::Index j = 0; j < block.signature.cols(); ++j) {
+      const int b = variants[m == 1 ? 0 : i * (n - 1) / (m - 1)];
+      const Variant& variant = all_.variants[static_cast<std::size_t>(b)];
+      for (Eigen::Index j = 0; j < variant.signature.cols(); ++j) {
         const double information = diagonal_[static_cast<std::size_t>(b)](j);
-        const int p = block.joined ? told : block.columns[static_cast<std::size_t>(j)].parameter;
+        const int p = variant.joined ? told : variant.columns[static_cast<std::size_t>(j)].parameter;
         if (information <= 1e-12 || (p >= 0 && p != told)) continue;
-        const double unit = block.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical
-                                         : block.columns[static_cast<std::size_t>(j)].unit;
+        const double unit = variant.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical
+                                           : variant.columns[static_cast<std::size_t>(j)].unit;
         Form f{b, j, 0, unit / std::sqrt(information),
-               block.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
-        if (block.joined) {  // draws come together: all columns at the spread that is told
+               variant.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
+        if (variant.joined) {  // draws come together: all columns at the spread that is told
           const double all = std::sqrt(diagonal_[static_cast<std::size_t>(b)].sum());
-          f.per_snr = unit / all, f.um_per_snr = block.signature.rowwise().norm().maxCoeff() / all;
+          f.per_snr = unit / all, f.um_per_snr = variant.signature.rowwise().norm().maxCoeff() / all;
         }
         if (kDetects * f.um_per_snr <= kNothing_um) out.push_back(f);
       }
@@ -187,7 +187,7 @@ class Design {
   Shift shift_of(const Vector& u) const {
     Shift out;
     std::vector<double> imitated;
-    for (const Judged& b : blocks_) {
+    for (const Judged& b : variants_) {
       const Eigen::ArrayXd squares = (b.axes.transpose() * u.segment(b.first, b.axes.rows())).array().square();
       imitated.push_back((squares / b.information.array()).sum());
       std::vector<double>& gain = out.gain.emplace_back();
@@ -198,7 +198,7 @@ class Design {
     }
     for (const Explanation& e : all_.list) {
       double left = 1;
-      for (const int b : e.blocks) left = std::min(left, 1 - imitated[static_cast<std::size_t>(b)]);
+      for (const int b : e.variants) left = std::min(left, 1 - imitated[static_cast<std::size_t>(b)]);
       out.left.push_back(std::max(0.0, left));
     }
     return out;
@@ -207,10 +207,10 @@ class Design {
   /// The logarithm of prior and Bayes factor of an explanation, for the shift alone.
   double log_belief(std::size_t k, const Shift& shift, double snr) const {
     std::vector<double> terms;
-    for (const int index : all_.list[k].blocks) {
+    for (const int index : all_.list[k].variants) {
       const auto b = static_cast<std::size_t>(index);
-      for (std::size_t i = 0; i < blocks_[b].sizes.size(); ++i)
-        terms.push_back(blocks_[b].log_belief[i] + snr * snr * shift.gain[b][i]);
+      for (std::size_t i = 0; i < variants_[b].sizes.size(); ++i)
+        terms.push_back(variants_[b].log_belief[i] + snr * snr * shift.gain[b][i]);
     }
     return std::log(all_.list[k].prior) + log_sum_exp(terms);
   }
@@ -278,8 +278,8 @@ class Design {
   const Explanations& all_;
   const EvidenceSearch& search_;
   const Power& power_;
-  std::vector<Judged> blocks_;
-  std::vector<Vector> diagonal_;  ///< by block: the information on each column
+  std::vector<Judged> variants_;
+  std::vector<Vector> diagonal_;  ///< by variant: the information on each column
 };
 
 /// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).
@@ -337,16 +337,16 @@ Rivals rivals(const Case& c, const Evidence& evidence) {
     const EvidenceSearch now(with_free(c.model, taken), c.hyper, catalogue);
     double most = 0;
     int chosen = -1;
-    for (std::size_t b = 0; b < catalogue.blocks.size(); ++b) {
+    for (std::size_t b = 0; b < catalogue.variants.size(); ++b) {
       const auto info = now.information(static_cast<int>(b));
       const Matrix g = info.g + 1e-9 * (1 + info.g.trace()) * Matrix::Identity(info.g.rows(), info.g.cols());
       const double gain = info.u.dot(Eigen::LDLT<Matrix>(g).solve(info.u)) - log_n * double(info.u.size());
       if (gain > most) most = gain, chosen = static_cast<int>(b);
     }
     if (chosen < 0) break;
-    const Block& block = catalogue.blocks[static_cast<std::size_t>(chosen)];
-    taken.push_back(&block.signature);
-    out.stepwise_bic.push_back(catalogue.list[static_cast<std::size_t>(block.explanation)].name);
+    const Variant& variant = catalogue.variants[static_cast<std::size_t>(chosen)];
+    taken.push_back(&variant.signature);
+    out.stepwise_bic.push_back(catalogue.list[static_cast<std::size_t>(variant.explanation)].name);
   }
   return out;
 }

@@ -131,8 +131,8 @@ std::vector<Matrix> signatures_beside(const Case& c, const Question& question, c
                                       const std::vector<int>& rows) {
   std::vector<Matrix> out;
   for (const Finding& f : question.beside) {
-    const Block& found = c.explanations.blocks[static_cast<std::size_t>(f.block)];
-    Block seen =
+    const Variant& found = c.explanations.variants[static_cast<std::size_t>(f.variant)];
+    Variant seen =
         variant_like(found, *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, longer.touches, rows);
     if (seen.signature.cols() > 0) out.push_back(std::move(seen.signature));
   }
@@ -159,7 +159,7 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
     const Explanations own =
         named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
     Contender contender;
-    for (const Block& b : own.blocks) {
+    for (const Variant& b : own.variants) {
       contender.first.push_back(first.seen(b.signature(of_first, Eigen::all)));
       contender.both.push_back(both.seen(b.signature));
     }

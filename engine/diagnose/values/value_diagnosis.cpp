@@ -120,20 +120,22 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
 /// The search once more, beside the errors that a machine has.
 struct Closer {
   ValueSearch search;
-  std::map<int, Sizes> sizes;  ///< by block, of the likeliest
+  std::map<int, Sizes> sizes;  ///< by variant, of the likeliest
 
   explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, bench_of(c))) {}
-  const Block& block(const Finding& f) const { return search.explanations().blocks[static_cast<std::size_t>(f.block)]; }
+  const Variant& variant(const Finding& f) const {
+    return search.explanations().variants[static_cast<std::size_t>(f.variant)];
+  }
   const Explanation& explanation(const Finding& f) const {
     return search.explanations().list[static_cast<std::size_t>(f.explanation)];
   }
 };
 
 std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& closer, const Finding& f) {
-  const Block& b = closer.block(f);
+  const Variant& b = closer.variant(f);
   const Effect& effect = *closer.explanation(f).effect;
-  const auto found = closer.sizes.find(f.block);
-  const Sizes s = found != closer.sizes.end() ? found->second : sizes_of(closer.search, f.block, c.deviation);
+  const auto found = closer.sizes.find(f.variant);
+  const Sizes s = found != closer.sizes.end() ? found->second : sizes_of(closer.search, f.variant, c.deviation);
   std::vector<DiagnosedParameter> out;
   for (std::size_t k = 0; k < b.columns.size(); ++k) {
     const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];
@@ -154,7 +156,7 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& 
 
 void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   const Explanation& e = closer.explanation(f);
-  const Vector all = closer.block(f).signature * sizes_of(closer.search, f.block, c.deviation).mean,
+  const Vector all = closer.variant(f).signature * sizes_of(closer.search, f.variant, c.deviation).mean,
                pattern = all(of_figures(c.ensemble.values));
   const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())),
                u = rms / std::sqrt(2.0 * double(pattern.size()));
@@ -214,12 +216,12 @@ std::vector<int> groups_of(const ValueCase& c, std::string& scheme) {
 }
 
 /// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula). The point near
-/// which a block is linear is that of all values.
+/// which a variant is linear is that of all values.
 void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   Improvement i;
   const std::vector<int> group = groups_of(c, i.scheme);
   const auto at = static_cast<std::size_t>(f.explanation);
-  const std::vector<int>& blocks = closer.explanation(f).blocks;
+  const std::vector<int>& variants = closer.explanation(f).variants;
   const double complete = closer.search.evidence(c.deviation).log_bayes[at];
   std::vector<double> gain;
   Vector predicted = Vector::Zero(c.deviation.size());
@@ -233,10 +235,10 @@ void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f
     const Evidence evidence = search.evidence(rest);
     gain.push_back(complete - evidence.log_bayes[0]);
     const auto best =
-        static_cast<int>(std::max_element(evidence.block_log_bayes.begin(), evidence.block_log_bayes.end()) -
-                         evidence.block_log_bayes.begin());
-    const int block = blocks[static_cast<std::size_t>(best)];
-    const Vector all = closer.search.predicted(block, sizes_of(search, best, rest).mean);
+        static_cast<int>(std::max_element(evidence.variant_log_bayes.begin(), evidence.variant_log_bayes.end()) -
+                         evidence.variant_log_bayes.begin());
+    const int variant = variants[static_cast<std::size_t>(best)];
+    const Vector all = closer.search.predicted(variant, sizes_of(search, best, rest).mean);
     for (std::size_t k = 0; k < group.size(); ++k)
       if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
   }
@@ -264,24 +266,24 @@ double chance_of(const ValueCase& c, const ValueSearch& search, const Matrix& ma
 
 /// How often chance leaves as much as a pattern does, or a name that no machine was simulated with.
 double left_by_chance(const ValueCase& c, const Closer& closer, const Finding& f) {
-  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), closer.block(f).signature);
+  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), closer.variant(f).signature);
   return chance_of(c, without, c.judges.judged);
 }
 
 /// How often a machine with the effect that is named leaves as much as the recording does.
 double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name) {
   if (name.explanation < 0) return 1;
-  const auto found = closer.sizes.find(name.block);
+  const auto found = closer.sizes.find(name.variant);
   if (found == closer.sizes.end()) return left_by_chance(c, closer, name);
-  const Block& block = closer.block(name);
-  const Machine planted = with_effect(*c.machine, *closer.explanation(name).effect, block, found->second.mean);
+  const Variant& variant = closer.variant(name);
+  const Machine planted = with_effect(*c.machine, *closer.explanation(name).effect, variant, found->second.mean);
   const VirtualMachines machines =
       screened_machines(*c.machine, c.options->seed, machines_for(c.deviation.size()), c.options->threads);
   const Matrix simulated =
       complete_rows(simulated_values(c.ensemble.values, *c.programs, planted, machines, *c.options));
   if (!enough(simulated)) return left_by_chance(c, closer, name);
   const Judges judges = judges_of(simulated, c.calibration, c.options->seed);
-  return chance_of(c, ValueSearch(judges.mean, judges.covariance, c.search->explanations(), block.signature),
+  return chance_of(c, ValueSearch(judges.mean, judges.covariance, c.search->explanations(), variant.signature),
                    judges.judged);
 }
 
@@ -292,7 +294,7 @@ void put_told_first(const Explanations& all, const Evidence& evidence, Finding& 
                         [&](int k) { return !all.list[static_cast<std::size_t>(k)].missing; });
   if (name.set.front() == name.explanation) return;
   name.explanation = name.set.front();
-  name.block = best_block(all, name.explanation, evidence);
+  name.variant = best_variant(all, name.explanation, evidence);
 }
 
 /// The likeliest name with a size that it can have, if one is likelier than the pattern; else the likeliest.

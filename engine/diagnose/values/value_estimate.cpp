@@ -16,7 +16,7 @@ constexpr int kMachines = 200, kNewtonSteps = 4;
 constexpr double kWide = 30;       // typical sizes: a prior that does not pull
 constexpr double kSettled = 0.05;  // standard uncertainties
 constexpr double kMove = 0.1;      // typical sizes, for the derivatives; they are taken on the same machines
-constexpr std::size_t kFirst = 8, kMost = 24;  // blocks
+constexpr std::size_t kFirst = 8, kMost = 24;  // variants
 constexpr double kNearBest = 6;                // nats
 
 struct BesideErrors {
@@ -24,12 +24,12 @@ struct BesideErrors {
   NearSizes near;
 };
 
-/// Sizes of the columns of a block that its effect can have, the nearest to `sizes`.
-Vector possible_sizes(const Effect& effect, const Block& block, Vector sizes) {
-  for (std::size_t k = 0; k < block.columns.size(); ++k) {
-    const EffectParameter& p = effect.parameters[static_cast<std::size_t>(block.columns[k].parameter)];
+/// Sizes of the columns of a variant that its effect can have, the nearest to `sizes`.
+Vector possible_sizes(const Effect& effect, const Variant& variant, Vector sizes) {
+  for (std::size_t k = 0; k < variant.columns.size(); ++k) {
+    const EffectParameter& p = effect.parameters[static_cast<std::size_t>(variant.columns[k].parameter)];
     double& size = sizes(static_cast<Eigen::Index>(k));
-    size = std::clamp(size * block.columns[k].unit, p.low, p.high) / block.columns[k].unit;
+    size = std::clamp(size * variant.columns[k].unit, p.low, p.high) / variant.columns[k].unit;
   }
   return sizes;
 }
@@ -53,7 +53,7 @@ class Estimator {
         without_(simulated_values(b.values, b.programs, b.machine, machines_, b.options)) {}
 
   /// Nothing where hardly a machine with the effect reaches the values.
-  std::optional<BesideErrors> estimate(const Effect&, const Block&, const Vector& start) const;
+  std::optional<BesideErrors> estimate(const Effect&, const Variant&, const Vector& start) const;
 
  private:
   const ValueBench& bench_;
@@ -61,22 +61,23 @@ class Estimator {
   Matrix without_;  ///< machines x values: deviations without an effect
 };
 
-std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Block& block, const Vector& start) const {
+std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Variant& variant,
+                                                const Vector& start) const {
   const ValueBench& b = bench_;
   const auto values_at = [&](const Vector& sizes) {
-    return simulated_values(b.values, b.programs, with_effect(b.machine, effect, block, sizes), machines_, b.options);
+    return simulated_values(b.values, b.programs, with_effect(b.machine, effect, variant, sizes), machines_, b.options);
   };
   BesideErrors out;
   out.sizes.mean = start;
   for (int step = 0; step < kNewtonSteps; ++step) {
-    const Vector at = possible_sizes(effect, block, out.sizes.mean);
+    const Vector at = possible_sizes(effect, variant, out.sizes.mean);
     const Eigen::Index n = without_.cols(), columns = at.size();
     Matrix together(without_.rows(), (columns + 2) * n);  // next to each other: without, with, beside each derivative
     together << without_, values_at(at), Matrix(without_.rows(), columns * n);
     Vector move(columns);  // inwards from the largest size
     for (Eigen::Index k = 0; k < columns; ++k) {
       const Vector beside = at + kMove * Vector::Unit(columns, k);
-      move(k) = possible_sizes(effect, block, beside) == beside ? kMove : -kMove;
+      move(k) = possible_sizes(effect, variant, beside) == beside ? kMove : -kMove;
       together.middleCols((k + 2) * n, n) = values_at(at + move(k) * Vector::Unit(columns, k));
     }
     together = complete_rows(together);
@@ -91,28 +92,28 @@ std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Bloc
     out.sizes.covariance = gain * covariance * gain.transpose();
     out.near = {slopes, here - means.head(n) - slopes * at, covariance};
     out.sizes.mean = at + gain * (b.deviation - here);
-    const Vector change = possible_sizes(effect, block, out.sizes.mean) - at;
+    const Vector change = possible_sizes(effect, variant, out.sizes.mean) - at;
     if ((change.array().abs() < kSettled * out.sizes.covariance.diagonal().array().sqrt()).all()) break;
   }
   return out;
 }
 
-/// Among the blocks that were not tried, the one to look at next: the best of each of the first explanations, then
+/// Among the variants that were not tried, the one to look at next: the best of each of the first explanations, then
 /// whatever may still be the likeliest; -1: none.
-int next_block(const ValueSearch& search, const Vector& deviation, const std::set<int>& tried) {
+int next_variant(const ValueSearch& search, const Vector& deviation, const std::set<int>& tried) {
   const Explanations& all = search.explanations();
   const Evidence evidence = search.evidence(deviation);
   std::set<int> seen;
-  for (const int b : tried) seen.insert(all.blocks[static_cast<std::size_t>(b)].explanation);
+  for (const int b : tried) seen.insert(all.variants[static_cast<std::size_t>(b)].explanation);
   const auto log_belief = [&](std::size_t b) {
-    const Block& block = all.blocks[b];
-    return std::log(all.list[static_cast<std::size_t>(block.explanation)].prior * block.weight) +
-        evidence.block_log_bayes[b];
+    const Variant& variant = all.variants[b];
+    return std::log(all.list[static_cast<std::size_t>(variant.explanation)].prior * variant.weight) +
+        evidence.variant_log_bayes[b];
   };
   int next = -1;
   double best = -std::numeric_limits<double>::infinity(), top = best;
-  for (std::size_t b = 0; b < all.blocks.size(); ++b) {
-    const int of = all.blocks[b].explanation;
+  for (std::size_t b = 0; b < all.variants.size(); ++b) {
+    const int of = all.variants[b].explanation;
     top = std::max(top, log_belief(b));
     if (!all.list[static_cast<std::size_t>(of)].effect || tried.contains(static_cast<int>(b))) continue;
     if (seen.size() < kFirst && seen.contains(of)) continue;
@@ -123,18 +124,18 @@ int next_block(const ValueSearch& search, const Vector& deviation, const std::se
 
 }  // namespace
 
-Sizes sizes_of(const ValueSearch& search, int block, const Vector& deviation) {
-  const Information info = search.information(block, deviation);
+Sizes sizes_of(const ValueSearch& search, int variant, const Vector& deviation) {
+  const Information info = search.information(variant, deviation);
   const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide));
   return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
 }
 
-Machine with_effect(const Machine& machine, const Effect& effect, const Block& block, const Vector& sizes) {
-  const Vector taken = possible_sizes(effect, block, sizes);
-  std::vector<double> theta = block.theta;
-  for (std::size_t k = 0; k < block.columns.size(); ++k)
-    theta[static_cast<std::size_t>(block.columns[k].parameter)] =
-        taken(static_cast<Eigen::Index>(k)) * block.columns[k].unit;
+Machine with_effect(const Machine& machine, const Effect& effect, const Variant& variant, const Vector& sizes) {
+  const Vector taken = possible_sizes(effect, variant, sizes);
+  std::vector<double> theta = variant.theta;
+  for (std::size_t k = 0; k < variant.columns.size(); ++k)
+    theta[static_cast<std::size_t>(variant.columns[k].parameter)] =
+        taken(static_cast<Eigen::Index>(k)) * variant.columns[k].unit;
   Machine planted = machine;
   planted.effects.push_back(setting_of(effect, theta));
   return planted;
@@ -145,12 +146,12 @@ std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueBench& 
   std::map<int, Sizes> out;
   std::set<int> tried;
   while (tried.size() < kMost) {
-    const int b = next_block(search, bench.deviation, tried);
+    const int b = next_variant(search, bench.deviation, tried);
     if (b < 0) break;
     tried.insert(b);
-    const Block& block = search.explanations().blocks[static_cast<std::size_t>(b)];
-    const Effect& effect = *search.explanations().list[static_cast<std::size_t>(block.explanation)].effect;
-    const auto found = estimator.estimate(effect, block, sizes_of(search, b, bench.deviation).mean);
+    const Variant& variant = search.explanations().variants[static_cast<std::size_t>(b)];
+    const Effect& effect = *search.explanations().list[static_cast<std::size_t>(variant.explanation)].effect;
+    const auto found = estimator.estimate(effect, variant, sizes_of(search, b, bench.deviation).mean);
     if (!found) continue;
     search.linearise(b, found->near);
     out.emplace(b, found->sizes);

@@ -12,14 +12,14 @@ namespace abbe::diagnose {
 /// What rounding leaves of a value that no error reaches.
 inline constexpr double kLeastOfValue_um = 1e-3;
 
-/// Mean and covariance of the sizes of the columns of a block, in units of the columns.
+/// Mean and covariance of the sizes of the columns of a variant, in units of the columns.
 struct Sizes {
   Vector mean;
   Matrix covariance;
 };
 
 /// Under a prior so wide that it does not pull.
-Sizes sizes_of(const ValueSearch&, int block, const Vector& deviation);
+Sizes sizes_of(const ValueSearch&, int variant, const Vector& deviation);
 
 /// What recorded values are compared with. All of it must outlive this.
 struct ValueBench {
@@ -32,13 +32,13 @@ struct ValueBench {
   const Matrix& calibration;  ///< a column for each artefact: a standard deviation
 };
 
-/// Makes the likeliest blocks of the catalogue linear near the sizes that fit best (Gauss-Newton steps weighted by the
+/// Makes the likeliest variants of the catalogue linear near the sizes that fit best (Gauss-Newton steps weighted by the
 /// covariance, with the mean of simulated machines as the model), so that their evidence is that beside errors.
-/// Returns the sizes by block, with the spread of the simulated machines under the effect as the uncertainty; a block
+/// Returns the sizes by variant, with the spread of the simulated machines under the effect as the uncertainty; a variant
 /// that hardly any machine reaches all values with is left as it was.
 std::map<int, Sizes> linearise_likeliest(ValueSearch&, const ValueBench&);
 
-/// The machine with an effect of these sizes, in units of the columns of the block, or the nearest possible ones.
-Machine with_effect(const Machine&, const Effect&, const Block&, const Vector& sizes);
+/// The machine with an effect of these sizes, in units of the columns of the variant, or the nearest possible ones.
+Machine with_effect(const Machine&, const Effect&, const Variant&, const Vector& sizes);
 
 }  // namespace abbe::diagnose

@@ -12,9 +12,9 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// One form of an effect: of a block, the column of which the values tell most.
+/// One form of an effect: of a variant, the column of which the values tell most.
 struct Form {
-  int block = 0;
+  int variant = 0;
   Eigen::Index column = 0;
   double information = 0;
 };
@@ -23,7 +23,7 @@ struct Form {
 std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
   constexpr double kNone = 1e-12;
   std::vector<Form> forms;
-  for (const int b : e.blocks) {
+  for (const int b : e.variants) {
     Eigen::Index at = 0;
     const double information = s.between(b, b).diagonal().maxCoeff(&at);
     if (information > kNone) forms.push_back({b, at, information});
@@ -36,10 +36,10 @@ std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
 }
 
 /// What is left of the information on one column once a rival takes what it can, as a share.
-double left(const ValueSearch& s, int block, Eigen::Index column, int rival) {
-  const Vector cross = s.between(rival, block).col(column);
+double left(const ValueSearch& s, int variant, Eigen::Index column, int rival) {
+  const Vector cross = s.between(rival, variant).col(column);
   const Matrix g = s.between(rival, rival);
-  const double own = s.between(block, block)(column, column);
+  const double own = s.between(variant, variant)(column, column);
   return 1 -
       cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
 }
@@ -66,13 +66,13 @@ class Detection {
   std::optional<double> from(const Effect& effect, const Form& of) const {
     constexpr double kLeast = 0.5, kFar = 16;
     constexpr int kHalvings = 6;
-    const Block& block = search_.explanations().blocks[static_cast<std::size_t>(of.block)];
-    const Column& column = block.columns[static_cast<std::size_t>(of.column)];
+    const Variant& variant = search_.explanations().variants[static_cast<std::size_t>(of.variant)];
+    const Column& column = variant.columns[static_cast<std::size_t>(of.column)];
     const double about = kDetects / std::sqrt(of.information),
                  largest = effect.parameters[static_cast<std::size_t>(column.parameter)].high / column.unit;
     double low = kLeast * about, high = std::min(kFar * about, largest);
     const auto detected = [&](double size) {
-      return share_of_alarms(effect, block, size * Vector::Unit(block.signature.cols(), of.column)) >= kPower;
+      return share_of_alarms(effect, variant, size * Vector::Unit(variant.signature.cols(), of.column)) >= kPower;
     };
     if (low >= high || !detected(high)) return std::nullopt;
     for (int i = 0; i < kHalvings; ++i) {
@@ -86,8 +86,8 @@ class Detection {
   static constexpr int kMachines = 25;
   static constexpr double kPower = 0.8;
 
-  double share_of_alarms(const Effect& effect, const Block& block, const Vector& sizes) const {
-    const Machine with = with_effect(bench_.machine, effect, block, sizes);
+  double share_of_alarms(const Effect& effect, const Variant& variant, const Vector& sizes) const {
+    const Machine with = with_effect(bench_.machine, effect, variant, sizes);
     const Matrix reached = complete_rows(simulated_values(bench_.values, bench_.programs, with, machines_, options_));
     const std::vector<double> statistics =
         statistics_of(search_, with_calibration(reached, bench_.calibration, options_.seed));
@@ -111,7 +111,7 @@ void tell_apart(const ValueSearch& s, int explanation, const Form& of, double si
     const Explanation& other = all.list[static_cast<std::size_t>(j)];
     if (j == explanation || !other.effect) continue;
     double share = 1;
-    for (const int b : other.blocks) share = std::min(share, left(s, of.block, of.column, b));
+    for (const int b : other.variants) share = std::min(share, left(s, of.variant, of.column, b));
     least = std::min(least, share);
     if (share < 1 - kConfounded * kConfounded && d.confounded_with.size() < 4) d.confounded_with.push_back(other.name);
   }
@@ -141,10 +141,10 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
     if (!size) continue;
     const Explanation& e = all.list[static_cast<std::size_t>(k)];
     const Form& of = *form[static_cast<std::size_t>(k)];
-    const Block& block = all.blocks[static_cast<std::size_t>(of.block)];
-    const Column& column = block.columns[static_cast<std::size_t>(of.column)];
+    const Variant& variant = all.variants[static_cast<std::size_t>(of.variant)];
+    const Column& column = variant.columns[static_cast<std::size_t>(of.column)];
     const EffectParameter& p = e.effect->parameters[static_cast<std::size_t>(column.parameter)];
-    const double largest = block.signature(of_figures(bench.values), of.column).cwiseAbs().maxCoeff();
+    const double largest = variant.signature(of_figures(bench.values), of.column).cwiseAbs().maxCoeff();
     Detectable d{.effect = e.name,
                  .parameter = std::string(p.name),
                  .unit = std::string(p.unit),

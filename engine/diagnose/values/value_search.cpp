@@ -20,19 +20,19 @@ ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations exp
       covariance_(covariance),
       root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
   if (free.cols() > 0) free_ = independent(root_.triangularView<Eigen::Lower>().solve(free));
-  for (const Block& b : explanations_.blocks) white_.push_back(whitened(b.signature));
+  for (const Variant& b : explanations_.variants) white_.push_back(whitened(b.signature));
 }
 
-void ValueSearch::linearise(int block, NearSizes near) {
-  const auto b = static_cast<std::size_t>(block);
+void ValueSearch::linearise(int variant, NearSizes near) {
+  const auto b = static_cast<std::size_t>(variant);
   const Matrix root = Eigen::LLT<Matrix>(near.covariance).matrixL();
-  explanations_.blocks[b].signature = near.slopes;
+  explanations_.variants[b].signature = near.slopes;
   white_[b] = root.triangularView<Eigen::Lower>().solve(near.slopes);
-  near_.insert_or_assign(block, Near{std::move(near), root});
+  near_.insert_or_assign(variant, Near{std::move(near), root});
 }
 
-std::pair<Vector, double> ValueSearch::from_offset(int block, const Vector& deviation, const Vector& white) const {
-  const auto near = near_.find(block);
+std::pair<Vector, double> ValueSearch::from_offset(int variant, const Vector& deviation, const Vector& white) const {
+  const auto near = near_.find(variant);
   if (near == near_.end()) return {white, 0};
   const Matrix& root = near->second.root;
   const Vector w = root.triangularView<Eigen::Lower>().solve(deviation - mean_ - near->second.of.offset);
@@ -41,9 +41,9 @@ std::pair<Vector, double> ValueSearch::from_offset(int block, const Vector& devi
               root.diagonal().array().log().sum()};
 }
 
-Vector ValueSearch::predicted(int block, const Vector& sizes) const {
-  const Vector linear = explanations_.blocks[static_cast<std::size_t>(block)].signature * sizes;
-  const auto near = near_.find(block);
+Vector ValueSearch::predicted(int variant, const Vector& sizes) const {
+  const Vector linear = explanations_.variants[static_cast<std::size_t>(variant)].signature * sizes;
+  const auto near = near_.find(variant);
   return near == near_.end() ? linear : Vector(linear + near->second.of.offset);
 }
 
@@ -54,9 +54,9 @@ Matrix ValueSearch::whitened(const Matrix& columns) const {
 
 Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
 
-Information ValueSearch::information(int block, const Vector& deviation) const {
-  const Matrix& h = white(block);
-  return {h.transpose() * h, h.transpose() * from_offset(block, deviation, white(deviation)).first};
+Information ValueSearch::information(int variant, const Vector& deviation) const {
+  const Matrix& h = white(variant);
+  return {h.transpose() * h, h.transpose() * from_offset(variant, deviation, white(deviation)).first};
 }
 
 Evidence ValueSearch::evidence(const Vector& deviation) const {
@@ -74,14 +74,14 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
       sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() -
                       std::log(double(std::size(kSizes))));
     }
-    out.block_log_bayes.push_back(log_sum_exp(sizes) + log_offset);
+    out.variant_log_bayes.push_back(log_sum_exp(sizes) + log_offset);
   }
   std::vector<double> all;
   for (const Explanation& e : explanations_.list) {
     std::vector<double> variants;
-    for (const int b : e.blocks)
-      variants.push_back(out.block_log_bayes[static_cast<std::size_t>(b)] +
-                         std::log(explanations_.blocks[static_cast<std::size_t>(b)].weight));
+    for (const int b : e.variants)
+      variants.push_back(out.variant_log_bayes[static_cast<std::size_t>(b)] +
+                         std::log(explanations_.variants[static_cast<std::size_t>(b)].weight));
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(e.prior) + out.log_bayes.back());
   }
@@ -95,9 +95,9 @@ ValueSearch ValueSearch::rest(int explanation, const std::vector<char>& dropped,
   for (std::size_t k = 0; k < dropped.size(); ++k)
     if (!dropped[k]) kept.push_back(static_cast<Eigen::Index>(k));
   ValueSearch out(mean_(kept), covariance_(kept, kept), rows_of(only(explanations_, {explanation}), kept));
-  const std::vector<int>& blocks = explanations_.list[static_cast<std::size_t>(explanation)].blocks;
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-    if (const auto near = near_.find(blocks[b]); near != near_.end()) {
+  const std::vector<int>& variants = explanations_.list[static_cast<std::size_t>(explanation)].variants;
+  for (std::size_t b = 0; b < variants.size(); ++b)
+    if (const auto near = near_.find(variants[b]); near != near_.end()) {
       const NearSizes& all = near->second.of;
       out.linearise(static_cast<int>(b), {all.slopes(kept, Eigen::all), all.offset(kept), all.covariance(kept, kept)});
     }

@@ -1,8 +1,8 @@
 // The evidence of explanations of recorded values, in closed form, with nothing free and nothing estimated: V
-// is the covariance of the ensemble. For a block with signature H and a size s
+// is the covariance of the ensemble. For a variant with signature H and a size s
 //     log B = -1/2 log|1 + s^2 G| + 1/2 s^2 u' (1 + s^2 G)^-1 u,      G = H' V^-1 H,  u = H' V^-1 y,
-// averaged over sizes and the blocks of an explanation; the statistic is the logarithm of the average over
-// explanations (MacKay 2003, ch. 28). Of a block that is linear near one size only, values are normal about o + H s with
+// averaged over sizes and the variants of an explanation; the statistic is the logarithm of the average over
+// explanations (MacKay 2003, ch. 28). Of a variant that is linear near one size only, values are normal about o + H s with
 // a covariance W of their own: y - o and W stand for y and V, and log N(y; o, W) - log N(y; 0, V) is added.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace abbe::diagnose {
 
-/// What a block does near the sizes s that fit best: values are normal about offset + slopes s with `covariance`.
+/// What a variant does near the sizes s that fit best: values are normal about offset + slopes s with `covariance`.
 struct NearSizes {
   Matrix slopes;
   Vector offset;
@@ -28,16 +28,16 @@ class ValueSearch {
   ValueSearch(Vector mean, const Matrix& covariance, Explanations, const Matrix& free = {});
 
   /// Only where nothing is free.
-  void linearise(int block, NearSizes);
+  void linearise(int variant, NearSizes);
 
   Evidence evidence(const Vector& deviation) const;
-  Information information(int block, const Vector& deviation) const;
-  /// H_a' V^-1 H_b, of blocks that are linear everywhere.
+  Information information(int variant, const Vector& deviation) const;
+  /// H_a' V^-1 H_b, of variants that are linear everywhere.
   Matrix between(int a, int b) const { return white(a).transpose() * white(b); }
   /// The deviation in units in which it is uncorrelated, each of variance 1, without what the free columns can do.
   Vector white(const Vector& deviation) const;
-  /// What a block predicts with these sizes.
-  Vector predicted(int block, const Vector& sizes) const;
+  /// What a variant predicts with these sizes.
+  Vector predicted(int variant, const Vector& sizes) const;
   const Explanations& explanations() const { return explanations_; }
   /// Of one explanation alone, without the values of `dropped`; `kept`: the others.
   ValueSearch rest(int explanation, const std::vector<char>& dropped, std::vector<Eigen::Index>& kept) const;
@@ -52,12 +52,12 @@ class ValueSearch {
   Matrix covariance_;
   Matrix root_;                ///< lower triangle L of V = L L'
   Matrix free_;                ///< orthonormal basis of L^-1 times the free columns
-  std::vector<Matrix> white_;  ///< L^-1 H by block, without them
-  std::map<int, Near> near_;   ///< by block
+  std::vector<Matrix> white_;  ///< L^-1 H by variant, without them
+  std::map<int, Near> near_;   ///< by variant
   Matrix whitened(const Matrix& columns) const;
-  const Matrix& white(int block) const { return white_[static_cast<std::size_t>(block)]; }
-  /// The deviation from the offset of a block in units of its covariance, and log N(y; o, W) - log N(y; 0, V).
-  std::pair<Vector, double> from_offset(int block, const Vector& deviation, const Vector& white) const;
+  const Matrix& white(int variant) const { return white_[static_cast<std::size_t>(variant)]; }
+  /// The deviation from the offset of a variant in units of its covariance, and log N(y; o, W) - log N(y; 0, V).
+  std::pair<Vector, double> from_offset(int variant, const Vector& deviation, const Vector& white) const;
 };
 
 /// What a search says of each of some machines (rows).

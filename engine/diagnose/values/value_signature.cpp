@@ -80,9 +80,9 @@ std::vector<std::vector<double>> settings_of(const Effect& effect) {
   return list;
 }
 
-/// A block without its columns and the plantings that give them.
+/// A variant without its columns and the plantings that give them.
 struct Draft {
-  Block block;
+  Variant variant;
   std::vector<Planting> plantings;
   std::vector<int> parameter;
   double sign = 1;  ///< of the sizes that are planted: a position or a form is no linear function of them
@@ -100,7 +100,7 @@ std::vector<Draft> drafts_of(const Effect& effect, unsigned unknown) {
   for (const std::vector<double>& theta : settings_of(effect)) {
     for (const double sign : {1.0, -1.0}) {
       Draft d;
-      d.block.theta = theta;
+      d.variant.theta = theta;
       d.sign = sign;
       for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
         const EffectParameter& parameter = effect.parameters[p];
@@ -126,10 +126,11 @@ std::vector<Vector> grow(const Plantation& plantation, const std::vector<Plantin
   return out;
 }
 
-bool repeats_values(const Block& block, const Explanation& of, const std::vector<Block>& blocks) {
-  for (const int b : of.blocks) {
-    const Matrix& m = blocks[static_cast<std::size_t>(b)].signature;
-    if (m.cols() == block.signature.cols() && (m - block.signature).cwiseAbs().maxCoeff() < kSameValue_um) return true;
+bool repeats_values(const Variant& variant, const Explanation& of, const std::vector<Variant>& variants) {
+  for (const int b : of.variants) {
+    const Matrix& m = variants[static_cast<std::size_t>(b)].signature;
+    if (m.cols() == variant.signature.cols() && (m - variant.signature).cwiseAbs().maxCoeff() < kSameValue_um)
+      return true;
   }
   return false;
 }
@@ -143,19 +144,19 @@ void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vec
     for (const int p : d.parameter) {
       const Vector& values = grown[at++];
       if (!values.allFinite() || values.cwiseAbs().maxCoeff() < kSameValue_um) continue;
-      d.block.columns.push_back({p, 0, usual_size(effect, static_cast<std::size_t>(p), unknown)});
-      d.block.signature.conservativeResize(values.size(), d.block.signature.cols() + 1);
-      d.block.signature.rightCols(1) = d.sign * values;
+      d.variant.columns.push_back({p, 0, usual_size(effect, static_cast<std::size_t>(p), unknown)});
+      d.variant.signature.conservativeResize(values.size(), d.variant.signature.cols() + 1);
+      d.variant.signature.rightCols(1) = d.sign * values;
     }
-    if (d.block.columns.empty() || repeats_values(d.block, e, out.blocks)) continue;
-    d.block.explanation = static_cast<int>(out.list.size());
-    e.blocks.push_back(static_cast<int>(out.blocks.size()));
-    out.blocks.push_back(std::move(d.block));
+    if (d.variant.columns.empty() || repeats_values(d.variant, e, out.variants)) continue;
+    d.variant.explanation = static_cast<int>(out.list.size());
+    e.variants.push_back(static_cast<int>(out.variants.size()));
+    out.variants.push_back(std::move(d.variant));
   }
-  share_belief(e, out.blocks);
+  share_belief(e, out.variants);
   e.missing = effect.needs & unknown;
-  if (e.missing || e.blocks.empty()) out.unjudged.push_back({&effect, e.missing, 0});
-  if (!e.blocks.empty()) out.list.push_back(std::move(e));
+  if (e.missing || e.variants.empty()) out.unjudged.push_back({&effect, e.missing, 0});
+  if (!e.variants.empty()) out.list.push_back(std::move(e));
 }
 
 void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix signature) {
@@ -163,13 +164,13 @@ void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix sig
   e.name = std::string("OTHER ") + shape;
   e.factor = factor;
   e.shape = shape;
-  Block b;
+  Variant b;
   b.explanation = static_cast<int>(out.list.size());
   b.columns.assign(static_cast<std::size_t>(signature.cols()), {});
   b.signature = std::move(signature);
   b.joined = true;
-  e.blocks = {static_cast<int>(out.blocks.size())};
-  out.blocks.push_back(std::move(b));
+  e.variants = {static_cast<int>(out.variants.size())};
+  out.variants.push_back(std::move(b));
   out.list.push_back(std::move(e));
 }
 

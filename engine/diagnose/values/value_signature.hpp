@@ -8,7 +8,7 @@
 
 namespace abbe::diagnose {
 
-/// The catalogue: one explanation for each effect that does something to values, a block for each combination of its
+/// The catalogue: one explanation for each effect that does something to values, a variant for each combination of its
 /// choices and each sign of its sizes, a column for each linear parameter. `machines`: where the error-free machine takes its numbering
 /// from. OTHER is added by add_value_patterns.
 Explanations value_explanations(const std::vector<RecordedValue>&, const std::vector<ValueProgram>&, const Machine&,

@@ -34,16 +34,16 @@ LinearModel noise_only(int rows, std::uint32_t stream) {
 Explanations two(int rows) {
   Explanations all;
   for (int k = 0; k < 2; ++k) {
-    Block b;
+    Variant b;
     b.explanation = k;
     b.columns = {{0, 0, 1}};
     b.signature.resize(rows, 1);
     for (int i = 0; i < rows; ++i) b.signature(i, 0) = k == 0 ? (i / 5 % 2 ? 1 : -1) : std::pow(2.0 * i / rows - 1, 2);
-    all.blocks.push_back(b);
+    all.variants.push_back(b);
     Explanation e;
     e.name = k == 0 ? "square" : "parabola";
     e.prior = 0.5;
-    e.blocks = {k};
+    e.variants = {k};
     all.list.push_back(e);
   }
   return all;
@@ -57,13 +57,13 @@ TEST_CASE("the Bayes factor is that of the definition") {
   const int n = 60;
   LinearModel m = noise_only(n, 1);
   const Explanations all = two(n);
-  m.y += 0.7 * all.blocks[0].signature.col(0);
+  m.y += 0.7 * all.variants[0].signature.col(0);
   Hyperparameters h;
   h.noise = Vector::Ones(1);
   const EvidenceSearch search(m, h, all);
   const auto log_likelihood = [&](double g, double size) {
     Matrix v = Matrix::Identity(n, n) + g * g * m.random * m.random.transpose() + 1e7 * m.free * m.free.transpose();
-    v += size * size * all.blocks[0].signature * all.blocks[0].signature.transpose();
+    v += size * size * all.variants[0].signature * all.variants[0].signature.transpose();
     const Eigen::LLT<Matrix> llt(v);
     const Matrix l = llt.matrixL();
     const double half_log_determinant = l.diagonal().array().log().sum(), squares = m.y.dot(llt.solve(m.y));
@@ -89,8 +89,8 @@ TEST_CASE("what shows less than the noise even at thirty times what is typical e
   const int n = 100;
   LinearModel m = noise_only(n, 1);
   Explanations all = two(n);
-  m.y += 5 * all.blocks[1].signature.col(0);
-  all.blocks[0].signature = 1e-4 * m.y;  // the touches' own deviations, in the last digits of their readings
+  m.y += 5 * all.variants[1].signature.col(0);
+  all.variants[0].signature = 1e-4 * m.y;  // the touches' own deviations, in the last digits of their readings
   Hyperparameters h;
   h.noise = Vector::Ones(1);
   const EvidenceSearch search(m, h, all);
@@ -106,7 +106,7 @@ TEST_CASE("an ensemble of larger errors does not swallow an effect") {
   for (int i = 0; i < n; ++i) m.random(i, 1) = std::pow(2.0 * i / n - 1, 2) - 0.4;
   m.random *= 0.5;
   const Explanations all = two(n);
-  m.y += 10 * all.blocks[1].signature.col(0);
+  m.y += 10 * all.variants[1].signature.col(0);
   const Hyperparameters h = estimate(m);
   CHECK(h.scale > 3);
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] > 2);
@@ -148,7 +148,7 @@ TEST_CASE("one error function more uneven than the others is no mismatch") {
   m.uneven = {function};
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] < 2);
   // Where it cannot do what is seen, the mismatch stays.
-  m.y += wave + 0.8 * all.blocks[0].signature.col(0);
+  m.y += wave + 0.8 * all.variants[0].signature.col(0);
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[0] > 10);
 }
 
@@ -159,8 +159,8 @@ TEST_CASE("what goes on in the sequence is not taken for noise that neighbours s
   m.follows.assign(n, 1);
   m.follows[0] = 0;
   Explanations all = two(n);
-  for (int i = 0; i < n; ++i) all.blocks[1].signature(i, 0) = std::sin(2 * kPi * 5 * i / n);
-  m.y += all.blocks[1].signature.col(0);
+  for (int i = 0; i < n; ++i) all.variants[1].signature(i, 0) = std::sin(2 * kPi * 5 * i / n);
+  m.y += all.variants[1].signature.col(0);
   const Hyperparameters h = estimate(m);
   REQUIRE(h.correlation > 0);
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] > 20);
@@ -201,14 +201,14 @@ TEST_CASE("tails of the noise are no mismatch where they are simulated") {
   const int n = 150, recordings = 100;
   Explanations spots;
   for (int k = 0; k < n; k += 3) {
-    Block b;
+    Variant b;
     b.explanation = k / 3;
     b.columns = {{0, 0, 1}};
     b.signature = Matrix::Identity(n, n).col(k);
-    spots.blocks.push_back(b);
+    spots.variants.push_back(b);
     Explanation e;
     e.prior = 3.0 / n;
-    e.blocks = {k / 3};
+    e.variants = {k / 3};
     spots.list.push_back(e);
   }
   int alarms = 0, alarms_of_normal = 0;
@@ -219,9 +219,9 @@ TEST_CASE("tails of the noise are no mismatch where they are simulated") {
     h.noise = Vector::Ones(1);
     const EvidenceSearch search(m, h, spots);
     const double observed = search.evidence().statistic;
-    const std::vector<double>& by_block = search.evidence().block_log_bayes;
-    const auto likeliest = std::max_element(by_block.begin(), by_block.end()) - by_block.begin();
-    const NoiseLaw law(search.residuals_beside(spots.blocks[static_cast<std::size_t>(likeliest)]));
+    const std::vector<double>& by_variant = search.evidence().variant_log_bayes;
+    const auto likeliest = std::max_element(by_variant.begin(), by_variant.end()) - by_variant.begin();
+    const NoiseLaw law(search.residuals_beside(spots.variants[static_cast<std::size_t>(likeliest)]));
     const auto p = [&](const NoiseLaw& simulated_with) {
       std::vector<double> simulated;
       for (const Evidence& e : search.bootstrap(observed, simulated_with, {200, 0}, 5, 2))
@@ -276,9 +276,9 @@ TEST_CASE("four in five recordings show what the search is said to detect") {
   for (const Evidence& e : search.bootstrap(1e9, {}, {2000, 0}, 4, 2)) alone.push_back(e.statistic);
   std::sort(alone.begin(), alone.end());
   const double alarm = alone[1980];
-  const Matrix shift = all.blocks[0].signature / all.blocks[0].signature.norm();
+  const Matrix shift = all.variants[0].signature / all.variants[0].signature.norm();
   Matrix drawn(n, 2);
-  drawn << all.blocks[0].signature, all.blocks[1].signature;
+  drawn << all.variants[0].signature, all.variants[1].signature;
   drawn /= drawn.norm();
   const Power power(search, 1, 2);
   const auto seen_share = [&](const Matrix& columns, double times) {

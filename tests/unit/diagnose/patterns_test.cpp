@@ -223,7 +223,7 @@ TEST_CASE("many runs make no more variants than few") {
   std::iota(rows.begin(), rows.end(), 0);
   const Explanations all = explanations_without_readings(t, rows);
   std::set<std::pair<int, int>> fresh, gone, passing;
-  for (const Block& b : all.blocks)
+  for (const Variant& b : all.variants)
     if (b.change.any())
       (b.change.until == 0 ? fresh : b.change.from == 0 ? gone : passing).emplace(b.change.from, b.change.until);
   CHECK(fresh.size() == 8);
@@ -231,7 +231,7 @@ TEST_CASE("many runs make no more variants than few") {
   CHECK(passing.size() == 3);
   for (const Explanation& e : all.list)
     if (e.factor == Factor::run || e.factor == Factor::feature)
-      for (const int b : e.blocks) CHECK(all.blocks[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);
+      for (const int b : e.variants) CHECK(all.variants[static_cast<std::size_t>(b)].signature.cols() <= 18 * 32);
 }
 
 TEST_CASE("stretches of runs hold every run once, and few runs stand for themselves") {

@@ -19,11 +19,11 @@ Finding found(const std::vector<double>& names, double pattern, bool catalogue) 
     Explanation e;
     e.effect = effect;
     e.prior = probability;
-    e.blocks = {static_cast<int>(all.blocks.size())};
-    all.blocks.emplace_back();
+    e.variants = {static_cast<int>(all.variants.size())};
+    all.variants.emplace_back();
     all.list.push_back(e);
     evidence.log_bayes.push_back(5);  // nats: the recording speaks for all
-    evidence.block_log_bayes.push_back(0);
+    evidence.variant_log_bayes.push_back(0);
   };
   for (const double probability : names) add(find_effect("machine.scale"), probability);
   add(nullptr, pattern);
@@ -39,11 +39,11 @@ TEST_CASE("what the recording does not speak for is in no set") {
     Explanation e;
     e.effect = find_effect("machine.scale");
     e.prior = 1.0 / 3;
-    e.blocks = {static_cast<int>(all.blocks.size())};
-    all.blocks.emplace_back();
+    e.variants = {static_cast<int>(all.variants.size())};
+    all.variants.emplace_back();
     all.list.push_back(e);
     evidence.log_bayes.push_back(log_bayes);
-    evidence.block_log_bayes.push_back(log_bayes);
+    evidence.variant_log_bayes.push_back(log_bayes);
   }
   CHECK(finding_of(all, evidence, true).set == std::vector<int>{0, 1});
 }

@@ -11,15 +11,15 @@ namespace {
 struct Jump {
   Jump(const Eigen::Vector3d& um, const Eigen::Vector3d& information) {
     effect = find_effect("part.shift");
-    for (int axis = 0; axis < 3; ++axis) block.columns.push_back({0, axis, unit_um});
+    for (int axis = 0; axis < 3; ++axis) variant.columns.push_back({0, axis, unit_um});
     info.g = information.asDiagonal();
     info.u = info.g * um / unit_um;
   }
-  VariantEstimate estimate() const { return {*effect, block, info}; }
+  VariantEstimate estimate() const { return {*effect, variant, info}; }
 
   static constexpr double unit_um = 2;
   const Effect* effect = nullptr;
-  Block block;
+  Variant variant;
   Information info;
 };
 
@@ -47,7 +47,7 @@ TEST_CASE("a motion that is seen from everywhere is told as it is") {
 
 TEST_CASE("what no touch sees at all is not told, and makes nothing else less sure") {
   Jump jump({2.0, 1.5, 0.0}, {2.0, 1.0, 1.0});
-  jump.block.columns.pop_back();
+  jump.variant.columns.pop_back();
   jump.info.g = Matrix(jump.info.g.topLeftCorner(2, 2)), jump.info.u = Vector(jump.info.u.head(2));
   const VariantEstimate e = jump.estimate();
   REQUIRE(e.direction());

@@ -12,15 +12,15 @@ void Family::append(std::string shape, const std::vector<Matrix>& variants, doub
   e.shape = std::move(shape);
   e.share = factor_ == Factor::run ? kPriorChange * share : share;  // patterns over runs are made by a change alone
   for (const Matrix& columns : variants) {
-    Block block;
-    block.explanation = static_cast<int>(out_.list.size());
-    block.signature = compressed(columns);
-    block.columns.assign(static_cast<std::size_t>(block.signature.cols()), {});
-    block.joined = true;
-    e.blocks.push_back(static_cast<int>(out_.blocks.size()));
-    out_.blocks.push_back(std::move(block));
+    Variant variant;
+    variant.explanation = static_cast<int>(out_.list.size());
+    variant.signature = compressed(columns);
+    variant.columns.assign(static_cast<std::size_t>(variant.signature.cols()), {});
+    variant.joined = true;
+    e.variants.push_back(static_cast<int>(out_.variants.size()));
+    out_.variants.push_back(std::move(variant));
   }
-  share_belief(e, out_.blocks);
+  share_belief(e, out_.variants);
   out_.list.push_back(std::move(e));
 }
 
