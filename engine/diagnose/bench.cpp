@@ -31,7 +31,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
         fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
   if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
   if (!options.design_only && !surfaces) check_tips(c.touches, file);
-  constexpr int kMostTouches = 4000;  // minutes, and less than 2 GB
+  constexpr int kMostTouches = 4000;  // ten minutes, and 4 GB
   if (static_cast<int>(c.touches.touches.size()) > kMostTouches)
     throw UserError(diagnostic(
         Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, c.touches.touches.size()),

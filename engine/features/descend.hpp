@@ -42,6 +42,16 @@ bool meaningful(const Placed<Real>& s) {
   return true;
 }
 
+/// Of a radius, in extents of the points. The arc of such a circle within them is straight but for an atom, and the
+/// differences that make distances from its axis lose their digits.
+inline constexpr double kLargest = 1e7;
+
+/// Whether points of this extent can tell the size.
+template <class Profile, class Real>
+bool measurable(const Placed<Real>& s, Real extent) {
+  return meaningful<Profile>(s) && s.size[0] <= Real(kLargest) * extent;
+}
+
 /// How many of the first unknowns are shifts that hold the surface: all directions for a sphere, across the
 /// axis for the others.
 template <class Profile>
@@ -232,7 +242,7 @@ double descend(const Points<double>& points, double extent, Placed<double>& s, i
       Placed<double> trial = s;
       move_held_by<Profile>(trial, step);
       anchor_near<Profile>(trial, origin);
-      const double reached = meaningful<Profile>(trial) ? sum_of_squares<Profile>(points, trial) : INFINITY;
+      const double reached = measurable<Profile>(trial, extent) ? sum_of_squares<Profile>(points, trial) : INFINITY;
       const double length = step_length(gauss, step, points.size());
       better = reached < cost;
       if (better) s = trial, cost = reached;
@@ -259,7 +269,7 @@ bool polish(const Points<Extended>& points, Extended extent, Placed<Extended>& s
     if (!(length < extent)) return false;
     move_held_by<Profile>(s, step);
     anchor_near<Profile>(s, origin);
-    if (!meaningful<Profile>(s)) return false;
+    if (!measurable<Profile>(s, extent)) return false;
     // what the differences that make a distance are rounded to
     const Extended reach = std::max(extent, distance_from_origin(s));
     if (length < 1e-18L * reach || (length >= before && length < 1e-14L * reach)) return minimum;

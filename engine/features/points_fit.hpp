@@ -81,7 +81,7 @@ std::vector<Descent> descents(const Cloud& cloud, const std::vector<Placed<doubl
   std::vector<Descent> reached;
   for (Placed<double> s : list) {
     const double cost = descend<Profile>(sampled, cloud.extent(), s, 80);
-    if (std::isfinite(cost) && meaningful<Profile>(s)) reached.push_back({cost, s});
+    if (std::isfinite(cost) && measurable<Profile>(s, cloud.extent())) reached.push_back({cost, s});
   }
   std::stable_sort(reached.begin(), reached.end(), cheaper);
   if (sampled.size() == cloud.rounded.size()) return reached;

@@ -76,7 +76,7 @@ struct Lane {
   bool temperature_compensation = false;
   std::uint64_t fuel_used = 0;
   std::vector<Vec3> points;     ///< of the measurement it is in: surface points, or tip centres without compensation; W
-  std::vector<Target> targets;  ///< of the same measurement; nominal lanes only
+  std::vector<Target> targets;  ///< of the same measurement; twins only
   std::vector<FeatureState> features;        ///< by slot (engine/plan/lifetimes.hpp): those that are alive
   std::optional<Motion> motion;              ///< twins only: their machines move with them
   TouchMotion last_touch;                    ///< twins only

@@ -6,7 +6,7 @@
 #include "engine/features/fit.hpp"
 #include "engine/features/nominal_normal.hpp"
 #include "engine/features/pattern.hpp"
-#include "engine/features/solve.hpp"
+#include "engine/features/touched_fit.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/run/block_run.hpp"
 
@@ -218,36 +218,13 @@ void BlockRun::operator()(const plan::Touch& touch) {
     const double offset = touch_batch.travel[i] - (lane.compensation ? touch_batch.radius[i] : 0.0);
     lane.points.push_back(touch_batch.commanded.get(i) + offset * touch_batch.normal.get(i));
     if (observed) observe_touch(touch, i);
-    if (!block.is_nominal(touch_batch.lane[i])) continue;
+    if (!block.is_twin(touch_batch.lane[i])) continue;
     // Without compensation the points reported are centres of the tip.
     Target target = targets[static_cast<std::size_t>(i)];
     if (!lane.compensation) target.point += touch_batch.radius[i] * target.normal;
     lane.targets.push_back(target);
   }
 }
-
-namespace {
-
-/// The fit of an error-free machine. Nominals in real programs are often dummies, so the best element is
-/// looked for from the points alone; but few points may suit several elements equally well, and then the
-/// nominal settles which one is meant.
-FitSolution fit_error_free(Shape shape, const std::vector<Vec3>& points, const Element& nominal) {
-  FitProblem problem{shape, points, std::nullopt};
-  if (shape == Shape::circle) problem.normal = nominal.direction;
-  constexpr double kSameFit_mm = 1e-7;
-  FitSolution near_nominal = fit_points_from(problem, nominal), anywhere;
-  // Nothing fits better than exactly; only a part with form error makes it worth looking elsewhere.
-  bool nominal_is_meant = !near_nominal.error && near_nominal.rms <= kSameFit_mm;
-  if (!nominal_is_meant) {
-    anywhere = fit_points(problem);
-    nominal_is_meant = !near_nominal.error && (anywhere.error || near_nominal.rms <= anywhere.rms + kSameFit_mm);
-  }
-  FitSolution& solution = nominal_is_meant ? near_nominal : anywhere;
-  solution.element = turned_to(shape, solution.element, nominal.direction);
-  return std::move(solution);
-}
-
-}  // namespace
 
 void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
   const FeatureKind& kind = *executor.plan_[feature].kind;
@@ -266,7 +243,9 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
     } else if (const Element* known = executor.known_fit(operation, lane.points)) {
       result = *known;
     } else {
-      FitSolution solution = fit_error_free(kind.acts_as, lane.points, nominal);
+      std::vector<Vec3> normals;
+      for (const Target& t : lane.targets) normals.push_back(t.normal);
+      FitSolution solution = fit_touched(kind.acts_as, lane.points, normals, nominal);
       if (solution.error) return solution.error->message;
       result = solution.element;
       // Fitted as the shape that it acts as: what it has besides is that of the nominal.

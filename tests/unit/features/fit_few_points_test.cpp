@@ -80,3 +80,15 @@ TEST_CASE("no start is better than the truth through a few points") {
       CHECK(global.rms <= local.rms * (1 + 1e-9) + 1e-9);
     }
 }
+
+// Far away from its axis the distances of all points are one number but for their last digit.
+TEST_CASE("no cylinder is larger than its points can tell") {
+  const std::vector<std::array<double, 2>> section{
+      {720.1, 295.4}, {717.336, 299.204}, {712.864, 297.751}, {712.864, 293.049}, {717.336, 291.596}};
+  std::vector<Vec3> points;
+  for (const double z : {-502.0, -507.0})
+    for (const auto& p : section) points.push_back({p[0], p[1], z});
+  const FitSolution solution = fit_points({Shape::cylinder, points, {}});
+  REQUIRE_FALSE(solution.error);
+  CHECK(solution.element.size == doctest::Approx(3.99985).epsilon(1e-5));
+}
