@@ -215,6 +215,11 @@ class Traps(harness.Case):
             self.assertIn("machine.step", said["effects"][0]["members"])
             self.assertNotIn(["noise.outliers"], [e["members"] for e in said["effects"]])
 
+    def test_few_outliers_are_told_as_what_they_look_like(self):
+        for seed, certain in ((4, False), (3, True)):
+            dirt, = self.diagnosis(self.record("--seed", seed, "--with", "noise.outliers:share=0.01,size_um=6"))["effects"]
+            self.assertEqual((dirt["probability"] >= 0.9, "may still be chance" in dirt["sentence"]), (certain, not certain))
+
     def test_the_size_of_dirt_is_its_median(self):
         logs = []
         for seed in range(1, 7):

@@ -135,13 +135,13 @@ void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) 
     const std::string in_file = tell_machine_file(c, *n.effect, n.parameters, out);
     if (n.factor && out.effects.empty() && !out.unexplained)
       out.location.push_back({std::string(abbe::diagnose::name(*n.factor)), n.where, 1, n.p});
-    out.effects.push_back({{std::string(n.effect->name)},
-                           believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain),
-                           n.parameters,
-                           n.sentence});
+    const double probability = believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain);
+    out.effects.push_back({{std::string(n.effect->name)}, probability, n.parameters, n.sentence});
     if (!n.certain)
       out.effects.back().sentence +=
           " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
+    else if (probability < kTold)
+      out.effects.back().sentence += " It may still be chance: repeats of the same touches would tell.";
     out.effects.back().sentence += in_file;
     out.p_value = std::min(out.p_value, n.p);
   }
