@@ -188,7 +188,7 @@ std::optional<Arguments> Lowering::arguments(const Match& match) {
   Arguments values;
   for (const MatchedValue& v : match.values) {
     if (v.type == ValueType::feature || v.type == ValueType::datum) {
-      const auto id = v.type == ValueType::feature ? actual_feature(v.label) : datum(v.label);
+      const auto id = v.type == ValueType::feature ? feature(v.label) : datum(v.label);
       if (id) values.add_feature(v.name, id->value);
     } else if (v.type <= ValueType::integer) {
       values.add_number(v.name, v.number);
@@ -228,7 +228,23 @@ std::optional<plan::FeatureId> Lowering::defined_feature(const LabelRef& label) 
   return id ? std::optional(*id) : std::nullopt;
 }
 
+std::optional<plan::FeatureId> Lowering::feature(const LabelRef& label) {
+  if (label.kind != "F") return actual_feature(label);
+  const std::optional<plan::FeatureId> of = defined_feature(label);
+  if (!of) return of;
+  const auto [known, is_new] =
+      nominals_.emplace(of->value, plan::FeatureId{static_cast<int>(out.plan.features.size())});
+  if (is_new) out.plan.features.push_back(plan::FeatureDef(out.plan[*of]));
+  emit(plan::TakeNominal{known->second, *of});
+  return known->second;
+}
+
 std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
+  if (label.kind == "F") {
+    error(Code::E0106, label.span, fmt::format("F({}) is the nominal, and this asks for what was measured", label.name),
+          fmt::format("write FA({})", label.name), fmt::format("FA({})", label.name));
+    return std::nullopt;
+  }
   const std::optional<plan::FeatureId> id = defined_feature(label);
   if (!id) return id;
   const ActualState state = actual(*id);

@@ -184,6 +184,7 @@ class Lowering : public State {
 
   // ---- labels: nothing after an error or when spoilt
   std::optional<plan::FeatureId> defined_feature(const LabelRef&);
+  std::optional<plan::FeatureId> feature(const LabelRef&);         ///< FA(x) as it is, F(x) as FEAT says
   std::optional<plan::FeatureId> actual_feature(const LabelRef&);  ///< measured or constructed
   std::optional<plan::FeatureId> datum(const LabelRef&);           ///< DAT(...), or the feature itself
   std::optional<plan::FrameId> frame(const LabelRef&);
@@ -264,6 +265,7 @@ class Lowering : public State {
 
   std::map<std::string_view, Signature> signatures_;  ///< parsed once; signature texts are static
   std::map<std::string, plan::ColumnId> columns_;     ///< by slot
+  std::map<int, plan::FeatureId> nominals_;           ///< by FeatureId: what F(x) is where FA(x) may stand
   std::map<std::pair<std::string, int>, plan::FeatureId> features_of_paths_;  ///< by label and parting
   std::set<std::tuple<Code, const SourceFile*, std::uint32_t>> reported_;
 };

@@ -29,6 +29,7 @@ struct Naming {
     add(o.result);
     for (const FeatureId from : o.from) add(from);
   }
+  void operator()(const TakeNominal& o) { add(o.result), add(o.of); }
   void operator()(const SetDatumFrame& o) {
     for (const DatumRef& datum : o.datums) add(datum.feature);
   }

@@ -212,6 +212,12 @@ struct Construct {
   std::vector<VaryingNumber> varying = {};
 };
 
+/// F(x), what is programmed, used where FA(x) may stand: `result` is what the FEAT of `of` says, where it says it in the
+/// coordinate system in which it was defined.
+struct TakeNominal {
+  FeatureId result, of;
+};
+
 struct DatumRef {
   FeatureId feature;
   bool gives_direction = false;
@@ -345,7 +351,7 @@ struct JumpUnless {
 };
 
 using Action = std::variant<DefineFeature, SelectSensor, SetCompensation, SetTemperatureCompensation, SetMotion, Move,
-                            SetHome, GoHome, BeginMeasure, Touch, EndMeasure, Construct, SetMachineFrame,
+                            SetHome, GoHome, BeginMeasure, Touch, EndMeasure, Construct, TakeNominal, SetMachineFrame,
                             SetMatrixFrame, SetDatumFrame, TranslateFrame, RotateFrame, RecallFrame, Evaluate, Output,
                             OutputFrame, Obtain, ObtainDisplacement, ObtainEvaluation, Assign, Jump, JumpUnless>;
 

@@ -122,6 +122,9 @@ class ActionText {
     for (const FeatureId f : o.from) out += fmt::format(" {}", name(f));
     return out;
   }
+  std::string operator()(const TakeNominal& o) const {
+    return fmt::format("take {} = nominal of {}", name(o.result), name(o.of));
+  }
   std::string operator()(const SetMachineFrame& o) const {
     return fmt::format("frame {} = machine", plan_[o.result].label);
   }

@@ -31,6 +31,7 @@ class BlockRun {
   void operator()(const plan::Touch&);
   void operator()(const plan::EndMeasure&);
   void operator()(const plan::Construct&);
+  void operator()(const plan::TakeNominal&);
   void operator()(const plan::SetMachineFrame&);
   void operator()(const plan::SetMatrixFrame&);
   void operator()(const plan::SetDatumFrame&);
@@ -63,6 +64,8 @@ class BlockRun {
   FeatureState& state(Lane&, plan::FeatureId);
   /// As FEAT defined it, in the lane's D; where the lanes share the nominal, as it lies in the D of the nominal part.
   Element nominal_of(Lane&, plan::FeatureId);
+  /// As FEAT defined it in what was the lane's D then; W.
+  Element programmed(Lane&, plan::FeatureId);
   /// How often the lane has executed this operation before; counts it.
   int visit(Lane&);
   /// The measured or constructed element, or nullptr after trapping the lane.

@@ -70,11 +70,8 @@ void BlockRun::operator()(const plan::ObtainDisplacement& obtain) {
     const Element* element = actual(i, obtain.feature);
     if (!element) return "";
     Lane& lane = block.lanes[i];
-    const FeatureState &own = state(lane, obtain.feature), &true_one = state(twin_of(lane), obtain.feature);
-    const Element nominal =
-        own.own_nominal ? own.nominal : own.defined_in * (inverse(true_one.defined_in) * true_one.nominal);
-    const Vec3 by =
-        transpose(lane.X_WD.R) * displacement(executor.plan_[obtain.feature].kind->shape, *element, nominal);
+    const Shape shape = executor.plan_[obtain.feature].kind->shape;
+    const Vec3 by = transpose(lane.X_WD.R) * displacement(shape, *element, programmed(lane, obtain.feature));
     for (int k = 0; k < 3; ++k) lane.columns[obtain.first.value + k] = by[k];
     return "";
   });

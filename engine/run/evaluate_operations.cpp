@@ -65,6 +65,29 @@ void BlockRun::operator()(const plan::Construct& construct) {
   });
 }
 
+Element BlockRun::programmed(Lane& lane, plan::FeatureId feature) {
+  const FeatureState &own = state(lane, feature), &true_one = state(twin_of(lane), feature);
+  return own.own_nominal ? own.nominal : own.defined_in * (inverse(true_one.defined_in) * true_one.nominal);
+}
+
+void BlockRun::operator()(const plan::TakeNominal& take) {
+  for_active([&](int i) -> std::string {
+    Lane& lane = block.lanes[i];
+    const FeatureState& of = state(lane, take.of);
+    if (!of.definition.valid())
+      return "feature '" + executor.plan_[take.of].label + "' was not defined on the path that was taken";
+    FeatureState& result = state(lane, take.result);
+    result = of;
+    result.feature = take.result;
+    result.actual = programmed(lane, take.of);
+    result.has_actual = true;
+    result.touched.clear();
+    result.faces.clear();
+    result.meant.clear();
+    return "";
+  });
+}
+
 void BlockRun::set_frame(Lane& lane, plan::FrameId id, const Rigid& X_WD) {
   lane.X_WD = X_WD;
   lane.frames[id.value] = X_WD;

@@ -16,7 +16,7 @@ void bind_datum(Lowering& lowering, const RawStatement&, const Match& match) {
   if (datum.label.kind != "DAT")
     return lowering.error(Code::E0106, datum.span, "DATDEF gives a feature the name of a datum, and this is a feature",
                           fmt::format("write DATDEF/FA({}),DAT(name)", match.text("feature")));
-  const std::optional<plan::FeatureId> id = lowering.actual_feature(match.find("feature")->label);
+  const std::optional<plan::FeatureId> id = lowering.feature(match.find("feature")->label);
   if (id) lowering.symbols.datums.set(upper(datum.text), *id);
 }
 
@@ -81,8 +81,7 @@ void translate(Lowering& lowering, const RawStatement& raw, const Match& match) 
     if (value.type == ValueType::length) {
       shift.by = Lowering::operand(value);
     } else {
-      const auto id =
-          value.type == ValueType::feature ? lowering.actual_feature(value.label) : lowering.datum(value.label);
+      const auto id = value.type == ValueType::feature ? lowering.feature(value.label) : lowering.datum(value.label);
       shift.from = id.value_or(plan::FeatureId{});
     }
     shifts.push_back(shift);
@@ -98,7 +97,7 @@ void rotate(Lowering& lowering, const RawStatement& raw, const Match& match) {
     operation.angle_rad = Lowering::operand(*angle);
   } else {
     const MatchedValue& to = match.values[1];
-    const auto id = to.type == ValueType::feature ? lowering.actual_feature(to.label) : lowering.datum(to.label);
+    const auto id = to.type == ValueType::feature ? lowering.feature(to.label) : lowering.datum(to.label);
     operation.to = id.value_or(plan::FeatureId{});
     operation.toward = direction_of(match.text("toward"));
     if (operation.toward.axis == operation.axis)

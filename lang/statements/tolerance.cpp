@@ -77,7 +77,7 @@ std::vector<int> operands_now(Lowering& lowering, const ToleranceSymbol& symbol,
     if (v.type != ValueType::feature && v.type != ValueType::datum) continue;
     LabelRef label = v.label;
     label.span = use.span;  // the mistake shows where the tolerance is used
-    const auto id = v.type == ValueType::feature ? lowering.actual_feature(label) : lowering.datum(label);
+    const auto id = v.type == ValueType::feature ? lowering.feature(label) : lowering.datum(label);
     ids.push_back(id ? id->value : -1);
   }
   return ids;
@@ -124,12 +124,18 @@ void evaluate(Lowering& lowering, const RawStatement& raw, const std::vector<pla
   lowering.emit(plan::Evaluate{id});
 }
 
-/// What the result file repeats of an OUTPUT without knowing more of it: sensors, and labels of reports and
+/// OUTPUT/F(x) puts out what was programmed. A tolerance is of what was measured.
+bool is_nominal_alone(const Match& match, const MatchedValue& v) {
+  return v.type == ValueType::feature && v.label.kind == "F" && !match.has("tolerance");
+}
+
+/// What the result file repeats of an OUTPUT without saying more of it: nominals, sensors, and labels of reports and
 /// of what identifies the part.
 std::vector<std::string> only_named(const Match& match) {
   std::vector<std::string> labels;
   for (const MatchedValue& v : match.values)
-    if (v.type == ValueType::sensor || v.type == ValueType::label) labels.push_back(written(v.label));
+    if (v.type == ValueType::sensor || v.type == ValueType::label || is_nominal_alone(match, v))
+      labels.push_back(written(v.label));
   return labels;
 }
 
@@ -175,7 +181,10 @@ void output(Lowering& lowering, const RawStatement& raw, const Match& match) {
   std::vector<const MatchedValue*> tolerances;
   for (const MatchedValue& v : match.values) {
     if (v.type == ValueType::tolerance) tolerances.push_back(&v);
-    if (v.type == ValueType::feature) features.push_back(lowering.actual_feature(v.label).value_or(plan::FeatureId{}));
+    if (is_nominal_alone(match, v))
+      lowering.defined_feature(v.label);
+    else if (v.type == ValueType::feature)
+      features.push_back(lowering.actual_feature(v.label).value_or(plan::FeatureId{}));
     if (v.type == ValueType::frame)
       if (const auto frame = lowering.frame(v.label)) lowering.emit(plan::OutputFrame{*frame});
     if (v.type == ValueType::sensor) lowering.sensor(v.label);
@@ -225,7 +234,7 @@ const Statement kOutput = {
         "; report:label ), { report:label }",
     .help =
         "Puts out measured features; each tolerance is evaluated and its value gets an uncertainty. What "
-        "identifies the part or the report, P(1) of PARTID, is only repeated in the result file, as a sensor is.",
+        "identifies the part or the report, P(1) of PARTID, is only repeated in the result file, as a sensor and a nominal F(l) are.",
     .example = "OUTPUT/FA(BORE),TA(ROUND),TA(SIZE)",
     .source = "ISO 22093, OUTPUT",
     .lower = output,

@@ -96,6 +96,26 @@ double variance(const std::vector<double>& values) {
 
 }  // namespace
 
+TEST_CASE("F is where the program has a feature, FA where it was measured") {
+  // The bore lies at (41, 30), the program has it at (40, 30).
+  const std::string bore = measured("H", "CIRCLE,INNER,CART,40,30,0,0,0,1,20",
+                                    {"51,30,0,-1,0,0", "41,40,0,0,-1,0", "31,30,0,1,0,0", "41,20,0,0,1,0"});
+  for (const auto& [origin, found] : {std::pair{"F", 1.0}, {"FA", 0.0}}) {
+    CAPTURE(origin);
+    const Ran ran(bore + fmt::format("D(X)=TRANS/XORIG,{0}(H),YORIG,{0}(H)\n", origin) + "OUTPUT/FA(H)\n");
+    CHECK(ran.output("H").point.x == doctest::Approx(found));
+    CHECK(ran.output("H").point.y == doctest::Approx(0));
+  }
+  // It is exact: all that varies in this distance is the one bore.
+  const Ran ran(
+      bore + "T(N)=TOL/DISTWRT,NOMINL,1,-1,1,F(H),XAXIS,AVG\nT(C)=TOL/CORTOL,XAXIS,-1,1\nOUTPUT/FA(H),TA(N),TA(C)\n",
+      20);
+  CHECK(ran["N"] == doctest::Approx(1));
+  const Samples &distance = ran.samples("N"), &place = ran.samples("C");
+  for (std::size_t k = 0; k < distance.value.size(); ++k)
+    CHECK(distance.value[k] == doctest::Approx(place.value[k]).epsilon(1e-9));
+}
+
 TEST_CASE("alignments pass on the uncertainty of their touches as the closed forms say") {
   const Ran ran(program(), kMachines, only_probe());
   const Vec3 sd = read_machine("coord3-mc16").probe.sd_mm;
