@@ -63,7 +63,8 @@ class Compiler {
       known(*statement, raw);
     } else if (is_standard_word(raw.word)) {
       if (!outside(raw)) {
-        not_supported(raw.word, raw.word_span);
+        not_supported(raw.word, raw.word_span, sets_frame(raw));
+        if (sets_frame(raw)) lowering_.fail(fmt::format("{} is not supported yet", raw.word));
         if (raw.word == "PAMEAS" && lowering_.measuring) lowering_.measuring->scan = {raw.span, raw.line};
         if (raw.label) lowering_.skipped_labels.insert(raw.label->kind);
       }
@@ -169,11 +170,13 @@ class Compiler {
   }
 
   /// Each word is named once: a program may use it a thousand times.
-  void not_supported(const std::string& what, Span span) {
+  void not_supported(const std::string& what, Span span, bool sets_frame) {
     if (!lowering_.reported_words.insert(what).second) return;
     lowering_.warn(Code::W0121, span, fmt::format("{} is not supported yet and is skipped wherever it stands", what),
                    what == "PAMEAS" ? "its MEAS has the touches of its PTMEAS, or else the default ones"
-                                    : "results are those of a program without it");
+                       : sets_frame
+                       ? "what is measured and evaluated after it is lost, up to a RECALL, DATSET/MCS or DATSET/TRMATX"
+                       : "results are those of a program without it");
   }
 
   /// The word that was probably meant, or "". A loop may hold the slip in each of its turns: it is looked up once.

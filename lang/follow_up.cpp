@@ -63,6 +63,11 @@ std::string setting_of(const RawStatement& raw, const Statement& statement) {
 
 }  // namespace
 
+bool sets_frame(const RawStatement& raw) {
+  constexpr std::string_view kWords[] = {"LOCATE", "ITERAT", "EQUATE", "CRSLCT", "POP"};
+  return std::find(std::begin(kWords), std::end(kWords), raw.word) != std::end(kWords);
+}
+
 void settle(Lowering& lowering, const RawStatement& raw) {
   const Statement* statement = find_statement(raw.word);
   if (!statement) return;
@@ -76,8 +81,12 @@ void settle(Lowering& lowering, const RawStatement& raw) {
 void follow_up(Lowering& lowering, const RawStatement& raw, std::string_view word) {
   const std::string reason = lowering.blame();
   if (raw.label) lowering.symbols.spoilt.set(spoilt_key(raw.label->kind, raw.label->name), reason);
+  if (raw.word == "EQUATE")  // moves a coordinate system that has a label, not only the current one
+    for (const RawArgument& a : raw.arguments)
+      if (a.kind == RawArgument::Kind::label)
+        lowering.symbols.spoilt.set(spoilt_key(a.label.kind, a.label.name), reason);
   const Statement* statement = find_statement(word);
-  const Doubt doubt = statement ? statement->doubt : Doubt::none;
+  const Doubt doubt = statement ? statement->doubt : sets_frame(raw) ? Doubt::frame : Doubt::none;
   spoil_measurement(lowering, raw, doubt, reason);
   const bool decides = doubt == Doubt::course || (statement && statement->control != Control::none);
   if (decides && lowering.flow_doubt.empty()) lowering.flow_doubt = reason;
