@@ -1,6 +1,7 @@
 #include "lang/lines.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace abbe::lang {
 
@@ -37,12 +38,33 @@ std::size_t continuation_mark(std::string_view line) {
   return last > 0 && line[last - 1] == '$' ? std::string_view::npos : last;
 }
 
+/// Of a word, or of a number before its dot; `beside` is what stands on the other side of a dot.
+bool in_token(char c, char beside) {
+  const auto of_c = static_cast<unsigned char>(c);
+  return std::isalnum(of_c) || c == '_' || of_c >= 0x80 ||
+      (c == '.' && std::isdigit(static_cast<unsigned char>(beside)));
+}
+
+/// Whether a word, a label or a number goes on in the next line behind its indentation. The dots of .EQ. do not.
+bool cuts_token(std::string_view before, std::string_view next) {
+  const std::size_t indent = next.find_first_not_of(" \t");
+  if (before.empty() || indent == std::string_view::npos) return false;
+  const auto at = [](std::string_view text, std::size_t k) { return k < text.size() ? text[k] : ' '; };
+  const std::size_t last = before.size() - 1;
+  return in_token(before[last], at(before, last - 1)) && in_token(next[indent], at(next, indent + 1));
+}
+
 /// Joins physical lines one after the other into the logical line that is being built.
 class Joiner {
  public:
   /// True when the logical line is complete.
   bool add(std::string_view line, std::uint32_t offset) {
     if (out.comment) return add_comment(line, offset);
+    if (!in_string_ && cuts_token(out.code.text(), line)) {
+      const std::size_t indent = line.find_first_not_of(" \t");
+      line.remove_prefix(indent);
+      offset += static_cast<std::uint32_t>(indent);
+    }
     const std::size_t comment = find_comment(line);
     if (comment != std::string_view::npos) {
       out.code.append(line.substr(0, comment), offset);

@@ -1,7 +1,8 @@
 // Physical lines to logical lines (ISO 22093, statement continuation and comments).
 //
 // A `$` at the end of a line continues it anywhere: inside a word, a number, a quoted string. The
-// next line goes on at its first column. `$$` outside a string starts a comment, to the end of the
+// next line goes on at its first column; the indentation before the rest of a word, label or number that was
+// cut does not count, but in a quoted string it does. `$$` outside a string starts a comment, to the end of the
 // line; a comment that ends in a single `$` goes on in the next line. A `$` followed by blanks to
 // the end of the line counts as the end of the line.
 //

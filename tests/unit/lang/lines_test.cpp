@@ -20,6 +20,17 @@ TEST_CASE("a dollar at the end of a line joins it to the first column of the nex
   CHECK(lines[1].line == 4);
 }
 
+TEST_CASE("the indentation before the rest of what was cut does not count, but in a quoted text") {
+  const std::string text = "F(C0$\n    2F4)=TEXT/'a$\n  b',1$\n\t 0";
+  const auto lines = lines_of(text);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].code.text() == "F(C02F4)=TEXT/'a  b',10");
+  CHECK(lines_of("IF/(X$\n .EQ.$\n 3$\n - 1)")[0].code.text() == "IF/(X .EQ. 3 - 1)");
+  CHECK(lines_of("GOTO/1$\n .5,2.$\n 5,3")[0].code.text() == "GOTO/1.5,2.5,3");
+  const Span label = lines[0].code.span(4, 8);
+  CHECK(text.substr(label.begin, label.end - label.begin) == "2F4)");
+}
+
 TEST_CASE("spans lead back to the bytes of the file") {
   const std::string text = "GO$\r\nTO/1,2";
   const auto lines = lines_of(text);
