@@ -216,7 +216,9 @@ class Replacer {
       if (token == "(") label_ = at > 0 && in_name(text_[at - 1]);
       if (token == ")") label_ = false;
       const int k = dummy(token);
-      if (k < 0) {
+      if (token == "@" && label_ && names_itself(dummy(text_.substr(end, token_end(end) - end)))) {
+        // F(@NAME) with a text for NAME: the label itself stands there, not a variable that holds it
+      } else if (k < 0) {
         copy(at, end);
       } else {
         const std::string by =
@@ -251,6 +253,14 @@ class Replacer {
       if ((d.kind == RawArgument::Kind::text) == quoted && upper(d.text) == name) return static_cast<int>(k);
     }
     return -1;
+  }
+
+  /// Whether the argument for a dummy is what a label is made of, and no variable that holds it.
+  bool names_itself(int k) const {
+    using K = RawArgument::Kind;
+    return k >= 0 &&
+        (actuals_[static_cast<std::size_t>(k)].kind == K::text ||
+         actuals_[static_cast<std::size_t>(k)].kind == K::number);
   }
 
   /// In a label a text loses its quotes; an expression keeps its worth whatever stands beside it.
