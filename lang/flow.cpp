@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace abbe::lang {
 
@@ -181,11 +182,11 @@ std::string Flow::label_text(const LabelRef& label, const Value& value) {
     lowering_.error(Code::E0231, label.span,
                     fmt::format("the label {}({}) depends on a measured value", label.kind, label.name),
                     "write the statement once for each label, under IF");
-  } else if (value.type == Type::integer) {
+  } else if (value.is_number() && value.constant() == std::floor(value.constant())) {
     return fmt::format("{}", value.constant());
   } else if (value.type != Type::text) {
     lowering_.error(Code::E0232, label.span,
-                    fmt::format("a label is made of CHAR or INTGR, this is {}", name_of(value.type)),
+                    fmt::format("a label is made of a text or a whole number, this is {}", name_of(value.type)),
                     "STR(x) makes a text of a number");
   } else {
     const std::string& text = lowering_.texts[value];

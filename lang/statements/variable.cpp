@@ -30,10 +30,11 @@ bool assign_to_label(Lowering& lowering, const RawStatement& raw, Value value) {
   }
   Variable* variable = find_variable(lowering, name);
   if (!variable && !index) {
+    const Type type = value.type == Type::integer ? Type::real : value.type;  // X=ASSIGN/5 does not say that X is whole
     lowering.warn(Code::W0124, raw.label->span,
-                  fmt::format("{} is not declared: it is taken as {}", name, name_of(value.type)),
-                  fmt::format("declare it: DECL/{},{}", name_of(value.type), name));
-    variable = &declare(lowering, name, value.type, 0, 0, false);
+                  fmt::format("{} is not declared: it is taken as {}", name, name_of(type)),
+                  fmt::format("declare it: DECL/{},{}", name_of(type), name));
+    variable = &declare(lowering, name, type, 0, 0, false);
   }
   try {
     if (!variable)
