@@ -13,7 +13,8 @@
 // A measured line: the zone is two parallel planes about the touches as well, with the normal
 // w = sin a v - cos a p. A line that shall run along v (a = 0) has two parallel lines about it, in the
 // section that v and the normal of the surface span; an axis, which has no such section, a cylinder
-// along v about the middle of the fitted axis.
+// along v about the middle of the fitted axis. So has a line that runs across v instead: in the
+// section of v it would be a point, with a zone of 0.
 //
 // Everything else: with L the extent (length of an axis, diameter of the area of a constructed plane)
 // and f the spread of the residuals of a constructed plane or line, the value is L s + f, where
@@ -43,6 +44,7 @@ struct Inclination {
   double cosine, sine;
 };
 constexpr Inclination kAlong{1, 0}, kAcross{0, 1};
+constexpr double kRunsAcross = 0.7071;   ///< cosine up to which a line runs across the datum more than along it
 constexpr double kAlongTheDatum = 1e-9;  ///< sine of an angle that was written as 0 or 90 degrees
 using Wanted = Inclination (*)(const Arguments&, bool same_kind);
 
@@ -74,7 +76,8 @@ double line_zone(const EvaluationInput& in, const Vec3& datum, Inclination wante
     const Vec3 p = norm(across) > 0 ? unit(across) : any_perpendicular(v);
     return range_along(wanted.sine * v - wanted.cosine * p, in.touches);
   }
-  if (const std::optional<Vec3> normal = section_normal(in.touches, v)) return range_along(*normal, in.touches);
+  const std::optional<Vec3> normal = section_normal(in.touches, v);
+  if (normal && dot(line.direction, v) > kRunsAcross) return range_along(*normal, in.touches);
   const Vec3 middle = line.point + 0.5 * (line.begin + line.end) * line.direction;
   double radius = 0;
   for (const TouchedPoint& touch : in.touches)

@@ -68,6 +68,26 @@ TEST_CASE("The zone of a measured plane holds its touches") {
   CHECK(zone("ANGLR", n, kAlongX, Shape::line, slope, t) == Approx(0.02));
 }
 
+TEST_CASE("A line of a surface that runs across what is asked has a zone as long as it is") {
+  // Along x on a face whose normal is -y: in a section of z and y it is a point.
+  const auto zone = [](const char* word, Shape shape, const Vec3& direction) {
+    Evaluation e(word);
+    e.feature(Shape::line, spanning(at({50, 0, -5}, direction), -45, 45)).datum(shape, kUp);
+    for (const double t : {-45.0, 0.0, 45.0}) {
+      const Vec3 p = Vec3{50, 0, -5} + t * direction;
+      e.touches.push_back({p, p, {0, -1, 0}});
+    }
+    return e.value();
+  };
+  CHECK(zone("PARLEL", Shape::cylinder, {1, 0, 0}) == Approx(90));
+  CHECK(zone("PERP", Shape::plane, {1, 0, 0}) == Approx(90));
+  CHECK(zone("PARLEL", Shape::cylinder, {0, 0, 1}) == Approx(0).epsilon(1e-9));
+  // Leaning in the face is where the program put the touches; leaning out of it is the deviation.
+  CHECK(zone("PERP", Shape::plane, {0.1, 0, std::sqrt(0.99)}) == Approx(0).epsilon(1e-9));
+  CHECK(zone("PERP", Shape::plane, {0, 0.01, std::sqrt(0.9999)}) == Approx(0.9));
+  CHECK(zone("PARLEL", Shape::plane, {0, 0, 1}) == Approx(90));
+}
+
 TEST_CASE("Angularity") {
   auto plane_at = [](double degrees) {
     const double a = degrees * kPi / 180 + kTilt;
