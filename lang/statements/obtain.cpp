@@ -40,15 +40,24 @@ Vec3 given(const Form& form, std::string_view letters, std::string_view suffix) 
 
 double sign_of(double v) { return v < 0 ? -1 : 1; }
 
+/// The first component of the point that FEAT has of the shape, as the result file gives it (FeatureKind::written).
+plan::Quantity place_of(Shape shape) {
+  return shape == Shape::cone    ? plan::Quantity::apex_x
+      : shape == Shape::cylinder ? plan::Quantity::begin_x
+                                 : plan::Quantity::x;
+}
+
+plan::Quantity component(plan::Quantity first, int k) {
+  return static_cast<plan::Quantity>(static_cast<int>(first) + k);
+}
+
 /// The first component of the vector named by a letter (x for places, i for directions) and a suffix.
 std::optional<Reading> vector_reading(const plan::FeatureDef& def, const Form& form, char letter,
                                       std::string_view suffix) {
   const Shape shape = def.kind->shape;
   const Element& nominal = def.nominal;
   const bool place = letter == 'x', faces = shape == Shape::parallel_planes;
-  if (suffix.empty())
-    return place ? Reading{shape == Shape::cone ? plan::Quantity::apex_x : plan::Quantity::x}
-                 : Reading{plan::Quantity::i};
+  if (suffix.empty()) return Reading{place ? place_of(shape) : plan::Quantity::i};
   if (suffix == "s" || suffix == "n") return Reading{plan::Quantity::second_i};
   const bool first = suffix == "1";
   if (place && shape == Shape::line) return Reading{first ? plan::Quantity::begin_x : plan::Quantity::end_x};
@@ -88,15 +97,13 @@ std::optional<Reading> reading_of(const plan::FeatureDef& def, const Form& form,
   const char letter = prefixed ? name[1] : name[0];
   const std::string_view suffix = prefixed ? name.substr(0, 1) : name.substr(1);
   for (const std::string_view letters : {"xyz", "ijk"}) {
-    const std::size_t component = letters.find(letter);
-    if (component == std::string_view::npos || suffix.size() > 1) continue;
+    const std::size_t k = letters.find(letter);
+    if (k == std::string_view::npos || suffix.size() > 1) continue;
     std::optional<Reading> reading = vector_reading(def, form, letters[0], suffix);
-    if (reading)
-      reading->quantity =
-          static_cast<plan::Quantity>(static_cast<int>(reading->quantity) + static_cast<int>(component));
+    if (reading) reading->quantity = component(reading->quantity, static_cast<int>(k));
     return reading;
   }
-  return name == "h" ? Reading{plan::Quantity::z} : size_reading(def, form, name);
+  return name == "h" ? Reading{component(place_of(def.kind->shape), 2)} : size_reading(def, form, name);
 }
 
 plan::Expression obtained(Lowering& lowering, plan::FeatureId feature, plan::Quantity quantity) {
@@ -151,8 +158,9 @@ std::optional<Value> from_feature(Lowering& lowering, const MatchedValue& label,
   if (!actual || !item->is_number || item->name == "start") return written(lowering, *item);
   const double unit = to_program(item->type, lowering.units);
   if (item->name == "r" || item->name == "a") {
-    const plan::Expression x = obtained(lowering, *feature, plan::Quantity::x),
-                           y = obtained(lowering, *feature, plan::Quantity::y);
+    const plan::Quantity place = place_of(def.kind->shape);
+    const plan::Expression x = obtained(lowering, *feature, place),
+                           y = obtained(lowering, *feature, component(place, 1));
     const plan::Expression squares = combine(Op2::add, combine(Op2::multiply, x, x), combine(Op2::multiply, y, y));
     return Value{Type::real,
                  {scaled(item->name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
@@ -252,8 +260,8 @@ const Statement kObtain = {
     .label = "=",
     .signature = "( feature:feature ; tolerance:tolerance ; sensor:sensor ), index:integer",
     .help =
-        "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as measured, in the current "
-        "coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
+        "Reads argument number index of a statement, its word counted as 1: of F(l), T(l) or S(l) as defined; of FA(l) as the result file has it, "
+        "measured, in the current coordinate system; of an evaluated tolerance TA(l) value and INTOL or OUTOL as in the result file.",
     .example = "X=OBTAIN/FA(BORE),5",
     .source = "ISO 22093, OBTAIN",
     .lower = obtain,

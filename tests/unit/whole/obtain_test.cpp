@@ -67,6 +67,29 @@ TEST_CASE("what is measured of a feature without errors is what defines it, argu
   CHECK(numbers > 100);
 }
 
+TEST_CASE("a cylinder is read as the result file has it: from where its touches begin") {
+  std::string turned = "F(C)=FEAT/CYLNDR,INNER,CART,10,20,0,0,0,1,20\nMEAS/CYLNDR,F(C),8\n";
+  for (const char* z : {"-2", "-18"})  // leaning, so that each height has another centre
+    turned += fmt::format(
+        "PTMEAS/CART,{0},20,{1},-1,0,0\nPTMEAS/CART,{2},20,{1},1,0,0\nPTMEAS/CART,{3},30,{1},0,-1,0\nPTMEAS/CART,{3},10,{1},0,1,0\n",
+        z[1] == '2' ? 20.0 : 20.1, z, z[1] == '2' ? 0.0 : 0.1, z[1] == '2' ? 10.0 : 10.1);
+  turned += "ENDMES\nOUTPUT/FA(C)\n";
+  for (const bool polar : {false, true}) {
+    CAPTURE(polar);
+    std::string program = turned;
+    if (polar) program.replace(program.find("CART,10,20,0"), 12, "POL,22.36067977,63.43494882,0");
+    const std::vector<double> v =
+        values(program, {"OBTAIN/FA(C),5", "OBTAIN/FA(C),6", "OBTAIN/FA(C),7", "OBTAIN/FA(C),11"});
+    const FeatArguments form = find_feature_kind("CYLNDR")->written(Ran(program).output("C"));
+    const Vec3 place = std::get<Vec3>(form[1]);
+    CHECK(place.z == Approx(-18).epsilon(0.01));
+    CHECK(v[0] == Approx(polar ? std::hypot(place.x, place.y) : place.x));
+    CHECK(v[1] == Approx(polar ? std::atan2(place.y, place.x) * 180 / kPi : place.y));
+    CHECK(v[2] == Approx(place.z));
+    CHECK(v[3] == Approx(std::get<double>(form[3])));
+  }
+}
+
 TEST_CASE("numbers come in the units of the program") {
   const std::vector<double> v =
       values("UNITS/INCH,ANGDEC\nF(C)=FEAT/CIRCLE,INNER,CART,1,1,0,0,0,1,2\nMEAS/CIRCLE,F(C),4\nENDMES\n",
