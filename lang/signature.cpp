@@ -328,6 +328,12 @@ std::string with_commas(std::string_view text) {
   return out;
 }
 
+/// Words that the standard allows behind the arguments of GEOALG and TOL.
+bool is_not_supported(std::string_view what, const RawArgument& a) {
+  return (what == "GEOALG" || what.starts_with("TOL/")) && a.kind == RawArgument::Kind::word &&
+      (a.word == "MINMAX" || a.word == "FILTER" || a.word == "OFF");
+}
+
 std::string either(const std::vector<std::string>& list) {
   std::string out;
   for (std::size_t i = 0; i < list.size(); ++i) out += (i == 0 ? "" : i + 1 == list.size() ? " or " : ", ") + list[i];
@@ -375,6 +381,10 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
                                      difference ? "; a sum has blanks on both sides of its sign, or none" : ""),
                          with_commas(written.text));
   }
+  if (is_not_supported(what, written))
+    return diagnostic_at(source, written.span, expected.empty() ? Code::E0108 : Code::E0106,
+                         fmt::format("{} of {} is not supported yet", written.word, what),
+                         fmt::format("leave it out where nothing depends on it; {}", see));
   if (expected.empty())
     return diagnostic_at(source, written.span, Code::E0108,
                          fmt::format("{} takes no argument {} ('{}')", what, number, written.text), see);

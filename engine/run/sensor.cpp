@@ -18,8 +18,8 @@ const NamedSensor& machine_sensor(const plan::SensorDef& def, const Machine& mac
   const std::string near = nearest_word(def.label, names);
   throw UserError(diagnostic_at(
       source, def.span, Code::E0301, fmt::format("machine '{}' has no sensor '{}'", machine.name, def.label),
-      !near.empty() ? fmt::format("did you mean '{}'?", near)
-                    : "define it in the program with SNSDEF, or add it to \"sensors\" in the machine file"));
+      fmt::format("{}define it in the program with SNSDEF, or add it to \"sensors\" in the machine file",
+                  near.empty() ? "" : fmt::format("did you mean '{}'? Else ", near))));
 }
 
 /// The definition with what the machine file says of the sensor.

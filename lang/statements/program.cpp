@@ -68,7 +68,7 @@ const Statement kEndfil = {
 };
 const Statement kUnits = {
     .word = "UNITS",
-    .signature = "unit:MM|CM|M|INCH|FEET, angle:ANGDEC|ANGDMS|ANGRAD, [ temperature:TEMPC|TEMPF ]",
+    .signature = "unit:MM|CM|M|INCH|FEET, [ angle:ANGDEC|ANGDMS|ANGRAD ], [ temperature:TEMPC|TEMPF ]",
     .help =
         "Units of all lengths and angles that follow. ANGDMS also takes degrees:minutes:seconds. "
         "Without it: mm, degrees.",
@@ -104,6 +104,7 @@ const Statement kDmesw = {
 };
 const Statement kDmeswv = {
     .word = "DMESWV",
+    .label = "*",
     .signature = "...",
     .help = "Names the version of the software of a real machine. Skipped.",
     .example = "DMESWV/'4.0'",

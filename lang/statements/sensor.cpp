@@ -145,7 +145,7 @@ const Statement kSnsdef = {
         "diam:length ; "
         "carrier:INDEX, form:CART, dx:length, dy:length, dz:length, i:number, j:number, k:number, "
         "diam:length ; "
-        "carrier:INDEX, form:VEC, i:number, j:number, k:number, len:length, diam:length )",
+        "carrier:INDEX, form:VEC, i:number, j:number, k:number, len:length, diam:length ), [ tip:SPHERE ]",
     .help =
         "A touch probe. FIXED: the tip's offset from the mount. INDEX: on the articulating head at "
         "angles A (from straight "

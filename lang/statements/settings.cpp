@@ -45,7 +45,7 @@ bool moves(Lowering& lowering, const Match& match, std::string_view what) {
 }
 
 void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
-  if (!match.has("speed")) return;  // ROTVEL: of a rotary table, which is not here
+  if (!match.has("speed")) return;  // ROTVEL, HEDVEL: the time that table and head take is not reckoned with
   const std::string what = match.text("speed"), unit = match.text("unit");
   const MotionSetting setting = what == "POSVEL" ? MotionSetting::positioning_speed
       : what == "MESVEL"                         ? MotionSetting::measuring_speed
@@ -58,6 +58,7 @@ void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
 }
 
 void set_acceleration(Lowering& lowering, const RawStatement&, const Match& match) {
+  if (!match.has("acceleration")) return;
   const MotionSetting setting = match.text("acceleration") == "POSACL" ? MotionSetting::positioning_acceleration
                                                                        : MotionSetting::measuring_acceleration;
   if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
@@ -87,7 +88,7 @@ const Statement kSnset = {
     .word = "SNSET",
     .signature =
         "( setting:APPRCH|SEARCH|RETRCT|CLRSRF|DEPTH, distance:length ; setting:CLRSRF|DEPTH, OFF ; "
-        "setting:CLRSRF|DEPTH, surface:feature, [ distance:length ] )",
+        "setting:CLRSRF|DEPTH, ( surface:feature ; surface:datum ), [ distance:length ] )",
     .help =
         "Distances of a touch: from where it starts (APPRCH), how far it searches (SEARCH), how far it "
         "retracts (RETRCT). CLRSRF and DEPTH, which keep clear of surfaces, are skipped.",
@@ -99,11 +100,11 @@ const Statement kSnset = {
 const Statement kFedrat = {
     .word = "FEDRAT",
     .signature =
-        "( speed:POSVEL|MESVEL|SCNVEL, ( unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; level:DEFALT|HIGH|LOW ) ; ROTVEL, ... )",
+        "( speed:POSVEL|MESVEL|SCNVEL, ( unit:MPM|MMPS|IPM|IPS|PCENT, value:number ; level:DEFALT|HIGH|LOW ) ; ROTVEL|HEDVEL, ... )",
     .help =
         "Speed of positioning, touching and scanning. PCENT: per cent of the machine's greatest speed; "
         "DEFALT: that speed. "
-        "ROTVEL, of a rotary table, is skipped.",
+        "ROTVEL and HEDVEL, of a rotary table and a head, are skipped.",
     .example = "FEDRAT/POSVEL,MPM,1.8",
     .source = "ISO 22093, FEDRAT",
     .lower = set_speed,
@@ -112,9 +113,11 @@ const Statement kFedrat = {
 const Statement kAclrat = {
     .word = "ACLRAT",
     .signature =
-        "acceleration:POSACL|MESACL, ( unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number ; level:DEFALT|HIGH|LOW )",
+        "( acceleration:POSACL|MESACL, ( unit:MPMM|MMPSS|IPMM|IPSS|PCENT, value:number ; level:DEFALT|HIGH|LOW ) ; "
+        "SCNACL|HEDACL|ROTACL, ... )",
     .help =
-        "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2, per cent or the machine's own (DEFALT).",
+        "Acceleration of positioning and touching: m/min2, mm/s2, inch/min2, inch/s2, per cent or the machine's own (DEFALT). "
+        "SCNACL, HEDACL and ROTACL, of scanning, a head and a rotary table, are skipped.",
     .example = "ACLRAT/MESACL,MMPSS,100",
     .source = "ISO 22093, ACLRAT",
     .lower = set_acceleration,

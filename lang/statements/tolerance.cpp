@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "engine/tolerances/tolerance.hpp"
 #include "lang/statement.hpp"
@@ -170,7 +171,12 @@ void remember_sizes(Lowering& lowering, plan::FeatureId feature, const std::vect
 /// Behind the features and tolerances, or alone, may stand what skipped statements name, and reports:
 /// they are for the head of a real result file.
 void check_report_label(Lowering& lowering, const MatchedValue& v) {
-  if (v.label.kind == "R" || lowering.skipped_labels.contains(v.label.kind)) return;
+  if (v.label.kind == "R" || v.label.kind == "V" || lowering.skipped_labels.contains(v.label.kind)) return;
+  static const std::set<std::string_view> identifying = {"CC", "CI", "CS", "DI", "DS", "DV", "FI", "FS", "LI",
+                                                         "MD", "OP", "PC", "PL", "PN", "PR", "PS", "PV", "Q"};
+  if (identifying.contains(v.label.kind))
+    return lowering.warn(Code::W0122, v.span, fmt::format("no statement above defines {}", written(v.label)),
+                         "the result file repeats the label; nothing depends on it");
   lowering.error(Code::E0106, v.span, fmt::format("OUTPUT puts out no {}({}) here", v.label.kind, v.label.name),
                  "expected features FA(...), then their tolerances TA(...), then R(...); or D(...) or S(...)");
 }
