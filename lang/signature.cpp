@@ -385,6 +385,13 @@ Diagnostic describe(const Mismatch& mismatch, std::span<const RawArgument> argum
     return diagnostic_at(source, written.span, expected.empty() ? Code::E0108 : Code::E0106,
                          fmt::format("{} of {} is not supported yet", written.word, what),
                          fmt::format("leave it out where nothing depends on it; {}", see));
+  const bool limits_bonus = what.starts_with("TOL/") && written.kind == RawArgument::Kind::number &&
+      mismatch.argument > 0 &&
+      (arguments[mismatch.argument - 1].word == "MMC" || arguments[mismatch.argument - 1].word == "LMC");
+  if (limits_bonus)
+    return diagnostic_at(source, written.span, Code::E0106,
+                         fmt::format("a greatest bonus of {} is not supported yet", what),
+                         fmt::format("leave it out; {}", see));
   if (expected.empty())
     return diagnostic_at(source, written.span, Code::E0108,
                          fmt::format("{} takes no argument {} ('{}')", what, number, written.text), see);
