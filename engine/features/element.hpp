@@ -33,7 +33,7 @@ enum class Shape {
 /// - plane: a point of it (centroid); its normal, out of the material.
 /// - circle: its centre; normal of its plane; size its radius.
 /// - cylinder: a point of the axis; the axis; size its radius.
-/// - sphere: its centre; direction unused; size its radius.
+/// - sphere: its centre; direction of a nominal one towards its pole, else unused; size its radius.
 /// - cone: a point of the axis; from the apex to the open side; size the radius at that point, angle its half angle.
 /// - torus: its centre; its axis; size the major radius, minor_size that of the tube.
 /// - arc: as a circle; second points from the centre to its start, angle is how far it sweeps.

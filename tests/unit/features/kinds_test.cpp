@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/features/feature.hpp"
+#include "engine/features/pattern.hpp"
 
 using namespace abbe;
 
@@ -93,6 +94,15 @@ TEST_CASE("the angle of a cone is the full one, the sizes of a torus are diamete
   REQUIRE(torus);
   CHECK(torus.value.size == 40);
   CHECK(torus.value.minor_size == 10);
+}
+
+TEST_CASE("the vector of a sphere leads to its pole, where its default touches begin") {
+  const Element ball = nominal("SPHERE", {{"x", 1}, {"diam", 20}, {"j", -2}, {"i", 0}, {"k", 0}}).value;
+  for (const bool inner : {false, true}) {
+    check_vector(pattern_touch(feature_kind(Shape::sphere), ball, inner, 0, 5).value.point, {1, inner ? 10. : -10., 0});
+    for (int k = 1; k < 5; ++k)
+      CHECK(pattern_touch(feature_kind(Shape::sphere), ball, inner, k, 5).value.point.y == doctest::Approx(0));
+  }
 }
 
 TEST_CASE("impossible values fail with a reason") {
