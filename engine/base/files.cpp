@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "engine/base/diagnostic.hpp"
 
@@ -87,14 +88,18 @@ void refuse_read_only(const std::string& path) {
     fail(path, "replacing it");
 }
 
-/// Names of no file: what an unset variable of the shell leaves, and what other programs take for standard output.
-void refuse_nameless(const std::string& path) {
+/// Names of no file: what an unset variable of the shell leaves, what other programs take for standard output, and folders.
+void refuse_no_file(const std::string& path) {
   if (path.empty())
     throw UserError(
         diagnostic(Code::E0602, "the name of an output is empty", "give a file; is a shell variable unset?"));
   if (path == "-")
     throw UserError(diagnostic(Code::E0602, "the output '-' is no file",
                                "standard output is /dev/stdout; a file that is really called so is ./-"));
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none))
+    throw UserError(diagnostic(Code::E0602, "the output '" + path + "' is a folder",
+                               "give the name of a file, in it or elsewhere"));
 }
 
 /// A command with several outputs finds out before the first is written that another has no place.
@@ -116,25 +121,41 @@ mode_t mode_of(const std::string& path) {
   return kNewFile & ~withheld;
 }
 
-void replace(const std::string& path, std::string_view content) {
-  refuse_read_only(path);
-  const mode_t mode = mode_of(path);
-  const SignalsWait wait;
-  std::string temporary = path + ".XXXXXX";
-  const int file = mkstemp(temporary.data());
-  if (file < 0) fail(path, "creating a temporary file beside it");
-  bool good = fchmod(file, mode) == 0 && write_all(file, content) && fsync(file) == 0;
-  int cause = errno;
-  close(file);
-  if (good) {
-    good = std::rename(temporary.c_str(), path.c_str()) == 0;
-    cause = errno;
+/// What will take the place of a file: whole on the disk beside it, and gone unless it takes that place.
+class Replacement {
+ public:
+  /// `path`: no link. Throws UserError, as write_whole does.
+  Replacement(std::string path, std::string_view content) : path_(std::move(path)), temporary_(path_ + ".XXXXXX") {
+    refuse_read_only(path_);
+    const mode_t mode = mode_of(path_);
+    const int file = mkstemp(temporary_.data());
+    if (file < 0) fail(path_, "creating a temporary file beside it");
+    const bool good = fchmod(file, mode) == 0 && write_all(file, content) && fsync(file) == 0;
+    const int cause = errno;
+    close(file);
+    if (!good) give_up(cause);
   }
-  if (good) return;
-  std::remove(temporary.c_str());
-  errno = cause;
-  fail(path, "writing");
-}
+  ~Replacement() {
+    if (!temporary_.empty()) std::remove(temporary_.c_str());
+  }
+  Replacement(Replacement&& other) noexcept
+      : path_(std::move(other.path_)), temporary_(std::exchange(other.temporary_, "")) {}
+  Replacement& operator=(Replacement&&) = delete;
+
+  void take_place() {
+    if (std::rename(temporary_.c_str(), path_.c_str()) != 0) give_up(errno);
+    temporary_.clear();
+  }
+
+ private:
+  [[noreturn]] void give_up(int cause) {
+    std::remove(std::exchange(temporary_, "").c_str());
+    errno = cause;
+    fail(path_, "writing");
+  }
+
+  std::string path_, temporary_;
+};
 
 /// The path without links, as far as it exists; two names of one file have the same.
 std::string where(const std::string& path) {
@@ -155,15 +176,28 @@ std::string followed(std::string path) {
 }  // namespace
 
 void write_whole(const std::string& path, std::string_view content) {
-  refuse_nameless(path);
-  takes_content(path) ? write_into(path, content) : replace(followed(path), content);
+  refuse_no_file(path);
+  if (takes_content(path)) return write_into(path, content);
+  const SignalsWait wait;
+  Replacement(followed(path), content).take_place();
+}
+
+void write_together(const std::vector<OutputFile>& files) {
+  for (const OutputFile& file : files) refuse_no_file(file.path);
+  for (const OutputFile& file : files)
+    if (takes_content(file.path)) write_into(file.path, file.content);
+  const SignalsWait wait;
+  std::vector<Replacement> made;
+  for (const OutputFile& file : files)
+    if (!takes_content(file.path)) made.emplace_back(followed(file.path), file.content);
+  for (Replacement& replacement : made) replacement.take_place();
 }
 
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
   std::map<std::string, std::string> taken;  // by place: the role of what stands there
   for (const std::string& input : inputs) taken.emplace(where(followed(input)), "which it reads");
   for (const std::string& output : outputs) {
-    refuse_nameless(output);
+    refuse_no_file(output);
     if (takes_content(output)) continue;
     refuse_without_folder(output);
     refuse_read_only(output);

@@ -13,8 +13,16 @@ namespace abbe {
 /// UserError when writing fails; then a file at `path` is what it was before.
 void write_whole(const std::string& path, std::string_view content);
 
+struct OutputFile {
+  std::string path, content;
+};
+
+/// Writes several files of one command so, all or none: every file is there before the first takes its place. What goes
+/// into devices and pipes goes first, because it cannot be taken back.
+void write_together(const std::vector<OutputFile>&);
+
 /// Throws UserError when an output is one of the inputs, stands there twice, whatever the paths are called,
-/// is read-only, or has the name "" or "-". Call it before the work.
+/// is read-only or a folder, or has the name "" or "-". Call it before the work.
 void refuse_overwriting(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 }  // namespace abbe

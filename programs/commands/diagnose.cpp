@@ -222,9 +222,12 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
     return are_values(read.recordings) ? of_values(options, read, how) : of_touches(options, read, how);
   }();
   print_messages(d.messages);
-  if (options.model_out) write_whole(*options.model_out, improved_machine(machine_text(machine), d));
+  std::vector<OutputFile> files;
+  if (options.model_out) files.push_back({*options.model_out, improved_machine(machine_text(machine), d)});
   if (options.report)
-    write_whole(*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine));
+    files.push_back(
+        {*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine)});
+  write_together(files);
   print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d));
   return options.fail_on_mismatch && is_mismatch(d) ? kNo : kDone;
 }

@@ -118,8 +118,10 @@ int record_command(const RecordOptions& options) {
                                                         {"made_by", "abbe " ABBE_VERSION}};
   metadata.insert(metadata.begin(), std::begin(origin), std::end(origin));
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);
-  write_whole(options.output, to_csv(record.recording));
-  if (options.dmo) write_whole(*options.dmo, dmis_result(plan, record.outputs));
+  std::vector<OutputFile> files;
+  files.push_back({options.output, to_csv(record.recording)});
+  if (options.dmo) files.push_back({*options.dmo, dmis_result(plan, record.outputs)});
+  write_together(files);
   tell_idle(options.with, machine, record.acted);
   return kDone;
 }

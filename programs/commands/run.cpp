@@ -44,11 +44,13 @@ int run_command(const RunCommandOptions& options) {
   ProgressLine line;
   const Study study =
       study_program(program, options.request.settings, inputs, [&](std::string_view step) { line.show(step); });
-  if (options.csv) write_whole(*options.csv, samples_csv(program.compilation.plan, study));
+  const plan::Plan& plan = program.compilation.plan;
+  std::vector<OutputFile> files;
+  if (options.csv) files.push_back({*options.csv, samples_csv(plan, study)});
   if (options.dmo)
-    write_whole(*options.dmo,
-                dmis_result(program.compilation.plan, study.result.reference_outputs, study.report.characteristics));
-  if (options.report) write_whole(*options.report, find_report_writer("html")->write(study.report));
+    files.push_back({*options.dmo, dmis_result(plan, study.result.reference_outputs, study.report.characteristics)});
+  if (options.report) files.push_back({*options.report, find_report_writer("html")->write(study.report)});
+  write_together(files);
   tell(study.report.messages);
   print_result(writer->write(study.report));
   return kDone;

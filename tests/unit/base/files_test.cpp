@@ -64,6 +64,24 @@ TEST_CASE("a file that cannot be written says so and leaves nothing behind") {
   CHECK_THROWS_AS(write_whole("no/such/folder/file", "x"), UserError);
 }
 
+TEST_CASE("several files are written all or none") {
+  write_whole("files_test_one", "before");
+  write_together({{"files_test_one", "after"}, {"files_test_two", "new"}});
+  CHECK(read_source("files_test_one").text() == "after");
+  CHECK(read_source("files_test_two").text() == "new");
+  std::remove("files_test_two");
+  for (const char* impossible : {"/dev/full", "no/such/folder/file", "."}) {
+    CHECK_THROWS_AS(write_together({{"files_test_one", "changed"}, {"files_test_two", "new"}, {impossible, "x"}}),
+                    UserError);
+    CHECK(read_source("files_test_one").text() == "after");
+    CHECK_FALSE(std::filesystem::exists("files_test_two"));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator("."))
+    CHECK(entry.path().filename().string().rfind("files_test_one.", 0) == std::string::npos);
+  std::remove("files_test_one");
+  CHECK_THROWS_AS(refuse_overwriting({}, {"."}), UserError);
+}
+
 TEST_CASE("a file that cannot be read says why") {
   try {
     read_source("no such file.dmi");
