@@ -177,6 +177,26 @@ std::string nearest_word(std::string_view word, const std::vector<std::string_vi
   return std::string(best);
 }
 
+std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates) {
+  constexpr std::size_t kShortest = 3;
+  if (std::string near = nearest_word(word, candidates); !near.empty()) return near;
+  if (word.size() < kShortest) return "";
+  const auto tail = [](std::string_view name) { return name.substr(name.rfind('.') + 1); };
+  std::vector<std::string_view> tails;
+  for (const std::string_view name : candidates) tails.push_back(tail(name));
+  const std::string near_tail = nearest_word(tail(word), tails);
+  const auto is_part = [&](std::string_view name) {
+    const auto divides = [](char c) { return c == '.' || c == '_'; };
+    return !near_tail.empty()        ? tail(name) == near_tail
+        : name.size() <= word.size() ? false
+                                     : (name.starts_with(word) && divides(name[word.size()])) ||
+            (name.ends_with(word) && divides(name[name.size() - word.size() - 1]));
+  };
+  const auto first = std::find_if(candidates.begin(), candidates.end(), is_part);
+  const bool only = first != candidates.end() && std::none_of(first + 1, candidates.end(), is_part);
+  return only ? std::string(*first) : "";
+}
+
 bool differ_in_unit(std::string_view name, std::string_view other) {
   constexpr std::string_view kUnits[] = {"C", "F", "K", "m", "mm", "um", "nm", "in", "inch", "deg", "rad", "arcsec"};
   if ((name == "U" && other == "u") || (name == "u" && other == "U")) return true;

@@ -85,6 +85,9 @@ class UserError : public std::runtime_error {
 /// The word of `candidates` nearest to `word` (case-insensitive edit distance), or "" when none is near enough to be a
 /// likely slip of the pen (distance at most 2, and at most a third of the longer word's length).
 std::string nearest_word(std::string_view word, const std::vector<std::string_view>& candidates);
+/// The nearest word of names that have parts, as "probe.pretravel_lobing" and "travel_mm"; else the nearest by what stands
+/// behind the family, else the only one that begins or ends with `word` as a part.
+std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates);
 /// Whether two names of a quantity differ in the unit behind their last "_" alone ("part_F", "part_C"), or are those of an
 /// expanded and a standard uncertainty ("U", "u"): who takes the one for the other must convert the number.
 bool differ_in_unit(std::string_view name, std::string_view other);

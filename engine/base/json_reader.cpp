@@ -232,14 +232,16 @@ void JsonReader::report_unknown_keys(const JsonNode& node) {
       report_unknown_keys(member.value);
       continue;
     }
-    const std::string near = nearest_word(member.key, known);
+    const std::string near = nearest_name(member.key, known);
+    const bool slip =
+        near == nearest_word(member.key, known);  // else a part is missing: what unit was meant is not known
     const bool another_unit = differ_in_unit(member.key, near);
     report(member.key_span, Code::E0402, fmt::format("unknown key \"{}\"", member.key),
            near.empty()       ? fmt::format("the keys here are: {}", fmt::join(known, ", "))
                : near == "u"  ? "\"u\" is a standard uncertainty: an expanded one divided by its k"
                : another_unit ? fmt::format("did you mean \"{}\"? That is another unit: convert the number", near)
                               : fmt::format("did you mean \"{}\"?", near),
-           near.empty() || another_unit ? "" : fmt::format("\"{}\"", near));
+           near.empty() || another_unit || !slip ? "" : fmt::format("\"{}\"", near));
   }
 }
 

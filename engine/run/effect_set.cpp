@@ -22,7 +22,7 @@ constexpr int kMostNumbers = 64;
 
 std::string did_you_mean(std::string_view name, const std::vector<std::string_view>& candidates,
                          std::string otherwise) {
-  const std::string near = nearest_word(name, candidates);
+  const std::string near = nearest_name(name, candidates);
   return near.empty() ? otherwise : "did you mean '" + near + "'?";
 }
 

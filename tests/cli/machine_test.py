@@ -214,6 +214,7 @@ class Machine(harness.Case):
         text = self.machine("init", "bad")
         for old, new, code, words in (('"travel_mm": 1600', '"travel_mm": -1600', "E0406", "greater than 0"),
                                       ('"harmonics"', '"harmonicz"', "E0402", 'did you mean "harmonics"'),
+                                      ('"travel_mm"', '"travel"', "E0402", 'did you mean "travel_mm"'),
                                       ('"a_um": 5, "k_um_per_m": 5', '"a_um": 0, "k_um_per_m": 0', "E041", "MPE"),
                                       ('"v_min": 1', '"v_min": 3', "E041", "v_min"),
                                       ('["x", "y", "z"]', '["x", "y", "y"]', "E041", "y")):

@@ -121,7 +121,10 @@ with tempfile.TemporaryDirectory() as folder:
     check(diameter() != diameter("--seed", "2"), "another seed is another machine")
 
     for arguments, code, text in ((["--with", "probe.tip_radus"], "E0305", "did you mean 'probe.tip_radius'"),
-                                  (["--with", "probe.tip_radius:amplitude=1"], "E0306", "amplitude_um"),
+                                  (["--with", "pretravel_lobing"], "E0305", "did you mean 'probe.pretravel_lobing'?"),
+                                  (["--with", "pretravel_lobbing"], "E0305", "did you mean 'probe.pretravel_lobing'?"),
+                                  (["--with", "noise.resolution:resolution_um=1000"], "E0307", "not plausible"),
+                                  (["--with", "probe.tip_radius:amplitude=1"], "E0306", "did you mean 'amplitude_um'?"),
                                   (["--with", "probe.tip_radius:amplitude_um=1e9"], "E0307", "not plausible"),
                                   (["--with", "probe.tip_radius:amplitude_um=nan"], "E0307", "nan"),
                                   (["--with", "machine.scale:axis=q"], "E0307", "x, y, z"),

@@ -81,6 +81,20 @@ TEST_CASE("a slip of the pen is recognised, another word is not") {
   CHECK(nearest_word("anything", {}).empty());
 }
 
+TEST_CASE("of a name with parts, one that is missing or wrong is recognised") {
+  const std::vector<std::string_view> effects = {"probe.pretravel_lobing", "probe.step", "machine.step"};
+  CHECK(nearest_name("probe.pretravel_lobbing", effects) == "probe.pretravel_lobing");
+  CHECK(nearest_name("pretravel_lobing", effects) == "probe.pretravel_lobing");
+  CHECK(nearest_name("head.pretravel_lobbing", effects) == "probe.pretravel_lobing");
+  CHECK(nearest_name("lobing", effects) == "probe.pretravel_lobing");
+  CHECK(nearest_name("probe.pretravel", effects) == "probe.pretravel_lobing");
+  CHECK(nearest_name("step", effects).empty());  // which?
+  CHECK(nearest_name("travel", effects).empty());
+  CHECK(nearest_name("travel", {"travel_mm", "direction"}) == "travel_mm");
+  CHECK(nearest_name("travel_m", {"travel_mm", "direction"}) == "travel_mm");
+  CHECK(nearest_name("", {"travel_mm"}).empty());
+}
+
 TEST_CASE("every code is listed once, with its letter and a title") {
   for (const CodeInfo& code : all_codes()) {
     CAPTURE(code.name);
