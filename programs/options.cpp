@@ -247,9 +247,10 @@ void add_record(CLI::App& app, Chosen& chosen) {
   add_number(command, "--run", o->run,
              "which repeat: the same machine and part, other noise of probe and head (default 1)", 1, kMostRepeats)
       ->type_name("K");
-  add_number(command, "--setup", o->setup,
-             "which placement of the part: a diagnosis takes those of other setups as placed anew (default 1)", 1,
-             kMostRepeats)
+  add_number(
+      command, "--setup", o->setup,
+      "which placement of the part, with other noise: a diagnosis takes those of other setups as placed anew (default 1)",
+      1, kMostRepeats)
       ->type_name("N");
   add_answers(command, o->answers);
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");

@@ -45,8 +45,12 @@ struct RunOptions {
   /// Which repeat of the measurement: the same machines and the same part, but other noise of probe, head and
   /// touch-wise effects.
   int repeat = 0;
-  int setup = 1;  ///< placement of the part that a recording names
-  std::uint64_t noise_seed() const { return seed + 0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(repeat); }
+  int setup = 1;  ///< placement of the part that a recording names; it has other noise, too
+  /// Two odd steps of the whole range: every repeat in every setup has a seed of its own.
+  std::uint64_t noise_seed() const {
+    return seed + 0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(repeat) +
+        0xBF58476D1CE4E5B9u * static_cast<std::uint64_t>(setup - 1);
+  }
   Vec3 placement_mm;  ///< where the program's machine coordinate system lies in W (directive `place`)
   const Workpiece* workpiece = nullptr;  ///< the true part; none: exactly nominal, at 20 degrees C
   /// The second recipe of simulation: errors are added to the points of this recording, in the program's

@@ -62,7 +62,11 @@ with tempfile.TemporaryDirectory() as folder:
     run, out = record(folder, "--setup", "2")
     placed = rows(out)
     check({r["setup"] for r in plain} == {"1"} and {r["setup"] for r in placed} == {"2"}, "a placement of the part has its number")
-    check([r | {"setup": "1"} for r in placed] == plain, "and nothing else is changed by it")
+    anew = [normal_error_um(b) - normal_error_um(a) for a, b in zip(plain, placed)]
+    check(all(anew) and max(map(abs, anew)) < max(map(abs, elsewhere)) / 2, "and other noise, but not another machine")
+    run, out = record(folder, "--setup", "2", "--run", "2")
+    check(all(normal_error_um(a) != normal_error_um(b) for a, b in zip(rows(out), again)), "in every run")
+    run, out = record(folder, "--setup", "2")
     check(record(folder, "--setup", "0")[0].returncode == 2, "setups begin with 1")
     said = dict(line[2:].split(": ", 1) for line in out.read_text().splitlines() if line.startswith("# "))
     check((said["approach_mm"], said["retract_mm"]) == ("3", "3"), "what SNSET said")
