@@ -19,13 +19,6 @@ void print_messages(const std::vector<Diagnostic>& messages) {
   for (const Diagnostic& d : messages) std::fputs(render(d).c_str(), stderr);
 }
 
-SourceFile read_text_aloud(const std::string& path) {
-  Sink sink;
-  SourceFile file = read_text(path, sink);
-  print_messages(sink.list());
-  return file;
-}
-
 std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options) {
   std::vector<std::string> files;
   for (const std::optional<std::string>& file : options)

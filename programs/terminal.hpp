@@ -19,9 +19,6 @@ void print_messages(const std::vector<Diagnostic>& messages);
 /// closed pipe).
 void print_result(std::string_view text);
 
-/// Reads a text file and says so when it is not UTF-8.
-SourceFile read_text_aloud(const std::string& path);
-
 /// The files among options, of which some were not given.
 std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options);
 

@@ -123,6 +123,7 @@ int record_command(const RecordOptions& options) {
   if (options.dmo) files.push_back({*options.dmo, dmis_result(plan, record.outputs)});
   write_together(files);
   tell_idle(options.with, machine, record.acted);
+  print_messages(program.messages);
   return kDone;
 }
 

@@ -75,7 +75,8 @@ std::string recorded_machine(const std::string& named, const std::vector<std::st
       "give --machine, put the machine file beside the recording, or correct the line"));
 }
 
-RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program)
+RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program,
+                               std::vector<Diagnostic>& messages)
     : recording_(is_result(file.name()) ? from_result(file) : read_value_recording(file)) {
   const std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
   for (const ValueRow& row : recording_.rows) {
@@ -115,3 +116,5 @@ Diagnosis RecordedValues::diagnosis(const Machine& machine, const DiagnoseOption
 }
 
 }  // namespace abbe
+    const std::vector<Diagnostic>& told = programs_.back().messages;
+    messages.insert(messages.end(), told.begin(), told.end());

@@ -19,7 +19,9 @@ std::string recorded_machine(const std::string& named, const std::vector<std::st
 class RecordedValues {
  public:
   /// `program`: of rows that name none. Programs that rows name lie as seen from the file.
-  RecordedValues(const SourceFile& file, const std::optional<std::string>& program);
+  /// `messages`: what is to be said of them. Throws UserError as read_value_recording and usable_program do, and of a
+  /// result file that is not whole.
+  RecordedValues(const SourceFile& file, const std::optional<std::string>& program, std::vector<Diagnostic>& messages);
   /// The machine that the recording or its first program names; empty: none does. Throws UserError as
   /// recorded_machine does.
   std::string machine() const;

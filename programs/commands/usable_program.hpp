@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-/// Compiles a program and prints its messages. Throws UserError (E0604) when it has errors.
+/// Compiles a program. Throws UserError, with its messages and E0604, when it has errors.
 CompiledProgram usable_program(const std::string& path, const std::map<std::string, std::string>& answers = {});
 
 }  // namespace abbe

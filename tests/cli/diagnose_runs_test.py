@@ -51,6 +51,39 @@ class DiagnoseRuns(harness.Case):
         placed_anew = self.changed(unnumbered, lambda row: row | {"setup": "2"}, "placed_anew.csv")
         self.assertNotIn(told, self.abbe("diagnose", first, placed_anew, "--machine", MACHINE, "--design-only").stderr)
 
+    def test_a_part_placed_anew_is_measured_anew(self):
+        """The noise of the first placement came again, and the second one looked impossibly alike."""
+        for seed in (1, 2):
+            first, second = self.record(1, "--seed", seed), "placed.csv"
+            self.abbe("record", PROGRAM, "--machine", MACHINE, "--seed", seed, "--setup", 2, "-o", second)
+            said = self.diagnosis(first, second)
+            self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 250))
+
+    def test_copies_are_no_repeats_whatever_they_are_called(self):
+        first = self.folder / self.record(1)
+        for number in ({"run": "2"}, {"setup": "2"}, {"setup": "2", "run": "2"}):
+            said = self.refused("E0713", "diagnose", first, self.changed(first, lambda row: row | number, "copied.csv"))
+            self.assertIn("'copied.csv' holds the same touches as", said.replace(str(self.folder) + "/", ""))
+            self.assertIn("to the last digit", said)
+        few = lambda row: row | {"run": "2"} | ({"x": repr(float(row["x"]) + 1e-4)} if row["touch"] == "3" else {})
+        self.refused("E0713", "diagnose", self.changed(first, few, "few.csv"), first)
+        coarse = lambda row: row | {a: f"{float(row[a]):.2f}" for a in "xyz"} | {f"enc_{a}": "" for a in "xyz"}
+        again = self.changed(self.changed(first, coarse, "one.csv"), lambda row: row | {"run": "2"}, "two.csv")
+        self.abbe("diagnose", "one.csv", again, "--machine", MACHINE, "--design-only")   # two decimals repeat by themselves
+        plan = lambda run: lambda row: row | {a: row["t" + a] for a in "xyz"} | {"run": run}
+        self.abbe("diagnose", self.changed(first, plan("1"), "plan.csv"), self.changed(first, plan("2"), "again.csv"), "--machine", MACHINE, "--design-only")
+
+    def test_what_is_said_of_files_stands_in_the_answer_too(self):
+        first, second = self.record(1), self.folder / self.record(2)
+        windows = self.changed(second, lambda row: row | {"run": "1"}, "windows.csv")
+        windows.write_bytes("# Prüfer: Müller\n".encode("cp1252") + windows.read_bytes())
+        done = self.abbe("diagnose", first, windows, "--known", MACHINE, "--design-only", "--format", "json", "--report", "page.html")
+        codes = [m["code"] for m in json.loads(done.stdout)["messages"]]
+        for code in ("N0617", "N0708", "W0715"):
+            self.assertIn(code, codes)
+            self.assertEqual(codes.count(code), done.stderr.count(code), code)
+            self.assertIn(code, (self.folder / "page.html").read_text())
+
     def test_another_machine_than_the_known_one_is_told(self):
         """Sixteen balls all over the volume: what the first recording left uncertain is far less than what two machines differ by."""
         points = [(0, 0, 1)] + [(math.cos(e) * math.cos(a), math.cos(e) * math.sin(a), math.sin(e))

@@ -181,7 +181,13 @@ std::string diagnosis_json(const Diagnosis& d) {
                 : Json()},
       {"rivals", d.rivals ? rivals(*d.rivals) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) {
-         return Json{{"code", info(m.code).name}, {"message", m.message}, {"help", m.help}};
+         return Json{{"code", info(m.code).name},
+                     {"severity", name(m.severity())},
+                     {"file", m.span ? Json(m.file) : Json()},
+                     {"line", m.span ? Json(m.place.line) : Json()},
+                     {"column", m.span ? Json(m.place.column) : Json()},
+                     {"message", m.message},
+                     {"help", m.help}};
        })}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // file names need not be UTF-8
 }

@@ -1,0 +1,171 @@
+#include "programs/commands/joined_recordings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace abbe {
+
+namespace {
+
+/// First and last time of a recording, if any.
+std::optional<std::pair<double, double>> time_span(const Recording& r) {
+  std::optional<std::pair<double, double>> span;
+  for (const RecordingRow& row : r.rows) {
+    if (!row.time_s) continue;
+    if (!span) span = {*row.time_s, *row.time_s};
+    span = {std::min(span->first, *row.time_s), std::max(span->second, *row.time_s)};
+  }
+  return span;
+}
+
+/// A machine takes one recording at a time: where two overlap, the clock was set anew between them, and the
+/// next one counts as measured later.
+void continue_clock(const Recording& before, Recording& next, const std::string& file,
+                    std::vector<Diagnostic>& messages) {
+  constexpr double kPause_s = 60;
+  const auto past = time_span(before), own = time_span(next);
+  if (!past || !own || own->first > past->second || own->second < past->first) return;
+  const double later_s = past->second + kPause_s - own->first;
+  for (RecordingRow& row : next.rows)
+    if (row.time_s) *row.time_s += later_s;
+  messages.push_back(
+      diagnostic(Code::N0708,
+                 fmt::format("{}: its times overlap those of the recording ahead of it; they count as {:.0f} s later",
+                             file, later_s),
+                 "if it was measured at another time, write its true times into time_s"));
+}
+
+/// Whoever forgets to number the repeats has the same run in every file. The same touch with another value is
+/// a further run, else the machine would seem to have changed in the middle of one.
+void continue_runs(const Recording& before, Recording& next, const std::string& file,
+                   std::vector<Diagnostic>& messages) {
+  const auto named = [](const RecordingRow& row) { return std::tie(row.feature, row.touch, row.setup, row.run); };
+  std::map<std::tuple<std::string, int, int, int>, Vec3> touched;
+  for (const RecordingRow& row : before.rows) touched.emplace(named(row), row.position_mm);
+  const bool again = std::any_of(next.rows.begin(), next.rows.end(), [&](const RecordingRow& row) {
+    const auto found = touched.find(named(row));
+    return found != touched.end() && !(found->second == row.position_mm);
+  });
+  if (!again) return;
+  const auto in_run_order = [](const RecordingRow& a, const RecordingRow& b) { return a.run < b.run; };
+  const int last = std::max_element(before.rows.begin(), before.rows.end(), in_run_order)->run;
+  const int first = std::min_element(next.rows.begin(), next.rows.end(), in_run_order)->run;
+  for (RecordingRow& row : next.rows) row.run += last + 1 - first;
+  messages.push_back(diagnostic(
+      Code::N0708,
+      fmt::format("{}: it repeats touches of the recording ahead of it under the same run; its runs are counted on: "
+                  "run {} counts as {}",
+                  file, first, last + 1),
+      "give every repeat its own number in the column 'run'"));
+}
+
+/// Between two files the styli may have been qualified anew, unless all say by the column `qualification` that they were
+/// not.
+void doubt_qualifications(std::vector<Recording>& files) {
+  const auto unsaid = [](const RecordingRow& row) { return !row.qualification; };
+  const auto says = [&](const Recording& r) { return std::none_of(r.rows.begin(), r.rows.end(), unsaid); };
+  if (files.size() < 2 || std::all_of(files.begin(), files.end(), says)) return;
+  int before = 0;
+  for (Recording& r : files) {
+    int last = before;
+    for (RecordingRow& row : r.rows) {
+      row.qualification = before + row.qualification.value_or(1);
+      last = std::max(last, *row.qualification);
+    }
+    before = last;
+  }
+}
+
+bool same_rows(const Recording& before, const Recording& next) {
+  const auto same = [](const RecordingRow& a, const RecordingRow& b) {
+    return a.feature == b.feature && a.touch == b.touch && a.setup == b.setup && a.run == b.run &&
+        a.position_mm == b.position_mm && a.time_s == b.time_s;
+  };
+  return std::search(before.rows.begin(), before.rows.end(), next.rows.begin(), next.rows.end(), same) !=
+      before.rows.end();
+}
+
+/// Whether nearly all touches of the shorter recording stand in the longer one to the last digit, under whatever setup
+/// and run. Positions in coarse steps repeat by themselves, and so do targets in their place.
+bool same_positions(const Recording& before, const Recording& next) {
+  constexpr double kCoarse_mm = 1.5e-3, kNearlyAll = 0.9;
+  if (common_step_mm(before) > kCoarse_mm) return false;
+  const bool fewer = next.rows.size() < before.rows.size();
+  const auto position = [](const RecordingRow& row) {
+    const Vec3& p = row.position_mm;
+    return std::tuple(row.feature, row.touch, p.x, p.y, p.z);
+  };
+  std::set<std::tuple<std::string, int, double, double, double>> known;
+  for (const RecordingRow& row : (fewer ? before : next).rows)
+    if (row.target_mm != row.position_mm) known.insert(position(row));
+  const std::vector<RecordingRow>& rows = (fewer ? next : before).rows;
+  const auto again =
+      std::count_if(rows.begin(), rows.end(), [&](const RecordingRow& row) { return known.contains(position(row)); });
+  return double(again) >= kNearlyAll * double(rows.size());
+}
+
+/// A file given twice is no repeat: nothing was measured again.
+void refuse_copy(const Recording& before, const std::string& name, const Recording& next, const std::string& copy) {
+  const char* const help = "give each recording once; a repeat has other values, and another 'run'";
+  if (same_rows(before, next))
+    throw UserError(diagnostic(Code::E0713, fmt::format("'{}' holds the same touches as '{}'", copy, name), help));
+  if (same_positions(before, next))
+    throw UserError(diagnostic(Code::E0713,
+                               fmt::format("'{}' holds the same touches as '{}', to the last digit of their positions, "
+                                           "under another setup or run: rows were copied",
+                                           copy, name),
+                               help));
+}
+
+/// Recordings of one machine belong together.
+void doubt_machine(const Recording& first, const std::string& name, const Recording& next, const std::string& file,
+                   std::vector<Diagnostic>& messages) {
+  const auto one = said(first.metadata, "machine"), other = said(next.metadata, "machine");
+  if (one && other && *one != *other)
+    messages.push_back(diagnostic(
+        Code::W0714,
+        fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, *one, file, *other),
+        "judge each machine by its own recordings"));
+}
+
+/// Files that are one recording have positions of one kind.
+void refuse_unlike(const Recording& first, const std::string& name, const Recording& next, const std::string& file) {
+  if (next.in_part_frame != first.in_part_frame || next.point != first.point)
+    throw UserError(diagnostic(Code::E0707, fmt::format("'{}' and '{}' have different frames or points", name, file),
+                               "the lines '# frame:' and '# point:' must say the same in all files"));
+  const auto surfaces = said(first.metadata, "surfaces"), others = said(next.metadata, "surfaces");
+  if (surfaces && others && *surfaces != *others)
+    throw UserError(diagnostic(
+        Code::E0707, fmt::format("'# surfaces:' says {} in '{}' and {} in '{}'", *surfaces, name, *others, file),
+        "judge them one by one, or say of both what holds for both"));
+}
+
+}  // namespace
+
+Recording joined(const std::vector<SourceFile>& files, Positions positions, std::vector<Diagnostic>& messages) {
+  std::vector<Recording> read;
+  for (const SourceFile& file : files) {
+    read.push_back(read_recording(file, positions));
+    refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
+    for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
+  }
+  doubt_qualifications(read);
+  Recording all = std::move(read.front());
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    const std::string& name = files[k].name();
+    Recording& one = read[k];
+    doubt_machine(all, files[0].name(), one, name, messages);
+    continue_clock(all, one, name, messages);
+    continue_runs(all, one, name, messages);
+    all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
+    // new styli; of what is said twice the first counts
+    all.metadata.insert(all.metadata.end(), one.metadata.begin(), one.metadata.end());
+  }
+  return all;
+}
+
+}  // namespace abbe
