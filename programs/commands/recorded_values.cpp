@@ -8,12 +8,13 @@
 #include <map>
 #include <numbers>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/math/units.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/placement.hpp"
+#include "lang/lines.hpp"
 #include "lang/result_reader.hpp"
 #include "programs/commands/usable_program.hpp"
-#include "programs/terminal.hpp"
 
 namespace abbe {
 
@@ -25,11 +26,33 @@ bool is_angle(const lang::ResultValue& v) {
   return unit_of(*v.kind, axis) == Unit::rad;
 }
 
+/// What is to be said of a result file, but of its features and coordinate systems, which no diagnosis of values looks at.
+/// Throws UserError where something is wrong with it, or it ends before its end.
+std::vector<Diagnostic> said_of_result(const SourceFile& file, const std::vector<Diagnostic>& messages) {
+  Sink told;
+  const std::vector<lang::LogicalLine> lines = lang::logical_lines(file);
+  const auto statement_of = [&](const Diagnostic& d) {
+    const auto after = std::find_if(lines.begin(), lines.end(),
+                                    [&](const lang::LogicalLine& line) { return line.line > d.place.line; });
+    return after == lines.begin() ? std::string() : upper(std::prev(after)->code.text());
+  };
+  for (const Diagnostic& d : messages)
+    if (const std::string text = statement_of(d); !text.starts_with("FA(") && !text.starts_with("DA(")) told.add(d);
+  const bool whole = std::any_of(lines.begin(), lines.end(), [](const lang::LogicalLine& line) {
+    return upper(line.code.text()).starts_with("ENDFIL");
+  });
+  if (!whole)
+    told.add(diagnostic(Code::E0561, fmt::format("{}: the result file ends before its ENDFIL", file.name()),
+                        "it was cut off: copy it anew; if it is whole, write ENDFIL as its last line"));
+  if (told.has_errors()) throw UserError(told.list());
+  return told.list();
+}
+
 /// The evaluated tolerances of a result file as rows; their features and coordinate systems are passed over.
-ValueRecording from_result(const SourceFile& file) {
+ValueRecording from_result(const SourceFile& file, std::vector<Diagnostic>& messages) {
   Sink sink;
   const lang::DmisResult result = lang::read_dmis_result(file, sink);
-  print_messages(sink.sorted());
+  for (Diagnostic& d : said_of_result(file, sink.sorted())) messages.push_back(std::move(d));
   ValueRecording out{file, {}, {}};
   std::map<std::string, int> met;
   for (const lang::ResultValue& v : result.values) {
@@ -77,7 +100,7 @@ std::string recorded_machine(const std::string& named, const std::vector<std::st
 
 RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program,
                                std::vector<Diagnostic>& messages)
-    : recording_(is_result(file.name()) ? from_result(file) : read_value_recording(file)) {
+    : recording_(is_result(file.name()) ? from_result(file, messages) : read_value_recording(file)) {
   const std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
   for (const ValueRow& row : recording_.rows) {
     if (std::find(names_.begin(), names_.end(), row.program) != names_.end()) continue;
@@ -87,6 +110,8 @@ RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::
                         "give --program P.dmi, or a column 'program' with its path as seen from this file"));
     names_.push_back(row.program);
     programs_.push_back(usable_program(row.program.empty() ? *program : (folder / row.program).string()));
+    const std::vector<Diagnostic>& told = programs_.back().messages;
+    messages.insert(messages.end(), told.begin(), told.end());
   }
 }
 
@@ -116,5 +141,3 @@ Diagnosis RecordedValues::diagnosis(const Machine& machine, const DiagnoseOption
 }
 
 }  // namespace abbe
-    const std::vector<Diagnostic>& told = programs_.back().messages;
-    messages.insert(messages.end(), told.begin(), told.end());

@@ -157,6 +157,20 @@ class Values(harness.Case):
         self.refused("E0555", "diagnose", "good.dmo")
         self.refused("E0557", "diagnose", self.write("empty.dmo", "DMISOT/'nothing',4.0\nENDFIL\n"), "--program", program)
 
+    def test_a_result_file_that_is_cut_off_is_refused(self):
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", program, "-o", "touches.csv", "--dmo", "whole.dmo")
+        whole = (self.folder / "whole.dmo").read_text()
+        lines = whole.splitlines(True)
+        for cut in (whole[:400], whole[:-8], "".join(lines[:len(lines) // 2])):   # in a word, before ENDFIL, behind a line
+            self.refused("E0561", "diagnose", self.write("cut.dmo", cut), "--program", program, "--format", "json")
+        broken = whole.replace("TOL/FLAT, 0.0", "TOL/FLAT, nothing 0.0")
+        self.refused("E0507", "diagnose", self.write("broken.dmo", broken), "--program", program)
+        # Features are not judged: what cannot be read of them does no harm.
+        strange = whole.replace("FA(PLA) = FEAT/PLANE", "FA(PLA) = FEAT/BLOB")
+        done = self.abbe("diagnose", self.write("strange.dmo", strange), "--program", program, "--format", "json")
+        self.assertNotIn("error", done.stderr)
+
     def test_of_several_evaluations_each_row_says_which(self):
         twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")
         values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")
