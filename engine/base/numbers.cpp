@@ -1,5 +1,6 @@
 #include "engine/base/numbers.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -11,6 +12,14 @@ std::optional<double> finite_number(std::string_view text) {
   const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failure != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+double last_digit(std::string_view number) {
+  const std::size_t exponent = std::min(number.find_first_of("eE"), number.size()),
+                    point = std::min(number.find('.'), exponent);
+  const double power = finite_number(number.substr(std::min(exponent + 1, number.size()))).value_or(0);
+  const std::size_t decimals = exponent > point ? exponent - point - 1 : 0;
+  return std::pow(10, power - double(decimals));
 }
 
 }  // namespace abbe

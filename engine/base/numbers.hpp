@@ -11,4 +11,7 @@ namespace abbe {
 /// "nan" and "inf" among them.
 std::optional<double> finite_number(std::string_view text);
 
+/// What the last digit of such a number counts: 0.001 of "2.150".
+double last_digit(std::string_view number);
+
 }  // namespace abbe

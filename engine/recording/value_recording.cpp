@@ -42,7 +42,11 @@ const std::vector<ReadColumn>& readable_columns() {
          return true;
        },
        true},
-      {"value", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.value = v; }); }, true},
+      {"value",
+       [](const CsvField& f, ValueRow& r) {
+         return set_number(f, [&](double v) { r.value = v, r.last_digit = last_digit(f.text); });
+       },
+       true},
       {"reference", [](const CsvField& f, ValueRow& r) { return set_number(f, [&](double v) { r.reference = v; }); }},
       {"U",
        [](const CsvField& f, ValueRow& r) {

@@ -15,6 +15,7 @@ namespace abbe {
 struct ValueRow {
   std::string characteristic;       ///< as written: "LEN", "END1 END2 LEN" or "FA(END1),FA(END2),TA(LEN)"
   double value = 0;                 ///< mm or degrees, as reports say
+  double last_digit = 0;            ///< what the last digit of the value counts; 0: not known
   std::optional<double> reference;  ///< the true value; none: what the program measures on an error-free machine
   double expanded_uncertainty = 0;  ///< U of the reference, k = 2
   int run = 1, occurrence = 1;      ///< repeat of the whole; which evaluation within the program

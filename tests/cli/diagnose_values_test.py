@@ -171,6 +171,20 @@ class Values(harness.Case):
         done = self.abbe("diagnose", self.write("strange.dmo", strange), "--program", program, "--format", "json")
         self.assertNotIn("error", done.stderr)
 
+    def test_values_that_are_their_references_are_not_judged(self):
+        """A machine differs from them in the last digits; so does one without errors not."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        report = self.run_json(program, "--machines", 20, "--dmo", "true.dmo")
+        def table(digits):
+            rows = [f'"{",".join(f"FA({f})" for f in c["feature"])},TA({c["tolerance"]})",{c["reference"]:.{digits}f}' for c in report["characteristics"]]
+            return self.write("true.csv", "characteristic,value\n" + "\n".join(rows) + "\n")
+        for file in (table(9), table(5), self.folder / "true.dmo"):
+            said = self.diagnosis(file, "--program", program, "--fail-on-mismatch")
+            self.assertEqual((said["verdict"], said["p_value"], [m["code"] for m in said["messages"]]), ("cannot_judge", None, ["W0717"]))
+        self.assertIn("exactly what an error-free machine reports", self.abbe("diagnose", "true.dmo", "--program", program).stdout)
+        coarse = self.diagnosis(table(2), "--program", program)   # a machine in order reports the same with so few digits
+        self.assertNotEqual(coarse["verdict"], "cannot_judge")
+
     def test_of_several_evaluations_each_row_says_which(self):
         twice = harness.LENGTH.replace("OUTPUT/FA(A),FA(B),TA(LEN)", "DECL/INTGR,N\nDO/N,1,2\nOUTPUT/FA(A),FA(B),TA(LEN)\nENDDO")
         values = self.write("values.csv", "characteristic,value,occurrence\nLEN,100.0,1\nLEN,100.0,2\n")

@@ -361,6 +361,31 @@ void doubt_calibrations(const ValueCase& c, std::vector<Diagnostic>& messages) {
       "U is the expanded uncertainty (k = 2) in mm or degrees, as the value is; as it stands, only errors larger than U show"));
 }
 
+/// Whether every value is, to its last digit, what it should be. Machines of the specification would not report that: the
+/// chance is the digit times the density of the values.
+bool holds_references_only(const ValueCase& c) {
+  constexpr double kFinest_um = 1e-6;  // of doubles that were written with all digits
+  constexpr double kHardly = 1e-4;
+  double chance = 1;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    const auto at = static_cast<Eigen::Index>(k);
+    const double digit = std::max(c.recording->rows[k].last_digit / v.reported(), kFinest_um);
+    if (c.recording->rows[k].last_digit == 0 || std::abs(v.deviation) > digit / 2 + kFinest_um) return false;
+    chance *= std::min(1.0, digit / std::sqrt(2 * kPi * c.judges.covariance(at, at)));
+  }
+  return chance < kHardly;
+}
+
+void tell_references_only(const ValueCase& c, Diagnosis& out) {
+  out.judgeable = false, out.targets_only = true;
+  out.verdict = Verdict::cannot_judge;
+  out.messages.push_back(diagnostic(
+      Code::W0717, fmt::format("{}: every value is exactly that of an error-free machine", c.recording->source.name()),
+      "a real machine differs in the last digits: check that measured values were recorded, and not references"));
+  out.otherwise = "Record measured values: those of a real machine differ from their references in the last digits.";
+}
+
 }  // namespace
 
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
@@ -377,6 +402,10 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   tell_hidden(*c.search, out);
   if (options.design_only) return out;
   out.values = judge_each(c);
+  if (holds_references_only(c)) {
+    tell_references_only(c, out);
+    return out;
+  }
   out.p_value = tail_probability(c.search->evidence(c.deviation).statistic, in_order);
   if (out.p_value > kAlarm) return out;
   begins(options.progress, "sizes of what was found");

@@ -58,8 +58,10 @@ std::string first_sentence(const Diagnosis& d) {
                          d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
     case Headline::nothing_judged:
       if (d.targets_only)
-        return fmt::format("Nothing can be judged: all {} touches are exactly where an error-free machine has them.",
-                           d.touches);
+        return d.values.empty()
+            ? fmt::format("Nothing can be judged: all {} touches are exactly where an error-free machine has them.",
+                          d.touches)
+            : fmt::format("Nothing can be judged: the {} exactly what an error-free machine reports.", what(d));
       return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.",
                          d.touches);
     case Headline::beyond_specification:
