@@ -62,6 +62,16 @@ double common_step_mm(const Recording& recording) {
   return double(step) / kLastDigitsPerMm;
 }
 
+void round_readings(Recording& recording, double step_mm) {
+  const auto round = [&](Vec3& v) {
+    for (int k = 0; k < 3; ++k) v[k] = step_mm * std::round(v[k] / step_mm);
+  };
+  for (RecordingRow& row : recording.rows) {
+    round(row.position_mm);
+    if (row.reading_mm) round(*row.reading_mm);
+  }
+}
+
 std::string to_csv(const Recording& recording) {
   std::vector<WrittenColumn> columns;
   for (const RecordingColumn& column : recording_columns())

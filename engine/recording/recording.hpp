@@ -52,6 +52,9 @@ struct Recording {
 /// The step of which all recorded positions are multiples: their greatest common divisor, down to 1 nm; mm.
 double common_step_mm(const Recording&);
 
+/// Makes positions and scale readings multiples of a step, as counters and software with few digits do.
+void round_readings(Recording&, double step_mm);
+
 /// RFC 4180 with `#` lines before the header; a column appears when any row has it. Lengths with 7 decimals (0.1 nm).
 std::string to_csv(const Recording&);
 

@@ -3,11 +3,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <compare>
 
 #include "engine/base/files.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/report/dmis_result.hpp"
+#include "engine/run/effect_set.hpp"
 #include "engine/run/placement.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/commands/usable_program.hpp"
@@ -86,10 +88,42 @@ std::string describe(const Machine& machine, const std::vector<std::string>& wit
   return all.empty() ? "none" : fmt::format("{}", fmt::join(all, " "));
 }
 
+/// A step to which a machine rounds what it reads (noise.resolution).
+struct Rounding {
+  double step_mm;
+  std::size_t effect;  ///< its place in the machine's list
+  auto operator<=>(const Rounding&) const = default;
+};
+
+/// The roundings of the machine, the finest first. There they are set to zero: an error that is added to a touch makes no
+/// multiples, and who looks at the digits would not know it.
+std::vector<Rounding> take_roundings(Machine& machine) {
+  const EffectSet refuses_what_cannot_be(machine.effects, EffectUse::left_in, machine.name);
+  std::vector<Rounding> out;
+  for (std::size_t k = 0; k < machine.effects.size(); ++k) {
+    if (machine.effects[k].name != "noise.resolution") continue;
+    EffectSetting::Value& step_um = machine.effects[k].parameters["resolution_um"];
+    if (step_um.value > 0) out.push_back({step_um.value * kUm, k});
+    step_um = {};
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// What the software of a machine makes of these touches, which carry all errors.
+std::vector<OutputRecord> outputs_of(const Recording& recording, const plan::Plan& plan, const Machine& machine,
+                                     const VirtualMachines& one, RunOptions run, const SourceFile& source) {
+  run.recorded = &recording;
+  run.workpiece = nullptr;
+  run.contributors = Contributors::none();
+  return record_plan(plan, machine, one, run, source).outputs;
+}
+
 }  // namespace
 
 int record_command(const RecordOptions& options) {
   const CompiledProgram program = usable_program(options.program, options.answers);
+  print_messages(program.messages);
   const lang::Directives& asked = program.compilation.directives;
   StudySettings settings;
   settings.machine = options.machine;
@@ -108,8 +142,13 @@ int record_command(const RecordOptions& options) {
   run.placement_mm =
       asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
+  const std::vector<Rounding> roundings = take_roundings(machine);
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
   MachineRecord record = record_plan(plan, machine, one, run, program.source);
+  for (const Rounding& rounding : roundings) {
+    round_readings(record.recording, rounding.step_mm);
+    record.acted[rounding.effect] = 1;
+  }
   auto& metadata = record.recording.metadata;
   const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name},
                                                         {"program", program.source.name()},
@@ -120,10 +159,12 @@ int record_command(const RecordOptions& options) {
   if (workpiece) metadata.emplace_back("workpiece", workpiece->name);
   std::vector<OutputFile> files;
   files.push_back({options.output, to_csv(record.recording)});
-  if (options.dmo) files.push_back({*options.dmo, dmis_result(plan, record.outputs)});
+  if (options.dmo) {
+    if (!roundings.empty()) record.outputs = outputs_of(record.recording, plan, machine, one, run, program.source);
+    files.push_back({*options.dmo, dmis_result(plan, record.outputs)});
+  }
   write_together(files);
   tell_idle(options.with, machine, record.acted);
-  print_messages(program.messages);
   return kDone;
 }
 

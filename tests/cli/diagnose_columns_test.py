@@ -26,6 +26,12 @@ class Columns(harness.Case):
             self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], 10)
             self.assertEqual(said["baseline"]["outliers"], [])
 
+    def test_what_record_rounds_is_found(self):
+        for seed, step_um in ((7, 3), (8, 5), (9, 10)):
+            said = self.diagnosis(self.record("--seed", seed, "--with", f"noise.resolution:resolution_um={step_um}"))
+            self.assertEqual([e["members"] for e in said["effects"]], [["noise.resolution"]], (seed, step_um))
+            self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], step_um)
+
     def test_a_part_off_its_targets_hides_no_rounding(self):
         def moved(row):
             return row | {a: f"{round(2e2 * (float(row[a]) + by)) / 2e2:.3f}" for a, by in (("x", 0.2), ("y", -0.3), ("z", 0.1))} | {f"enc_{a}": "" for a in "xyz"}

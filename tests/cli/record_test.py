@@ -124,6 +124,34 @@ with tempfile.TemporaryDirectory() as folder:
     check(abs(diameter("--with", "probe.tip_radius:amplitude_um=2") - diameter() - 0.004) < 2e-5, "the result file has the errors of the machine")
     check(diameter() != diameter("--seed", "2"), "another seed is another machine")
 
+    # What is rounded falls on a grid, and the result file is made of it.
+    def off_grid(values, step_mm):
+        return max(abs(v / step_mm - round(v / step_mm)) for v in values)
+
+    rounding = ("--with", "noise.resolution:resolution_um=10", "--dmo", str(pathlib.Path(folder) / "rec.dmo"))
+    run, out = record(folder, *rounding)
+    rounded = rows(out)
+    check(run.returncode == 0 and run.stderr == "", "rounding is an effect that does something")
+    written = [float(r[c]) for r in rounded for c in ("x", "y", "z", "enc_x", "enc_y", "enc_z")]
+    check(off_grid(written, 0.01) < 1e-6, "positions and scale readings are multiples of the step")
+    check(all(abs(float(a[c]) - float(b[c])) <= 0.00500001 for a, b in zip(plain, rounded) for c in "xyz"), "the nearest ones")
+    made = subprocess.run([ABBE, "run", str(PROGRAM), "--recording", str(out), "--machines", "2", "--dmo", str(pathlib.Path(folder) / "of_points.dmo")], capture_output=True, text=True)
+    results = [[line for line in (pathlib.Path(folder) / name).read_text().splitlines() if not line.startswith("$$!")] for name in ("rec.dmo", "of_points.dmo")]
+    check(made.returncode == 0 and results[0] == results[1], "the result file is that of the rounded points")
+    worn = json.loads((pathlib.Path(folder) / "worn.json").read_text())
+    worn["effects"] = [{"name": "noise.resolution", "parameters": {"resolution_um": {"value": 4, "u": 0.1}}}]
+    (pathlib.Path(folder) / "worn.json").write_text(json.dumps(worn))
+    run, out = record(folder, "--machine", str(pathlib.Path(folder) / "worn.json"))
+    check(off_grid([float(r[c]) for r in rows(out) for c in "xyz"], 0.004) < 1e-6, "the machine file rounds, too")
+    run, out = record(folder, "--with", "noise.resolution:resolution_um=0")
+    check("W0615" in run.stderr, "no step is no effect")
+
+    # Several outputs are written all or none; a folder is refused before the work.
+    for arguments, text in ((["--dmo", "/dev/full"], "/dev/full"), (["--dmo", folder], "is a folder"), (["--dmo", "/proc/none.dmo"], "/proc/none.dmo")):
+        (pathlib.Path(folder) / "rec.csv").unlink(missing_ok=True)
+        run, out = record(folder, *arguments)
+        check(run.returncode == 2 and "E0602" in run.stderr and text in run.stderr and not out.exists(), f"{' '.join(arguments)}: nothing is written")
+
     for arguments, code, text in ((["--with", "probe.tip_radus"], "E0305", "did you mean 'probe.tip_radius'"),
                                   (["--with", "pretravel_lobing"], "E0305", "did you mean 'probe.pretravel_lobing'?"),
                                   (["--with", "pretravel_lobbing"], "E0305", "did you mean 'probe.pretravel_lobing'?"),

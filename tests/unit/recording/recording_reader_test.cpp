@@ -114,3 +114,15 @@ TEST_CASE("lines before the table and counts say something possible, or are refu
       "# approach_mm: 0\n# retract_mm: 3.5\n# temperature_compensation: off\n# note: anything\nfeature,touch,x,y,z\nA,1,0,0,0\n"));
   CHECK(r.metadata.size() == 4);
 }
+
+TEST_CASE("rounded readings are multiples of the step, the nearest ones") {
+  Recording r;
+  r.rows.resize(2);
+  r.rows[0].position_mm = {1.2344, -1.2346, 0};
+  r.rows[1].reading_mm = Vec3{10.0051, 0, 0};
+  round_readings(r, 0.01);
+  CHECK(r.rows[0].position_mm.x == doctest::Approx(1.23));
+  CHECK(r.rows[0].position_mm.y == doctest::Approx(-1.23));
+  CHECK(r.rows[1].reading_mm->x == doctest::Approx(10.01));
+  CHECK_FALSE(r.rows[0].reading_mm);
+}
