@@ -88,8 +88,9 @@ std::string residual_plots(const Diagnosis& d) {
   double largest = 0;
   for (const ResidualRow& r : d.residuals) largest = std::max({largest, std::abs(r.before_um), std::abs(r.after_um)});
   std::string out =
-      "<h2>Residuals</h2>\n<p class=\"note\">How far each surface point seems too far out, free of the placement of the part. After: the model "
-      "with the explanation in it predicts touches that it has not seen.</p>\n";
+      "<h2>Residuals</h2>\n<p class=\"note\">How far each surface point seems too far out, free of the placement of the part.";
+  if (d.improvement) out += " After: the model with the explanation in it predicts touches that it has not seen.";
+  out += "</p>\n";
   for (const Factor& f : kFactors) {
     Scatter before{"before", f.title, "residual, um", {}, {}, {-largest, largest}}, after = before;
     after.title = "after, held out", after.second_colour = true;

@@ -88,9 +88,9 @@ std::string second_sentence(const Diagnosis& d) {
                                        [](const Detectable& a, const Detectable& b) {
                                          return std::pair(a.scatter, a.detect_um) < std::pair(b.scatter, b.detect_um);
                                        });
-    const char* const but = !d.judged ? "The table says"
-        : d.beyond || d.beyond_known  ? "No effect of the catalogue was found that makes it: the table says"
-                                      : "That does not mean that nothing is there: the table says";
+    const char* const but = !d.judged || !d.judgeable ? "The table says"
+        : d.beyond || d.beyond_known ? "No effect of the catalogue was found that makes it: the table says"
+                                     : "That does not mean that nothing is there: the table says";
     return fmt::format("{} how large each effect would have to be to be seen, at the least {} um ({}).", but,
                        two_digits(best->detect_um), in_words(*best));
   }
@@ -104,8 +104,30 @@ std::string second_sentence(const Diagnosis& d) {
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
-/// Is it better?
+/// What could have been seen: of the effects that move touches, the middle one and the one that shows last.
+std::string what_would_show(const Diagnosis& d) {
+  std::vector<const Detectable*> shown;
+  for (const Detectable& s : d.smallest_detectable)
+    if (!s.scatter) shown.push_back(&s);
+  if (shown.empty()) return "";
+  std::sort(shown.begin(), shown.end(), [](const auto* a, const auto* b) { return a->detect_um < b->detect_um; });
+  const std::size_t others = open_questions(d).size();
+  return fmt::format(
+      "Of the {} that {} can show, half would be seen from {} um on at the latest, and the last one ({}) from {} um on{}.",
+      shown.size() == 1 ? "one effect" : fmt::format("{} effects", shown.size()),
+      d.touches > 0 ? "such touches" : "such values", two_digits(shown[(shown.size() - 1) / 2]->detect_um),
+      in_words(*shown.back()), two_digits(shown.back()->detect_um),
+      others == 0 ? "" : fmt::format("; {} more cannot be judged", others));
+}
+
+/// Is it better? Where nothing was found: what would have been?
 std::string third_sentence(const Diagnosis& d) {
+  if (d.effects.empty() && !d.unexplained) return what_would_show(d);
+  const bool scatter = !d.unexplained && std::all_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) {
+    return e.members.front().starts_with("noise.");
+  });
+  if (scatter && !d.improvement)
+    return "Scatter moves hardly any mean: no touch is predicted better with it, but results are less certain than without.";
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
   constexpr double kClear = 3;  // nats
@@ -237,6 +259,15 @@ std::string baseline_in_words(const Diagnosis& d) {
 std::vector<std::string> further_steps(const Diagnosis& d) {
   std::vector<std::string> out;
   if (!d.otherwise.empty()) out.push_back(d.otherwise);
+  if (d.judged && d.judgeable && d.verdict == Verdict::no_mismatch) {
+    constexpr Code kDoubts[] = {Code::W0716, Code::W0720, Code::W0723, Code::W0730};
+    for (const Diagnostic& m : d.messages)
+      if (std::find(std::begin(kDoubts), std::end(kDoubts), m.code) != std::end(kDoubts))
+        out.push_back(capitalised(m.help) + ".");
+    if (out.empty()) out.push_back("Nothing needs mending: use the machine file as it is.");
+    out.push_back(
+        "Smaller effects, and those that cannot be judged, need another measurement: 'abbe diagnose --design-only' says what a plan could show.");
+  }
   const bool pattern = d.values.empty() && d.unexplained, carried = pattern && !d.unexplained->model.empty();
   if (pattern && !carried)
     out.push_back(
@@ -262,9 +293,9 @@ std::string label(const JudgedValue& v) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out;
   for (const std::string& sentence : diagnosis_sentences(d)) out += sentence + "\n";
-  if (d.judgeable)
-    out += "\n" + value_table(d) +
-        (!d.judged || d.verdict == Verdict::no_mismatch ? design_table(d) : mismatch_table(d)) + "\n";
+  const bool found = !d.effects.empty() || d.unexplained;
+  if (found || !d.smallest_detectable.empty() || !d.values.empty())
+    out += "\n" + value_table(d) + (found ? mismatch_table(d) : design_table(d)) + "\n";
   out += what_next(d);
   out += cannot_judge(d);
   out += held_out_line(d);

@@ -50,6 +50,47 @@ TEST_CASE("that it is another machine comes first, in the text and on the page, 
   }
 }
 
+TEST_CASE("whatever is found, there are three sentences, a table and what to do next") {
+  Diagnosis d = nothing_found();
+  const auto seen_from = [](const char* effect, double detect_um) {
+    Detectable seen;
+    seen.effect = effect, seen.detect_um = detect_um;
+    seen.scatter = seen.effect.starts_with("noise.");
+    return seen;
+  };
+  d.smallest_detectable = {seen_from("machine.ram_droop", 6.2), seen_from("probe.tip_radius", 1.5),
+                           seen_from("noise.vibration", 9)};
+  d.cannot_judge = {{"thermal.drift", {"time_s"}, {}}};
+  CHECK(diagnosis_sentences(d).size() == 3);
+  CHECK(
+      says(diagnosis_sentences(d).back(),
+           "Of the 2 effects that such touches can show, half would be seen from 1.5 um on at the latest, and the last "
+           "one (machine.ram_droop) from 6.2 um on; 1 more cannot be judged."));
+  for (const std::string& written : {diagnosis_text(d), diagnosis_html(d, "r.csv", "m.json")})
+    CHECK(says(written, "use the machine file as it is"));
+  CHECK(says(diagnosis_text(d), "what to do next:\n"));
+  d.baseline.geometry_scale = 3;
+  d.messages = {diagnostic(Code::W0723, "large", "measure calibrated lengths")};
+  CHECK_FALSE(says(diagnosis_text(d), "as it is"));
+  CHECK(says(diagnosis_text(d), "what to do next:\n  Measure calibrated lengths.\n"));
+
+  Diagnosis scatter = named();
+  scatter.effects.front().members = {"noise.vibration"};
+  scatter.effects.front().sentence = "It is explained by vibration.";
+  CHECK(diagnosis_sentences(scatter).size() == 3);
+  CHECK(says(diagnosis_sentences(scatter).back(), "results are less certain"));
+}
+
+TEST_CASE("a page speaks of an explanation only where there is one") {
+  Diagnosis d = nothing_found();
+  d.residuals.resize(2);
+  d.residuals[0].x_mm = 1, d.residuals[0].before_um = 1;
+  CHECK(says(diagnosis_html(d, "r.csv", "m.json"), "<h2>Residuals</h2>"));
+  CHECK_FALSE(says(diagnosis_html(d, "r.csv", "m.json"), "with the explanation in it"));
+  d.improvement.emplace();
+  CHECK(says(diagnosis_html(d, "r.csv", "m.json"), "with the explanation in it"));
+}
+
 TEST_CASE("text and page say which touches were left out, and what to do with a model") {
   Diagnosis d = named();
   d.baseline.outliers = {"SPH1 touch 7 (setup 1, run 1)"};
