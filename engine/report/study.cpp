@@ -13,8 +13,6 @@
 
 namespace abbe {
 
-namespace {
-
 void check_options(const StudyOptions& options) {
   if (!options.digits && options.machines < 2)
     throw UserError(diagnostic(Code::E0603,
@@ -32,6 +30,8 @@ void check_options(const StudyOptions& options) {
             ? fmt::format("{:g} % is {:g}", *options.coverage, *options.coverage / 100)
             : "99 % is 0.99"));
 }
+
+namespace {
 
 /// Every contributor acting alone, by the name under which its share is reported.
 struct NamedContributors {

@@ -46,8 +46,10 @@ struct Study {
   std::vector<std::uint32_t> candidates;  ///< of each machine of `result`: the index that keys its random numbers
 };
 
-/// Throws UserError as screened_machines and run_plan do, and when `options.machines` or `digits`
-/// make no sense.
+/// Throws UserError (E0603) where `machines`, `digits` or `coverage` make no sense.
+void check_options(const StudyOptions&);
+
+/// Throws UserError as screened_machines and run_plan do, and as check_options does.
 Study run_study(const plan::Plan&, const Machine&, const StudyOptions& options, const SourceFile& source,
                 const Progress& progress = {});
 

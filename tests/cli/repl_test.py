@@ -102,6 +102,10 @@ class Repl(harness.Case):
         self.assertIn("1 characteristic", self.session(".load saved.dmi\n"))
         self.assertIn("nothing has been entered", self.session(".undo\n.list\n"))
 
+    def test_options_that_cannot_be_used_end_it_at_once(self):
+        for code, *options in (("E0411", "--machine", "nosuch"), ("E0603", "--machines", 0), ("E0601", "--workpiece", "nofile"), ("E0603", "--threads", -3)):
+            self.refused(code, "repl", *options)
+
     def test_a_program_with_errors_is_not_loaded(self):
         self.write("wrong.dmi", LENGTH.replace("T(LEN)=TOL", "T(LEN)=TLO"))
         out = self.session(".load wrong.dmi\n.list\n")
