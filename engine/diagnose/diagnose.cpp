@@ -66,6 +66,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   doubt_temperatures(once, file, messages);
   doubt_speeds(once, file, messages);
   leave_out_partly_logged(once, file, messages);
+  leave_out_readings_without_phase(once, file, messages);
   leave_out_commanded_readings(once, file, messages);
   continue_past_midnight(once, file, messages);
   count_from_first_touch(once, file, messages);
@@ -168,7 +169,8 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   EvidenceSearch first(c.model, c.hyper, c.explanations);
   const std::size_t without_readings = c.explanations.variants.size();
   if (!plan) free_readings_of_noise(c, first);
-  add_explanations_of_readings(c.touches, c.rows, c.step_um, c.explanations);
+  const double reading_step_um = kUmPerMm * reading_step_mm(recording);
+  add_explanations_of_readings(c.touches, c.rows, std::max(c.step_um, reading_step_um), c.explanations);
   first.extend(c.explanations, without_readings);
   out.cannot_judge = cannot_judge(c.explanations);
   at("what this recording could detect");

@@ -107,6 +107,34 @@ class Columns(harness.Case):
         for read in (whole, self.changed(whole, coarse)):
             self.assertNotIn("W0729", self.codes(self.diagnosis(read)))
 
+    def test_readings_that_tell_no_phase_are_not_used(self):
+        """What is wrong with a touch would be all that they hold, once it is taken out of them: a period of the scale explained every recording."""
+        whole, readings = self.record("--seed", 4), ("enc_x", "enc_y", "enc_z")
+        without = self.diagnosis(self.changed(whole, lambda row: row | {c: "" for c in readings}))
+        other = lambda row, c: "0" if int(row["feature"].split("_")[1]) % 2 else row[c]
+        for change, why in ((lambda row: {"enc_z": "-400"}, "enc_z is the same in all rows, and z is not"),
+                            (lambda row: {c: "500" for c in readings}, "enc_x is the same in all rows"),
+                            (lambda row: {"enc_y": other(row, "enc_y")}, "enc_y does not follow y"),
+                            (lambda row: {c: f"{float(row[c]):.2f}" for c in readings}, "enc_x is written in steps of 10 um")):
+            said = self.diagnosis(self.changed(whole, lambda row: row | change(row)))
+            self.assertEqual(self.codes(said), ["W0731"], why)
+            self.assertIn(why, said["messages"][0]["message"])
+            self.assertEqual((said["verdict"], said["p_value"]), ("no_mismatch", without["p_value"]), why)
+            self.assertIn({"effect": "machine.scale_interpolation", "missing": list(readings)}, said["cannot_judge"])
+
+    def test_readings_of_few_digits_and_of_an_axis_at_rest_are_used(self):
+        short = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi")
+        for path in (self.changed(short, lambda row: row | {f"enc_{a}": f"{float(row['enc_' + a]):.3f}" for a in "xyz"}, "few.csv"),
+                     self.changed(short, lambda row: row | {"z": f"{-400 + 1e-4 * float(row['x']):.7f}", "tz": "-400", "nz": "0", "enc_z": "-250"}
+                                  if abs(float(row["nz"])) < 0.1 else None, "at_rest.csv")):
+            self.assertNotIn("W0731", self.abbe("diagnose", path, "--machine", MACHINE, "--format", "json", code=(0, 2)).stderr)
+
+    def test_one_scale_that_was_commanded_is_told(self):
+        whole = self.record("--seed", 4)
+        said = self.diagnosis(self.changed(whole, lambda row: row | {"enc_z": f"{float(row['enc_z']) - float(row['z']) + float(row['tz']):.7f}"}))
+        self.assertEqual(self.codes(said), ["W0729"])
+        self.assertIn("enc_z does not hold", said["messages"][0]["message"])
+
     def test_errors_far_beyond_the_specification_are_told(self):
         """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
         said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))

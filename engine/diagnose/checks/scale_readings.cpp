@@ -1,10 +1,12 @@
-// Readings of the scales that are not those of the touches: in another unit, of other axes, or commanded. From the
-// scales to the tip is one vector for each stylus and orientation, but for what the controller corrects.
+// Readings of the scales that are not those of the touches: in another unit, of other axes, commanded, or none at all.
+// From the scales to the tip is one vector for each stylus and orientation, but for what the controller corrects.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -14,6 +16,7 @@
 #include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/checks/remedies.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/math/units.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/recording/units.hpp"
 
@@ -21,24 +24,52 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// The stylus, in its orientation, that made a touch. Angles that were read back scatter by thousandths of a degree.
+using Mounted = std::tuple<std::optional<std::string>, std::optional<long>, std::optional<long>>;
+
+Mounted mounted(const RecordingRow& row) {
+  constexpr double kPerDegree = 10;
+  const auto rounded = [](const std::optional<double>& deg) {
+    return deg ? std::optional(std::lround(kPerDegree * *deg)) : std::nullopt;
+  };
+  return {row.sensor, rounded(row.head_a_deg), rounded(row.head_b_deg)};
+}
+
 /// From one touch to the next.
 struct Travel {
   Vec3 scales, tip;
 };
 
+struct Ends {
+  const RecordingRow *from, *to;
+};
+
 /// Only between touches of one stylus in one orientation, because the readings jump where the head turns, and of one
-/// setup, because `frame: part` does not tell that the part was moved; and that lie apart.
-std::vector<Travel> travels(const Recording& r) {
-  constexpr double kApart_mm = 1;
-  using Mounted = std::tuple<int, std::optional<std::string>, std::optional<double>, std::optional<double>>;
-  std::map<Mounted, const RecordingRow*> before;
-  std::vector<Travel> out;
+/// setup, because `frame: part` does not tell that the part was moved.
+std::vector<Ends> in_one_mounting(const Recording& r) {
+  std::map<std::pair<int, Mounted>, const RecordingRow*> before;
+  std::vector<Ends> out;
   for (const RecordingRow& row : r.rows) {
     if (!row.reading_mm) continue;
-    const RecordingRow* last = std::exchange(before[{row.setup, row.sensor, row.head_a_deg, row.head_b_deg}], &row);
-    if (last && norm(row.position_mm - last->position_mm) > kApart_mm)
-      out.push_back({*row.reading_mm - *last->reading_mm, row.position_mm - last->position_mm});
+    const RecordingRow* last = std::exchange(before[{row.setup, mounted(row)}], &row);
+    if (last) out.push_back({last, &row});
   }
+  return out;
+}
+
+/// Whether the tip went about as far as it was sent. Where a position is wrong by metres, the readings are not.
+bool goes_where_sent(const RecordingRow& from, const RecordingRow& to) {
+  constexpr double kSlack_mm = 1, kShare = 0.5;
+  if (!from.target_mm || !to.target_mm) return true;
+  const double sent = norm(*to.target_mm - *from.target_mm);
+  return std::abs(norm(to.position_mm - from.position_mm) - sent) <= kSlack_mm + kShare * sent;
+}
+
+std::vector<Travel> travels(const Recording& r, double apart_mm) {
+  std::vector<Travel> out;
+  for (const auto& [from, to] : in_one_mounting(r))
+    if (norm(to->position_mm - from->position_mm) > apart_mm && goes_where_sent(*from, *to))
+      out.push_back({*to->reading_mm - *from->reading_mm, to->position_mm - from->position_mm});
   return out;
 }
 
@@ -90,15 +121,102 @@ void check_order(const std::vector<Travel>& travels, const std::string& file) {
                          "xyz"[o[1]], "xyz"[o[2]]));
 }
 
+/// The step of which all readings of an axis are multiples, wherever they begin; 0: it has one value, or none.
+double step_mm(const Recording& r, int axis) {
+  constexpr double kLastDigitsPerMm = 1e6;
+  long long step = 0;
+  std::optional<double> first;
+  for (const RecordingRow& row : r.rows) {
+    if (!row.reading_mm) continue;
+    const double reading = (*row.reading_mm)[axis];
+    if (!first) first = reading;
+    step = std::gcd(step, std::llround(kLastDigitsPerMm * (reading - *first)));
+  }
+  return double(step) / kLastDigitsPerMm;
+}
+
+/// Why the readings of an axis do not tell where touches were; nothing where they do, or where the tip does not travel.
+std::optional<std::string> strays(const std::vector<Travel>& travels, int axis, double step_mm) {
+  constexpr double kAlong = 0.2, kFollows = 0.5;  // of the travel: a part that is not quite aligned has less beside it
+  constexpr double kFew = 0.1;
+  constexpr std::size_t kEnough = 3;
+  std::size_t along = 0, astray = 0;
+  for (const Travel& t : travels) {
+    if (std::abs(t.tip[axis]) < kAlong * norm(t.tip)) continue;
+    ++along;
+    astray += std::abs(t.scales[axis] - t.tip[axis]) > kFollows * std::abs(t.tip[axis]);
+  }
+  if (along < kEnough || double(astray) <= kFew * double(along)) return std::nullopt;
+  const char name = "xyz"[axis];
+  if (step_mm == 0) return fmt::format("enc_{0} is the same in all rows, and {0} is not", name);
+  return fmt::format("enc_{0} does not follow {0}: from one touch to the next it goes elsewhere {1} times of {2}", name,
+                     astray, along);
+}
+
+/// The same of a part in its own coordinates, of which only distances are those of the machine.
+std::optional<std::string> strays(const std::vector<Travel>& travels) {
+  constexpr double kFollows = 0.05, kFew = 0.1;
+  constexpr std::size_t kEnough = 3;
+  const auto astray = std::count_if(travels.begin(), travels.end(), [](const Travel& t) {
+    return std::abs(norm(t.scales) - norm(t.tip)) > kFollows * norm(t.tip);
+  });
+  if (travels.size() < kEnough || double(astray) <= kFew * double(travels.size())) return std::nullopt;
+  return fmt::format("enc_x, enc_y, enc_z do not go as far as x, y, z: {} times of {} from one touch to the next",
+                     astray, travels.size());
+}
+
+/// What is wrong with the readings, where they do not tell at which phase of its signal a scale was.
+std::optional<std::string> no_phase(const Recording& r) {
+  constexpr double kApart_mm = 0.1, kUsualPeriod_um = 20, kSteps = 8;
+  const std::vector<Travel> of_touches = travels(r, kApart_mm);
+  if (r.in_part_frame)
+    if (std::optional<std::string> why = strays(of_touches)) return why;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = step_mm(r, axis);
+    if (!r.in_part_frame)
+      if (std::optional<std::string> why = strays(of_touches, axis, step)) return why;
+    if (kSteps * kUmPerMm * step > kUsualPeriod_um)
+      return fmt::format("enc_{} is written in steps of {:g} um, and a scale has a signal period of some {:g} um",
+                         "xyz"[axis], kUmPerMm * step, kUsualPeriod_um);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void check_readings(const Recording& r, const std::string& file) {
-  const std::vector<Travel> of_touches = travels(r);
+  constexpr double kApart_mm = 1;
+  const std::vector<Travel> of_touches = travels(r, kApart_mm);
   if (of_touches.empty()) return;
   check_unit(of_touches, file);
   if (r.in_part_frame) return;
   check_each_axis(of_touches, file);
   check_order(of_touches, file);
+}
+
+bool readings_agree(const Recording& r, Places places, std::optional<int> axis) {
+  constexpr double kApart_mm = 1, kAgree = 0.02;
+  if (axis && r.in_part_frame) return false;
+  const auto length = [&](const Vec3& v) { return axis ? std::abs(v[*axis]) : norm(v); };
+  std::vector<double> ratios;
+  for (const auto& [from, to] : in_one_mounting(r)) {
+    const double travel =
+        length(places == Places::targets ? *to->target_mm - *from->target_mm : to->position_mm - from->position_mm);
+    if (travel > kApart_mm) ratios.push_back(length(*to->reading_mm - *from->reading_mm) / travel);
+  }
+  return !ratios.empty() && std::abs(median(std::move(ratios)) - 1) < kAgree;
+}
+
+double reading_step_mm(const Recording& r) { return std::max({step_mm(r, 0), step_mm(r, 1), step_mm(r, 2)}); }
+
+void leave_out_readings_without_phase(Recording& recording, const std::string& file,
+                                      std::vector<Diagnostic>& messages) {
+  const std::optional<std::string> why = no_phase(recording);
+  if (!why) return;
+  messages.push_back(diagnostic(
+      Code::W0731, fmt::format("{}: {}. The scale readings are not used", file, *why),
+      "record what all three scales read at each touch, to a micrometre or finer, or leave enc_x, enc_y, enc_z out"));
+  for (RecordingRow& row : recording.rows) row.reading_mm.reset();
 }
 
 void leave_out_commanded_readings(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
@@ -111,33 +229,38 @@ void leave_out_commanded_readings(Recording& recording, const std::string& file,
   struct Tip {
     std::vector<Vec3> from_scales, from_targets;
   };
-  std::map<std::tuple<std::string, std::optional<double>, std::optional<double>>, Tip> tips;
+  std::map<Mounted, Tip> tips;
   for (const RecordingRow& row : recording.rows) {
     if (!row.reading_mm || !row.target_mm) return;
-    Tip& tip = tips[{row.sensor.value_or(""), row.head_a_deg, row.head_b_deg}];
+    Tip& tip = tips[mounted(row)];
     tip.from_scales.push_back(row.position_mm - *row.reading_mm);
     tip.from_targets.push_back(row.position_mm - *row.target_mm);
   }
-  double square = 0, left = 0;
+  Vec3 square, left;  // by axis: one scale may have been read and another not
   for (auto& [of, tip] : tips) {
     for (std::vector<Vec3>* const list : {&tip.from_scales, &tip.from_targets}) {
       Vec3 mean;
       for (const Vec3& v : *list) mean += v / double(list->size());
       for (Vec3& v : *list) v -= mean;
     }
-    for (std::size_t i = 0; i < tip.from_scales.size(); ++i) {
-      const Vec3 between = tip.from_scales[i] - tip.from_targets[i];
-      square += dot(tip.from_scales[i], tip.from_scales[i]), left += dot(between, between);
-    }
+    for (std::size_t i = 0; i < tip.from_scales.size(); ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        square[axis] += std::pow(tip.from_scales[i][axis], 2),
+            left[axis] += std::pow(tip.from_scales[i][axis] - tip.from_targets[i][axis], 2);
   }
   // Positions may be rounded where scales are not.
   const double step = common_step_mm(recording), rows = double(recording.rows.size()),
-               rounded = 3 * step * step / 12 * rows;
-  if (left >= kAlike * square || square <= 2 * rounded || square > kElsewhere_mm * kElsewhere_mm * rows) return;
+               rounded = step * step / 12 * rows;
+  std::vector<std::string> commanded;
+  for (int axis = 0; axis < 3; ++axis)
+    if (left[axis] < kAlike * square[axis] && square[axis] > 2 * rounded &&
+        square[axis] <= kElsewhere_mm * kElsewhere_mm * rows)
+      commanded.push_back(fmt::format("enc_{}", "xyz"[axis]));
+  if (commanded.empty()) return;
   messages.push_back(diagnostic(
       Code::W0729,
-      fmt::format("{}: enc_x, enc_y, enc_z do not hold by how much the touches miss their targets: they are not used",
-                  file),
+      fmt::format("{}: {} {} not hold by how much the touches miss their targets: the scale readings are not used",
+                  file, fmt::join(commanded, ", "), commanded.size() > 1 ? "do" : "does"),
       "record what the scales read at each touch, not what was commanded"));
   for (RecordingRow& row : recording.rows) row.reading_mm.reset();
 }
