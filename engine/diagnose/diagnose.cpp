@@ -132,6 +132,29 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
   out.verdict = Verdict::cannot_judge;
 }
 
+/// Each stylus in each orientation has an offset of its own, and here nobody knows which touches share one: what was found
+/// may be that. Until it is known, it is no mismatch of the machine.
+Diagnosis without_styli(Diagnosis found, std::vector<Diagnostic> of_the_file) {
+  Diagnosis out;
+  out.judgeable = false, out.styli_missing = true;
+  out.verdict = Verdict::cannot_judge;
+  out.touches = found.touches;
+  out.baseline = std::move(found.baseline);
+  out.messages = std::move(of_the_file);
+  for (const Effect* effect : effects()) {
+    const auto same = [&](const CannotJudge& c) { return c.effect == effect->name; };
+    const auto known = std::find_if(found.cannot_judge.begin(), found.cannot_judge.end(), same);
+    CannotJudge missing = known == found.cannot_judge.end() ? CannotJudge{std::string(effect->name), {}, {}} : *known;
+    for (const char* column : {"head_A_deg", "head_B_deg", "sensor"})
+      if (std::find(missing.missing.begin(), missing.missing.end(), column) == missing.missing.end())
+        missing.missing.emplace_back(column);
+    out.cannot_judge.push_back(std::move(missing));
+  }
+  out.otherwise =
+      "Log sensor, head_A_deg and head_B_deg at each touch, or diagnose the touches of each orientation by themselves.";
+  return out;
+}
+
 /// A placement is found where most touches lie well: the faces of a part may, and its bores not. Whether
 /// those are an effect of the catalogue or another part than the targets say shows when all that can be found
 /// has been: what is then left is no machine's.
@@ -151,6 +174,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   const auto at = [&](std::string_view step) { begins(options.progress, step); };
   at("virtual machines of the specification");
   Case c = on_the_bench(recording, machine, options, surfaces, file, out);
+  const std::vector<Diagnostic> of_the_file = out.messages;
   judge_rounding(step_um, c);
   // What holds no error at all says no more than its plan.
   const bool as_planned = !options.design_only && holds_targets_only(recording);
@@ -229,6 +253,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   if (out.baseline.noisier) out.messages.push_back(more_scatter(out.baseline, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
+  if (c.styli_unlogged && is_mismatch(out)) return without_styli(std::move(out), of_the_file);
   at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);

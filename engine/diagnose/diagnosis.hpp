@@ -189,6 +189,8 @@ struct Diagnosis {
   bool judged = true;         ///< false: of a plan, whose values were not looked at; verdict and p_value mean nothing
   bool judgeable = true;      ///< false: the unknowns of the recording explain whatever it holds; p_value means nothing
   bool targets_only = false;  ///< not judgeable because it holds targets in the place of measured positions
+  bool styli_missing =
+      false;  ///< not judgeable because what several unlogged styli or orientations do may be all of it
   Verdict verdict = Verdict::no_mismatch;
   double p_value = 1;
   std::optional<double> adequacy_p;  ///< that the named effects leave so much by chance; nothing where none were named

@@ -39,7 +39,7 @@ bool styli_unlogged(const Recording& r, const std::string& file, std::vector<Dia
       Code::W0725,
       fmt::format("{}: no one stylus in one orientation reaches all these surfaces, and no row says which touched it",
                   file),
-      "log sensor, head_A_deg and head_B_deg: until then what belongs to a stylus or an orientation may pass for something else"));
+      "log sensor, head_A_deg and head_B_deg: until then what belongs to a stylus or an orientation cannot be told from an error of the machine"));
   return true;
 }
 

@@ -102,8 +102,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
                                            : tell_machine_file(c, effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     const bool same_phase = is_same_phase(c, f);
-    const bool doubted = something_else || rounding || c.styli_unlogged || same_phase || effect.only_spread ||
-        !judged(c, f) || !possible || !shown(out.improvement);
+    const bool doubted = something_else || rounding || same_phase || effect.only_spread || !judged(c, f) || !possible ||
+        !shown(out.improvement);
     e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
@@ -150,7 +150,7 @@ void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) 
 Verdict verdict_of(const Case& c, const SearchResult& result, const Diagnosis& d) {
   if (result.other) return Verdict::unexplained;
   if (result.findings.empty()) return d.effects.empty() ? Verdict::no_mismatch : Verdict::named;
-  bool open = c.styli_unlogged, several = false;
+  bool open = false, several = false;
   for (const Finding& f : result.findings) {
     open = open || !judged(c, f);
     several = several || f.set.size() > 1;

@@ -62,6 +62,10 @@ std::string first_sentence(const Diagnosis& d) {
             ? fmt::format("Nothing can be judged: all {} touches are exactly where an error-free machine has them.",
                           d.touches)
             : fmt::format("Nothing can be judged: the {} exactly what an error-free machine reports.", what(d));
+      if (d.styli_missing)
+        return fmt::format(
+            "Whether this is a mismatch cannot be judged: these {} touches were made with several styli or orientations of the head, no row says which, and what these differ by may be all of it.",
+            d.touches);
       return fmt::format("Nothing can be judged: what is unknown of the part takes up all that these {} touches tell.",
                          d.touches);
     case Headline::beyond_specification:
