@@ -70,7 +70,9 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   leave_out_commanded_readings(once, file, messages);
   continue_past_midnight(once, file, messages);
   count_from_first_touch(once, file, messages);
-  return put_on_targets(once, most_out_mm(once, machine, options), file, messages);
+  Recording placed = put_on_targets(once, most_out_mm(once, machine, options), file, messages);
+  leave_out_astray(placed, file, messages);
+  return placed;
 }
 
 BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known) {

@@ -135,6 +135,15 @@ class Columns(harness.Case):
         self.assertEqual(self.codes(said), ["W0729"])
         self.assertIn("enc_z does not hold", said["messages"][0]["message"])
 
+    def test_a_row_in_micrometres_is_left_out(self):
+        whole = self.record("--seed", 4)
+        wrong = self.changed(whole, lambda row: row | ({a: repr(1e3 * float(row[a])) for a in "xyz"} if row["feature"] == "P3_7" else {}), "um.csv")
+        said = self.diagnosis(wrong)
+        self.assertEqual((said["verdict"], self.codes(said)), ("no_mismatch", ["W0712"]))
+        self.assertEqual((said["touches"], said["p_value"]), (124, self.diagnosis(self.changed(whole, lambda row: None if row["feature"] == "P3_7" else row))["p_value"]))
+        self.assertIn("lies 1103474.1 mm from its target: left out", said["messages"][0]["message"])
+        self.assertIn("in micrometres there: multiply them by 0.001", said["messages"][0]["help"])
+
     def test_errors_far_beyond_the_specification_are_told(self):
         """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
         said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))

@@ -7,11 +7,12 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
+#include "engine/diagnose/baseline/most_agree.hpp"
 #include "engine/diagnose/baseline/round_surface.hpp"
 #include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/quantile.hpp"
-#include "engine/math/rigid_fit.hpp"
 
 namespace abbe::diagnose {
 
@@ -51,6 +52,13 @@ double middle_size(std::vector<double> r) {
   return median(std::move(r));
 }
 
+/// Beyond this, a residual among these is no error of a part, a machine or a placement, but a slip.
+double most_of_a_part(std::vector<double> r) {
+  constexpr double kLeast_mm = 1, kTimes = 10, kMost = 0.9;
+  for (double& x : r) x = std::abs(x);
+  return kLeast_mm + kTimes * quantile(std::move(r), kMost);
+}
+
 /// The middle of the targets, and the largest distance from it.
 std::pair<Vec3, double> extent_of(const Rows& rows) {
   Vec3 middle;
@@ -75,8 +83,9 @@ Motion turning_least(const Motion& motion, const Eigen::Matrix<double, kUnknowns
 /// it lies itself may be a gross error, which along the surface is no distance to mend.
 Motion step(const Rows& rows, bool tip, const Vec3& middle, double extent, const std::vector<double>& r) {
   constexpr double kLeast_mm = 1e-6, kShare = 0.01, kUnseen = 1e-6;
-  double floor = kLeast_mm;  // below this a residual counts by its square
-  for (const double x : r) floor += kShare * std::abs(x) / double(r.size());
+  const double most = most_of_a_part(r);  // a row in micrometres would count for all others
+  double floor = kLeast_mm;               // below this a residual counts by its square
+  for (const double x : r) floor += kShare * std::min(std::abs(x), most) / double(r.size());
   Square a = Square::Zero();
   Motion b = Motion::Zero();
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -121,7 +130,7 @@ Back placement_of(const Rows& rows) {
   if (left < kStrayed_mm) return near;
   std::vector<Vec3> here, there;
   for (const Aimed& a : rows) here.push_back(a.row->position_mm), there.push_back(a.target_mm());
-  const std::optional<Rigid> start = rigid_fit(here, there);
+  const std::optional<Rigid> start = placement_of_most(std::move(here), std::move(there));
   if (!start) return near;
   const Back far = refined(rows, {*start}, false);
   return middle_size(beyond(rows, far)) < left / 2 ? far : near;
@@ -202,8 +211,11 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
     refuse_wrong_tip(rows, placement, most_out_mm, file);
     const Rigid& X = placement.X;
     const std::vector<double> before = beyond(rows, {}), after = beyond(rows, placement);
+    // A row that is metres off is moved by the least turn, and says nothing of where the part stood.
+    const double most = most_of_a_part(after);
     double change = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i) change = std::max(change, std::abs(after[i] - before[i]));
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (std::abs(after[i]) < most) change = std::max(change, std::abs(after[i] - before[i]));
     if (change < kNoticeable_mm) continue;
     const Vec3 middle = extent_of(rows).first;
     for (RecordingRow& row : out.rows) {

@@ -48,6 +48,9 @@ void check_normals(const std::vector<const RecordingRow*>& setup, const Mat3& ba
 void check_data(const Recording&, const Machine&, const std::string& file);
 /// Throws UserError (E0701) when all touches of one feature lie a tip's radius or diameter too far out or in.
 void check_tips(const RecordedTouches&, const std::string& file);
+/// Takes rows out that lie so far from their targets that they are no touches of these (W0712). Throws UserError (E0711) when
+/// they are many.
+void leave_out_astray(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Throws UserError when many touches lie beside their targets; a few are warned of.
 void check_pairing(const Recording&, const RecordedTouches&, const std::string& file,
                    std::vector<Diagnostic>& messages);

@@ -8,8 +8,9 @@
 #include <map>
 #include <optional>
 
+#include "engine/diagnose/baseline/most_agree.hpp"
 #include "engine/diagnose/checks/data_problems.hpp"
-#include "engine/math/rigid_fit.hpp"
+#include "engine/recording/units.hpp"
 #include "engine/run/recorded_part.hpp"
 
 namespace abbe::diagnose {
@@ -18,22 +19,33 @@ namespace {
 
 constexpr double kBeside_mm = 5;  // more than an alignment leaves
 
-/// How far each row lies beside its target, in the direction in which it lies least: as the part was put on
-/// its targets along the normals, or as whole places agree best, because some recordings leave shifts along a
-/// surface open.
-std::vector<double> beside_targets(const Recording& r) {
+/// How far each row lies from its target, by a measure of that: as the part was put on its targets along the normals, or
+/// as whole places agree best, because some recordings leave shifts along a surface open.
+template <class Measure>
+std::vector<double> from_targets(const Recording& r, Measure measure) {
   std::map<int, std::pair<std::vector<Vec3>, std::vector<Vec3>>> setups;
   for (const RecordingRow& row : r.rows)
     setups[row.setup].first.push_back(row.position_mm), setups[row.setup].second.push_back(*row.target_mm);
   std::map<int, std::optional<Rigid>> places;
-  for (const auto& [setup, points] : setups) places[setup] = rigid_fit(points.first, points.second);
-  std::vector<double> beside;
+  for (const auto& [setup, points] : setups) places[setup] = placement_of_most(points.first, points.second);
+  std::vector<double> out;
   for (const RecordingRow& row : r.rows) {
-    const auto off = [&](const Vec3& p) { return norm(perpendicular_part(p - *row.target_mm, *row.normal)); };
+    const auto off = [&](const Vec3& p) { return measure(p - *row.target_mm, *row.normal); };
     const std::optional<Rigid>& X = places[row.setup];
-    beside.push_back(X ? std::min(off(row.position_mm), off(*X * row.position_mm)) : off(row.position_mm));
+    out.push_back(X ? std::min(off(row.position_mm), off(*X * row.position_mm)) : off(row.position_mm));
   }
-  return beside;
+  return out;
+}
+
+std::vector<double> beside_targets(const Recording& r) {
+  return from_targets(r, [](const Vec3& off, const Vec3& n) { return norm(perpendicular_part(off, n)); });
+}
+
+/// The unit other than millimetres in which a row alone has its position.
+std::optional<ForeignUnit> own_unit(const RecordingRow& row) {
+  constexpr double kAlong = 0.99;  // cosine
+  const Vec3 &p = row.position_mm, &t = *row.target_mm;
+  return dot(p, t) > kAlong * norm(p) * norm(t) ? foreign_unit(norm(p), norm(t)) : std::nullopt;
 }
 
 /// What is too far beside a target, by feature: in a narrow bore, where another direction of the surface begins.
@@ -48,6 +60,38 @@ std::vector<double> limits(const RecordedTouches& t) {
   }
   return out;
 }
+
+/// Rows that lie elsewhere than their targets.
+class Astray {
+ public:
+  void add(const RecordingRow& row, const std::string& where) {
+    const std::optional<ForeignUnit> in = own_unit(row);
+    if (rows_.empty()) unit_ = in;
+    if (!in || !unit_ || in->mm != unit_->mm) unit_.reset();
+    rows_.push_back(fmt::format("touch {} of '{}' (line {}) {}", row.touch, row.feature, row.line, where));
+  }
+
+  /// Throws UserError (E0711) where they are many of `all`; warns of a few (W0712). `and_so`: what becomes of these.
+  void tell(std::size_t all, const std::string& file, std::string_view and_so,
+            std::vector<Diagnostic>& messages) const {
+    constexpr double kFew = 0.1;
+    constexpr std::size_t kTold = 3;
+    if (rows_.empty()) return;
+    const std::vector<std::string> told(rows_.begin(), rows_.begin() + std::ptrdiff_t(std::min(rows_.size(), kTold)));
+    const std::string text =
+        fmt::format("{}: {}{}", file, fmt::join(told, ", "),
+                    rows_.size() > kTold ? fmt::format(", and {} more do", rows_.size() - kTold) : "");
+    const std::string help = unit_
+        ? fmt::format("x, y, z are in {} there: multiply them by {:g}", unit_->name, unit_->mm)
+        : "rows are paired with targets by feature and touch, counted from 1: check labels and numbers";
+    if (double(rows_.size()) > kFew * double(all)) throw UserError(diagnostic(Code::E0711, text, help));
+    messages.push_back(diagnostic(Code::W0712, text + std::string(and_so), help));
+  }
+
+ private:
+  std::vector<std::string> rows_;
+  std::optional<ForeignUnit> unit_;  ///< of all of them
+};
 
 }  // namespace
 
@@ -73,28 +117,32 @@ void check_tips(const RecordedTouches& t, const std::string& file) {
   }
 }
 
+void leave_out_astray(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kAstray_mm = 100;
+  const std::vector<double> far = from_targets(recording, [](const Vec3& off, const Vec3&) { return norm(off); });
+  Astray astray;
+  std::vector<RecordingRow> kept;
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const RecordingRow& row = recording.rows[i];
+    if (far[i] > kAstray_mm)
+      astray.add(row, fmt::format("lies {:.1f} mm from its target", far[i]));
+    else
+      kept.push_back(row);
+  }
+  astray.tell(recording.rows.size(), file, ": left out", messages);
+  recording.rows = std::move(kept);
+}
+
 void check_pairing(const Recording& r, const RecordedTouches& t, const std::string& file,
                    std::vector<Diagnostic>& messages) {
-  constexpr double kFew = 0.1;
-  constexpr std::size_t kTold = 3;
   const std::vector<double> beside = beside_targets(r), limit = limits(t);
-  std::vector<std::string> astray;
+  Astray astray;
   for (const RecordedTouch& touch : t.touches) {
     const double off = beside[static_cast<std::size_t>(touch.row)];
-    if (off < limit[static_cast<std::size_t>(touch.scene.feature)]) continue;
-    const RecordingRow& row = r.rows[static_cast<std::size_t>(touch.row)];
-    astray.push_back(fmt::format("touch {} of '{}' (line {}) lies {:.1f} mm beside its target", row.touch, row.feature,
-                                 row.line, off));
+    if (off >= limit[static_cast<std::size_t>(touch.scene.feature)])
+      astray.add(r.rows[static_cast<std::size_t>(touch.row)], fmt::format("lies {:.1f} mm beside its target", off));
   }
-  if (astray.empty()) return;
-  const std::size_t all = astray.size();
-  astray.resize(std::min(all, kTold));
-  const std::string text = fmt::format("{}: {}{}", file, fmt::join(astray, ", "),
-                                       all > kTold ? fmt::format(", and {} more do", all - kTold) : "");
-  const std::string help =
-      "rows are paired with targets by feature and touch, counted from 1: check labels and numbers";
-  if (double(all) > kFew * double(t.touches.size())) throw UserError(diagnostic(Code::E0711, text, help));
-  messages.push_back(diagnostic(Code::W0712, text, help));
+  astray.tell(t.touches.size(), file, "", messages);
 }
 
 }  // namespace abbe::diagnose
