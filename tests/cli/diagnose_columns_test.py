@@ -144,6 +144,11 @@ class Columns(harness.Case):
         self.assertIn("lies 1103474.1 mm from its target: left out", said["messages"][0]["message"])
         self.assertIn("in micrometres there: multiply them by 0.001", said["messages"][0]["help"])
 
+    def test_directions_that_are_the_same_in_all_rows_are_not_used(self):
+        whole = self.record("--seed", 4)
+        said = self.diagnosis(self.changed(whole, lambda row: row | {"ax": "0", "ay": "0", "az": "-1"}))
+        self.assertEqual((said["verdict"], self.codes(said)), ("no_mismatch", ["W0732"]))
+
     def test_errors_far_beyond_the_specification_are_told(self):
         """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
         said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))

@@ -299,6 +299,35 @@ class Mistakes(Input):
         self.assertIn("enc_x is in micrometres", self.told("E0701", self.scaled(("enc_x",), 1e3)))
         self.assertIn("the sign of x is turned round", self.told("E0701", lambda row: row | {"x": repr(-float(row["x"]))}))  # and not of enc_x
 
+    def test_normals_and_directions_that_contradict_each_other(self):
+        """Points that are features by themselves, as they are in files of other programs."""
+        folder = harness.ROOT / "examples/iso10360"
+        machine = folder / "portal-2009.json"
+        self.abbe("record", folder / "form_and_size_5x25.dmi", "--machine", machine, "-o", "rec.csv")
+        swapped = lambda of, a, b: lambda row: row | {of + a: row[of + b], of + b: row[of + a]}
+        turned = lambda row: row | {"n" + a: repr(-float(row["n" + a])) for a in "xyz"}
+        no_travel = lambda row: {k: v for k, v in row.items() if k not in ("ax", "ay", "az")}
+        told = lambda change: self.told("E0701", change, "--machine", machine)
+        self.assertIn("nx, ny, nz as they are now ny, nx, nz", told(swapped("n", "x", "y")))
+        self.assertIn("stand on the balls of the targets: write the columns ax, ay, az as they are now az, ay, ax", told(swapped("a", "x", "z")))
+        self.assertIn("correct the sign of ay", told(lambda row: row | {"ay": repr(-float(row["ay"]))}))
+        self.assertIn("the stylus would come through its material", told(lambda row: no_travel(turned(row))))
+
+    def test_faces_tell_of_exchanged_axes_that_one_column_is_wrong(self):
+        exchanged = lambda row: row | {"ax": row["ay"], "ay": row["ax"]}
+        told = self.told("E0701", exchanged)
+        self.assertIn("write the columns nx, ny, nz as they are now ny, nx, nz; or, where the normals are right, ax, ay, az as they are now ay, ax, az",
+                      told.replace("write the columns ax", "ax"))
+
+    def test_a_hollow_ball_is_told_and_judged(self):
+        """Normals that point into a ball whose stylus nobody knows: it may be hollow."""
+        folder = harness.ROOT / "examples/iso10360"
+        self.abbe("record", folder / "form_and_size_1x25.dmi", "--machine", folder / "portal-2009.json", "-o", "rec.csv")
+        inward = lambda row: {k: row[k] for k in ("feature", "touch", *self.PLACE, *TARGET[:3])} | {"n" + a: repr(-float(row["n" + a])) for a in "xyz"}
+        path = self.changed(self.recording, inward)
+        path.write_text("".join(line for line in path.read_text().splitlines(True) if not line.startswith("#")))
+        self.assertIn("N0733", self.codes(self.said(path, "--machine", folder / "portal-2009.json")))
+
     def test_a_recording_names_a_machine_beside_it(self):
         machine = (harness.ROOT / "examples/machines/moving-table-700.json").read_text()
         self.write("there/mm2.json", machine)

@@ -1,12 +1,10 @@
-// Recordings that no physics explains: another unit, swapped axes, normals the wrong way, rows twice. Each is
+// Recordings that no physics explains: another unit, swapped axes, rows twice. Each is
 // recognised by what would mend it, and said instead of being diagnosed.
 #include "engine/diagnose/checks/data_problems.hpp"
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -122,64 +120,6 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
              "correct the sign in the recording");
 }
 
-/// The middle of the ball on which all points lie; nothing where they lie on none, or on many.
-std::optional<Vec3> middle_of_ball(const std::vector<Vec3>& points) {
-  constexpr double kOn_mm = 0.02;  // targets come rounded
-  constexpr double kFlat = 1e-4;
-  const auto n = static_cast<Eigen::Index>(points.size());
-  Vec3 mean;
-  for (const Vec3& p : points) mean += (1 / double(n)) * p;
-  Eigen::MatrixX4d a(n, 4);  // 2 c . p + k = p . p
-  Eigen::VectorXd square(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Vec3 p = points[static_cast<std::size_t>(i)] - mean;
-    a.row(i) << 2 * p.x, 2 * p.y, 2 * p.z, 1;
-    square(i) = dot(p, p);
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixX4d> qr(a);
-  qr.setThreshold(kFlat);
-  if (n < 5 || qr.rank() < 4) return std::nullopt;
-  const Eigen::Vector4d found = qr.solve(square);
-  const Vec3 middle = mean + Vec3{found(0), found(1), found(2)};
-  const double radius = norm(points.front() - middle);
-  const bool on_it = std::all_of(points.begin(), points.end(),
-                                 [&](const Vec3& p) { return std::abs(norm(p - middle) - radius) < kOn_mm; });
-  return on_it ? std::optional(middle) : std::nullopt;
-}
-
-/// Normals of a ball stand on it; where only those in another order do, their columns are exchanged.
-void check_axes_of_normals(const Recording& r, const std::string& file) {
-  constexpr double kStands = 0.99;  // cosine
-  std::map<std::pair<int, std::string>, std::vector<const RecordingRow*>> features;
-  for (const RecordingRow& row : r.rows) features[{row.setup, row.feature}].push_back(&row);
-  std::vector<std::pair<Vec3, Vec3>> out_and_normal;
-  for (const auto& [of, rows] : features) {
-    std::vector<Vec3> targets;
-    for (const RecordingRow* row : rows) targets.push_back(*row->target_mm);
-    if (const std::optional<Vec3> middle = middle_of_ball(targets))
-      for (const RecordingRow* row : rows) out_and_normal.emplace_back(unit(*row->target_mm - *middle), *row->normal);
-  }
-  const auto stand = [&](const std::array<int, 3>& order) {
-    return std::all_of(out_and_normal.begin(), out_and_normal.end(), [&](const auto& pair) {
-      return std::abs(dot(pair.first, unit(in_order(pair.second, order)))) > kStands;
-    });
-  };
-  if (out_and_normal.empty() || stand({0, 1, 2})) return;
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::all_of(out_and_normal.begin(), out_and_normal.end(), [&](const auto& pair) {
-          return std::abs(dot(pair.first, unit(turned_round(pair.second, axis)))) > kStands;
-        }))
-      refuse(file,
-             fmt::format("the sign of n{} is turned round: as it is, normals do not stand on the balls of the targets",
-                         "xyz"[axis]),
-             "correct the sign in the recording");
-  for (const auto& o : kOrders)
-    if (stand(o))
-      refuse(file, "the axes of the normals are swapped: as they are, they do not stand on the balls of the targets",
-             fmt::format("write the columns nx, ny, nz as they are now n{}, n{}, n{}", "xyz"[o[0]], "xyz"[o[1]],
-                         "xyz"[o[2]]));
-}
-
 /// Angles of the head in radians: none above a full turn, and each a usual one once it is taken for degrees.
 void check_head(const Recording& r, const std::string& file) {
   constexpr double kStep_deg = 2.5, kReads_deg = 0.1;
@@ -198,33 +138,6 @@ void check_head(const Recording& r, const std::string& file) {
 }
 
 }  // namespace
-
-void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& back, const std::string& file) {
-  constexpr double kAgainst = 0.99;  // cosine
-  std::vector<double> along;
-  std::array<bool, 3> mended{true, true, true};
-  std::size_t against = 0;
-  for (const RecordingRow* row : rows) {
-    if (!row->normal || !row->travel) continue;
-    const Vec3 travel = row->travel_as_planned ? *row->travel : back * *row->travel;
-    along.push_back(dot(*row->normal, travel));
-    against += along.back() < -kAgainst;
-    for (int axis = 0; axis < 3; ++axis)
-      mended[static_cast<std::size_t>(axis)] &= dot(turned_round(*row->normal, axis), travel) < -kAgainst;
-  }
-  for (int axis = 0; axis < 3; ++axis)
-    if (mended[static_cast<std::size_t>(axis)] && against < along.size())
-      refuse(
-          file,
-          fmt::format(
-              "the sign of n{} is turned round: only with the other sign does the machine travel against the normals",
-              "xyz"[axis]),
-          fmt::format("correct the sign of n{0}, or of a{0} where that is wrong", "xyz"[axis]));
-  if (along.empty() || median(std::move(along)) < 0) return;
-  refuse(
-      file, "the machine travels along the normals, out of the material, not against them",
-      "normals point out of the material and ax, ay, az in the direction of travel: turn round the columns that are the other way");
-}
 
 Recording without_copies(const Recording& recorded, const std::string& file, std::vector<Diagnostic>& messages) {
   std::map<std::tuple<std::string, int, int, int, std::string, std::optional<double>>, const RecordingRow*> seen;
@@ -262,7 +175,7 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   check_units(r, machine, file);
   check_unit_of_each(r, file);
   check_head(r, file);
-  check_axes_of_normals(r, file);
+  check_normals_of_balls(r, file);
   const double gross = left_by(r, [](const RecordingRow& row) { return row.position_mm; });
   if (gross > kGross_mm) check_axes(r, file, gross);
   check_readings(r, file);  // against positions that are as they should be

@@ -41,6 +41,16 @@ void leave_out_readings_without_phase(Recording&, const std::string& file, std::
 void leave_out_commanded_readings(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Whether more than one stylus or orientation must have touched, and no row says which (W0725).
 bool styli_unlogged(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Takes directions of travel out that are the same in all rows, where no one direction touches all surfaces (W0732).
+void leave_out_constant_travel(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Of the directions in space, about 15 degrees apart, the best: how far along it all normals point at least, from -1 to 1.
+double least_along_the_best(const std::vector<Vec3>& normals);
+/// Throws UserError where the normals of balls do not stand on them, but would with other axes or another sign.
+void check_normals_of_balls(const Recording&, const std::string& file);
+/// Normals that point into a ball: throws UserError (E0701) where the stylus would come through the material, else notes
+/// it (N0733).
+void doubt_hollow_balls(const Recording&, const RecordedTouches&, const std::string& file,
+                        std::vector<Diagnostic>& messages);
 /// Throws UserError where the machine does not travel against the normals that it touches; `back` turns a setup onto
 /// its targets.
 void check_normals(const std::vector<const RecordingRow*>& setup, const Mat3& back, const std::string& file);
