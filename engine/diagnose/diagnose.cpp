@@ -64,7 +64,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   Recording once = without_copies(recorded, file, messages);
   check_data(once, machine, file);
   doubt_temperatures(once, file, messages);
-  doubt_speeds(once, file, messages);
+  doubt_motion(once, file, messages);
   leave_out_partly_logged(once, file, messages);
   leave_out_constant_travel(once, file, messages);
   leave_out_readings_without_phase(once, file, messages);

@@ -144,6 +144,16 @@ class Columns(harness.Case):
         self.assertIn("lies 1103474.1 mm from its target: left out", said["messages"][0]["message"])
         self.assertIn("in micrometres there: multiply them by 0.001", said["messages"][0]["help"])
 
+    def test_a_machine_moves_as_machines_do(self):
+        """Seconds, millimetres: what is a thousand times too much or too little is doubted, by its own column."""
+        whole = self.record("--seed", 4)
+        for column, by, words in (("accel_mm_s2", 1e-3, "m/s2"), ("accel_mm_s2", 1e3, "um/s2"), ("speed_mm_s", 1e-3, "m/s"), ("time_s", 1e3, "milliseconds")):
+            said = self.diagnosis(self.changed(whole, lambda row: row | {column: f"{by * float(row[column]):.6f}"}))
+            told = [m for m in said["messages"] if m["code"] == "W0728"]
+            self.assertEqual(len(told), 1, column)
+            self.assertIn(column, told[0]["message"])
+            self.assertIn(words, told[0]["help"])
+
     def test_directions_that_are_the_same_in_all_rows_are_not_used(self):
         whole = self.record("--seed", 4)
         said = self.diagnosis(self.changed(whole, lambda row: row | {"ax": "0", "ay": "0", "az": "-1"}))

@@ -299,6 +299,19 @@ class Mistakes(Input):
         self.assertIn("enc_x is in micrometres", self.told("E0701", self.scaled(("enc_x",), 1e3)))
         self.assertIn("the sign of x is turned round", self.told("E0701", lambda row: row | {"x": repr(-float(row["x"]))}))  # and not of enc_x
 
+    def test_who_is_wrong_is_told_by_the_others(self):
+        """Positions, targets and readings: two of them agree."""
+        def times(columns, by):
+            return lambda row: row | {c: repr(by * float(row[c])) for c in columns}
+        self.assertIn("the signs of x, y and z are turned round", self.told("E0701", times(self.PLACE, -1)))
+        self.assertIn("the scale readings agree with tx: divide x by 25.4", self.told("E0701", times(("x",), 25.4)))
+        self.assertIn("the scale readings agree with x: tx is in inches", self.told("E0701", times(("tx",), 1 / 25.4)))
+        self.assertIn("positions are 25.4 times the targets", self.told("E0701", times(self.PLACE, 25.4)))
+        self.assertIn("x, y, z of the recorded positions are the same in all rows", self.told("E0701", lambda row: row | {"x": "500", "y": "300", "z": "-400"}))
+        self.assertIn("y of the recorded positions is the same in all rows", self.told("E0701", lambda row: row | {"y": "300"}))
+        some = lambda row: row | ({a: repr(1e3 * float(row[a])) for a in self.PLACE} if int(row["touch"]) % 3 == 0 else {})
+        self.assertIn("x, y, z are in micrometres there", self.told("E0711", some))
+
     def test_normals_and_directions_that_contradict_each_other(self):
         """Points that are features by themselves, as they are in files of other programs."""
         folder = harness.ROOT / "examples/iso10360"

@@ -1,12 +1,14 @@
-// Recordings that no physics explains: another unit, swapped axes, rows twice. Each is
+// Recordings that no physics explains: another unit, swapped axes, one value in all rows, rows twice. Each is
 // recognised by what would mend it, and said instead of being diagnosed.
 #include "engine/diagnose/checks/data_problems.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -56,32 +58,81 @@ double reach_of(const Recording& r, const Machine& machine) {
   return median(std::move(reach));
 }
 
-/// One coordinate of the recorded positions in another unit, and the others as they should be.
+Vec3 only_along(int axis, const Vec3& v) {
+  Vec3 out;
+  out[axis] = v[axis];
+  return out;
+}
+
+/// How large the whole is along one axis, as it was recorded and as it was meant.
+std::pair<double, double> sizes_along(const Recording& r, int axis) {
+  return {size_of(r, [&](const RecordingRow& row) { return only_along(axis, row.position_mm); }),
+          size_of(r, [&](const RecordingRow& row) { return only_along(axis, *row.target_mm); })};
+}
+
+bool is_as_meant(const Recording& r, int axis) {
+  constexpr double kAsMeant = 0.1;
+  const auto [recorded, meant] = sizes_along(r, axis);
+  return std::abs(recorded - meant) <= kAsMeant * meant;
+}
+
+/// One coordinate of the recorded positions, or of the targets, in another unit, and the others as they should be.
 void check_unit_of_each(const Recording& r, const std::string& file) {
-  constexpr double kLeast_mm = 1, kAsMeant = 0.1;
-  const auto along = [](int axis, const Vec3& v) {
-    Vec3 out;
-    out[axis] = v[axis];
-    return out;
-  };
-  std::optional<std::pair<char, ForeignUnit>> foreign;
+  constexpr double kLeast_mm = 1;
+  std::optional<std::pair<int, ForeignUnit>> foreign, too_large;
   int as_meant = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double recorded = size_of(r, [&](const RecordingRow& row) { return along(axis, row.position_mm); });
-    const double meant = size_of(r, [&](const RecordingRow& row) { return along(axis, *row.target_mm); });
-    const std::optional<ForeignUnit> unit = foreign_unit(recorded, meant);
-    if (std::abs(recorded - meant) <= kAsMeant * meant) ++as_meant;
-    if (unit && meant > kLeast_mm) foreign.emplace("xyz"[axis], *unit);
+    const auto [recorded, meant] = sizes_along(r, axis);
+    as_meant += is_as_meant(r, axis);
+    if (const auto unit = foreign_unit(recorded, meant); unit && meant > kLeast_mm) foreign.emplace(axis, *unit);
+    if (const auto unit = foreign_unit(meant, recorded); unit && recorded > kLeast_mm) too_large.emplace(axis, *unit);
   }
-  if (!foreign || as_meant < 2) return;
-  const auto& [axis, unit] = *foreign;
-  refuse(file, fmt::format("{} of the recorded positions is in {}, the targets in millimetres", axis, unit.name),
-         fmt::format("multiply {} by {:g}", axis, unit.mm));
+  if (as_meant < 2) return;
+  if (foreign) {
+    const auto& [of, in] = *foreign;
+    refuse(file, fmt::format("{} of the recorded positions is in {}, the targets in millimetres", "xyz"[of], in.name),
+           fmt::format("multiply {} by {:g}", "xyz"[of], in.mm));
+  }
+  if (!too_large) return;
+  const auto& [axis, unit] = *too_large;
+  const char name = "xyz"[axis];
+  const char* const remedy = readings_agree(r, Places::targets, axis)
+      ? "the scale readings agree with t{0}: divide {0} by {1:g}"
+      : readings_agree(r, Places::positions, axis)
+      ? "the scale readings agree with {0}: t{0} is in {2}, multiply it by {1:g}"
+      : "divide {0} by {1:g}, or if t{0} is in {2}, multiply that";
+  refuse(file, fmt::format("{0} of the recorded positions is {1:g} times t{0}", name, unit.mm),
+         fmt::format(fmt::runtime(remedy), name, unit.mm, unit.name));
+}
+
+/// A recorded coordinate that is the same in all rows, where its targets are not.
+void check_one_value(const Recording& r, const std::string& file) {
+  constexpr double kApart_mm = 1;
+  std::vector<std::string> same;
+  bool others_as_meant = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [nearest, farthest] = std::minmax_element(
+        r.rows.begin(), r.rows.end(),
+        [&](const RecordingRow& a, const RecordingRow& b) { return (*a.target_mm)[axis] < (*b.target_mm)[axis]; });
+    if ((*farthest->target_mm)[axis] - (*nearest->target_mm)[axis] < kApart_mm) continue;
+    const double first = r.rows.front().position_mm[axis];
+    if (std::all_of(r.rows.begin(), r.rows.end(),
+                    [&](const RecordingRow& row) { return row.position_mm[axis] == first; }))
+      same.push_back(std::string(1, "xyz"[axis]));
+    else
+      others_as_meant = others_as_meant && is_as_meant(r, axis);
+  }
+  // A part that stands turned may have a face along an axis: there the others are not as meant.
+  if (same.empty() || !others_as_meant) return;
+  refuse(file,
+         fmt::format("{} of the recorded positions {} the same in all rows, and the targets are not",
+                     fmt::join(same, ", "), same.size() > 1 ? "are" : "is"),
+         "write the position of each touch");
 }
 
 /// Positions and targets in different units, or both in one that this machine makes impossible.
 void check_units(const Recording& r, const Machine& machine, const std::string& file) {
-  constexpr double kLeast_mm = 1, kFar = 10, kNear = 2e-3;
+  constexpr double kLeast_mm = 1, kFar = 10, kClose = 2e-3;
   const double recorded = size_of(r, [](const RecordingRow& row) { return row.position_mm; });
   const double meant = size_of(r, [](const RecordingRow& row) { return *row.target_mm; });
   const double largest = std::max({machine[Axis::x].travel_mm, machine[Axis::y].travel_mm, machine[Axis::z].travel_mm});
@@ -89,6 +140,11 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
   if (const auto unit = foreign_unit(recorded, meant); unit && targets_possible)
     refuse(file, fmt::format("the recorded positions are in {}, the targets in millimetres", unit->name),
            fmt::format("multiply x, y, z by {:g}", unit->mm));
+  if (const auto unit = foreign_unit(meant, recorded); unit && readings_agree(r, Places::targets))
+    refuse(file,
+           fmt::format("the recorded positions are {:g} times the targets, and the scale readings agree with these",
+                       unit->mm),
+           fmt::format("divide x, y, z by {:g}", unit->mm));
   if (const auto unit = foreign_unit(meant, recorded))
     refuse(file, fmt::format("the targets are in {}, the recorded positions in millimetres", unit->name),
            fmt::format("multiply tx, ty, tz by {:g}", unit->mm));
@@ -99,7 +155,7 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
             "positions and targets reach more than {:g} times as far as machine '{}' travels: they are in micrometres",
             kFar, machine.name),
         "multiply x, y, z, tx, ty, tz by 0.001");
-  if (meant > 0 && meant < kLeast_mm && reach_of(r, machine) < kNear)
+  if (meant > 0 && meant < kLeast_mm && reach_of(r, machine) < kClose)
     refuse(
         file,
         fmt::format(
@@ -118,6 +174,9 @@ void check_axes(const Recording& r, const std::string& file, double gross) {
     if (left_by(r, [&](const RecordingRow& row) { return turned_round(row.position_mm, axis); }) < kMended * gross)
       refuse(file, fmt::format("the sign of {} is turned round in the recorded positions", "xyz"[axis]),
              "correct the sign in the recording");
+  if (left_by(r, [](const RecordingRow& row) { return -row.position_mm; }) < kMended * gross)
+    refuse(file, "the signs of x, y and z are turned round in the recorded positions",
+           "correct the signs in the recording");
 }
 
 /// Angles of the head in radians: none above a full turn, and each a usual one once it is taken for degrees.
@@ -172,6 +231,7 @@ void check_data(const Recording& r, const Machine& machine, const std::string& f
   const bool complete =
       std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
   if (!complete) return;  // recorded_touches() says what is missing
+  check_one_value(r, file);
   check_units(r, machine, file);
   check_unit_of_each(r, file);
   check_head(r, file);

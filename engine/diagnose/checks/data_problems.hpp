@@ -22,8 +22,8 @@ void count_from_first_touch(Recording&, const std::string& file, std::vector<Dia
 void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Warns of temperatures that no measuring room has (W0724).
 void doubt_temperatures(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
-/// Warns of speeds at which no probe touches (W0728).
-void doubt_speeds(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// Warns of speeds, accelerations and clocks that no machine has (W0728).
+void doubt_motion(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 
 /// Throws UserError (E0701): scale readings in another unit, or of other axes, than the positions.
 void check_readings(const Recording&, const std::string& file);

@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "engine/diagnose/checks/data_problems.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/recording/columns.hpp"
 #include "engine/recording/recording.hpp"
 
@@ -62,17 +65,43 @@ void doubt_temperatures(const Recording& recording, const std::string& file, std
   }
 }
 
-void doubt_speeds(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
-  constexpr double kFast_mm_s = 100, kSecondsPerMinute = 60;
-  const auto fast = std::find_if(recording.rows.begin(), recording.rows.end(), [](const RecordingRow& row) {
-    return row.speed_mm_s && *row.speed_mm_s > kFast_mm_s;
+void doubt_motion(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr double kSlow_mm_s = 0.02, kFast_mm_s = 100, kSecondsPerMinute = 60;
+  constexpr double kWeak_mm_s2 = 1, kHard_mm_s2 = 5e4;
+  constexpr double kLong_s = 300;  // from touch to touch
+  const auto doubt = [&](std::optional<double> RecordingRow::*column, std::string_view name, double low, double high,
+                         auto help) {
+    const auto odd = std::find_if(recording.rows.begin(), recording.rows.end(), [&](const RecordingRow& row) {
+      return row.*column && *(row.*column) > 0 && (*(row.*column) < low || *(row.*column) > high);
+    });
+    if (odd == recording.rows.end()) return;
+    const double value = *((*odd).*column);
+    messages.push_back(diagnostic(
+        Code::W0728, fmt::format("{}: {} is {:g} for '{}' touch {}", file, name, value, odd->feature, odd->touch),
+        help(value)));
+  };
+  doubt(&RecordingRow::speed_mm_s, "speed_mm_s", kSlow_mm_s, kFast_mm_s, [&](double value) {
+    return value > kFast_mm_s
+        ? fmt::format("if these are mm/min, convert them: {:g} mm/min are {:g} mm/s", value, value / kSecondsPerMinute)
+        : fmt::format("if these are m/s, convert them: {:g} m/s are {:g} mm/s", value, 1e3 * value);
   });
-  if (fast == recording.rows.end()) return;
+  doubt(&RecordingRow::accel_mm_s2, "accel_mm_s2", kWeak_mm_s2, kHard_mm_s2, [&](double value) {
+    return value > kHard_mm_s2
+        ? fmt::format("if these are um/s2, convert them: {:g} um/s2 are {:g} mm/s2", value, 1e-3 * value)
+        : fmt::format("if these are m/s2, convert them: {:g} m/s2 are {:g} mm/s2", value, 1e3 * value);
+  });
+  std::vector<double> times, between;
+  for (const RecordingRow& row : recording.rows)
+    if (row.time_s) times.push_back(*row.time_s);
+  std::sort(times.begin(), times.end());
+  for (std::size_t i = 1; i < times.size(); ++i) between.push_back(times[i] - times[i - 1]);
+  if (between.empty()) return;
+  const double usual = median(std::move(between));
+  if (usual < kLong_s) return;
   messages.push_back(diagnostic(
       Code::W0728,
-      fmt::format("{}: speed_mm_s is {:g} for '{}' touch {}", file, *fast->speed_mm_s, fast->feature, fast->touch),
-      fmt::format("if these are mm/min, convert them: {:g} mm/min are {:g} mm/s", *fast->speed_mm_s,
-                  *fast->speed_mm_s / kSecondsPerMinute)));
+      fmt::format("{}: by time_s, half of the touches come {:g} s or more after the one before", file, usual),
+      fmt::format("if these are milliseconds, convert them: {:g} ms are {:g} s", usual, 1e-3 * usual)));
 }
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
