@@ -196,7 +196,7 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   EvidenceSearch first(c.model, c.hyper, c.explanations);
   const std::size_t without_readings = c.explanations.variants.size();
   if (!plan) free_readings_of_noise(c, first);
-  const double reading_step_um = kUmPerMm * reading_step_mm(recording);
+  const double reading_step_um = plan ? 0 : kUmPerMm * reading_step_mm(recording);
   add_explanations_of_readings(c.touches, c.rows, std::max(c.step_um, reading_step_um), c.explanations);
   first.extend(c.explanations, without_readings);
   out.cannot_judge = cannot_judge(c.explanations);

@@ -31,7 +31,7 @@ enum class Places { positions, targets };
 /// Whether scale readings go as far as these do from touch to touch, along one axis or as a whole. False without readings,
 /// and along an axis of a part whose axes may not be the machine's.
 bool readings_agree(const Recording&, Places, std::optional<int> axis = std::nullopt);
-/// The coarsest step of which all readings of one scale are multiples; 0 without readings.
+/// The coarsest step of which all readings of one scale, of touches along it, are multiples; 0 without readings.
 double reading_step_mm(const Recording&);
 /// Takes readings of the scales out that do not tell where in a signal period a touch was: constant, written coarsely, or of
 /// something else (W0731). What is wrong with each touch would be all that they seem to hold.

@@ -121,34 +121,40 @@ void check_order(const std::vector<Travel>& travels, const std::string& file) {
                          "xyz"[o[1]], "xyz"[o[2]]));
 }
 
-/// The step of which all readings of an axis are multiples, wherever they begin; 0: it has one value, or none.
+/// The step of which all readings of an axis are multiples, wherever they begin; 0: it has one value, or none. Of touches
+/// along that axis: across them a machine may stop where it was sent, at round places. Of a part in its own coordinates,
+/// whose normals do not tell that, it is the step that all axes have in common.
 double step_mm(const Recording& r, int axis) {
-  constexpr double kLastDigitsPerMm = 1e6;
+  constexpr double kLastDigitsPerMm = 1e6, kAlong = 0.1;
   long long step = 0;
-  std::optional<double> first;
+  std::optional<Vec3> first;
   for (const RecordingRow& row : r.rows) {
-    if (!row.reading_mm) continue;
-    const double reading = (*row.reading_mm)[axis];
-    if (!first) first = reading;
-    step = std::gcd(step, std::llround(kLastDigitsPerMm * (reading - *first)));
+    if (!row.reading_mm || !row.normal) continue;
+    if (!r.in_part_frame && std::abs((*row.normal)[axis]) < kAlong) continue;
+    if (!first) first = row.reading_mm;
+    for (int k = 0; k < 3; ++k)
+      if (k == axis || r.in_part_frame)
+        step = std::gcd(step, std::llround(kLastDigitsPerMm * ((*row.reading_mm)[k] - (*first)[k])));
   }
   return double(step) / kLastDigitsPerMm;
 }
 
 /// Why the readings of an axis do not tell where touches were; nothing where they do, or where the tip does not travel.
-std::optional<std::string> strays(const std::vector<Travel>& travels, int axis, double step_mm) {
+std::optional<std::string> strays(const std::vector<Travel>& travels, int axis) {
   constexpr double kAlong = 0.2, kFollows = 0.5;  // of the travel: a part that is not quite aligned has less beside it
   constexpr double kFew = 0.1;
   constexpr std::size_t kEnough = 3;
   std::size_t along = 0, astray = 0;
+  bool moves = false;
   for (const Travel& t : travels) {
+    moves = moves || t.scales[axis] != 0;
     if (std::abs(t.tip[axis]) < kAlong * norm(t.tip)) continue;
     ++along;
     astray += std::abs(t.scales[axis] - t.tip[axis]) > kFollows * std::abs(t.tip[axis]);
   }
   if (along < kEnough || double(astray) <= kFew * double(along)) return std::nullopt;
   const char name = "xyz"[axis];
-  if (step_mm == 0) return fmt::format("enc_{0} is the same in all rows, and {0} is not", name);
+  if (!moves) return fmt::format("enc_{0} is the same in all rows, and {0} is not", name);
   return fmt::format("enc_{0} does not follow {0}: from one touch to the next it goes elsewhere {1} times of {2}", name,
                      astray, along);
 }
@@ -174,7 +180,7 @@ std::optional<std::string> no_phase(const Recording& r) {
   for (int axis = 0; axis < 3; ++axis) {
     const double step = step_mm(r, axis);
     if (!r.in_part_frame)
-      if (std::optional<std::string> why = strays(of_touches, axis, step)) return why;
+      if (std::optional<std::string> why = strays(of_touches, axis)) return why;
     if (kSteps * kUmPerMm * step > kUsualPeriod_um)
       return fmt::format("enc_{} is written in steps of {:g} um, and a scale has a signal period of some {:g} um",
                          "xyz"[axis], kUmPerMm * step, kUsualPeriod_um);
