@@ -323,7 +323,7 @@ class Mistakes(Input):
         told = lambda change: self.told("E0701", change, "--machine", machine)
         self.assertIn("nx, ny, nz as they are now ny, nx, nz", told(swapped("n", "x", "y")))
         self.assertIn("stand on the balls of the targets: write the columns ax, ay, az as they are now az, ay, ax", told(swapped("a", "x", "z")))
-        self.assertIn("correct the sign of ay", told(lambda row: row | {"ay": repr(-float(row["ay"]))}))
+        self.assertIn("the sign of ay is turned round", told(lambda row: row | {"ay": repr(-float(row["ay"]))}))
         self.assertIn("the stylus would come through its material", told(lambda row: no_travel(turned(row))))
 
     def test_faces_tell_of_exchanged_axes_that_one_column_is_wrong(self):

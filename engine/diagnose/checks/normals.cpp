@@ -217,11 +217,10 @@ void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& bac
       refuse(
           file,
           fmt::format(
-              "the sign of n{0} or of a{0} is turned round: only with the other sign does the machine travel against the normals",
-              "xyz"[axis]),
-          normals_stand
-              ? fmt::format("the normals stand on the balls of the targets: correct the sign of a{}", "xyz"[axis])
-              : fmt::format("correct the sign of n{0}, or of a{0} where that is wrong", "xyz"[axis]));
+              "the sign of {}{} is turned round: only with the other sign does the machine travel against the normals",
+              normals_stand ? 'a' : 'n', "xyz"[axis]),
+          normals_stand ? "the normals stand on the balls of the targets: correct the sign in the recording"
+                        : fmt::format("correct the sign of n{0}, or of a{0} where that is wrong", "xyz"[axis]));
   check_orders(logged, back, normals_stand, file);
   if (median(std::move(along)) < 0) return;
   refuse(
