@@ -54,9 +54,8 @@ double middle_size(std::vector<double> r) {
 
 /// Beyond this, a residual among these is no error of a part, a machine or a placement, but a slip.
 double most_of_a_part(std::vector<double> r) {
-  constexpr double kLeast_mm = 1, kTimes = 10, kMost = 0.9;
-  for (double& x : r) x = std::abs(x);
-  return kLeast_mm + kTimes * quantile(std::move(r), kMost);
+  constexpr double kLeast_mm = 1, kTimes = 10;
+  return kLeast_mm + kTimes * middle_size(std::move(r));
 }
 
 /// The middle of the targets, and the largest distance from it.
