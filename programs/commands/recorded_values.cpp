@@ -27,8 +27,9 @@ bool is_angle(const lang::ResultValue& v) {
   return unit_of(*v.kind, axis) == Unit::rad;
 }
 
-/// What is to be said of a result file, but of its features and coordinate systems, which no diagnosis of values looks at.
-/// Throws UserError where something is wrong with it, or it ends before its end.
+/// What is to be said of a result file. Of its features and coordinate systems, which no diagnosis of values looks at, only
+/// where it has no end: a statement that cannot be read may be the last, and others missing. Throws UserError where something
+/// is wrong with it.
 std::vector<Diagnostic> said_of_result(const SourceFile& file, const std::vector<Diagnostic>& messages) {
   Sink told;
   const std::vector<lang::LogicalLine> lines = lang::logical_lines(file);
@@ -37,14 +38,16 @@ std::vector<Diagnostic> said_of_result(const SourceFile& file, const std::vector
                                     [&](const lang::LogicalLine& line) { return line.line > d.place.line; });
     return after == lines.begin() ? std::string() : upper(std::prev(after)->code.text());
   };
-  for (const Diagnostic& d : messages)
-    if (const std::string text = statement_of(d); !text.starts_with("FA(") && !text.starts_with("DA(")) told.add(d);
   const bool whole = std::any_of(lines.begin(), lines.end(), [](const lang::LogicalLine& line) {
     return upper(line.code.text()).starts_with("ENDFIL");
   });
+  for (const Diagnostic& d : messages)
+    if (const std::string text = statement_of(d); !whole || (!text.starts_with("FA(") && !text.starts_with("DA(")))
+      told.add(d);
   if (!whole)
-    told.add(diagnostic(Code::E0561, fmt::format("{}: the result file ends before its ENDFIL", file.name()),
-                        "it was cut off: copy it anew; if it is whole, write ENDFIL as its last line"));
+    told.add(diagnostic(Code::W0561,
+                        fmt::format("{}: the result file has no ENDFIL: values may be missing", file.name()),
+                        "if it was cut off, copy it anew; if it is whole, write ENDFIL as its last line"));
   if (told.has_errors()) throw UserError(told.list());
   return told.list();
 }

@@ -157,13 +157,15 @@ class Values(harness.Case):
         self.refused("E0555", "diagnose", "good.dmo")
         self.refused("E0557", "diagnose", self.write("empty.dmo", "DMISOT/'nothing',4.0\nENDFIL\n"), "--program", program)
 
-    def test_a_result_file_that_is_cut_off_is_refused(self):
+    def test_a_result_file_that_is_cut_off_is_refused_or_told(self):
         program = harness.ROOT / "examples/programs/prismatic_part.dmi"
         self.abbe("record", program, "-o", "touches.csv", "--dmo", "whole.dmo")
         whole = (self.folder / "whole.dmo").read_text()
         lines = whole.splitlines(True)
-        for cut in (whole[:400], whole[:-8], "".join(lines[:len(lines) // 2])):   # in a word, before ENDFIL, behind a line
-            self.refused("E0561", "diagnose", self.write("cut.dmo", cut), "--program", program, "--format", "json")
+        self.refused("W0561", "diagnose", self.write("cut.dmo", whole[:400]), "--program", program, "--format", "json")   # in a word
+        for cut in (whole.replace("ENDFIL", ""), "".join(lines[:len(lines) // 2])):   # at its end, behind a line
+            said = self.diagnosis(self.write("cut.dmo", cut), "--program", program)
+            self.assertEqual([m["code"] for m in said["messages"]], ["W0561"])
         broken = whole.replace("TOL/FLAT, 0.0", "TOL/FLAT, nothing 0.0")
         self.refused("E0507", "diagnose", self.write("broken.dmo", broken), "--program", program)
         # Features are not judged: what cannot be read of them does no harm.
