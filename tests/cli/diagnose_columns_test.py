@@ -237,6 +237,8 @@ class Columns(harness.Case):
             self.assertIn("sensor", said["otherwise"])
             told = self.abbe("diagnose", nobody_knows, "--machine", MACHINE, "--fail-on-mismatch", "--model-out", "same.json").stdout
             self.assertIn("Whether this is a mismatch cannot be judged", told.splitlines()[0])
+            # What holds for all effects a reader is told once.
+            self.assertRegex(told, r"cannot be judged from this recording:\n  every effect +missing: sensor, head_A_deg, head_B_deg\nbaseline")
             self.assertEqual(json.loads((self.folder / "same.json").read_text()).get("effects", []), [])
         self.assertNotIn("W0725", self.codes(self.diagnosis(without_styli(one, "one_stylus.csv"))))
 

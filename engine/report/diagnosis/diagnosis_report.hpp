@@ -16,7 +16,7 @@ std::string diagnosis_text(const Diagnosis&);
 std::vector<std::string> diagnosis_sentences(const Diagnosis&);
 /// What to do beside another measurement.
 std::vector<std::string> further_steps(const Diagnosis&);
-/// What cannot be judged and is not told as one of the explanations anyway.
+/// What cannot be judged and is not told as one of the explanations anyway; in one, where that is every effect.
 std::vector<CannotJudge> open_questions(const Diagnosis&);
 /// What the machine does beside what was found, its noise, and the touches left out, in one line; "" of values.
 std::string baseline_in_words(const Diagnosis&);

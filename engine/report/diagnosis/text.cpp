@@ -230,6 +230,7 @@ std::string held_out_line(const Diagnosis& d) {
 }  // namespace
 
 std::vector<CannotJudge> open_questions(const Diagnosis& d) {
+  if (d.styli_missing) return {{"every effect", {"sensor", "head_A_deg", "head_B_deg"}, {}}};
   std::vector<CannotJudge> out = d.cannot_judge;
   std::erase_if(out, [&](const CannotJudge& c) {
     return std::any_of(d.effects.begin(), d.effects.end(), [&](const DiagnosedEffect& e) {
@@ -297,9 +298,10 @@ std::string label(const JudgedValue& v) {
 std::string diagnosis_text(const Diagnosis& d) {
   std::string out;
   for (const std::string& sentence : diagnosis_sentences(d)) out += sentence + "\n";
+  out += "\n";
   const bool found = !d.effects.empty() || d.unexplained;
   if (found || !d.smallest_detectable.empty() || !d.values.empty())
-    out += "\n" + value_table(d) + (found ? mismatch_table(d) : design_table(d)) + "\n";
+    out += value_table(d) + (found ? mismatch_table(d) : design_table(d)) + "\n";
   out += what_next(d);
   out += cannot_judge(d);
   out += held_out_line(d);
