@@ -25,12 +25,6 @@ bool may_lie_otherwise(Shape shape) {
   return shape == Shape::cylinder || shape == Shape::cone || shape == Shape::torus;
 }
 
-Vec3 middle_of(const std::vector<Vec3>& points) {
-  Vec3 sum;
-  for (const Vec3& p : points) sum += p;
-  return sum / double(points.size());
-}
-
 double extent_of(const std::vector<Vec3>& points, const Vec3& middle) {
   double squares = 0;
   for (const Vec3& p : points) squares += dot(p - middle, p - middle);
@@ -40,7 +34,7 @@ double extent_of(const std::vector<Vec3>& points, const Vec3& middle) {
 /// The axis to which all normals of a cylinder or a cone have one angle; nothing where they are all alike.
 std::optional<Vec3> axis_of(const std::vector<Vec3>& normals) {
   constexpr double kAlike = 1e-3;
-  const Vec3 mean = middle_of(normals);
+  const Vec3 mean = mean_of(normals);
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Vec3& n : normals) {
     const Eigen::Vector3d d(n.x - mean.x, n.y - mean.y, n.z - mean.z);
@@ -67,7 +61,7 @@ bool faces(Shape shape, const Element& e, const std::vector<Vec3>& points, const
 class Choice {
  public:
   Choice(Shape shape, const std::vector<Vec3>& points, const std::vector<Vec3>& normals)
-      : shape_(shape), points_(points), normals_(normals), most_mm_(kTouched * extent_of(points, middle_of(points))) {}
+      : shape_(shape), points_(points), normals_(normals), most_mm_(kTouched * extent_of(points, mean_of(points))) {}
 
   void offer(FitSolution solution) {
     const bool meant = !solution.error && may_lie_otherwise(shape_) && solution.rms <= most_mm_ &&
@@ -99,7 +93,7 @@ FitSolution fit_touched(Shape shape, const std::vector<Vec3>& points, const std:
   choice.offer(fit_points_from(problem, nominal));
   if (may_lie_otherwise(shape)) {
     Element start = nominal;
-    start.point = middle_of(points);
+    start.point = mean_of(points);
     if (!choice.settled()) choice.offer(fit_points_from(problem, start));
     const std::optional<Vec3> axis = axis_of(normals);
     if (axis) start.direction = *axis;

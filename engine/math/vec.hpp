@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 namespace abbe {
 
@@ -36,6 +37,11 @@ constexpr Vec3 cross(const Vec3& a, const Vec3& b) {
 inline double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
 /// a / |a|. The zero vector gives NaN components: callers check first where a user could cause it.
 inline Vec3 unit(const Vec3& a) { return a / norm(a); }
+inline Vec3 mean_of(const std::vector<Vec3>& list) {
+  Vec3 mean;
+  for (const Vec3& v : list) mean += v / static_cast<double>(list.size());
+  return mean;
+}
 /// The part of `a` perpendicular to the unit vector `n`.
 constexpr Vec3 perpendicular_part(const Vec3& a, const Vec3& n) { return a - dot(a, n) * n; }
 /// Some unit vector perpendicular to the unit vector `n`; the same one for the same `n`.

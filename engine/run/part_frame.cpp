@@ -14,19 +14,13 @@ namespace {
 /// Targets of one point of the part in two placements agree this well: they come from one drawing.
 constexpr double kSamePoint_mm = 0.1;
 
-Vec3 middle_of(const std::vector<Vec3>& points) {
-  Vec3 sum;
-  for (const Vec3& p : points) sum += p / static_cast<double>(points.size());
-  return sum;
-}
-
 /// The point c that lies at one distance behind all touches of a feature: surface = c + rho normal, by least
 /// squares. Nothing for a feature that is touched from too few sides (a face, a line), which has no such
 /// point.
 std::optional<Vec3> centre_of(const std::vector<const AimedTouch*>& touches) {
   std::vector<Vec3> normals, surfaces;
   for (const AimedTouch* t : touches) normals.push_back(t->normal), surfaces.push_back(t->surface);
-  const Vec3 n = middle_of(normals), s = middle_of(surfaces);
+  const Vec3 n = mean_of(normals), s = mean_of(surfaces);
   double spread = 0, product = 0;
   for (std::size_t i = 0; i < normals.size(); ++i) {
     spread += dot(normals[i] - n, normals[i] - n);
@@ -98,7 +92,7 @@ PartFrames::PartFrames(const std::vector<AimedTouch>& touches) {
   const auto middle = [&](int setup) {
     std::vector<Vec3> all;
     for (const auto& [key, point] : points.at(setup)) all.push_back(point);
-    return middle_of(all);
+    return mean_of(all);
   };
   const int first = points.begin()->first;
   const Rigid X_P1{Mat3{}, -middle(first)};

@@ -41,14 +41,14 @@ std::string components_text(const Machine& machine) {
     const auto component = static_cast<Component>(k);
     const ComponentSpec& spec = machine[component];
     const bool rotation = is_rotation(component);
-    const double e_max = spec.e_max * (rotation ? 1e6 : 1e3);
+    const double e_max = spec.e_max * (rotation ? 1 / kPpm : kUmPerMm);
     out += fmt::format("  {}  s {:<5g} c {:<5g} {:>6g} {:<7}{:>7.3g} {}\n", name(component), spec.linear,
                        spec.curvature, e_max, rotation ? "um/m2" : "um/m",
                        e_max * machine[axis_of(component)].travel_mm * kUm, rotation ? "um/m" : "um");
   }
   return out +
-      fmt::format("  known squareness: cwy {:g}, bwz {:g}, awz {:g} um/m\n", machine.squareness_cwy_rad * 1e6,
-                  machine.squareness_bwz_rad * 1e6, machine.squareness_awz_rad * 1e6);
+      fmt::format("  known squareness: cwy {:g}, bwz {:g}, awz {:g} um/m\n", machine.squareness_cwy_rad / kPpm,
+                  machine.squareness_bwz_rad / kPpm, machine.squareness_awz_rad / kPpm);
 }
 
 /// Of the performance indicator: "1 <= v <= 2", "v >= 1".
@@ -133,7 +133,7 @@ std::string curves_text(const MachineReport& report) {
     for (int i = 0; i < kColumns; ++i)
       values.push_back(
           error_at(machine, report.drawn.geometry[0], component, axis.direction * axis.travel_mm * i / (kColumns - 1)) *
-          (is_rotation(component) ? 1e6 : 1e3));
+          (is_rotation(component) ? 1 / kPpm : kUmPerMm));
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     out += fmt::format("  {}  {}  {:6.2f} .. {:5.2f} {}\n", name(component), sparkline(values), shown(*low),
                        shown(*high), is_rotation(component) ? "um/m" : "um");

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <numbers>
 
 #include "engine/base/letter_case.hpp"
 #include "engine/base/numbers.hpp"

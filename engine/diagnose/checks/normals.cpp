@@ -28,8 +28,7 @@ std::optional<Vec3> middle_of_ball(const std::vector<Vec3>& points) {
   constexpr double kOn_mm = 0.02;  // targets come rounded
   constexpr double kFlat = 1e-4;
   const auto n = static_cast<Eigen::Index>(points.size());
-  Vec3 mean;
-  for (const Vec3& p : points) mean += (1 / double(n)) * p;
+  const Vec3 mean = mean_of(points);
   Eigen::MatrixX4d a(n, 4);  // 2 c . p + k = p . p
   Eigen::VectorXd square(n);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kRound_mm = 0.1;  // what may be left of a round feature
 
-Vec3 mean_of(const std::vector<Vec3>& list) {
-  Vec3 sum;
-  for (const Vec3& v : list) sum += v / double(list.size());
-  return sum;
-}
-
 /// Axes and mean squares of a cloud about its mean, the least first.
 Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(const std::vector<Vec3>& list) {
   const Vec3 m = mean_of(list);
