@@ -54,12 +54,18 @@ std::optional<std::string> said(const Metadata& metadata, std::string_view key) 
   return found->second;
 }
 
-double common_step_mm(const Recording& recording) {
+double common_step_mm(const std::vector<double>& lengths_mm) {
   constexpr double kLastDigitsPerMm = 1e6;
   long long step = 0;
-  for (const RecordingRow& row : recording.rows)
-    for (int k = 0; k < 3; ++k) step = std::gcd(step, std::llround(kLastDigitsPerMm * row.position_mm[k]));
+  for (const double length : lengths_mm) step = std::gcd(step, std::llround(kLastDigitsPerMm * length));
   return double(step) / kLastDigitsPerMm;
+}
+
+double common_step_mm(const Recording& recording) {
+  std::vector<double> coordinates;
+  for (const RecordingRow& row : recording.rows)
+    for (int k = 0; k < 3; ++k) coordinates.push_back(row.position_mm[k]);
+  return common_step_mm(coordinates);
 }
 
 void round_readings(Recording& recording, double step_mm) {

@@ -49,7 +49,9 @@ struct Recording {
   std::vector<RecordingRow> rows;
 };
 
-/// The step of which all recorded positions are multiples: their greatest common divisor, down to 1 nm; mm.
+/// The step of which all these lengths are multiples: their greatest common divisor, down to 1 nm; 0 without any. mm.
+double common_step_mm(const std::vector<double>& lengths_mm);
+/// Of all recorded positions.
 double common_step_mm(const Recording&);
 
 /// Makes positions and scale readings multiples of a step, as counters and software with few digits do.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -125,18 +124,17 @@ void check_order(const std::vector<Travel>& travels, const std::string& file) {
 /// along that axis: across them a machine may stop where it was sent, at round places. Of a part in its own coordinates,
 /// whose normals do not tell that, it is the step that all axes have in common.
 double step_mm(const Recording& r, int axis) {
-  constexpr double kLastDigitsPerMm = 1e6, kAlong = 0.1;
-  long long step = 0;
+  constexpr double kAlong = 0.1;
+  std::vector<double> from_first;
   std::optional<Vec3> first;
   for (const RecordingRow& row : r.rows) {
     if (!row.reading_mm || !row.normal) continue;
     if (!r.in_part_frame && std::abs((*row.normal)[axis]) < kAlong) continue;
     if (!first) first = row.reading_mm;
     for (int k = 0; k < 3; ++k)
-      if (k == axis || r.in_part_frame)
-        step = std::gcd(step, std::llround(kLastDigitsPerMm * ((*row.reading_mm)[k] - (*first)[k])));
+      if (k == axis || r.in_part_frame) from_first.push_back((*row.reading_mm)[k] - (*first)[k]);
   }
-  return double(step) / kLastDigitsPerMm;
+  return common_step_mm(from_first);
 }
 
 /// Why the readings of an axis do not tell where touches were; nothing where they do, or where the tip does not travel.
@@ -245,8 +243,7 @@ void leave_out_commanded_readings(Recording& recording, const std::string& file,
   Vec3 square, left;  // by axis: one scale may have been read and another not
   for (auto& [of, tip] : tips) {
     for (std::vector<Vec3>* const list : {&tip.from_scales, &tip.from_targets}) {
-      Vec3 mean;
-      for (const Vec3& v : *list) mean += v / double(list->size());
+      const Vec3 mean = mean_of(*list);
       for (Vec3& v : *list) v -= mean;
     }
     for (std::size_t i = 0; i < tip.from_scales.size(); ++i)
