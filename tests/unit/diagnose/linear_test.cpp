@@ -56,6 +56,16 @@ Matrix dense_precision(const LinearModel& m, const Hyperparameters& h) {
 
 }  // namespace
 
+TEST_CASE("the caches of the processor have no say in how products are summed") {
+  // Eigen sums long products in blocks made for the caches it finds, and so to other last bits on another processor.
+  Matrix a(1134, 4), b(1134, 4);
+  for (int i = 0; i < a.size(); ++i) a(i) = std::sin(i), b(i) = std::cos(3 * i);
+  const Matrix here = a.transpose() * b;
+  Eigen::setCpuCacheSizes(32 << 10, 256 << 10, 2 << 20);
+  const Matrix elsewhere = a.transpose() * b;
+  CHECK(here == elsewhere);
+}
+
 TEST_CASE("residuals predicted from all other rows are those of the dense formula") {
   const LinearModel m = model_of(60, 1, 1, 0, 1);
   Hyperparameters h;
