@@ -83,21 +83,32 @@ void Ensemble::keep(std::size_t count) {
   variants_.erase(variants_.begin() + static_cast<std::ptrdiff_t>(functions_ + count), variants_.end());
   const Eigen::Index columns = variants_.empty() ? 0 : variants_.back().first + variants_.back().count;
   coordinates_.conservativeResize(Eigen::NoChange, columns);
-  remainder_.conservativeResize(Eigen::NoChange, columns);
+  projected_.conservativeResize(Eigen::NoChange, columns);
 }
 
 void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants) {
+  // Many columns at once: the basis is read from memory once for all of them.
+  constexpr Eigen::Index kTogether = 512;
   Eigen::Index first = coordinates_.cols(), columns = first;
   for (const Matrix* m : signatures) columns += m->cols();
   coordinates_.conservativeResize(rotated_.rank(), columns);
-  remainder_.conservativeResize(rotated_.rows(), columns);
-  for (std::size_t k = 0; k < signatures.size(); ++k) {
-    const Matrix* m = signatures[k];
-    const Matrix projected = rotated_.project_patterns(*m);
-    coordinates_.middleCols(first, m->cols()) = rotated_.coordinates(projected);
-    remainder_.middleCols(first, m->cols()) = rotated_.remainder(projected, coordinates_.middleCols(first, m->cols()));
-    variants_.push_back(prepared(first, m->cols(), variants ? &(*variants)[k] : nullptr));
-    first += m->cols();
+  projected_.conservativeResize(rotated_.rows(), columns);
+  for (std::size_t begin = 0, end = 0; begin < signatures.size(); begin = end) {
+    Eigen::Index count = 0;
+    while (end < signatures.size() && count < kTogether) count += signatures[end++]->cols();
+    Matrix together(rotated_.rows(), count);
+    count = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      together.middleCols(count, signatures[k]->cols()) = *signatures[k];
+      count += signatures[k]->cols();
+    }
+    together = rotated_.project_patterns(together);
+    coordinates_.middleCols(first, count) = rotated_.coordinates(together);
+    projected_.middleCols(first, count) = together;
+    for (std::size_t k = begin; k < end; ++k) {
+      variants_.push_back(prepared(first, signatures[k]->cols(), variants ? &(*variants)[k] : nullptr));
+      first += signatures[k]->cols();
+    }
   }
 }
 
@@ -105,8 +116,8 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   Prepared b;
   b.first = first;
   b.count = count;
-  const auto a = coordinates_.middleCols(first, count), rest = remainder_.middleCols(first, count);
-  const Matrix outside = rest.transpose() * rest;
+  const auto a = coordinates_.middleCols(first, count), h = projected_.middleCols(first, count);
+  const Matrix outside = h.transpose() * h - a.transpose() * a;
   const double information = (a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace();
   const bool own_sizes = variant && variant->sizes.empty(),
              tells_nothing = own_sizes && information * kWidest * kWidest < 1;
@@ -120,8 +131,8 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
     const Vector d = solver.eigenvalues().cwiseMax(0);
     Axes axes{solver.eigenvectors().transpose(), Matrix(sizes, count)};
     for (Eigen::Index s = 0; s < sizes; ++s) {
-      const auto& [factor, log_prior] = b.sizes[static_cast<std::size_t>(s)];
-      const double size = variant ? factor : factor * scales_[static_cast<std::size_t>(j)], s2 = size * size;
+      const auto& [factor, log_prior] = b.sizes[s];
+      const double size = variant ? factor : factor * scales_[j], s2 = size * size;
       axes.share.row(s) = (tells_nothing ? 0 : s2) / (1 + s2 * d.array());
       b.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
     }
@@ -136,7 +147,7 @@ std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
   Matrix weighted(z.rows(), z.cols() * scales);
   for (Eigen::Index r = 0; r < z.cols(); ++r)
     weighted.middleCols(r * scales, scales) = z.col(r).asDiagonal() * precision_;
-  const Matrix within = coordinates_.transpose() * weighted, beside = remainder_.transpose() * rest;
+  const Matrix within = coordinates_.transpose() * weighted, beside = projected_.transpose() * rest;
   std::vector<Seen> out;
   for (Eigen::Index r = 0; r < z.cols(); ++r)
     out.push_back({z.col(r), rest.col(r), within.middleCols(r * scales, scales).colwise() + beside.col(r)});
@@ -157,7 +168,7 @@ Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variant
     const Eigen::Index sizes = b.log_weight.rows();
     left.resize(sizes, scales);
     for (Eigen::Index j = 0; j < scales; ++j) {
-      const Axes& axes = b.axes[static_cast<std::size_t>(j)];
+      const Axes& axes = b.axes[j];
       const double *const of = y.of.u.col(j).data() + b.first,
                           *const added = y.added ? y.added->u.col(j).data() + b.first : nullptr;
       along.assign(static_cast<std::size_t>(b.count), 0.0);
@@ -215,22 +226,22 @@ Vector Ensemble::simulated(const Level& level, const NoiseLaw& law, std::uint64_
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
   const Prepared &i = of(a), &j = of(b);
-  return coordinates_.middleCols(i.first, i.count).transpose() * precision(level).asDiagonal() *
+  return coordinates_.middleCols(i.first, i.count).transpose() * beside_noise(level).asDiagonal() *
       coordinates_.middleCols(j.first, j.count) +
-      remainder_.middleCols(i.first, i.count).transpose() * remainder_.middleCols(j.first, j.count) / level.s2;
+      projected_.middleCols(i.first, i.count).transpose() * projected_.middleCols(j.first, j.count) / level.s2;
 }
 
 Vector Ensemble::with_data(const Level& level, int variant, const Vector& recording) const {
   const Prepared& b = of(variant);
   const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
-      remainder_.middleCols(b.first, b.count).transpose() * rest / level.s2;
+      projected_.middleCols(b.first, b.count).transpose() * rest / level.s2;
 }
 
 Matrix Ensemble::against_all(const Level& level, const std::vector<Eigen::Index>& columns) const {
-  const Matrix weighted = precision(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
+  const Matrix weighted = beside_noise(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
   return coordinates_.transpose() * weighted +
-      remainder_.transpose() * Matrix(remainder_(Eigen::all, columns)) / level.s2;
+      projected_.transpose() * Matrix(projected_(Eigen::all, columns)) / level.s2;
 }
 
 }  // namespace abbe::diagnose

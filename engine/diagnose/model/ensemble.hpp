@@ -96,14 +96,17 @@ class Ensemble {
   const Prepared& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
   Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
   Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
+  /// What the model adds to the precision that noise alone would have: h' P h = a' (this) a + h' h / s^2, a = U' h.
+  Vector beside_noise(const Level& l) const { return precision(l).array() - 1 / l.s2; }
 
   Rotated rotated_;
-  double shape_ = 0;                ///< a + n / 2
-  std::vector<double> scales_;      ///< g
-  Matrix precision_;                ///< 1 / (g^2 lambda + 1), one column for each scale
-  Vector log_scale_;                ///< log prior of family and scale, and its determinant
-  Matrix coordinates_, remainder_;  ///< of all columns: U' h, h - U U' h
-  std::size_t functions_ = 0;       ///< of the machine; variants follow them
+  double shape_ = 0;            ///< a + n / 2
+  std::vector<double> scales_;  ///< g
+  Matrix precision_;            ///< 1 / (g^2 lambda + 1), one column for each scale
+  Vector log_scale_;            ///< log prior of family and scale, and its determinant
+  /// of all columns: U' h, and h; what is off the model, h - U U' h, is seen in products with h alone
+  Matrix coordinates_, projected_;
+  std::size_t functions_ = 0;  ///< of the machine; variants follow them
   std::vector<Prepared> variants_;
 };
 
