@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <variant>
 
 #include "engine/diagnose/baseline/known_state.hpp"
 #include "engine/diagnose/baseline/length_errors.hpp"
@@ -18,8 +19,10 @@
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise_effects.hpp"
+#include "engine/diagnose/findings/other_methods.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/findings/tell.hpp"
+#include "engine/diagnose/planning/advice.hpp"
 #include "engine/diagnose/planning/design.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/noise_design.hpp"
@@ -83,7 +86,7 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
   b.correlation = hyper.correlation;
   Vector square = Vector::Zero(hyper.noise.size()), rows = square;
   for (Eigen::Index i = 0; i < c.model.y.size(); ++i) {
-    const int g = c.model.noise_group[static_cast<std::size_t>(i)];
+    const int g = c.model.noise_group[i];
     square(g) += std::pow(c.model.noise_um(i) * hyper.noise(g), 2);
     ++rows(g);
   }
@@ -106,7 +109,7 @@ BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known)
 std::string known_state_beside(const Case& c, const SearchResult& result) {
   Baseline beside = c.baseline;
   std::vector<char> left_out(c.masked.size(), 1);
-  for (const int row : c.rows) left_out[static_cast<std::size_t>(row)] = 0;
+  for (const int row : c.rows) left_out[row] = 0;
   beside.model = with_free(without_rows(c.baseline.model, left_out), signatures_of(c, result));
   return write_known_state(posterior(beside, result.hyper), result.hyper);
 }
@@ -131,7 +134,7 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
       : "Touch more points in each setup, on surfaces that face several ways, or give one setup to touches of one placement.";
   out.messages.push_back(
       diagnostic(Code::W0710, fmt::format("{}: nothing can be judged: {}", file, why), out.otherwise));
-  out.judgeable = false;
+  out.judged = Judged::hidden_by_unknowns;
   out.verdict = Verdict::cannot_judge;
 }
 
@@ -139,7 +142,7 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
 /// may be that. Until it is known, it is no mismatch of the machine.
 Diagnosis without_styli(Diagnosis found, std::vector<Diagnostic> of_the_file) {
   Diagnosis out;
-  out.judgeable = false, out.styli_missing = true;
+  out.judged = Judged::styli_unlogged;
   out.verdict = Verdict::cannot_judge;
   out.touches = found.touches;
   out.baseline = std::move(found.baseline);
@@ -170,82 +173,51 @@ bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d)
                   [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
 }
 
-/// `step_um`: of which the positions were multiples as they were read. `out`: what has been said of the recording so far.
-Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& machine, const DiagnoseOptions& options,
-                    std::optional<Surfaces> surfaces, const std::string& file, Diagnosis out) {
-  const Diagnosis before = out;
-  const auto at = [&](std::string_view step) { begins(options.progress, step); };
-  at("virtual machines of the specification");
-  Case c = on_the_bench(recording, machine, options, surfaces, file, out);
-  const std::vector<Diagnostic> of_the_file = out.messages;
-  judge_rounding(step_um, c);
-  // What holds no error at all says no more than its plan.
-  const bool as_planned = !options.design_only && holds_targets_only(recording);
-  if (as_planned) out.messages.push_back(nothing_but_targets(file));
-  const bool plan = options.design_only || as_planned;
-  if (plan) {
-    c.masked.assign(c.touches.touches.size(), 0);
-    take_part(c, compact(c.baseline.model));
-    c.model.y.setZero();
-    c.hyper.noise = Vector::Ones(c.model.noise_groups);
-  } else {
-    mask_outliers(c);
-  }
-  at("what each explanation would do to these touches");
+/// What is diagnosed.
+struct Given {
+  const Recording& recording;
+  double step_um;  ///< of which the positions were multiples as they were read
+  const Machine& machine;
+  const DiagnoseOptions& options;
+  const std::string& file;
+};
+
+/// The part is another one than the targets say.
+struct AnotherPart {
+  Diagnostic told;
+};
+
+/// A plan has no values: all touches take part, where they should be, at the noise that was stated.
+void take_plan(Case& c) {
+  c.masked.assign(c.touches.touches.size(), 0);
+  take_part(c, compact(c.baseline.model));
+  c.model.y.setZero();
+  c.hyper.noise = Vector::Ones(c.model.noise_groups);
+}
+
+/// The search for all explanations. Those of scale readings come last: whether the readings hold noise of their own shows
+/// beside the others.
+EvidenceSearch search_of(Case& c, bool plan, double reading_step_um) {
   c.explanations = explanations_without_readings(c.touches, c.rows);
-  EvidenceSearch first(c.model, c.hyper, c.explanations);
+  EvidenceSearch search(c.model, c.hyper, c.explanations);
   const std::size_t without_readings = c.explanations.variants.size();
-  if (!plan) free_readings_of_noise(c, first);
-  const double reading_step_um = plan ? 0 : kUmPerMm * reading_step_mm(recording);
+  if (!plan) free_readings_of_noise(c, search);
   add_explanations_of_readings(c.touches, c.rows, std::max(c.step_um, reading_step_um), c.explanations);
-  first.extend(c.explanations, without_readings);
+  search.extend(c.explanations, without_readings);
+  return search;
+}
+
+/// What every effect would have to be to show.
+void tell_power(const Case& c, const EvidenceSearch& search, Diagnosis& out) {
   out.cannot_judge = cannot_judge(c.explanations);
-  at("what this recording could detect");
-  out.smallest_detectable = smallest_detectable(c, first);
+  out.smallest_detectable = smallest_detectable(c, search);
   add_hidden(c, out);
   if (!out.smallest_detectable.empty()) add_smallest_scatter(c, out);
-  const bool known = machine.known_state.has_value();
-  if (plan) {
-    out.baseline = summary(c, c.hyper, known);
-    if (as_planned) {
-      out.judgeable = false, out.targets_only = true;
-      out.verdict = Verdict::cannot_judge;
-      out.otherwise =
-          "Record measured positions: those of a real machine differ from their targets in the last digits.";
-      return out;
-    }
-    at("the next measurement");
-    out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
-    return out;
-  }
-  const auto as_another_part = [&] {
-    Diagnosis again = before;
-    again.messages.push_back(not_its_targets(c.touches, kNineTenths, file));
-    return diagnosed(recording, step_um, machine, options, Surfaces::unknown, file, std::move(again));
-  };
-  const bool may_be_another = !surfaces && c.baseline.surfaces != Surfaces::unknown;
-  if (out.smallest_detectable.empty()) {
-    out.baseline = summary(c, c.hyper, known);
-    if (may_be_another && another_part(c, {}, out)) return as_another_part();
-    tell_nothing_judged(c, file, out);
-    return out;
-  }
-  c.rough = first.rough() > 0.5;
-  SearchResult result = search(c, first);
-  put_judged_members_first(c, result);
-  drop_impossible_members(c, result);
-  out.baseline = summary(c, result.hyper, known);
-  out.p_value = result.p_value;
-  out.rivals = rivals(c, result.first);
-  at("touches that the model has not seen");
-  show_improvement(c, result, out);
-  tell_findings(c, result, out);
-  if (may_be_another && another_part(c, result, out)) return as_another_part();
-  if (!result.findings.empty()) out.adequacy_p = result.adequacy;
-  if (result.other) tell_unexplained(c, result, out);
-  out.location = locate(c, first, result);
-  tell_noise(c, judge_noise(c, result), out);
-  out.verdict = verdict_of(c, result, out);
+}
+
+/// What of the machine itself is not as its file says: lengths, sizes of errors, scatter.
+void tell_machine(const Case& c, const SearchResult& result, const std::string& file, Diagnosis& out) {
+  const bool known = out.baseline.known;
   if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
   const bool only_noise = result.findings.empty() && !result.other;
   if (!known && only_noise && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
@@ -256,6 +228,69 @@ Diagnosis diagnosed(const Recording& recording, double step_um, const Machine& m
   if (out.baseline.noisier) out.messages.push_back(more_scatter(out.baseline, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
+}
+
+/// `out`: what has been said of the recording so far.
+std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional<Surfaces> surfaces, Diagnosis out) {
+  const Recording& recording = given.recording;
+  const DiagnoseOptions& options = given.options;
+  const std::string& file = given.file;
+  const auto at = [&](std::string_view step) { begins(options.progress, step); };
+  at("virtual machines of the specification");
+  Case c = on_the_bench(recording, given.machine, options, surfaces, file, out);
+  const std::vector<Diagnostic> of_the_file = out.messages;
+  judge_rounding(given.step_um, c);
+  // What holds no error at all says no more than its plan.
+  const bool as_planned = !options.design_only && holds_targets_only(recording);
+  if (as_planned) out.messages.push_back(nothing_but_targets(file));
+  const bool plan = options.design_only || as_planned;
+  if (plan)
+    take_plan(c);
+  else
+    mask_outliers(c);
+  at("what each explanation would do to these touches");
+  EvidenceSearch first = search_of(c, plan, plan ? 0 : kUmPerMm * reading_step_mm(recording));
+  at("what this recording could detect");
+  tell_power(c, first, out);
+  const bool known = given.machine.known_state.has_value();
+  out.baseline = summary(c, c.hyper, known);
+  if (as_planned) {
+    out.judged = Judged::targets_only;
+    out.verdict = Verdict::cannot_judge;
+    out.otherwise = "Record measured positions: those of a real machine differ from their targets in the last digits.";
+    return out;
+  }
+  if (plan) {
+    at("the next measurement");
+    out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
+    return out;
+  }
+  const auto is_another_part = [&](const SearchResult& result) {
+    return !surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out);
+  };
+  const auto another = [&] { return AnotherPart{not_its_targets(c.touches, kNineTenths, file)}; };
+  if (out.smallest_detectable.empty()) {
+    if (is_another_part({})) return another();
+    tell_nothing_judged(c, file, out);
+    return out;
+  }
+  c.rough = first.rough() > 0.5;
+  SearchResult result = search(c, first);
+  put_judged_members_first(c, result);
+  drop_impossible_members(c, result);
+  out.baseline = summary(c, result.hyper, known);
+  out.p_value = result.p_value;
+  out.other_methods = other_methods(c, result.first);
+  at("touches that the model has not seen");
+  show_improvement(c, result, out);
+  tell_findings(c, result, out);
+  if (is_another_part(result)) return another();
+  if (!result.findings.empty()) out.adequacy_p = result.adequacy;
+  if (result.other) tell_unexplained(c, result, out);
+  out.location = locate(c, first, result);
+  tell_noise(c, judge_noise(c, result), out);
+  out.verdict = verdict_of(c, result, out);
+  tell_machine(c, result, file, out);
   if (c.styli_unlogged && is_mismatch(out)) return without_styli(std::move(out), of_the_file);
   at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
@@ -289,11 +324,17 @@ std::vector<Diagnostic> recording_problems(const Recording& recorded, const Mach
 Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
                              const std::string& file) {
   Diagnosis out;
-  out.judged = !options.design_only;
+  if (options.design_only) out.judged = Judged::plan;
   const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
   out.touches = static_cast<int>(recording.rows.size());
-  return diagnosed(recording, options.design_only ? 0 : kUmPerMm * common_step_mm(recorded), machine, options,
-                   stated_surfaces(recording, file), file, std::move(out));
+  const double step_um = options.design_only ? 0 : kUmPerMm * common_step_mm(recorded);
+  const Given given{recording, step_um, machine, options, file};
+  std::variant<Diagnosis, AnotherPart> found = diagnosed(given, stated_surfaces(recording, file), out);
+  if (const auto* other = std::get_if<AnotherPart>(&found)) {
+    out.messages.push_back(other->told);
+    found = diagnosed(given, Surfaces::unknown, std::move(out));
+  }
+  return std::get<Diagnosis>(std::move(found));
 }
 
 }  // namespace abbe

@@ -149,7 +149,7 @@ struct BaselineSummary {
 };
 
 /// What simpler methods say of the same recording; for comparison.
-struct Rivals {
+struct OtherMethods {
   double chi2_p = 1;
   std::vector<std::string> stepwise_bic;
   std::string best_bayes_factor;
@@ -185,12 +185,17 @@ inline constexpr double kOutOfSpecification = 4;
 /// Adequacy below which the names are doubted.
 inline constexpr double kInadequate = 0.05;
 
+/// Whether a recording was judged, or why not: then its p_value means nothing.
+enum class Judged {
+  yes,
+  plan,                ///< its values were not looked at; there is no verdict either
+  hidden_by_unknowns,  ///< what is unknown of the part explains whatever it holds
+  targets_only,        ///< it holds targets in the place of measured positions
+  styli_unlogged,      ///< what several unlogged styli or orientations do may be all of it
+};
+
 struct Diagnosis {
-  bool judged = true;         ///< false: of a plan, whose values were not looked at; verdict and p_value mean nothing
-  bool judgeable = true;      ///< false: the unknowns of the recording explain whatever it holds; p_value means nothing
-  bool targets_only = false;  ///< not judgeable because it holds targets in the place of measured positions
-  bool styli_missing =
-      false;  ///< not judgeable because what several unlogged styli or orientations do may be all of it
+  Judged judged = Judged::yes;
   Verdict verdict = Verdict::no_mismatch;
   double p_value = 1;
   std::optional<double> adequacy_p;  ///< that the named effects leave so much by chance; nothing where none were named
@@ -208,8 +213,8 @@ struct Diagnosis {
   /// What the machine does beside what was found, over what an earlier recording left open, where that is too
   /// much for the same machine.
   std::optional<double> beyond_known;
-  std::optional<LengthError> beyond;  ///< a length that no machine of the specification makes so wrong
-  std::optional<Rivals> rivals;       ///< none where nothing was judged
+  std::optional<LengthError> beyond;          ///< a length that no machine of the specification makes so wrong
+  std::optional<OtherMethods> other_methods;  ///< none where nothing was judged
   std::vector<ResidualRow> residuals;
   std::vector<JudgedValue> values;  ///< of a recording of values, in its order; then there are no touches
   std::vector<Diagnostic> messages;
@@ -223,7 +228,7 @@ struct Diagnosis {
 /// Whether something is wrong, with a name or without: a mismatch, or a machine that is not the one it is taken for.
 inline bool is_mismatch(const Diagnosis& d) {
   const bool large = !d.baseline.known && d.baseline.geometry_scale >= kOutOfSpecification;
-  return d.judgeable && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known || large);
+  return d.judged == Judged::yes && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known || large);
 }
 
 struct DiagnoseOptions {

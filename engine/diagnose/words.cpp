@@ -138,8 +138,8 @@ std::string looks_like(const Detectable& d) {
 }
 
 Headline headline(const Diagnosis& d) {
-  if (!d.judged) return Headline::plan;
-  if (!d.judgeable) return Headline::nothing_judged;
+  if (d.judged == Judged::plan) return Headline::plan;
+  if (d.judged != Judged::yes) return Headline::nothing_judged;
   if (d.verdict == Verdict::no_mismatch && d.beyond) return Headline::beyond_specification;
   return d.beyond_known ? Headline::another_machine : Headline::verdict;
 }

@@ -6,6 +6,7 @@
 
 #include "engine/base/ids.hpp"
 #include "engine/lanes/random.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe {
 
@@ -78,7 +79,7 @@ int shortest_first(const Sorted& y, Ranks symmetric) {
 double quantile_error(const Sorted& y, int rank, double u) {
   const double n = y.n(), p = (rank - 0.5) / n;
   const double rank_error = std::sqrt(n * p * (1 - p));
-  const double below = rank - 1.96 * rank_error, above = rank + 1.96 * rank_error;
+  const double below = rank - kNormal95 * rank_error, above = rank + kNormal95 * rank_error;
   const double low = std::max(1.0, below), high = std::min(n, above);
   const double seen = rank_error * (y.at(high) - y.at(low)) / (high - low);
   if (below >= 1 && above <= n) return seen;

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "engine/diagnose/words.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -42,7 +43,7 @@ constexpr Thermometer kThermometers[] = {{"part_C", [](const TouchScene& s) { re
 
 template <class Value>
 bool differs(const Case& c, Value value) {
-  const auto at = [&](int row) { return value(c.touches.touches[static_cast<std::size_t>(row)].scene); };
+  const auto at = [&](int row) { return value(c.touches.touches[row].scene); };
   return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) { return at(row) != at(c.rows.front()); });
 }
 
@@ -157,7 +158,7 @@ std::map<Factor, Located> by_factor(const Case& c, const Evidence& evidence) {
   for (std::size_t k = 0; k < all.list.size(); ++k) {
     const Explanation& e = all.list[k];
     const int variant = best_variant(all, static_cast<int>(k), evidence);
-    const bool changes = all.variants[static_cast<std::size_t>(variant)].change.any();
+    const bool changes = all.variants[variant].change.any();
     out[changes ? Factor::run : shown_in(c, e)].add(static_cast<int>(k), std::log(e.prior) + evidence.log_bayes[k]);
   }
   return out;
@@ -208,8 +209,7 @@ namespace {
 std::string listed(const Explanations& all, const std::vector<int>& set) {
   constexpr std::size_t kShown = 3;
   std::vector<std::string> names;
-  for (std::size_t k = 0; k < std::min(kShown, set.size()); ++k)
-    names.push_back(all.list[static_cast<std::size_t>(set[k])].name);
+  for (std::size_t k = 0; k < std::min(kShown, set.size()); ++k) names.push_back(all.list[set[k]].name);
   return fmt::format("{}{}", fmt::join(names, " or "), set.size() > kShown ? ", or another," : "");
 }
 
@@ -228,8 +228,8 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   u.amplitude_um = std::sqrt(beside_free(rest, pattern.values).squaredNorm() / double(pattern.values.size()));
   // The relative uncertainty of an amplitude is one over its signal-to-noise.
   u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
-  u.low_um = std::max(0.0, u.amplitude_um - 1.96 * u.amplitude_u_um);
-  u.high_um = u.amplitude_um + 1.96 * u.amplitude_u_um;
+  u.low_um = std::max(0.0, u.amplitude_um - kNormal95 * u.amplitude_u_um);
+  u.high_um = u.amplitude_um + kNormal95 * u.amplitude_u_um;
   u.sentence = fmt::format("A pattern over {} ({}) of {} um rms is in the recording", u.factor, u.shape,
                            two_digits(u.amplitude_um));
   const CredibleSet name = credible_set(c.explanations, f.evidence, true);
@@ -243,8 +243,8 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
                     predicts_as_well)
       : " that no single effect of the catalogue makes.";
   if (result.nearest && !(as_good && alone))
-    u.sentence += fmt::format(" {} comes nearest, but {}.",
-                              c.explanations.list[static_cast<std::size_t>(result.nearest->explanation)].name, leaves);
+    u.sentence +=
+        fmt::format(" {} comes nearest, but {}.", c.explanations.list[result.nearest->explanation].name, leaves);
   return u;
 }
 

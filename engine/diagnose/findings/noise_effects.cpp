@@ -53,7 +53,7 @@ bool other_each_time(const Case& c, const Residuals& r, const Vector& in, double
 
 /// The interval ends at 0: none of these changes its sign.
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u) {
-  const double low = value - 1.96 * u, high = value + 1.96 * u;
+  const double low = value - kNormal95 * u, high = value + kNormal95 * u;
   return {.name = name,
           .unit = unit,
           .value = value,
@@ -118,7 +118,7 @@ std::optional<bool> alike_along_all_axes(const Case& c, const Residuals& r) {
     double square = 0;
     int count = 0;
     for (std::size_t k = 0; k < c.rows.size(); ++k) {
-      const TouchScene& s = c.touches.touches[static_cast<std::size_t>(c.rows[k])].scene;
+      const TouchScene& s = c.touches.touches[c.rows[k]].scene;
       if (std::abs(s.normal[axis]) < kAlong) continue;
       square += std::pow(r.standardised(static_cast<Eigen::Index>(k)), 2), ++count;
     }
@@ -177,8 +177,8 @@ Vector beyond_found(const Case& c, const SearchResult& result) {
   std::iota(all.begin(), all.end(), 0);
   std::vector<Matrix> found;
   for (const Finding& f : result.findings) {
-    const Variant& b = c.explanations.variants[static_cast<std::size_t>(f.variant)];
-    const Effect& effect = *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
+    const Variant& b = c.explanations.variants[f.variant];
+    const Effect& effect = *c.explanations.list[f.explanation].effect;
     found.push_back(variant_like(b, effect, c.touches, all).signature);
   }
   if (found.empty()) return c.off_um;
@@ -223,7 +223,7 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
   f.certain = n * std::pow(double(out.back() + 1 - out.front()) / all, n - 1) > kByChance;
   const auto most = std::max_element(by_feature.begin(), by_feature.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
-  f.factor = Factor::feature, f.where = {{"feature", c.touches.features[static_cast<std::size_t>(most->first)]}};
+  f.factor = Factor::feature, f.where = {{"feature", c.touches.features[most->first]}};
   f.sentence = fmt::format("{:.0f} of {} touches are outliers: dirt, burrs or early triggers.", n, c.masked.size());
   return f;
 }

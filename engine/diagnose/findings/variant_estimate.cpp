@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/math/normal.hpp"
 #include "engine/math/units.hpp"
 
 namespace abbe::diagnose {
@@ -87,12 +88,11 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Variant& variant, c
   for (std::size_t k = 0; k < variant.columns.size(); ++k) {
     const int p = variant.columns[k].parameter;
     if (p < 0 || directions_ * phases_ > 1) continue;
-    constexpr double kSurely = 1.96;
-    const EffectParameter& parameter = effect.parameters[static_cast<std::size_t>(p)];
+    const EffectParameter& parameter = effect.parameters[p];
     const auto at = static_cast<Eigen::Index>(k);
     const double size = variant.columns[k].unit * mean_(at),
                  u = variant.columns[k].unit * std::sqrt(covariance_(at, at));
-    if (size + kSurely * u < parameter.low || size - kSurely * u > parameter.high) impossible.insert(p);
+    if (size + kNormal95 * u < parameter.low || size - kNormal95 * u > parameter.high) impossible.insert(p);
   }
   if (!impossible.empty()) solve(info, impossible);
 }
@@ -116,16 +116,14 @@ std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) co
       continue;
     unit = c.unit;
     m(c.part % 3, c.part / 3) = unit * mean_(static_cast<Eigen::Index>(k));
-    column[static_cast<std::size_t>(c.part % 3 + directions_ * (c.part / 3))] = static_cast<Eigen::Index>(k);
+    column[c.part % 3 + directions_ * (c.part / 3)] = static_cast<Eigen::Index>(k);
   }
   if (unit == 0) return std::nullopt;
   Motion out;
   out.covariance = Matrix::Zero(m.size(), m.size());
   for (Eigen::Index i = 0; i < m.size(); ++i)
     for (Eigen::Index j = 0; j < m.size(); ++j)
-      if (column[static_cast<std::size_t>(i)] >= 0 && column[static_cast<std::size_t>(j)] >= 0)
-        out.covariance(i, j) =
-            unit * unit * covariance_(column[static_cast<std::size_t>(i)], column[static_cast<std::size_t>(j)]);
+      if (column[i] >= 0 && column[j] >= 0) out.covariance(i, j) = unit * unit * covariance_(column[i], column[j]);
   out.whole = keep_told_directions(m, out.covariance);
   const Eigen::JacobiSVD<Matrix> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   out.size = svd.singularValues()(0);

@@ -32,7 +32,7 @@ class Aligner {
         f->touched.normals.push_back(s.normal);
       }
     }
-    for (auto& [which, f] : features_) f.label = dmis_label(longer.touches.features[static_cast<std::size_t>(which)]);
+    for (auto& [which, f] : features_) f.label = dmis_label(longer.touches.features[which]);
   }
 
   std::optional<Alignment> on_a_ball() {
@@ -168,7 +168,7 @@ std::optional<Alignment> alignment_of(const Longer& longer) {
 
 Vec3 surface_of(const Longer& longer, std::size_t touch) {
   const RecordedTouch& t = longer.touches.touches[touch];
-  const RecordingRow& row = longer.recording.rows[static_cast<std::size_t>(t.row)];
+  const RecordingRow& row = longer.recording.rows[t.row];
   return longer.recording.point == RecordedPoint::surface ? *row.target_mm
                                                           : *row.target_mm - t.scene.stylus.radius_mm * *row.normal;
 }

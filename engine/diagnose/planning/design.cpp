@@ -10,7 +10,6 @@
 // say (model/power.hpp).
 #include "engine/diagnose/planning/design.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -19,7 +18,6 @@
 
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/model/power.hpp"
-#include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
 
@@ -58,7 +56,7 @@ class Design {
                     search.sizes(b),
                     search.first_column(b),
                     {}};
-      const double log_weight = std::log(std::max(all_.variants[static_cast<std::size_t>(b)].weight, 1e-300));
+      const double log_weight = std::log(std::max(all_.variants[b].weight, 1e-300));
       for (const Size& size : judged.sizes)
         judged.log_belief.push_back(log_weight + size.log_prior -
                                     0.5 * (1 + size.factor * size.factor * judged.information.array()).log().sum());
@@ -73,13 +71,13 @@ class Design {
     const bool only_new = forms.empty();
     if (only_new) forms = forms_of(e, true);
     if (forms.empty()) return std::nullopt;
-    const EffectParameter& parameter = e.effect->parameters[static_cast<std::size_t>(parameter_of(e))];
+    const EffectParameter& parameter = e.effect->parameters[parameter_of(e)];
     std::vector<double> belief(all_.list.size(), 0.0);
     std::vector<Eigen::Index> columns;
-    for (const Form& f : forms) columns.push_back(variants_[static_cast<std::size_t>(f.variant)].first + f.column);
+    for (const Form& f : forms) columns.push_back(variants_[f.variant].first + f.column);
     const Matrix seen = search_.against_all(columns);
     const auto shift_of_form = [&](const Form& f) {
-      return shift_of(seen.col(f.place) / std::sqrt(diagonal_[static_cast<std::size_t>(f.variant)](f.column)));
+      return shift_of(seen.col(f.place) / std::sqrt(diagonal_[f.variant](f.column)));
     };
     for (std::size_t i = 0; i < forms.size(); ++i) {
       Form& f = forms[i];
@@ -120,8 +118,8 @@ class Design {
   /// The signal-to-noise from which on a form is seen.
   double detected_from(const Form& f, std::size_t explanation, const Shift& shift) const {
     constexpr double kMost = 100;
-    const Variant& variant = all_.variants[static_cast<std::size_t>(f.variant)];
-    const Vector& information = diagonal_[static_cast<std::size_t>(f.variant)];
+    const Variant& variant = all_.variants[f.variant];
+    const Vector& information = diagonal_[f.variant];
     if (variant.joined)  // no other explanation makes all that may be drawn
       return power_.detected_from(variant.signature / std::sqrt(information.sum()), static_cast<int>(explanation), 1,
                                   kMost);
@@ -134,13 +132,13 @@ class Design {
 
   /// The size that is told: of the column that shows most.
   int parameter_of(const Explanation& e) const {
-    const auto most = [&](int b) { return diagonal_[static_cast<std::size_t>(b)].maxCoeff(); };
+    const auto most = [&](int b) { return diagonal_[b].maxCoeff(); };
     const int strongest =
         *std::max_element(e.variants.begin(), e.variants.end(), [&](int a, int b) { return most(a) < most(b); });
-    const Variant& variant = all_.variants[static_cast<std::size_t>(strongest)];
+    const Variant& variant = all_.variants[strongest];
     Eigen::Index column = 0;
-    diagonal_[static_cast<std::size_t>(strongest)].maxCoeff(&column);
-    if (!variant.joined) return std::max(0, variant.columns[static_cast<std::size_t>(column)].parameter);
+    diagonal_[strongest].maxCoeff(&column);
+    if (!variant.joined) return std::max(0, variant.columns[column].parameter);
     const auto& p = e.effect->parameters;
     const auto linear = std::find_if(p.begin(), p.end(), [](const EffectParameter& x) { return x.linear; });
     return linear == p.end() ? 0 : static_cast<int>(linear - p.begin());
@@ -152,29 +150,25 @@ class Design {
     constexpr std::size_t kVariants = 7;
     std::vector<int> variants;
     for (const int b : e.variants)
-      if (diagonal_[static_cast<std::size_t>(b)].maxCoeff() > 1e-12 &&
-          (all_.variants[static_cast<std::size_t>(b)].change.any()) == changing)
-        variants.push_back(b);
-    std::stable_sort(variants.begin(), variants.end(), [&](int a, int b) {
-      return diagonal_[static_cast<std::size_t>(a)].maxCoeff() > diagonal_[static_cast<std::size_t>(b)].maxCoeff();
-    });
+      if (diagonal_[b].maxCoeff() > 1e-12 && (all_.variants[b].change.any()) == changing) variants.push_back(b);
+    std::stable_sort(variants.begin(), variants.end(),
+                     [&](int a, int b) { return diagonal_[a].maxCoeff() > diagonal_[b].maxCoeff(); });
     const std::size_t n = variants.size(), m = std::min(n, kVariants);
     std::vector<Form> out;
     if (variants.empty()) return out;
     const int told = parameter_of(e);
     for (std::size_t i = 0; i < m; ++i) {
       const int b = variants[m == 1 ? 0 : i * (n - 1) / (m - 1)];
-      const Variant& variant = all_.variants[static_cast<std::size_t>(b)];
+      const Variant& variant = all_.variants[b];
       for (Eigen::Index j = 0; j < variant.signature.cols(); ++j) {
-        const double information = diagonal_[static_cast<std::size_t>(b)](j);
-        const int p = variant.joined ? told : variant.columns[static_cast<std::size_t>(j)].parameter;
+        const double information = diagonal_[b](j);
+        const int p = variant.joined ? told : variant.columns[j].parameter;
         if (information <= 1e-12 || (p >= 0 && p != told)) continue;
-        const double unit = variant.joined ? e.effect->parameters[static_cast<std::size_t>(told)].typical
-                                           : variant.columns[static_cast<std::size_t>(j)].unit;
+        const double unit = variant.joined ? e.effect->parameters[told].typical : variant.columns[j].unit;
         Form f{b, j, 0, unit / std::sqrt(information),
                variant.signature.col(j).cwiseAbs().maxCoeff() / std::sqrt(information)};
         if (variant.joined) {  // draws come together: all columns at the spread that is told
-          const double all = std::sqrt(diagonal_[static_cast<std::size_t>(b)].sum());
+          const double all = std::sqrt(diagonal_[b].sum());
           f.per_snr = unit / all, f.um_per_snr = variant.signature.rowwise().norm().maxCoeff() / all;
         }
         if (kDetects * f.um_per_snr <= kNothing_um) out.push_back(f);
@@ -198,7 +192,7 @@ class Design {
     }
     for (const Explanation& e : all_.list) {
       double left = 1;
-      for (const int b : e.variants) left = std::min(left, 1 - imitated[static_cast<std::size_t>(b)]);
+      for (const int b : e.variants) left = std::min(left, 1 - imitated[b]);
       out.left.push_back(std::max(0.0, left));
     }
     return out;
@@ -282,12 +276,6 @@ class Design {
   std::vector<Vector> diagonal_;  ///< by variant: the information on each column
 };
 
-/// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).
-double chi2_above(double x, double n) {
-  const double z = (std::cbrt(x / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n));
-  return normal_below(-z);
-}
-
 }  // namespace
 
 std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch& search) {
@@ -308,46 +296,6 @@ std::vector<Detectable> smallest_detectable(const Case& c, const EvidenceSearch&
   std::vector<Detectable> out;
   for (std::optional<Detectable>& d : of)
     if (d) out.push_back(std::move(*d));
-  return out;
-}
-
-Rivals rivals(const Case& c, const Evidence& evidence) {
-  Rivals out;
-  // The paper's model as it stands: specification and nothing re-estimated, chi-squared of what it leaves.
-  Hyperparameters stated;
-  stated.noise = Vector::Ones(c.baseline.model.noise_groups);
-  const Rotated rotated(c.baseline.model, stated);
-  const Vector z = rotated.z();
-  const double rest = rotated.remainder(rotated.y(), z).squaredNorm();
-  const double squares = (z.array().square() / (1 + rotated.lambda().array())).sum() + rest;
-  out.chi2_p = chi2_above(squares, rotated.rank() + rotated.rest_dof());
-  // One best Bayes factor over the catalogue, nothing else allowed.
-  std::vector<double> logs;
-  std::vector<int> effects;
-  for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
-    if (c.explanations.list[k].effect) effects.push_back(static_cast<int>(k)), logs.push_back(evidence.log_bayes[k]);
-  const auto best = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
-  out.best_bayes_factor = c.explanations.list[static_cast<std::size_t>(effects[best])].name;
-  out.best_bayes_probability = std::exp(logs[best] - log_sum_exp(logs));
-  // Forward selection by BIC over single variants.
-  const Explanations catalogue = only(c.explanations, effects);
-  std::vector<const Matrix*> taken;
-  const double log_n = std::log(double(c.model.y.size()));
-  for (int step = 0; step < 3; ++step) {
-    const EvidenceSearch now(with_free(c.model, taken), c.hyper, catalogue);
-    double most = 0;
-    int chosen = -1;
-    for (std::size_t b = 0; b < catalogue.variants.size(); ++b) {
-      const auto info = now.information(static_cast<int>(b));
-      const Matrix g = info.g + 1e-9 * (1 + info.g.trace()) * Matrix::Identity(info.g.rows(), info.g.cols());
-      const double gain = info.u.dot(Eigen::LDLT<Matrix>(g).solve(info.u)) - log_n * double(info.u.size());
-      if (gain > most) most = gain, chosen = static_cast<int>(b);
-    }
-    if (chosen < 0) break;
-    const Variant& variant = catalogue.variants[static_cast<std::size_t>(chosen)];
-    taken.push_back(&variant.signature);
-    out.stepwise_bic.push_back(catalogue.list[static_cast<std::size_t>(variant.explanation)].name);
-  }
   return out;
 }
 

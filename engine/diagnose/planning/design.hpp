@@ -1,4 +1,4 @@
-// What a recording can tell, before anything is found; and what simpler methods say of it.
+// What a recording can tell, before anything is found.
 #pragma once
 
 #include "engine/diagnose/case.hpp"
@@ -7,6 +7,5 @@
 namespace abbe::diagnose {
 
 std::vector<Detectable> smallest_detectable(const Case&, const EvidenceSearch&);
-Rivals rivals(const Case&, const Evidence& first);
 
 }  // namespace abbe::diagnose

@@ -13,14 +13,13 @@
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
-#include "engine/diagnose/findings/doubt.hpp"
-#include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/planning/question.hpp"
 
 namespace abbe::diagnose {
 
 namespace {
 
-constexpr std::size_t kShown = 3, kMostRivals = 8, kPaired = 6;
+constexpr std::size_t kShown = 3, kPaired = 6;
 /// A round of measuring and judging takes this long beside the measurement itself, min.
 constexpr double kRound_min = 60;
 /// Expected probability of the truth from which on a measurement counts as deciding.
@@ -28,71 +27,10 @@ constexpr double kDecides = 0.95;
 /// What it must be above guessing, or the measurement is no proposal; and what a pair of changes must add, or
 /// one of them is enough.
 constexpr double kAboveChance = 0.05;
-/// The share of what can be gained over guessing below which the answer says beside it what would tell more:
-/// of two, a probability of 0.6.
-constexpr double kWorthARound = 0.2;
 /// Expected probabilities are no more exact than this.
 constexpr double kAlike = 0.01;
 /// Signal-to-noise that a plan without data reckons with.
 constexpr double kPlanned = 6;
-
-/// What a measurement is to decide.
-struct Question {
-  std::vector<int> rivals;      ///< explanations
-  std::vector<Finding> beside;  ///< effects that are there whichever of them it is
-};
-
-/// What a plan leaves open: effects that look alike, each with those that it looks like. First those of which
-/// most is to be expected, counted as the effects of typical size that would be seen; each effect is asked of
-/// once.
-std::vector<Question> questions_of(const Case& c, const std::vector<Detectable>& detectable) {
-  const auto index = [&](const std::string& name) {
-    for (std::size_t k = 0; k < c.explanations.list.size(); ++k)
-      if (c.explanations.list[k].name == name) return static_cast<int>(k);
-    return -1;
-  };
-  const auto expected = [&](const std::string& name) {
-    const auto d =
-        std::find_if(detectable.begin(), detectable.end(), [&](const Detectable& x) { return x.effect == name; });
-    if (d == detectable.end()) return 0.0;
-    const auto& parameters = c.explanations.list[static_cast<std::size_t>(index(name))].effect->parameters;
-    const auto p = std::find_if(parameters.begin(), parameters.end(),
-                                [&](const EffectParameter& x) { return x.name == d->parameter; });
-    return std::min(1.0, p->typical / d->detect);
-  };
-  std::vector<std::pair<double, std::vector<std::string>>> open;
-  for (const Detectable& d : detectable) {
-    if (d.confounded_with.empty()) continue;
-    std::vector<std::string> alike = d.confounded_with;
-    alike.insert(alike.begin(), d.effect);
-    double sum = 0;
-    for (const std::string& name : alike) sum += expected(name);
-    open.emplace_back(expected(d.effect) * sum, std::move(alike));
-  }
-  std::stable_sort(open.begin(), open.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<Question> out;
-  std::set<std::string> asked;
-  for (const auto& [worth, alike] : open) {
-    if (out.size() == kShown || asked.count(alike.front()) > 0) continue;
-    asked.insert(alike.begin(), alike.end());
-    out.emplace_back();
-    for (const std::string& name : alike) out.back().rivals.push_back(index(name));
-  }
-  return out;
-}
-
-/// Those of the first finding that could not be told apart.
-Question question_of(const SearchResult& result) {
-  for (std::size_t i = 0; i < result.findings.size(); ++i) {
-    const Finding& f = result.findings[i];
-    if (f.set.size() < 2) continue;
-    Question q{{f.set.begin(), f.set.begin() + static_cast<std::ptrdiff_t>(std::min(f.set.size(), kMostRivals))},
-               result.findings};
-    q.beside.erase(q.beside.begin() + static_cast<std::ptrdiff_t>(i));
-    return q;
-  }
-  return {};
-}
 
 using Seen = Precision::Seen;
 
@@ -131,9 +69,8 @@ std::vector<Matrix> signatures_beside(const Case& c, const Question& question, c
                                       const std::vector<int>& rows) {
   std::vector<Matrix> out;
   for (const Finding& f : question.beside) {
-    const Variant& found = c.explanations.variants[static_cast<std::size_t>(f.variant)];
-    Variant seen =
-        variant_like(found, *c.explanations.list[static_cast<std::size_t>(f.explanation)].effect, longer.touches, rows);
+    const Variant& found = c.explanations.variants[f.variant];
+    Variant seen = variant_like(found, *c.explanations.list[f.explanation].effect, longer.touches, rows);
     if (seen.signature.cols() > 0) out.push_back(std::move(seen.signature));
   }
   return out;
@@ -156,8 +93,7 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
   const Precision both(with_free(likelier_ensemble(c, without_rows(baseline.model, masked)), removed), fitted);
   std::vector<Contender> out;
   for (const int rival : question.rivals) {
-    const Explanations own =
-        named_explanations(longer.touches, rows, {c.explanations.list[static_cast<std::size_t>(rival)].name});
+    const Explanations own = named_explanations(longer.touches, rows, {c.explanations.list[rival].name});
     Contender contender;
     for (const Variant& b : own.variants) {
       contender.first.push_back(first.seen(b.signature(of_first, Eigen::all)));
@@ -188,7 +124,7 @@ Seen side_by_side(const std::vector<Contender>& list, Seen Contender::*column) {
   const auto columns = static_cast<Eigen::Index>(list.size());
   Seen out{Matrix((list.front().*column).rows.rows(), columns), Matrix((list.front().*column).taken.rows(), columns)};
   for (Eigen::Index k = 0; k < columns; ++k) {
-    const Seen& s = list[static_cast<std::size_t>(k)].*column;
+    const Seen& s = list[k].*column;
     out.rows.col(k) = s.rows, out.taken.col(k) = s.taken;
   }
   return out;
@@ -294,8 +230,7 @@ class Judge {
 
   std::vector<Scored> scored(const std::vector<Change>& changes) const {
     std::vector<std::optional<Scored>> each(changes.size());
-    on_threads(static_cast<int>(changes.size()), case_.options.threads,
-               [&](int k) { each[static_cast<std::size_t>(k)] = judged(changes[static_cast<std::size_t>(k)]); });
+    on_threads(static_cast<int>(changes.size()), case_.options.threads, [&](int k) { each[k] = judged(changes[k]); });
     std::vector<Scored> out;
     for (std::optional<Scored>& s : each)
       if (s) out.push_back(std::move(*s));
@@ -321,8 +256,7 @@ class Judge {
     m.instruction = change.instruction.empty() ? recording_sentence(*whole)
                                                : change.instruction + ". " + recording_sentence(*whole);
     m.instruction[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(m.instruction[0])));
-    for (const int k : question_.rivals)
-      m.separates.push_back(case_.explanations.list[static_cast<std::size_t>(k)].name);
+    for (const int k : question_.rivals) m.separates.push_back(case_.explanations.list[k].name);
     m.expected_probability = expected_probability(contenders_of(case_, hyper_, question_, *some, first_));
     m.minutes = change.minutes + minutes_of(*whole);
     const double gain = m.expected_probability - 1 / double(question_.rivals.size()),
@@ -336,120 +270,6 @@ class Judge {
   Precision first_;
   std::vector<Scored> list_;  ///< the best first
 };
-
-/// Whether every feature was measured at one stretch: what differs between them may be the time then.
-bool one_after_the_other(const Case& c) {
-  std::set<int> done;
-  int now = -1;
-  for (const int row : c.rows) {
-    const int feature = c.touches.touches[static_cast<std::size_t>(row)].scene.feature;
-    if (feature == now) continue;
-    if (!done.insert(feature).second) return false;
-    now = feature;
-  }
-  return done.size() > 1;
-}
-
-/// What makes a pattern without a name is narrowed down by changing what it may belong to.
-std::string to_follow_a_pattern(const Case& c, Factor factor) {
-  if (factor == Factor::feature && one_after_the_other(c))
-    return "One feature was measured after the other, so that it may be the time: measure them in another order. What comes back on the same features is the part or its clamping, what does not goes with the clock.";
-  switch (factor) {
-    case Factor::time:
-      return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
-    case Factor::position:
-      return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
-    case Factor::direction:
-      return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
-    case Factor::head:
-      return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
-    case Factor::sensor:
-      return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
-    case Factor::setup:
-    case Factor::feature:
-      return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
-    case Factor::run:
-      return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
-    case Factor::temperature:
-      return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
-    case Factor::speed:
-      return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
-  }
-  return "";
-}
-
-/// What must be logged, and vary, before the names that were found can be judged.
-std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
-  std::map<unsigned, std::vector<std::string>> names;  // by what they miss
-  for (const Finding& f : result.findings) {
-    for (const int k : f.set) {
-      const Explanation& e = c.explanations.list[static_cast<std::size_t>(k)];
-      if (e.missing) names[e.missing].push_back(e.name);
-    }
-  }
-  std::vector<std::string> out;
-  for (const auto& [missing, list] : names) {
-    const std::vector<std::string> columns = columns_of(missing);
-    if (!columns.empty())
-      out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "),
-                                fmt::join(list, " or ")));
-  }
-  return out;
-}
-
-/// What would show what it is that the names leave.
-std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
-  if (result.findings.empty() || result.other || result.adequacy >= kInadequate) return "";
-  unsigned missing = 0;
-  for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
-  const std::vector<std::string> columns = columns_of(missing);
-  if (columns.empty())
-    return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
-  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.",
-                     fmt::join(columns, ", "));
-}
-
-/// What would show whether a name that stands alone is right, where it is not told for certain.
-std::string to_check_a_name(const Case& c, const SearchResult& result) {
-  for (const Finding& f : result.findings)
-    if (f.set.size() == 1 && f.probability < kTold)
-      return to_follow_a_pattern(c, shown_in(c, c.explanations.list[static_cast<std::size_t>(f.explanation)]));
-  return "";
-}
-
-/// Whether a measurement of the menu tells the rivals apart clearly better than guessing.
-bool worth_a_round(const std::vector<NextMeasurement>& next) {
-  return std::any_of(next.begin(), next.end(), [](const NextMeasurement& n) {
-    const double guess = 1 / double(n.separates.size());
-    return n.expected_probability > guess + kWorthARound * (1 - guess);
-  });
-}
-
-/// What to do beside a measurement of the menu, or where there is none that is worth its time.
-std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (worth_a_round(next)) return to_follow_what_is_left(c, result);
-  if (result.other)
-    return to_follow_a_pattern(c, c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor);
-  std::vector<std::string> sentences = to_log(c, result);
-  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
-  if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
-  const std::vector<int> rivals = question_of(result).rivals;
-  if (rivals.size() >= 2)
-    sentences.emplace_back(
-        "No other run of these touches would tell them apart much better than guessing. What would:");
-  for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
-    const Explanation& e = c.explanations.list[static_cast<std::size_t>(rivals[k])];
-    sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
-  }
-  return fmt::format("{}", fmt::join(sentences, " "));
-}
-
-/// Sizes that nobody gave hide the radius of the tip and all that acts like it. A certificate costs no measurement.
-std::string to_know_sizes(const Case& c, const SearchResult& result) {
-  const bool mismatch = !result.findings.empty() || result.other;
-  if (!mismatch || c.options.workpiece || c.baseline.surfaces == Surfaces::calibrated) return "";
-  return "The sizes of the part are not known: give those of its certificate with --workpiece, which costs no measurement.";
-}
 
 /// The best changes for a question, the first as a program.
 std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& hyper, const Question& question,
@@ -474,17 +294,12 @@ std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult
                                                const std::vector<Detectable>& detectable) {
   if (result) return best_changes(c, result->hyper, question_of(*result), kShown);
   std::vector<NextMeasurement> out;
-  for (const Question& question : questions_of(c, detectable))
+  for (const Question& question : questions_of(c, detectable, kShown))
     for (NextMeasurement& best : best_changes(c, c.hyper, question, 1)) {
       if (!out.empty()) best.program.clear();  // one program at a time: the first
       out.push_back(std::move(best));
     }
   return out;
-}
-
-std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  const std::string sizes = to_know_sizes(c, result), others = besides_sizes(c, result, next);
-  return sizes + (sizes.empty() || others.empty() ? "" : " ") + others;
 }
 
 }  // namespace abbe::diagnose

@@ -69,7 +69,5 @@ std::string dmis_program(const Case&, const Longer&, const Change&);
 /// The changes that would tell most per minute, the best of them as a program. `found`: what the recording holds;
 /// none of a plan.
 std::vector<NextMeasurement> next_measurements(const Case&, const SearchResult* found, const std::vector<Detectable>&);
-/// What else to do where none of these helps; else empty.
-std::string otherwise(const Case&, const SearchResult&, const std::vector<NextMeasurement>&);
 
 }  // namespace abbe::diagnose

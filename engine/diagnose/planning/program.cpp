@@ -76,9 +76,7 @@ class Writer {
 
  private:
   const TouchScene& scene(std::size_t k) const { return touches_[k].scene; }
-  const RecordingRow& row(std::size_t k) const {
-    return longer_.recording.rows[static_cast<std::size_t>(touches_[k].row)];
-  }
+  const RecordingRow& row(std::size_t k) const { return longer_.recording.rows[touches_[k].row]; }
 
   /// Touches that one MEAS holds: of one feature, stylus and placement, and numbered on.
   void find_blocks() {

@@ -77,9 +77,9 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
   Longer out{*c.recording, *c.machine, {}, 0, {}};
   const Last last = last_of(*c.recording);
   const std::vector<int> rows = selected(c, change.reversed, most);
-  const double begin_s = c.recording->rows[static_cast<std::size_t>(rows.front())].time_s.value_or(0);
+  const double begin_s = c.recording->rows[rows.front()].time_s.value_or(0);
   for (const int k : rows) {
-    RecordingRow row = c.recording->rows[static_cast<std::size_t>(k)];
+    RecordingRow row = c.recording->rows[k];
     const double residual_mm = dot(*row.normal, row.position_mm - *row.target_mm);
     row.run = last.run + 1;
     if (!row.qualification) row.qualification = 2;  // as of a second file that does not say otherwise
@@ -95,8 +95,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
   out.touches = recorded_touches(out.recording, out.machine, "");
   out.first = c.touches.touches.size();
   std::vector<int> touch_of_row(c.recording->rows.size());
-  for (std::size_t i = 0; i < out.first; ++i)
-    touch_of_row[static_cast<std::size_t>(c.touches.touches[i].row)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < out.first; ++i) touch_of_row[c.touches.touches[i].row] = static_cast<int>(i);
   for (const RecordedTouch& t : out.touches.touches) {
     const auto row = static_cast<std::size_t>(t.row), own = touch_of_row.size();
     out.same_as.push_back(touch_of_row[row < own ? row : static_cast<std::size_t>(rows[row - own])]);
@@ -127,7 +126,7 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
   LinearModel& m = out.model;
   m.noise_groups = c.baseline.model.noise_groups;
   for (std::size_t i = 0; i < m.noise_group.size(); ++i)
-    m.noise_group[i] = c.baseline.model.noise_group[static_cast<std::size_t>(longer.same_as[i])];
+    m.noise_group[i] = c.baseline.model.noise_group[longer.same_as[i]];
   for (std::size_t i = 1; i < m.follows.size(); ++i) m.follows[i] &= m.noise_group[i] == m.noise_group[i - 1];
   return out;
 }

@@ -20,6 +20,7 @@
 #include "engine/diagnose/values/value_search.hpp"
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe {
 
@@ -80,7 +81,7 @@ ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueP
   c.ensemble = value_ensemble(recording, programs, machine, options, machines_for(n));
   c.deviation.resize(n), c.calibration.setZero(n, n);
   for (int k = 0; k < n; ++k) {
-    const RecordedValue& v = c.ensemble.values[static_cast<std::size_t>(k)];
+    const RecordedValue& v = c.ensemble.values[k];
     c.deviation(k) = v.deviation, c.calibration(k, v.artefact) = v.calibration;
   }
   if (!enough(c.ensemble.simulated))
@@ -107,7 +108,7 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
                                       [&](double s) { return std::abs(s - c.judges.mean(at)) >= distance; });
     const double u = std::sqrt(c.judges.covariance(at, at)), unit = v.reported();
     const auto point = [&](double p) { return simulated[static_cast<std::size_t>(p * (n - 1) + 0.5)] * unit; };
-    const SourceFile& source = *(*c.programs)[static_cast<std::size_t>(v.program)].source;
+    const SourceFile& source = *(*c.programs)[v.program].source;
     const std::string program =
         row.program.empty() ? std::filesystem::path(source.name()).filename().string() : row.program;
     out.push_back({row.characteristic, program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference,
@@ -123,12 +124,8 @@ struct Closer {
   std::map<int, Sizes> sizes;  ///< by variant, of the likeliest
 
   explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, bench_of(c))) {}
-  const Variant& variant(const Finding& f) const {
-    return search.explanations().variants[static_cast<std::size_t>(f.variant)];
-  }
-  const Explanation& explanation(const Finding& f) const {
-    return search.explanations().list[static_cast<std::size_t>(f.explanation)];
-  }
+  const Variant& variant(const Finding& f) const { return search.explanations().variants[f.variant]; }
+  const Explanation& explanation(const Finding& f) const { return search.explanations().list[f.explanation]; }
 };
 
 std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& closer, const Finding& f) {
@@ -138,17 +135,17 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& 
   const Sizes s = found != closer.sizes.end() ? found->second : sizes_of(closer.search, f.variant, c.deviation);
   std::vector<DiagnosedParameter> out;
   for (std::size_t k = 0; k < b.columns.size(); ++k) {
-    const EffectParameter& p = effect.parameters[static_cast<std::size_t>(b.columns[k].parameter)];
+    const EffectParameter& p = effect.parameters[b.columns[k].parameter];
     const auto at = static_cast<Eigen::Index>(k);
     const double value = s.mean(at) * b.columns[k].unit, u = std::sqrt(s.covariance(at, at)) * b.columns[k].unit;
-    const double low = value - 1.96 * u, high = value + 1.96 * u;
+    const double low = value - kNormal95 * u, high = value + kNormal95 * u;
     out.push_back({std::string(p.name), std::string(p.unit), value, u, low, high, {}, high >= p.low && low <= p.high});
   }
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const EffectParameter& parameter = effect.parameters[p];
     if (parameter.choices.empty()) continue;
     DiagnosedParameter choice{.name = std::string(parameter.name), .unit = ""};
-    choice.word = parameter.choices[static_cast<std::size_t>(std::lround(b.theta[p] - parameter.low))];
+    choice.word = parameter.choices[std::lround(b.theta[p] - parameter.low)];
     out.push_back(std::move(choice));
   }
   return out;
@@ -165,8 +162,8 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
       e.shape,
       rms,
       u,
-      std::max(0.0, rms - 1.96 * u),
-      rms + 1.96 * u,
+      std::max(0.0, rms - kNormal95 * u),
+      rms + kNormal95 * u,
       e.shape == "single values"
           ? "No effect of the catalogue explains it: single values stray (the table says which)."
           : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
@@ -180,15 +177,14 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   DiagnosedEffect e;
   std::vector<std::string_view> titles;
   for (const int k : f.set) {
-    e.members.push_back(all.list[static_cast<std::size_t>(k)].name);
-    titles.push_back(all.list[static_cast<std::size_t>(k)].effect->title);
+    e.members.push_back(all.list[k].name);
+    titles.push_back(all.list[k].effect->title);
   }
   const Effect& effect = *closer.explanation(f).effect;
   e.parameters = parameters_of(c, closer, f);
   const bool size = plausible(e.parameters);
-  const unsigned untold = std::accumulate(f.set.begin(), f.set.end(), 0u, [&](unsigned missing, int k) {
-    return missing | all.list[static_cast<std::size_t>(k)].missing;
-  });
+  const unsigned untold = std::accumulate(f.set.begin(), f.set.end(), 0u,
+                                          [&](unsigned missing, int k) { return missing | all.list[k].missing; });
   const bool only_untold = closer.explanation(f).missing != 0;
   e.probability = believed(f.probability, adequacy < kInadequate || !size || only_untold);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
@@ -237,7 +233,7 @@ void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f
     const auto best =
         static_cast<int>(std::max_element(evidence.variant_log_bayes.begin(), evidence.variant_log_bayes.end()) -
                          evidence.variant_log_bayes.begin());
-    const int variant = variants[static_cast<std::size_t>(best)];
+    const int variant = variants[best];
     const Vector all = closer.search.predicted(variant, sizes_of(search, best, rest).mean);
     for (std::size_t k = 0; k < group.size(); ++k)
       if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
@@ -290,8 +286,7 @@ double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name
 /// Of a set those first that need nothing untold.
 void put_told_first(const Explanations& all, const Evidence& evidence, Finding& name) {
   if (name.set.empty()) return;
-  std::stable_partition(name.set.begin(), name.set.end(),
-                        [&](int k) { return !all.list[static_cast<std::size_t>(k)].missing; });
+  std::stable_partition(name.set.begin(), name.set.end(), [&](int k) { return !all.list[k].missing; });
   if (name.set.front() == name.explanation) return;
   name.explanation = name.set.front();
   name.variant = best_variant(all, name.explanation, evidence);
@@ -310,7 +305,7 @@ Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& 
     if (!likeliest) likeliest = name;
     if (!likelier(name, pattern, kNamed)) break;
     if (plausible(parameters_of(c, closer, name))) return name;
-    left.log_bayes[static_cast<std::size_t>(name.explanation)] = kStruck;
+    left.log_bayes[name.explanation] = kStruck;
   }
   return *likeliest;
 }
@@ -378,7 +373,7 @@ bool holds_references_only(const ValueCase& c) {
 }
 
 void tell_references_only(const ValueCase& c, Diagnosis& out) {
-  out.judgeable = false, out.targets_only = true;
+  out.judged = Judged::targets_only;
   out.verdict = Verdict::cannot_judge;
   out.messages.push_back(diagnostic(
       Code::W0717, fmt::format("{}: every value is exactly that of an error-free machine", c.recording->source.name()),
@@ -393,7 +388,7 @@ Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<Val
   begins(options.progress, "virtual machines of the specification, and every effect on them");
   const ValueCase c = on_the_bench(recording, programs, machine, options);
   Diagnosis out;
-  out.judged = !options.design_only;
+  if (options.design_only) out.judged = Judged::plan;
   doubt_calibrations(c, out.messages);
   out.cannot_judge = cannot_judge(c.search->explanations());
   begins(options.progress, "what these values could detect");

@@ -150,7 +150,7 @@ class EnsembleRuns {
   }
 
   void add_row(int r, const OneRun& run, const ValueProgram& program, const RunResult& result) {
-    const ValueRow& row = recording_.rows[static_cast<std::size_t>(r)];
+    const ValueRow& row = recording_.rows[r];
     const Samples& s = sample_of(recording_, row, *program.plan, result);
     if (!met_.insert({run.repeat, s.characteristic.value, s.occurrence}).second)
       throw UserError(diagnostic_at(
@@ -169,7 +169,7 @@ class EnsembleRuns {
         ? row.artefact
         : fmt::format("{}\n{}\n{}", run.program, s.characteristic.value, s.occurrence);
     v.artefact = artefact_.emplace(artefact, static_cast<int>(artefact_.size())).first->second;
-    out_.values[static_cast<std::size_t>(r)] = v;
+    out_.values[r] = v;
     for (std::size_t i = 0; i < s.value.size(); ++i)
       out_.simulated(static_cast<Eigen::Index>(s.machine[i]), r) = engine_scale(angle) * (s.value[i] - *s.reference);
   }
@@ -209,7 +209,7 @@ Matrix simulated_values(const std::vector<RecordedValue>& values, const std::vec
   std::map<int, int> programs_by_repeat;
   for (const RecordedValue& v : values) programs_by_repeat[v.repeat] = v.program;
   for (const auto& [repeat, p] : programs_by_repeat) {
-    const ValueProgram& program = programs[static_cast<std::size_t>(p)];
+    const ValueProgram& program = programs[p];
     RunOptions run = run_options(program, repeat, options);
     run.contributors = contributors;
     const RunResult result = run_plan(*program.plan, machine, machines, run, *program.source);
@@ -242,7 +242,7 @@ ValueEnsemble value_ensemble(const ValueRecording& recording, const std::vector<
   ValueEnsemble out;
   const VirtualMachines sample = screened_machines(machine, options.seed, machines, options.threads);
   EnsembleRuns runs(recording, machine, options, sample, out);
-  for (const OneRun& run : runs_of(recording, programs)) runs.add(run, programs[static_cast<std::size_t>(run.program)]);
+  for (const OneRun& run : runs_of(recording, programs)) runs.add(run, programs[run.program]);
   out.simulated = complete_rows(out.simulated);
   out.explanations = value_explanations(out.values, programs, machine, sample, options);
   return out;

@@ -27,7 +27,7 @@ struct BesideErrors {
 /// Sizes of the columns of a variant that its effect can have, the nearest to `sizes`.
 Vector possible_sizes(const Effect& effect, const Variant& variant, Vector sizes) {
   for (std::size_t k = 0; k < variant.columns.size(); ++k) {
-    const EffectParameter& p = effect.parameters[static_cast<std::size_t>(variant.columns[k].parameter)];
+    const EffectParameter& p = effect.parameters[variant.columns[k].parameter];
     double& size = sizes(static_cast<Eigen::Index>(k));
     size = std::clamp(size * variant.columns[k].unit, p.low, p.high) / variant.columns[k].unit;
   }
@@ -104,18 +104,17 @@ int next_variant(const ValueSearch& search, const Vector& deviation, const std::
   const Explanations& all = search.explanations();
   const Evidence evidence = search.evidence(deviation);
   std::set<int> seen;
-  for (const int b : tried) seen.insert(all.variants[static_cast<std::size_t>(b)].explanation);
+  for (const int b : tried) seen.insert(all.variants[b].explanation);
   const auto log_belief = [&](std::size_t b) {
     const Variant& variant = all.variants[b];
-    return std::log(all.list[static_cast<std::size_t>(variant.explanation)].prior * variant.weight) +
-        evidence.variant_log_bayes[b];
+    return std::log(all.list[variant.explanation].prior * variant.weight) + evidence.variant_log_bayes[b];
   };
   int next = -1;
   double best = -std::numeric_limits<double>::infinity(), top = best;
   for (std::size_t b = 0; b < all.variants.size(); ++b) {
     const int of = all.variants[b].explanation;
     top = std::max(top, log_belief(b));
-    if (!all.list[static_cast<std::size_t>(of)].effect || tried.contains(static_cast<int>(b))) continue;
+    if (!all.list[of].effect || tried.contains(static_cast<int>(b))) continue;
     if (seen.size() < kFirst && seen.contains(of)) continue;
     if (log_belief(b) > best) best = log_belief(b), next = static_cast<int>(b);
   }
@@ -134,8 +133,7 @@ Machine with_effect(const Machine& machine, const Effect& effect, const Variant&
   const Vector taken = possible_sizes(effect, variant, sizes);
   std::vector<double> theta = variant.theta;
   for (std::size_t k = 0; k < variant.columns.size(); ++k)
-    theta[static_cast<std::size_t>(variant.columns[k].parameter)] =
-        taken(static_cast<Eigen::Index>(k)) * variant.columns[k].unit;
+    theta[variant.columns[k].parameter] = taken(static_cast<Eigen::Index>(k)) * variant.columns[k].unit;
   Machine planted = machine;
   planted.effects.push_back(setting_of(effect, theta));
   return planted;
@@ -149,8 +147,8 @@ std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueBench& 
     const int b = next_variant(search, bench.deviation, tried);
     if (b < 0) break;
     tried.insert(b);
-    const Variant& variant = search.explanations().variants[static_cast<std::size_t>(b)];
-    const Effect& effect = *search.explanations().list[static_cast<std::size_t>(variant.explanation)].effect;
+    const Variant& variant = search.explanations().variants[b];
+    const Effect& effect = *search.explanations().list[variant.explanation].effect;
     const auto found = estimator.estimate(effect, variant, sizes_of(search, b, bench.deviation).mean);
     if (!found) continue;
     search.linearise(b, found->near);

@@ -66,10 +66,10 @@ class Detection {
   std::optional<double> from(const Effect& effect, const Form& of) const {
     constexpr double kLeast = 0.5, kFar = 16;
     constexpr int kHalvings = 6;
-    const Variant& variant = search_.explanations().variants[static_cast<std::size_t>(of.variant)];
-    const Column& column = variant.columns[static_cast<std::size_t>(of.column)];
+    const Variant& variant = search_.explanations().variants[of.variant];
+    const Column& column = variant.columns[of.column];
     const double about = kDetects / std::sqrt(of.information),
-                 largest = effect.parameters[static_cast<std::size_t>(column.parameter)].high / column.unit;
+                 largest = effect.parameters[column.parameter].high / column.unit;
     double low = kLeast * about, high = std::min(kFar * about, largest);
     const auto detected = [&](double size) {
       return share_of_alarms(effect, variant, size * Vector::Unit(variant.signature.cols(), of.column)) >= kPower;
@@ -108,7 +108,7 @@ void tell_apart(const ValueSearch& s, int explanation, const Form& of, double si
   const Explanations& all = s.explanations();
   double least = 1;
   for (int j = 0; j < static_cast<int>(all.list.size()); ++j) {
-    const Explanation& other = all.list[static_cast<std::size_t>(j)];
+    const Explanation& other = all.list[j];
     if (j == explanation || !other.effect) continue;
     double share = 1;
     for (const int b : other.variants) share = std::min(share, left(s, of.variant, of.column, b));
@@ -130,20 +130,20 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
   std::vector<std::optional<Form>> form(all.list.size());
   std::vector<std::optional<double>> from(all.list.size());
   on_threads(count, bench.options.threads, [&](int k) {
-    const Explanation& e = all.list[static_cast<std::size_t>(k)];
+    const Explanation& e = all.list[k];
     const auto at = static_cast<std::size_t>(k);
     if (e.effect && !e.missing) form[at] = middle_form(s, e);
     if (form[at]) from[at] = detection.from(*e.effect, *form[at]);
   });
   std::vector<Detectable> out;
   for (int k = 0; k < count; ++k) {
-    const std::optional<double>& size = from[static_cast<std::size_t>(k)];
+    const std::optional<double>& size = from[k];
     if (!size) continue;
-    const Explanation& e = all.list[static_cast<std::size_t>(k)];
-    const Form& of = *form[static_cast<std::size_t>(k)];
-    const Variant& variant = all.variants[static_cast<std::size_t>(of.variant)];
-    const Column& column = variant.columns[static_cast<std::size_t>(of.column)];
-    const EffectParameter& p = e.effect->parameters[static_cast<std::size_t>(column.parameter)];
+    const Explanation& e = all.list[k];
+    const Form& of = *form[k];
+    const Variant& variant = all.variants[of.variant];
+    const Column& column = variant.columns[of.column];
+    const EffectParameter& p = e.effect->parameters[column.parameter];
     const double largest = variant.signature(of_figures(bench.values), of.column).cwiseAbs().maxCoeff();
     Detectable d{.effect = e.name,
                  .parameter = std::string(p.name),

@@ -42,7 +42,7 @@ std::pair<Vector, double> ValueSearch::from_offset(int variant, const Vector& de
 }
 
 Vector ValueSearch::predicted(int variant, const Vector& sizes) const {
-  const Vector linear = explanations_.variants[static_cast<std::size_t>(variant)].signature * sizes;
+  const Vector linear = explanations_.variants[variant].signature * sizes;
   const auto near = near_.find(variant);
   return near == near_.end() ? linear : Vector(linear + near->second.of.offset);
 }
@@ -80,8 +80,7 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
   for (const Explanation& e : explanations_.list) {
     std::vector<double> variants;
     for (const int b : e.variants)
-      variants.push_back(out.variant_log_bayes[static_cast<std::size_t>(b)] +
-                         std::log(explanations_.variants[static_cast<std::size_t>(b)].weight));
+      variants.push_back(out.variant_log_bayes[b] + std::log(explanations_.variants[b].weight));
     out.log_bayes.push_back(log_sum_exp(variants));
     all.push_back(std::log(e.prior) + out.log_bayes.back());
   }
@@ -95,7 +94,7 @@ ValueSearch ValueSearch::rest(int explanation, const std::vector<char>& dropped,
   for (std::size_t k = 0; k < dropped.size(); ++k)
     if (!dropped[k]) kept.push_back(static_cast<Eigen::Index>(k));
   ValueSearch out(mean_(kept), covariance_(kept, kept), rows_of(only(explanations_, {explanation}), kept));
-  const std::vector<int>& variants = explanations_.list[static_cast<std::size_t>(explanation)].variants;
+  const std::vector<int>& variants = explanations_.list[explanation].variants;
   for (std::size_t b = 0; b < variants.size(); ++b)
     if (const auto near = near_.find(variants[b]); near != near_.end()) {
       const NearSizes& all = near->second.of;

@@ -55,7 +55,7 @@ class ValueSearch {
   std::vector<Matrix> white_;  ///< L^-1 H by variant, without them
   std::map<int, Near> near_;   ///< by variant
   Matrix whitened(const Matrix& columns) const;
-  const Matrix& white(int variant) const { return white_[static_cast<std::size_t>(variant)]; }
+  const Matrix& white(int variant) const { return white_[variant]; }
   /// The deviation from the offset of a variant in units of its covariance, and log N(y; o, W) - log N(y; 0, V).
   std::pair<Vector, double> from_offset(int variant, const Vector& deviation, const Vector& white) const;
 };

@@ -120,15 +120,13 @@ std::vector<Draft> drafts_of(const Effect& effect, unsigned unknown) {
 /// The signatures of all plantings, on all threads.
 std::vector<Vector> grow(const Plantation& plantation, const std::vector<Planting>& plantings, int threads) {
   std::vector<Vector> out(plantings.size());
-  on_threads(static_cast<int>(plantings.size()), threads, [&](int k) {
-    out[static_cast<std::size_t>(k)] = plantation.signature(plantings[static_cast<std::size_t>(k)]);
-  });
+  on_threads(static_cast<int>(plantings.size()), threads, [&](int k) { out[k] = plantation.signature(plantings[k]); });
   return out;
 }
 
 bool repeats_values(const Variant& variant, const Explanation& of, const std::vector<Variant>& variants) {
   for (const int b : of.variants) {
-    const Matrix& m = variants[static_cast<std::size_t>(b)].signature;
+    const Matrix& m = variants[b].signature;
     if (m.cols() == variant.signature.cols() && (m - variant.signature).cwiseAbs().maxCoeff() < kSameValue_um)
       return true;
   }
@@ -182,8 +180,7 @@ EffectSetting setting_of(const Effect& effect, const std::vector<double>& theta)
     const EffectParameter& parameter = effect.parameters[p];
     EffectSetting::Value& value = s.parameters[std::string(parameter.name)];
     value.value = theta[p];
-    if (!parameter.choices.empty())
-      value.word = parameter.choices[static_cast<std::size_t>(std::lround(theta[p] - parameter.low))];
+    if (!parameter.choices.empty()) value.word = parameter.choices[std::lround(theta[p] - parameter.low)];
   }
   return s;
 }

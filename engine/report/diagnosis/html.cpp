@@ -92,7 +92,9 @@ std::string residual_plots(const Diagnosis& d) {
   if (d.improvement) out += " After: the model with the explanation in it predicts touches that it has not seen.";
   out += "</p>\n";
   for (const Factor& f : kFactors) {
-    Scatter before{"before", f.title, "residual, um", {}, {}, {-largest, largest}}, after = before;
+    Scatter before{
+        d.improvement ? "before" : "of this recording", f.title, "residual, um", {}, {}, {-largest, largest}},
+        after = before;
     after.title = "after, held out", after.second_colour = true;
     for (const ResidualRow& r : d.residuals) {
       before.x.push_back(f.of(r)), before.y.push_back(r.before_um);
@@ -144,7 +146,7 @@ std::string next_steps(const Diagnosis& d) {
 }
 
 std::string baseline(const Diagnosis& d) {
-  const std::string words = d.judged && d.judgeable ? baseline_in_words(d) : "";
+  const std::string words = d.judged == Judged::yes ? baseline_in_words(d) : "";
   return words.empty() ? "" : "<h2>The machine beside it</h2>\n<p>" + escaped(capitalised(words)) + ".</p>\n";
 }
 
@@ -154,8 +156,8 @@ std::string detectable_effects(const Diagnosis& d) {
   for (const Detectable& s : d.smallest_detectable)
     rows +=
         html_row({in_words(s), two_digits(s.detect_um), s.name_um ? two_digits(*s.name_um) : "never", looks_like(s)});
-  return std::string("<h2>") + (d.judged ? "What could have been seen" : "What can be seen") + "</h2>\n" +
-      html_table(rows);
+  return std::string("<h2>") + (d.judged != Judged::plan ? "What could have been seen" : "What can be seen") +
+      "</h2>\n" + html_table(rows);
 }
 
 std::string not_judged(const Diagnosis& d) {
@@ -179,7 +181,7 @@ std::string messages(const Diagnosis& d) {
 std::string diagnosis_html(const Diagnosis& d, const std::string& recording, const std::string& machine) {
   std::string body =
       fmt::format("<h1>{}</h1>\n<p class=\"note\">Recording {}; machine {}{}</p>\n", title(d), escaped(recording),
-                  escaped(machine), d.judged && d.judgeable ? fmt::format("; p = {:.3g}", d.p_value) : "");
+                  escaped(machine), d.judged == Judged::yes ? fmt::format("; p = {:.3g}", d.p_value) : "");
   for (const std::string& sentence : diagnosis_sentences(d)) body += html_paragraphs(sentence);
   return html_page("Diagnosis of " + recording,
                    body + explanations(d) + improvement(d) + values(d) + residual_plots(d) + next_steps(d) +

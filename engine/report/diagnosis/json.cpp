@@ -107,7 +107,7 @@ Json baseline(const BaselineSummary& b) {
           {"correlation", number(b.correlation)}, {"outliers", b.outliers}};
 }
 
-Json rivals(const Rivals& r) {
+Json other_methods(const OtherMethods& r) {
   return {{"chi2", {{"p", number(r.chi2_p)}}},
           {"stepwise_bic", {{"members", r.stepwise_bic}}},
           {"best_bayes_factor",
@@ -151,8 +151,8 @@ Json value(const JudgedValue& v) {
 std::string diagnosis_json(const Diagnosis& d) {
   const Json out = {
       {"schema", "abbe.diagnosis/1"},
-      {"verdict", d.judged ? Json(name(d.verdict)) : Json()},
-      {"p_value", d.judged && d.judgeable ? number(d.p_value) : Json()},
+      {"verdict", d.judged != Judged::plan ? Json(name(d.verdict)) : Json()},
+      {"p_value", d.judged == Judged::yes ? number(d.p_value) : Json()},
       {"adequacy_p_value", number(d.adequacy_p)},
       {"touches", d.touches},
       {"values", array(d.values, value)},
@@ -179,7 +179,7 @@ std::string diagnosis_json(const Diagnosis& d) {
                        {"error_um", number(kUmPerMm * d.beyond->error_mm)},
                        {"mpe_um", number(kUmPerMm * d.beyond->mpe_mm)}}
                 : Json()},
-      {"rivals", d.rivals ? rivals(*d.rivals) : Json()},
+      {"rivals", d.other_methods ? other_methods(*d.other_methods) : Json()},
       {"messages", array(d.messages, [](const Diagnostic& m) {
          return Json{{"code", info(m.code).name},
                      {"severity", name(m.severity())},

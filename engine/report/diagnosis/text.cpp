@@ -57,12 +57,12 @@ std::string first_sentence(const Diagnosis& d) {
       return fmt::format("No value was looked at: this is what a recording of {} could tell.",
                          d.touches > 0 ? fmt::format("these {} touches", d.touches) : "these values");
     case Headline::nothing_judged:
-      if (d.targets_only)
+      if (d.judged == Judged::targets_only)
         return d.values.empty()
             ? fmt::format("Nothing can be judged: all {} touches are exactly where an error-free machine has them.",
                           d.touches)
             : fmt::format("Nothing can be judged: the {} exactly what an error-free machine reports.", what(d));
-      if (d.styli_missing)
+      if (d.judged == Judged::styli_unlogged)
         return fmt::format(
             "Whether this is a mismatch cannot be judged: these {} touches were made with several styli or orientations of the head, no row says which, and what these differ by may be all of it.",
             d.touches);
@@ -92,7 +92,7 @@ std::string second_sentence(const Diagnosis& d) {
                                        [](const Detectable& a, const Detectable& b) {
                                          return std::pair(a.scatter, a.detect_um) < std::pair(b.scatter, b.detect_um);
                                        });
-    const char* const but = !d.judged || !d.judgeable ? "The table says"
+    const char* const but = d.judged != Judged::yes ? "The table says"
         : d.beyond || d.beyond_known ? "No effect of the catalogue was found that makes it: the table says"
                                      : "That does not mean that nothing is there: the table says";
     return fmt::format("{} how large each effect would have to be to be seen, at the least {} um ({}).", but,
@@ -230,7 +230,7 @@ std::string held_out_line(const Diagnosis& d) {
 }  // namespace
 
 std::vector<CannotJudge> open_questions(const Diagnosis& d) {
-  if (d.styli_missing) return {{"every effect", {"sensor", "head_A_deg", "head_B_deg"}, {}}};
+  if (d.judged == Judged::styli_unlogged) return {{"every effect", {"sensor", "head_A_deg", "head_B_deg"}, {}}};
   std::vector<CannotJudge> out = d.cannot_judge;
   std::erase_if(out, [&](const CannotJudge& c) {
     return std::any_of(d.effects.begin(), d.effects.end(), [&](const DiagnosedEffect& e) {
@@ -264,7 +264,7 @@ std::string baseline_in_words(const Diagnosis& d) {
 std::vector<std::string> further_steps(const Diagnosis& d) {
   std::vector<std::string> out;
   if (!d.otherwise.empty()) out.push_back(d.otherwise);
-  if (d.judged && d.judgeable && d.verdict == Verdict::no_mismatch) {
+  if (d.judged == Judged::yes && d.verdict == Verdict::no_mismatch) {
     constexpr Code kDoubts[] = {Code::W0716, Code::W0720, Code::W0723, Code::W0730};
     for (const Diagnostic& m : d.messages)
       if (std::find(std::begin(kDoubts), std::end(kDoubts), m.code) != std::end(kDoubts))

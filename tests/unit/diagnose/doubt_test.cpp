@@ -44,7 +44,7 @@ TEST_CASE("a machine that is none of its specification counts as a mismatch, nam
   CHECK_FALSE(is_mismatch(large));
   large.beyond_known = large.baseline.geometry_scale;
   CHECK(is_mismatch(large));
-  large.judgeable = false;
+  large.judged = Judged::hidden_by_unknowns;
   CHECK_FALSE(is_mismatch(large));
 }
 

@@ -87,8 +87,10 @@ TEST_CASE("a page speaks of an explanation only where there is one") {
   d.residuals[0].x_mm = 1, d.residuals[0].before_um = 1;
   CHECK(says(diagnosis_html(d, "r.csv", "m.json"), "<h2>Residuals</h2>"));
   CHECK_FALSE(says(diagnosis_html(d, "r.csv", "m.json"), "with the explanation in it"));
+  CHECK_FALSE(says(diagnosis_html(d, "r.csv", "m.json"), ">before<"));
   d.improvement.emplace();
   CHECK(says(diagnosis_html(d, "r.csv", "m.json"), "with the explanation in it"));
+  CHECK(says(diagnosis_html(d, "r.csv", "m.json"), ">before<"));
 }
 
 TEST_CASE("text and page say which touches were left out, and what to do with a model") {

@@ -1,0 +1,141 @@
+#include "engine/diagnose/planning/advice.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/planning/question.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// The share of what can be gained over guessing below which the answer says beside it what would tell more:
+/// of two, a probability of 0.6.
+constexpr double kWorthARound = 0.2;
+/// Whether every feature was measured at one stretch: what differs between them may be the time then.
+bool one_after_the_other(const Case& c) {
+  std::set<int> done;
+  int now = -1;
+  for (const int row : c.rows) {
+    const int feature = c.touches.touches[row].scene.feature;
+    if (feature == now) continue;
+    if (!done.insert(feature).second) return false;
+    now = feature;
+  }
+  return done.size() > 1;
+}
+
+/// What makes a pattern without a name is narrowed down by changing what it may belong to.
+std::string to_follow_a_pattern(const Case& c, Factor factor) {
+  if (factor == Factor::feature && one_after_the_other(c))
+    return "One feature was measured after the other, so that it may be the time: measure them in another order. What comes back on the same features is the part or its clamping, what does not goes with the clock.";
+  switch (factor) {
+    case Factor::time:
+      return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
+    case Factor::position:
+      return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
+    case Factor::direction:
+      return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
+    case Factor::head:
+      return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
+    case Factor::sensor:
+      return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
+    case Factor::setup:
+    case Factor::feature:
+      return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
+    case Factor::run:
+      return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
+    case Factor::temperature:
+      return "Repeat at another temperature, the part soaked: what follows the temperature grows in proportion to it.";
+    case Factor::speed:
+      return "Repeat at a third speed and at another acceleration: a delay grows in proportion to the speed, vibration with the acceleration.";
+  }
+  return "";
+}
+
+/// What must be logged, and vary, before the names that were found can be judged.
+std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
+  std::map<unsigned, std::vector<std::string>> names;  // by what they miss
+  for (const Finding& f : result.findings) {
+    for (const int k : f.set) {
+      const Explanation& e = c.explanations.list[k];
+      if (e.missing) names[e.missing].push_back(e.name);
+    }
+  }
+  std::vector<std::string> out;
+  for (const auto& [missing, list] : names) {
+    const std::vector<std::string> columns = columns_of(missing);
+    if (!columns.empty())
+      out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "),
+                                fmt::join(list, " or ")));
+  }
+  return out;
+}
+
+/// What would show what it is that the names leave.
+std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
+  if (result.findings.empty() || result.other || result.adequacy >= kInadequate) return "";
+  unsigned missing = 0;
+  for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
+  const std::vector<std::string> columns = columns_of(missing);
+  if (columns.empty())
+    return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
+  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.",
+                     fmt::join(columns, ", "));
+}
+
+/// What would show whether a name that stands alone is right, where it is not told for certain.
+std::string to_check_a_name(const Case& c, const SearchResult& result) {
+  for (const Finding& f : result.findings)
+    if (f.set.size() == 1 && f.probability < kTold)
+      return to_follow_a_pattern(c, shown_in(c, c.explanations.list[f.explanation]));
+  return "";
+}
+
+/// Whether a measurement of the menu tells the rivals apart clearly better than guessing.
+bool worth_a_round(const std::vector<NextMeasurement>& next) {
+  return std::any_of(next.begin(), next.end(), [](const NextMeasurement& n) {
+    const double guess = 1 / double(n.separates.size());
+    return n.expected_probability > guess + kWorthARound * (1 - guess);
+  });
+}
+
+/// What to do beside a measurement of the menu, or where there is none that is worth its time.
+std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
+  if (worth_a_round(next)) return to_follow_what_is_left(c, result);
+  if (result.other) return to_follow_a_pattern(c, c.explanations.list[result.other->explanation].factor);
+  std::vector<std::string> sentences = to_log(c, result);
+  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
+  if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
+  const std::vector<int> rivals = question_of(result).rivals;
+  if (rivals.size() >= 2)
+    sentences.emplace_back(
+        "No other run of these touches would tell them apart much better than guessing. What would:");
+  for (std::size_t k = 0; rivals.size() >= 2 && k < rivals.size(); ++k) {
+    const Explanation& e = c.explanations.list[rivals[k]];
+    sentences.push_back(fmt::format("{}: {}.", e.name, e.effect->separate));
+  }
+  return fmt::format("{}", fmt::join(sentences, " "));
+}
+
+/// Sizes that nobody gave hide the radius of the tip and all that acts like it. A certificate costs no measurement.
+std::string to_know_sizes(const Case& c, const SearchResult& result) {
+  const bool mismatch = !result.findings.empty() || result.other;
+  if (!mismatch || c.options.workpiece || c.baseline.surfaces == Surfaces::calibrated) return "";
+  return "The sizes of the part are not known: give those of its certificate with --workpiece, which costs no measurement.";
+}
+
+}  // namespace
+
+std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
+  const std::string sizes = to_know_sizes(c, result), others = besides_sizes(c, result, next);
+  return sizes + (sizes.empty() || others.empty() ? "" : " ") + others;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,11 @@
+// What to do next beside a measurement of the menu, or where none of the menu is worth its time.
+#pragma once
+
+#include "engine/diagnose/findings/search.hpp"
+
+namespace abbe::diagnose {
+
+/// Sentences; empty where what is proposed is enough.
+std::string otherwise(const Case&, const SearchResult&, const std::vector<NextMeasurement>& proposed);
+
+}  // namespace abbe::diagnose
