@@ -208,7 +208,7 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   if (options.surfaces == Surfaces::unknown) {
     const std::vector<int> points = surface_points(t);
     add_unknown_offsets(
-        t, [&](const RecordedTouch&, int i) { return points[static_cast<std::size_t>(i)]; }, free);
+        t, [&](const RecordedTouch&, int i) { return points[i]; }, free);
   }
   out.geometry_um = perturbed_machines(t, machine);
   const KnownGeometry known = options.known ? *options.known
@@ -255,7 +255,7 @@ KnownGeometry posterior(const Baseline& b, const Hyperparameters& h) {
   const Matrix z = project(m.random);
   Matrix precision = z.transpose() * z;
   for (Eigen::Index k = 0; k < precision.rows(); ++k)
-    precision(k, k) += m.random_group[static_cast<std::size_t>(k)] == 0 ? 1 / (h.scale * h.scale) : 1;
+    precision(k, k) += m.random_group[k] == 0 ? 1 / (h.scale * h.scale) : 1;
   const Eigen::LLT<Matrix> llt(precision);
   const Vector mean = llt.solve(z.transpose() * project(m.y));
   const Matrix covariance = llt.solve(Matrix::Identity(precision.rows(), precision.cols()));

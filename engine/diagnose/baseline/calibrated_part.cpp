@@ -13,7 +13,7 @@ constexpr int kPlacement = 6;  // unknowns of one setup; they stand before those
 bool of_calibrated_surface(const Vector& column, const RecordedPart& part, const RecordedTouches& t) {
   for (Eigen::Index i = 0; i < column.size(); ++i) {
     if (column(i) == 0) continue;
-    if (column(i) != 1 || !part.calibrated[t.touches[static_cast<std::size_t>(i)].scene.feature]) return false;
+    if (column(i) != 1 || !part.calibrated[t.touches[i].scene.feature]) return false;
   }
   return true;
 }

@@ -25,7 +25,7 @@ void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& ba
   for (const EffectSet::Doubt& doubt : effects.doubts()) {
     Vector column(m.y.size());
     for (Eigen::Index i = 0; i < column.size(); ++i) {
-      const RecordedTouch& touch = t.touches[static_cast<std::size_t>(i)];
+      const RecordedTouch& touch = t.touches[i];
       column(i) = kUmPerMm * dot(touch.scene.normal, effects.one_sd(doubt, touch));
     }
     if (doubt.per == DrawsPer::touch) {
@@ -33,8 +33,7 @@ void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& ba
     } else if (doubt.per == DrawsPer::visit) {
       std::map<int, Vector> visits;
       for (Eigen::Index i = 0; i < column.size(); ++i)
-        visits.try_emplace(t.touches[static_cast<std::size_t>(i)].scene.visit, Vector::Zero(column.size()))
-            .first->second(i) = column(i);
+        visits.try_emplace(t.touches[i].scene.visit, Vector::Zero(column.size())).first->second(i) = column(i);
       for (const auto& [visit, part] : visits) append(m, part);
     } else {
       append(m, column);

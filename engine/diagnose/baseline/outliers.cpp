@@ -52,7 +52,7 @@ void mask(Case& c, const std::vector<char>& candidates) {
     std::vector<std::pair<double, std::size_t>> gross;
     double worst = 0;
     for (Eigen::Index k = 0; k < loo.size(); ++k) {
-      const auto i = static_cast<std::size_t>(c.rows[static_cast<std::size_t>(k)]);
+      const auto i = static_cast<std::size_t>(c.rows[k]);
       const double size = std::abs(loo(k));
       if (!candidates[i] || size <= limit) continue;
       gross.emplace_back(size, i);

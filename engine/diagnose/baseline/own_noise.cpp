@@ -29,9 +29,7 @@ void share_places(Case& c) {
     };
     std::map<std::pair<int, long>, Place> places;
     const auto placed = [&](std::size_t k) { return placed_mm(static_cast<Eigen::Index>(k)); };
-    const auto touch = [&](std::size_t k) -> RecordedTouch& {
-      return c.touches.touches[static_cast<std::size_t>(c.rows[k])];
-    };
+    const auto touch = [&](std::size_t k) -> RecordedTouch& { return c.touches.touches[c.rows[k]]; };
     for (std::size_t k = 0; k < c.rows.size(); ++k) {
       const RecordedTouch& t = touch(k);
       Place& place = places[{t.scene.setup, std::lround(kPlacesPerMm * t.scene.reading[axis])}];
@@ -66,7 +64,7 @@ void free_readings_of_noise(Case& c, const EvidenceSearch& first) {
   // and where one place was touched again and again, nothing else would be left in the readings.
   const Vector noise_um = expected_noise(model, hyper);
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
-    RecordedTouch& t = c.touches.touches[static_cast<std::size_t>(c.rows[k])];
+    RecordedTouch& t = c.touches.touches[c.rows[k]];
     t.beyond_target_mm -= noise_um(static_cast<Eigen::Index>(k)) / kUmPerMm * t.scene.normal;
   }
   share_places(c);

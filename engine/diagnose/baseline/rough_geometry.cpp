@@ -39,7 +39,7 @@ Vector harmonics(const Machine& machine, double u) {
   Vector out(size);
   for (int k = 0; k < size; ++k) {
     GeometryCoefficients unit(static_cast<std::size_t>(kComponents * size), 0.0);
-    unit[static_cast<std::size_t>(k)] = 1;
+    unit[k] = 1;
     out(k) = error_at(machine, unit, static_cast<Component>(0), (1 + u) / 2 * machine[Axis::x].travel_mm);
   }
   return out;
@@ -112,10 +112,10 @@ std::vector<Matrix> error_functions(const RecordedTouches& t, const Machine& mac
       for (int c = 0; c < kComponents; ++c) {
         if (axis_of(static_cast<Component>(c)) != static_cast<Axis>(axis)) continue;
         AxisErrors unit;
-        unit.value[c] = machine.components[static_cast<std::size_t>(c)].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
+        unit.value[c] = machine.components[c].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
         const double um =
             kUmPerMm * dot(s.normal, geometric_error(machine, unit, s.reading, s.stylus.tip_from_mount_mm));
-        out[static_cast<std::size_t>(c)].row(static_cast<Eigen::Index>(i)) = um * f;
+        out[c].row(static_cast<Eigen::Index>(i)) = um * f;
       }
     }
   }
@@ -151,8 +151,7 @@ std::vector<Matrix> functions_and_guides(const std::vector<Matrix>& functions) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<Matrix> guide;
     for (int c = 0; c < kComponents; ++c)
-      if (axis_of(static_cast<Component>(c)) == static_cast<Axis>(axis))
-        guide.push_back(out[static_cast<std::size_t>(c)]);
+      if (axis_of(static_cast<Component>(c)) == static_cast<Axis>(axis)) guide.push_back(out[c]);
     out.push_back(compressed(side_by_side(guide)));
   }
   return out;

@@ -222,8 +222,7 @@ Recording put_on_targets(const Recording& recorded, double most_out_mm, const st
       row.position_mm = X * row.position_mm;
       if (row.travel && !row.travel_as_planned) row.travel = X.R * *row.travel;
     }
-    for (const Aimed& a : rows)
-      out.rows[static_cast<std::size_t>(a.row - recorded.rows.data())].position_mm += a.bend_mm(X) * a.normal();
+    for (const Aimed& a : rows) out.rows[a.row - recorded.rows.data()].position_mm += a.bend_mm(X) * a.normal();
     messages.push_back(diagnostic(
         Code::N0709,
         fmt::format(

@@ -32,7 +32,7 @@ std::optional<Vec3> middle_of_ball(const std::vector<Vec3>& points) {
   Eigen::MatrixX4d a(n, 4);  // 2 c . p + k = p . p
   Eigen::VectorXd square(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Vec3 p = points[static_cast<std::size_t>(i)] - mean;
+    const Vec3 p = points[i] - mean;
     a.row(i) << 2 * p.x, 2 * p.y, 2 * p.z, 1;
     square(i) = dot(p, p);
   }
@@ -99,7 +99,7 @@ std::string columns(char of, const std::array<int, 3>& o) {
 
 std::array<int, 3> inverse_of(const std::array<int, 3>& o) {
   std::array<int, 3> out{};
-  for (int k = 0; k < 3; ++k) out[static_cast<std::size_t>(o[static_cast<std::size_t>(k)])] = k;
+  for (int k = 0; k < 3; ++k) out[o[static_cast<std::size_t>(k)]] = k;
   return out;
 }
 
@@ -156,8 +156,7 @@ void doubt_hollow_balls(const Recording& r, const RecordedTouches& t, const std:
   bool through = false, outside_in_reach = !r.in_part_frame;
   std::size_t inward = 0;
   std::map<const RecordingRow*, Vec3> to_head;
-  for (const RecordedTouch& touch : t.touches)
-    to_head[&r.rows[static_cast<std::size_t>(touch.row)]] = touch.scene.stylus.to_head;
+  for (const RecordedTouch& touch : t.touches) to_head[&r.rows[touch.row]] = touch.scene.stylus.to_head;
   const std::vector<OnBall> touches = on_balls(every_row(r));
   for (const auto& [out, row] : touches) {
     if (row->travel && !row->travel_as_planned) return;  // it says from which side
@@ -205,14 +204,13 @@ void check_normals(const std::vector<const RecordingRow*>& rows, const Mat3& bac
     const Vec3 travel = row->travel_as_planned ? *row->travel : back * *row->travel;
     along.push_back(dot(*row->normal, travel));
     against += along.back() < -kAgainst;
-    for (int axis = 0; axis < 3; ++axis)
-      mended[static_cast<std::size_t>(axis)] &= dot(turned_round(*row->normal, axis), travel) < -kAgainst;
+    for (int axis = 0; axis < 3; ++axis) mended[axis] &= dot(turned_round(*row->normal, axis), travel) < -kAgainst;
   }
   if (along.empty()) return;
   const std::vector<OnBall> balls = on_balls(logged);
   const bool normals_stand = !balls.empty() && stand(balls, as_it_is);
   for (int axis = 0; axis < 3; ++axis)
-    if (mended[static_cast<std::size_t>(axis)] && against < along.size())
+    if (mended[axis] && against < along.size())
       refuse(
           file,
           fmt::format(

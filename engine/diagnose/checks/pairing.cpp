@@ -52,7 +52,7 @@ std::optional<ForeignUnit> own_unit(const RecordingRow& row) {
 std::vector<double> limits(const RecordedTouches& t) {
   std::vector<std::vector<int>> touches_of(t.features.size());
   for (std::size_t i = 0; i < t.touches.size(); ++i)
-    touches_of[static_cast<std::size_t>(t.touches[i].scene.feature)].push_back(static_cast<int>(i));
+    touches_of[t.touches[i].scene.feature].push_back(static_cast<int>(i));
   std::vector<double> out;
   for (const std::vector<int>& rows : touches_of) {
     const std::optional<double> radius = round_radius(t, rows);
@@ -111,8 +111,7 @@ void check_tips(const RecordedTouches& t, const std::string& file) {
         throw UserError(diagnostic(
             Code::E0701,
             fmt::format("{}: every touch of '{}' is {:.3f} mm too far {} along its normal, which is the {} of its tip",
-                        file, t.features[static_cast<std::size_t>(of.first)], std::abs(out), out > 0 ? "out" : "in",
-                        name),
+                        file, t.features[of.first], std::abs(out), out > 0 ? "out" : "in", name),
             "check the compensation of that feature, INNER or OUTER, and whether its targets are tip centres; where it is really so, say '# surfaces: unknown'"));
   }
 }
@@ -138,9 +137,9 @@ void check_pairing(const Recording& r, const RecordedTouches& t, const std::stri
   const std::vector<double> beside = beside_targets(r), limit = limits(t);
   Astray astray;
   for (const RecordedTouch& touch : t.touches) {
-    const double off = beside[static_cast<std::size_t>(touch.row)];
-    if (off >= limit[static_cast<std::size_t>(touch.scene.feature)])
-      astray.add(r.rows[static_cast<std::size_t>(touch.row)], fmt::format("lies {:.1f} mm beside its target", off));
+    const double off = beside[touch.row];
+    if (off >= limit[touch.scene.feature])
+      astray.add(r.rows[touch.row], fmt::format("lies {:.1f} mm beside its target", off));
   }
   astray.tell(t.touches.size(), file, "", messages);
 }

@@ -312,7 +312,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;
     if (const int before = repeated(variant, explanation, out.variants); before >= 0) {
-      cover(out.variants[static_cast<std::size_t>(before)], variant);
+      cover(out.variants[before], variant);
       continue;
     }
     explanation.variants.push_back(static_cast<int>(out.variants.size()));
@@ -351,7 +351,7 @@ std::optional<std::size_t> moment_of(const Effect& effect) {
 }
 
 std::vector<LaterRun> later_runs(const RecordedTouches& t, const std::vector<int>& rows) {
-  const auto scene = [&](int row) -> const TouchScene& { return t.touches[static_cast<std::size_t>(row)].scene; };
+  const auto scene = [&](int row) -> const TouchScene& { return t.touches[row].scene; };
   std::map<int, Cell> begin;
   double before = scene(rows.front()).time_s;
   for (const int i : rows) {
@@ -388,15 +388,15 @@ Variant variant_like(const Variant& other, const Effect& effect, const RecordedT
 void share_belief(const Explanation& e, std::vector<Variant>& variants) {
   double constant = 0, changing = 0;
   std::map<std::string_view, double> in_group;
-  for (const int k : e.variants) ++in_group[variants[static_cast<std::size_t>(k)].group];
+  for (const int k : e.variants) ++in_group[variants[k].group];
   const auto weight = [&](const Variant& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
   for (const int k : e.variants) {
-    const Variant& b = variants[static_cast<std::size_t>(k)];
+    const Variant& b = variants[k];
     (b.change.any() ? changing : constant) += weight(b);
   }
   const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
   for (const int k : e.variants) {
-    Variant& b = variants[static_cast<std::size_t>(k)];
+    Variant& b = variants[k];
     b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
   }
 }

@@ -53,10 +53,8 @@ bool neighbours(const Variant& a, const Variant& b, const Effect& effect) {
 /// The likeliest divisible variants, and those beside the likeliest: the value that stands for a cell may be
 /// the wrong one.
 std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, const Evidence& evidence) {
-  const auto variant = [&](int b) -> const Variant& { return all.variants[static_cast<std::size_t>(b)]; };
-  const auto belief = [&](int b) {
-    return evidence.variant_log_bayes[static_cast<std::size_t>(b)] + std::log(variant(b).weight);
-  };
+  const auto variant = [&](int b) -> const Variant& { return all.variants[b]; };
+  const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(variant(b).weight); };
   std::vector<int> order = e.variants, list;
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return belief(a) != belief(b) ? belief(a) > belief(b) : a < b; });
@@ -158,9 +156,8 @@ bool same(const Variant& a, const Variant& b) {
 
 /// Divides one variant of an explanation, unless its parts are all the same.
 void divide(const Case& c, Explanations& all, int explanation, int which) {
-  Explanation& e = all.list[static_cast<std::size_t>(explanation)];
-  std::vector<Variant> parts =
-      parts_of(all.variants[static_cast<std::size_t>(which)], *e.effect, c.touches, later_runs(c.touches, c.rows));
+  Explanation& e = all.list[explanation];
+  std::vector<Variant> parts = parts_of(all.variants[which], *e.effect, c.touches, later_runs(c.touches, c.rows));
   for (Variant& part : parts) {
     Variant made = variant_like(part, *e.effect, c.touches, c.rows);
     part.columns = std::move(made.columns);
@@ -169,7 +166,7 @@ void divide(const Case& c, Explanations& all, int explanation, int which) {
   }
   std::erase_if(parts, [](const Variant& b) { return b.signature.cols() == 0; });
   if (std::all_of(parts.begin(), parts.end(), [&](const Variant& b) { return same(b, parts.front()); })) {
-    all.variants[static_cast<std::size_t>(which)].finest = true;
+    all.variants[which].finest = true;
     return;
   }
   e.variants.erase(std::find(e.variants.begin(), e.variants.end(), which));
@@ -193,8 +190,7 @@ void refine(const Case& c, Explanations& all, EvidenceSearch& search) {
   for (int step = 0; step < kSteps; ++step) {
     const std::size_t before = all.variants.size();
     for (const int k : candidates(all, search.evidence()))
-      for (const int b : cells_to_divide(all, all.list[static_cast<std::size_t>(k)], search.evidence()))
-        divide(c, all, k, b);
+      for (const int b : cells_to_divide(all, all.list[k], search.evidence())) divide(c, all, k, b);
     if (all.variants.size() == before) return;
     search.extend(all, before);
   }

@@ -7,7 +7,7 @@ namespace abbe::diagnose {
 SameDirection::SameDirection(const RecordedTouches& t, const std::vector<int>& rows) {
   constexpr double kSameNormal = 0.02, kSamePlace_mm = 1;
   const auto scene_of = [&](Eigen::Index row) -> const TouchScene& {
-    return t.touches[static_cast<std::size_t>(rows[static_cast<std::size_t>(row)])].scene;
+    return t.touches[rows[static_cast<std::size_t>(row)]].scene;
   };
   for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(rows.size()); ++k) {
     const TouchScene& s = scene_of(k);

@@ -10,7 +10,7 @@ namespace abbe::diagnose {
 std::string pattern_beside(const Case& c, const Finding& f) {
   const CredibleSet pattern = credible_set(c.explanations, f.evidence, false);
   if (pattern.explanation < 0 || kAsWell * pattern.probability < f.probability) return "";
-  const Explanation& e = c.explanations.list[static_cast<std::size_t>(pattern.explanation)];
+  const Explanation& e = c.explanations.list[pattern.explanation];
   return fmt::format(" A pattern over {} ({}) that no single effect of the catalogue makes would explain it as well.",
                      name(e.factor), e.shape);
 }

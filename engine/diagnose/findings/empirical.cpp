@@ -43,7 +43,7 @@ using Pieces = std::vector<Piece>;
 std::pair<double, double> range_of(const Case& c, CurveCoordinate along) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const int i : c.rows) {
-    const double at = curve_coordinate(c.touches.touches[static_cast<std::size_t>(i)].scene, along);
+    const double at = curve_coordinate(c.touches.touches[i].scene, along);
     low = std::min(low, at), high = std::max(high, at);
   }
   return {low, high};
@@ -74,7 +74,7 @@ Piece map(const Case& c, MapPlane plane, Along along) {
 Pieces offsets(const Case& c, bool by_sensor) {
   std::set<std::vector<double>> groups;
   for (const int i : c.rows) {
-    const StylusScene& s = c.touches.touches[static_cast<std::size_t>(i)].scene.stylus;
+    const StylusScene& s = c.touches.touches[i].scene.stylus;
     groups.insert(by_sensor ? std::vector<double>{0, double(s.ordinal), 0, 0}
                             : std::vector<double>{1, 0, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad)});
   }
@@ -133,7 +133,7 @@ Basis basis_of(const Case& c, const Pieces& pieces) {
       theta[p] = 1;
       b.columns.conservativeResize(static_cast<Eigen::Index>(c.rows.size()), b.columns.cols() + 1);
       for (std::size_t i = 0; i < c.rows.size(); ++i) {
-        const TouchScene& scene = c.touches.touches[static_cast<std::size_t>(c.rows[i])].scene;
+        const TouchScene& scene = c.touches.touches[c.rows[i]].scene;
         b.columns(static_cast<Eigen::Index>(i), b.columns.cols() - 1) =
             kUmPerMm * dot(scene.normal, pieces[k].effect->displace(scene, theta.data(), nullptr));
       }
@@ -218,8 +218,7 @@ EffectSetting setting_of(const Piece& piece) {
     if (parameter.linear) continue;
     EffectSetting::Value& v = s.parameters[std::string(parameter.name)];
     v.value = piece.theta[p];
-    if (!parameter.choices.empty())
-      v.word = parameter.choices[static_cast<std::size_t>(std::lround(piece.theta[p] - parameter.low))];
+    if (!parameter.choices.empty()) v.word = parameter.choices[std::lround(piece.theta[p] - parameter.low)];
   }
   return s;
 }
@@ -280,9 +279,9 @@ Following best_following(const Case& c, const LinearModel& beside, const Hyperpa
 EmpiricalModel empirical_model(const Case& c, const SearchResult& result) {
   constexpr double kFollows = 0.5, kWholly = 0.9;
   if (!result.other) return {};
-  const Factor factor = c.explanations.list[static_cast<std::size_t>(result.other->explanation)].factor;
+  const Factor factor = c.explanations.list[result.other->explanation].factor;
   if (of_the_occasion(factor)) return {};
-  const Matrix& pattern = c.explanations.variants[static_cast<std::size_t>(result.other->variant)].signature;
+  const Matrix& pattern = c.explanations.variants[result.other->variant].signature;
   const LinearModel beside = with_free(c.model, signatures_of(c, result.findings));
   const auto follows = [](const Following& f) { return f.log_bayes > 0 && f.share >= kFollows; };
   Following best = best_following(c, beside, result.hyper, pattern, {factor});

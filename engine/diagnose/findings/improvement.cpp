@@ -86,7 +86,7 @@ struct HeldOut {
 Matrix likeliest(const EvidenceSearch& search, const Explanations& on_all_rows) {
   const int variant = best_variant(on_all_rows, 0, search.evidence());
   return likeliest_size(search.information(variant), search.sizes(variant)).factor *
-      on_all_rows.variants[static_cast<std::size_t>(variant)].signature;
+      on_all_rows.variants[variant].signature;
 }
 
 HeldOut held_out(const Case& c, const Scheme& scheme, int explanation, const LinearModel& model,
@@ -222,13 +222,12 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
       return std::find(f.set.begin(), f.set.end(), int(k)) != f.set.end();
     });
     if (in_set || !c.explanations.list[k].effect || int(k) == named.front()) continue;
-    if (second < 0 || result.first.log_bayes[k] > result.first.log_bayes[static_cast<std::size_t>(second)])
-      second = static_cast<int>(k);
+    if (second < 0 || result.first.log_bayes[k] > result.first.log_bayes[second]) second = static_cast<int>(k);
   }
   if (second < 0) return;
-  const Explanation& e = c.explanations.list[static_cast<std::size_t>(second)];
+  const Explanation& e = c.explanations.list[second];
   const int variant = best_variant(c.explanations, second, result.first);
-  const Matrix& signature = c.explanations.variants[static_cast<std::size_t>(variant)].signature;
+  const Matrix& signature = c.explanations.variants[variant].signature;
   const HeldOut h = held_out(c, scheme, second, c.model, estimate(with_free(c.model, {&signature})));
   out.runner_up = RunnerUp{{e.name}, sum(h.gain) + sum(h.null) - sum(baseline)};
 }

@@ -17,8 +17,7 @@ constexpr std::size_t kSized = 5;
 /// How probable a member of a finding's set is, up to a factor that all members share.
 double weight(const Case& c, const Finding& f, int member) {
   const std::vector<double>& bayes = f.evidence.log_bayes;
-  return c.explanations.list[static_cast<std::size_t>(member)].prior *
-      std::exp(bayes[static_cast<std::size_t>(member)] - bayes[static_cast<std::size_t>(f.explanation)]);
+  return c.explanations.list[member].prior * std::exp(bayes[member] - bayes[f.explanation]);
 }
 
 double weight_of_all(const Case& c, const Finding& f) {
@@ -31,8 +30,8 @@ double weight_of_all(const Case& c, const Finding& f) {
 bool possible(const Case& c, const SearchResult& result, std::size_t k, int member) {
   const Finding& f = result.findings[k];
   const std::vector<DiagnosedParameter> found = estimate_size(c, result, k, member).parameters;
-  const Effect& effect = *c.explanations.list[static_cast<std::size_t>(member)].effect;
-  if (c.explanations.variants[static_cast<std::size_t>(f.variant_of(member))].change.gone()) return plausible(found);
+  const Effect& effect = *c.explanations.list[member].effect;
+  if (c.explanations.variants[f.variant_of(member)].change.gone()) return plausible(found);
   const auto known = known_effect(*c.machine, effect, abbe::diagnose::setting_of(std::string(effect.name), found));
   if (!known) return plausible(found);
   return known->gone || plausible(effect, nearest_possible(effect, known->now));
@@ -47,7 +46,7 @@ void fill_up(const Case& c, Finding& f, const std::vector<int>& struck) {
   std::vector<std::pair<double, int>> others;
   double held = weight_of_all(c, f), all = held;
   for (int k = 0; k < static_cast<int>(c.explanations.list.size()); ++k) {
-    if (!c.explanations.list[static_cast<std::size_t>(k)].effect || in(f.set, k) || in(struck, k)) continue;
+    if (!c.explanations.list[k].effect || in(f.set, k) || in(struck, k)) continue;
     others.emplace_back(-weight(c, f, k), k);
     all += weight(c, f, k);
   }
@@ -67,7 +66,7 @@ bool judged(const Case& c, const Finding& f) {
   constexpr double kMostly = 0.8;
   double open = 0;
   for (const int k : f.set)
-    if (c.explanations.list[static_cast<std::size_t>(k)].missing) open += weight(c, f, k);
+    if (c.explanations.list[k].missing) open += weight(c, f, k);
   return open < kMostly * weight_of_all(c, f);
 }
 
@@ -76,7 +75,7 @@ double belief_in_first(const Case& c, const Finding& f) {
 }
 
 void put_judged_members_first(const Case& c, SearchResult& result) {
-  const auto can_be = [&](int m) { return !c.explanations.list[static_cast<std::size_t>(m)].missing; };
+  const auto can_be = [&](int m) { return !c.explanations.list[m].missing; };
   for (Finding& f : result.findings) {
     if (!judged(c, f) || can_be(f.set.front())) continue;
     std::stable_partition(f.set.begin(), f.set.end(), can_be);

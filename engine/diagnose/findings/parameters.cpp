@@ -113,7 +113,7 @@ class Estimator {
  public:
   /// `member`: of the finding's set.
   Estimator(const Case& c, const SearchResult& result, std::size_t which, int member)
-      : touches_(c.touches), rows_(c.rows), explanation_(c.explanations.list[static_cast<std::size_t>(member)]) {
+      : touches_(c.touches), rows_(c.rows), explanation_(c.explanations.list[member]) {
     const Finding& f = result.findings[which];
     std::vector<const Matrix*> others;
     for (std::size_t k = 0; k < result.findings.size(); ++k)
@@ -121,16 +121,14 @@ class Estimator {
     Explanations mine = only(c.explanations, {member});
     // Scale and noise as they are once everything named is taken out.
     std::vector<const Matrix*> all = others;
-    all.push_back(&c.explanations.variants[static_cast<std::size_t>(f.variant_of(member))].signature);
+    all.push_back(&c.explanations.variants[f.variant_of(member)].signature);
     const Hyperparameters hyper = estimate(with_free(c.model, all));
     EvidenceSearch search(with_free(c.model, others), hyper, mine);
     if (!result.refined.contains(member)) refine(c, mine, search);
     const Evidence& evidence = search.evidence();
     const std::vector<int>& variants = mine.list.front().variants;
-    const auto at = [&](int b) -> const Variant& { return mine.variants[static_cast<std::size_t>(b)]; };
-    const auto belief = [&](int b) {
-      return evidence.variant_log_bayes[static_cast<std::size_t>(b)] + std::log(at(b).weight);
-    };
+    const auto at = [&](int b) -> const Variant& { return mine.variants[b]; };
+    const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(at(b).weight); };
     const int likeliest =
         *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
     std::vector<double> logs;  // told is the likeliest fault, over the values of what has a value between any two
@@ -267,7 +265,7 @@ class Estimator {
       const StylusScene& s = touch.scene.stylus;
       if (tip && s.tip_ordinal == number)
         return fmt::format("{} at A {:.1f} B {:.1f}", s.name, in_degrees(s.head_a_rad), in_degrees(s.head_b_rad));
-      if (!tip && s.ordinal == number) return touches_.styli[static_cast<std::size_t>(number - 1)];
+      if (!tip && s.ordinal == number) return touches_.styli[number - 1];
     }
     return "";
   }

@@ -14,7 +14,7 @@ namespace abbe::diagnose {
 namespace {
 
 const TouchScene& scene_of_row(const Case& c, Eigen::Index row) {
-  return c.touches.touches[static_cast<std::size_t>(c.rows[static_cast<std::size_t>(row)])].scene;
+  return c.touches.touches[c.rows[static_cast<std::size_t>(row)]].scene;
 }
 
 }  // namespace

@@ -65,11 +65,8 @@ Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
   const Evidence& evidence = search.evidence();
   Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
   out.name.best = out.pattern.best = best_variants(c.explanations, evidence);
-  const auto belief = [&](int b) {
-    return evidence.variant_log_bayes[static_cast<std::size_t>(b)] +
-        std::log(fine.variants[static_cast<std::size_t>(b)].weight);
-  };
-  const std::vector<int>& variants = fine.list[static_cast<std::size_t>(out.name.explanation)].variants;
+  const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(fine.variants[b].weight); };
+  const std::vector<int>& variants = fine.list[out.name.explanation].variants;
   double best = -std::numeric_limits<double>::infinity();
   for (const int b : variants) best = std::max(best, belief(b));
   const int likeliest = out.name.variant;
@@ -77,7 +74,7 @@ Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
     if (b != likeliest && belief(b) < best - kOutOfQuestion) continue;
     if (b == likeliest) out.name.variant = static_cast<int>(c.explanations.variants.size());
     out.name.variants.push_back(static_cast<int>(c.explanations.variants.size()));
-    c.explanations.variants.push_back(std::move(fine.variants[static_cast<std::size_t>(b)]));
+    c.explanations.variants.push_back(std::move(fine.variants[b]));
   }
   return out;
 }
@@ -104,7 +101,7 @@ Round round(const Case& c, const EvidenceSearch& search, int number) {
   Round r{search.evidence(), {}, 1};
   // Beside the likeliest explanation: a mismatch has tails too.
   const int likeliest = likeliest_variant(c.explanations, r.evidence);
-  const NoiseLaw law(search.residuals_beside(c.explanations.variants[static_cast<std::size_t>(likeliest)]));
+  const NoiseLaw law(search.residuals_beside(c.explanations.variants[likeliest]));
   begins(c.options.progress,
          number > 0 ? "simulated recordings without what was found" : "simulated recordings without a mismatch");
   r.null = search.bootstrap(r.evidence.statistic, law, {c.options.replicates, alarm_of(number)},
@@ -126,7 +123,7 @@ std::vector<Finding> second_thoughts(const Case& c, const Evidence& evidence, in
     Finding f;
     f.evidence = evidence;
     f.set = {k};
-    f.probability = p[static_cast<std::size_t>(k)];
+    f.probability = p[k];
     f.explanation = k;
     f.variant = best_variant(c.explanations, k, evidence);
     f.best = best_variants(c.explanations, evidence);
@@ -230,7 +227,7 @@ std::set<int> keep_variants(Case& c, const std::vector<Finding>& findings) {
   std::set<int> refined;
   for (const Finding& f : findings) {
     if (f.variants.empty()) continue;
-    std::vector<int>& variants = c.explanations.list[static_cast<std::size_t>(f.explanation)].variants;
+    std::vector<int>& variants = c.explanations.list[f.explanation].variants;
     if (refined.insert(f.explanation).second) variants.clear();
     variants.insert(variants.end(), f.variants.begin(), f.variants.end());
   }
@@ -282,9 +279,7 @@ void drop_needless(const Case& c, SearchResult& result) {
 }
 
 bool same_fault(const Case& c, const Finding& a, const Finding& b) {
-  const auto variant = [&](const Finding& f) -> const Variant& {
-    return c.explanations.variants[static_cast<std::size_t>(f.variant)];
-  };
+  const auto variant = [&](const Finding& f) -> const Variant& { return c.explanations.variants[f.variant]; };
   return a.explanation == b.explanation && alike(variant(a), variant(b));
 }
 
@@ -346,18 +341,16 @@ CredibleSet credible_set(const Explanations& all, const Evidence& evidence, bool
   constexpr double kSaysNothing = 0.4;  // nats: what is free already does as much
   const std::vector<double> p = probabilities(all, evidence);
   std::vector<int> order = likeliest_first(all, p, catalogue);
-  std::erase_if(order, [&](int k) {
-    return k != order.front() && evidence.log_bayes[static_cast<std::size_t>(k)] < kSaysNothing;
-  });
+  std::erase_if(order, [&](int k) { return k != order.front() && evidence.log_bayes[k] < kSaysNothing; });
   double total = 0;
-  for (const int k : order) total += p[static_cast<std::size_t>(k)];
+  for (const int k : order) total += p[k];
   CredibleSet out;
   if (order.empty()) return out;
   out.explanation = order.front();
   for (const int k : order) {
     if (!out.set.empty() && out.probability >= kCredible * total) break;
     out.set.push_back(k);
-    out.probability += p[static_cast<std::size_t>(k)];
+    out.probability += p[k];
   }
   return out;
 }
@@ -383,23 +376,19 @@ bool leaves_less(double pattern_adequacy, double name_adequacy) {
 
 std::vector<const Matrix*> signatures_of(const Case& c, const std::vector<Finding>& findings) {
   std::vector<const Matrix*> list;
-  for (const Finding& f : findings)
-    list.push_back(&c.explanations.variants[static_cast<std::size_t>(f.variant)].signature);
+  for (const Finding& f : findings) list.push_back(&c.explanations.variants[f.variant].signature);
   return list;
 }
 
 std::vector<const Matrix*> signatures_of(const Case& c, const SearchResult& result) {
   std::vector<const Matrix*> list = signatures_of(c, result.findings);
-  if (result.other) list.push_back(&c.explanations.variants[static_cast<std::size_t>(result.other->variant)].signature);
+  if (result.other) list.push_back(&c.explanations.variants[result.other->variant].signature);
   return list;
 }
 
 int best_variant(const Explanations& all, int explanation, const Evidence& evidence) {
-  const std::vector<int>& variants = all.list[static_cast<std::size_t>(explanation)].variants;
-  const auto belief = [&](int b) {
-    return evidence.variant_log_bayes[static_cast<std::size_t>(b)] +
-        std::log(all.variants[static_cast<std::size_t>(b)].weight);
-  };
+  const std::vector<int>& variants = all.list[explanation].variants;
+  const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(all.variants[b].weight); };
   return *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
 }
 

@@ -26,7 +26,7 @@ struct Finding : CredibleSet {
   Evidence evidence;          ///< given the findings before; of variants as they were numbered then
   std::vector<int> best;      ///< by explanation: the likeliest of the variants that the case had then
 
-  int variant_of(int member) const { return member == explanation ? variant : best[static_cast<std::size_t>(member)]; }
+  int variant_of(int member) const { return member == explanation ? variant : best[member]; }
 };
 
 struct SearchResult {

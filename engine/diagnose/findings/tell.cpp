@@ -28,7 +28,7 @@ constexpr double kPriorScatter = 0.01;
 bool stays_in_its_setup(const Case& c) {
   std::map<int, int> run_of;
   return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
-    const TouchScene& s = c.touches.touches[static_cast<std::size_t>(row)].scene;
+    const TouchScene& s = c.touches.touches[row].scene;
     return run_of.try_emplace(s.setup, s.run).first->second != s.run;
   });
 }
@@ -67,9 +67,9 @@ RunChange change_of(const Variant& variant, const Variant& found) {
 
 /// Whether it is the period of a scale, of which this recording shows one phase in each direction.
 bool is_same_phase(const Case& c, const Finding& f) {
-  const Effect* effect = c.explanations.list[static_cast<std::size_t>(f.explanation)].effect;
+  const Effect* effect = c.explanations.list[f.explanation].effect;
   return effect && needs_raw_reading(*effect) &&
-      SameDirection(c.touches, c.rows).is_alike(c.explanations.variants[static_cast<std::size_t>(f.variant)].signature);
+      SameDirection(c.touches, c.rows).is_alike(c.explanations.variants[f.variant].signature);
 }
 
 }  // namespace
@@ -81,8 +81,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     for (const int m : f.set) {
       const Explanation& member = c.explanations.list[m];
       e.members.push_back(member.name);
-      e.change.push_back(change_of(c.explanations.variants[static_cast<std::size_t>(f.variant_of(m))],
-                                   c.explanations.variants[static_cast<std::size_t>(f.variant)]));
+      e.change.push_back(change_of(c.explanations.variants[f.variant_of(m)], c.explanations.variants[f.variant]));
     }
     const bool something_else = result.other || result.adequacy < kInadequate;
     FoundSize size = estimate_size(c, result, k);

@@ -112,13 +112,13 @@ EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& 
 double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<double>& by_own_variant) const {
   std::vector<double> variants;
   for (std::size_t k = 0; k < x.variants.size(); ++k)
-    variants.push_back(by_own_variant[k] + log_weight_[static_cast<std::size_t>(x.variants[k])]);
+    variants.push_back(by_own_variant[k] + log_weight_[x.variants[k]]);
   return log_sum_exp(variants);
 }
 
 double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
                                   double times, int explanation) const {
-  const Explanation& x = explanations_[static_cast<std::size_t>(explanation)];
+  const Explanation& x = explanations_[explanation];
   std::vector<Ensemble::Sum> y;
   for (std::size_t e = 0; e < of.size(); ++e) y.push_back({of[e], &added[e], times});
   return std::log(x.prior) + log_bayes_of(x, weigh(y, x.variants).log_bayes);
@@ -136,7 +136,7 @@ Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* a
   std::vector<double> all;
   for (const Explanation& x : explanations_) {
     std::vector<double> own;
-    for (const int k : x.variants) own.push_back(out.variant_log_bayes[static_cast<std::size_t>(k)]);
+    for (const int k : x.variants) own.push_back(out.variant_log_bayes[k]);
     out.log_bayes.push_back(log_bayes_of(x, own));
     all.push_back(std::log(x.prior) + out.log_bayes.back());
   }
@@ -150,8 +150,7 @@ Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* a
   if (*best <= 0) return out;
   const Eigen::Index variant = static_cast<Eigen::Index>(functions_) + (best - out.variant_log_bayes.begin());
   Vector logs(weighed.alone.size());
-  for (Eigen::Index k = 0; k < logs.size(); ++k)
-    logs(k) = log_sum_exp(Vector(verdicts[static_cast<std::size_t>(k)].with.col(variant)));
+  for (Eigen::Index k = 0; k < logs.size(); ++k) logs(k) = log_sum_exp(Vector(verdicts[k].with.col(variant)));
   const std::size_t f = index_of_largest(logs);
   *with = {f, ensembles_[f].level(verdicts[f].with.col(variant), verdicts[f].squares_with.col(variant))};
   return out;
@@ -173,7 +172,7 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw&
         for (int r = begin; r < end; ++r)
           recordings.col(r - begin) = ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, r);
         const auto seen = seen_of_each(recordings);
-        for (int r = begin; r < end; ++r) out[r] = judge(seen[static_cast<std::size_t>(r - begin)], nullptr, nullptr);
+        for (int r = begin; r < end; ++r) out[r] = judge(seen[r - begin], nullptr, nullptr);
       });
       for (int r = first; r < first + count; ++r) {
         statistics.push_back(out[r].statistic);

@@ -132,7 +132,7 @@ double maximise(const Likelihood& likelihood, Hyperparameters& h, double first_s
 std::vector<Eigen::Index> columns_of_group(const LinearModel& m, bool scaled) {
   std::vector<Eigen::Index> out;
   for (Eigen::Index k = 0; k < m.random.cols(); ++k)
-    if ((m.random_group[static_cast<std::size_t>(k)] == 0) == scaled) out.push_back(k);
+    if ((m.random_group[k] == 0) == scaled) out.push_back(k);
   return out;
 }
 
@@ -143,7 +143,7 @@ LinearModel with_ensemble(const LinearModel& m, const Matrix& ensemble) {
   out.random.resize(m.random.rows(), ensemble.cols() + static_cast<Eigen::Index>(others.size()));
   out.random << ensemble, m.random(Eigen::all, others);
   out.random_group.assign(static_cast<std::size_t>(ensemble.cols()), 0);
-  for (const Eigen::Index k : others) out.random_group.push_back(m.random_group[static_cast<std::size_t>(k)]);
+  for (const Eigen::Index k : others) out.random_group.push_back(m.random_group[k]);
   return out;
 }
 
@@ -323,7 +323,7 @@ Matrix Projection::of_patterns(const Matrix& columns) const {
 Matrix Projection::of_touches(const Matrix& whitened) const {
   if (correlation_ == 0) return whitened;
   const double rescale = 1 / std::sqrt(1 - correlation_ * correlation_);
-  const auto follows = [&](Eigen::Index i) { return i < whitened.rows() && follows_[static_cast<std::size_t>(i)]; };
+  const auto follows = [&](Eigen::Index i) { return i < whitened.rows() && follows_[i]; };
   Matrix out = whitened;
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
     if (follows(i)) out.row(i) *= rescale;
@@ -337,7 +337,7 @@ std::pair<Vector, Vector> Projection::noise_precision() const {
   const Eigen::Index n = weight_.size();
   Vector own = Vector::Ones(n), with_next = Vector::Zero(n - 1);
   for (Eigen::Index i = 1; i < n; ++i) {
-    if (!follows_[static_cast<std::size_t>(i)]) continue;
+    if (!follows_[i]) continue;
     own(i) += share / rest;
     own(i - 1) += share / rest;
     with_next(i - 1) = -correlation_ / rest;
@@ -349,7 +349,7 @@ Vector Projection::unwhitened(const Vector& projected) const {
   const double rescale = std::sqrt(1 - correlation_ * correlation_);
   Vector out = projected;
   for (Eigen::Index i = 1; i < out.size(); ++i)
-    if (follows_[static_cast<std::size_t>(i)]) out(i) = rescale * out(i) + correlation_ * out(i - 1);
+    if (follows_[i]) out(i) = rescale * out(i) + correlation_ * out(i - 1);
   return out.array() / weight_.array();
 }
 

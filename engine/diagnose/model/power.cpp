@@ -59,8 +59,7 @@ double Power::detected_from(const Matrix& shift, int explanation, double share, 
   for (int k = 0; k < kWithShift; ++k) {
     const std::vector<Ensemble::Seen>& there = all_there[drawn ? static_cast<std::size_t>(k) : 0];
     const auto is_seen = [&](double times) {
-      return search_.log_belief(in_order_[static_cast<std::size_t>(k)], there, times, explanation) - std::log(share) >
-          alarm_;
+      return search_.log_belief(in_order_[k], there, times, explanation) - std::log(share) > alarm_;
     };
     if (!is_seen(most)) return std::numeric_limits<double>::infinity();
     double low = kLeast, high = most;

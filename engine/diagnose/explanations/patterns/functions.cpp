@@ -135,8 +135,7 @@ std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions& dire
   for (int code = 14; code < 27; ++code) {
     const Vec3 d{double(code / 9 - 1), double(code / 3 % 3 - 1), double(code % 3 - 1)};
     Vector share(field.rows());
-    for (Eigen::Index i = 0; i < field.rows(); ++i)
-      share(i) = dot(directions[static_cast<std::size_t>(i)], d) / norm(d);
+    for (Eigen::Index i = 0; i < field.rows(); ++i) share(i) = dot(directions[i], d) / norm(d);
     out.push_back(share.asDiagonal() * field);
   }
   return out;

@@ -86,7 +86,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
   for (Vector& v : scale_above_20) v.resize(part_above_20.size());
   const double first_s = t.touches.front().scene.time_s, last_s = t.touches.back().scene.time_s;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const TouchScene& s = t.touches[static_cast<std::size_t>(rows[i])].scene;
+    const TouchScene& s = t.touches[rows[i]].scene;
     const auto on_probe = [&](const Vec3& v) { return transpose(s.stylus.R_WR) * v; };
     time.push_back({(s.time_s - first_s) / std::max(1.0, last_s - first_s)});
     touch.push_back({double(i)});
@@ -97,8 +97,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     normal.push_back(s.normal);
     normal_on_part.push_back(s.normal_on_part);
     normal_on_probe.push_back(on_probe(s.normal));
-    before_on_probe.push_back(i > 0 && rows[i - 1] + 1 == rows[i] &&
-                                      same_visit(s, t.touches[static_cast<std::size_t>(rows[i - 1])].scene)
+    before_on_probe.push_back(i > 0 && rows[i - 1] + 1 == rows[i] && same_visit(s, t.touches[rows[i - 1]].scene)
                                   ? normal_on_probe[i - 1]
                                   : Vec3{});
     turned.push_back(cross(-s.stylus.length_mm / kLever_mm * s.stylus.to_head, s.normal));  // n . (w x l) = w . (l x n)
