@@ -82,6 +82,8 @@ struct Lane {
   TouchMotion last_touch;                    ///< twins only
   std::optional<Vec3> home;                  ///< twins only: FROM, W
   std::optional<Vec3> fixed_point;           ///< twins only: the first point touched, from which the part expands; W
+  TouchedSpots spots;                        ///< twins only: on surfaces with a random form
+  TouchedSpots::Numbers random_form;         ///< twins only: of the touch it makes
   std::vector<std::optional<Rigid>> frames;  ///< X_WD by FrameId; nothing before it is set
   std::vector<double> columns;               ///< by ColumnId; NaN before the first assignment
   /// by plan::VisitCounters: how often this lane has executed that touch or evaluation

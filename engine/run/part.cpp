@@ -68,6 +68,22 @@ CosSin angle_about_axis(const PlaceOnPart& at) {
 
 }  // namespace
 
+TouchedSpots::Numbers TouchedSpots::at(const Vec3& point, const Vec3& normal, std::uint32_t site) {
+  constexpr double kAcross_mm = 1e-3;  // a program says places to a micrometre
+  constexpr double kAlong_mm = 0.1;    // recorded points scatter along the normal
+  constexpr double kParallel = 0.99;
+  std::uint32_t first_here = 0;
+  for (const Spot& spot : spots_) {
+    const Vec3 from = point - spot.point;
+    if (std::abs(dot(from, normal)) < kAlong_mm && norm(perpendicular_part(from, normal)) < kAcross_mm &&
+        dot(normal, spot.normal) > kParallel)
+      return spot.numbers;
+    if (spot.numbers.site == site) ++first_here;
+  }
+  spots_.push_back({point, normal, {site, first_here}});
+  return spots_.back().numbers;
+}
+
 Part::Part(const Workpiece& workpiece, const plan::Plan& plan)
     : workpiece_(&workpiece), surface_of_(plan.features.size(), -1) {
   std::vector<Diagnostic> errors;
@@ -150,8 +166,13 @@ Part::Draw Part::draw(DrawFor who) const {
   return d;
 }
 
+bool Part::has_random_form(plan::FeatureId feature) const {
+  const int index = given() ? surface_of_[feature.value] : -1;
+  return index >= 0 && !surfaces_[index].surface->random_form_mm.is_zero();
+}
+
 Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed, const Temperatures& estimate,
-                 bool compensated, std::uint32_t site) const {
+                 bool compensated, TouchedSpots::Numbers random_form) const {
   constexpr std::uint32_t kRandomForm = stream_of("workpiece.random_form");
   const Vec3 strained = strain(*workpiece_, draw.thermal, estimate, compensated);
   Vec3 d{strained.x * from_fixed.x, strained.y * from_fixed.y, strained.z * from_fixed.z};
@@ -164,11 +185,11 @@ Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed
     const CosSin angle = times(h.undulations, angle_about_axis(at));
     proud += h.cos_mm * angle.cos + h.sin_mm * angle.sin;
   }
-  // The form is the part's: a touch that is repeated finds it again, so the visit is not in the
-  // address.
   if (s.random_sd_mm != 0)
     proud +=
-        s.random_sd_mm * normal_quantile(uniform_pair({draw.who.seed, draw.who.machine, kRandomForm, site, 0, 0}).a);
+        s.random_sd_mm *
+        normal_quantile(
+            uniform_pair({draw.who.seed, draw.who.machine, kRandomForm, random_form.site, random_form.visit, 0}).a);
   return d + proud * at.normal;
 }
 

@@ -22,6 +22,24 @@ struct PlaceOnPart {
   Vec3 x_axis, y_axis;  ///< of the coordinate system in force
 };
 
+/// Which random numbers the random form of a part has where an error-free machine touched it: those of the touch that was
+/// there first. Whatever touches within 1 um of it finds the same surface, in whichever measurement or turn of a loop.
+class TouchedSpots {
+ public:
+  struct Numbers {
+    std::uint32_t site = 0;   ///< ordinal of a touch in the plan
+    std::uint32_t visit = 0;  ///< which of the spots that this touch was the first at
+  };
+  Numbers at(const Vec3& point, const Vec3& normal, std::uint32_t site);
+
+ private:
+  struct Spot {
+    Vec3 point, normal;
+    Numbers numbers;
+  };
+  std::vector<Spot> spots_;
+};
+
 class Part {
  public:
   /// The part of the nominal geometry, at 20 degrees C, exactly known.
@@ -54,10 +72,11 @@ class Part {
   };
   Draw draw(DrawFor) const;
 
+  bool has_random_form(plan::FeatureId) const;
   /// d of a touch on a virtual machine, mm in W. `from_fixed`: the true surface point seen from the
-  /// first one touched; `site`: ordinal of the touch in the plan.
+  /// first one touched.
   Vec3 error(const Draw&, const PlaceOnPart&, const Vec3& from_fixed, const Temperatures& estimate, bool compensated,
-             std::uint32_t site) const;
+             TouchedSpots::Numbers random_form) const;
 
  private:
   struct Resolved {

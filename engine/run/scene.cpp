@@ -102,8 +102,11 @@ void BlockRun::put_on_part(const plan::Touch& touch, Lane& twin, int slot) {
 void BlockRun::add_part(int machines) {
   const Part& part = executor.part_;
   for (int slot = machines; slot < touch_batch.n; ++slot) {
-    Lane& twin = block.lanes[touch_batch.lane[slot]];
+    const int index = touch_batch.lane[slot];
+    Lane& twin = block.lanes[index];
     if (!twin.fixed_point) twin.fixed_point = touch_batch.surface.get(slot);
+    if (!block.is_nominal(index) && part.has_random_form(places[slot].feature))
+      twin.random_form = twin.spots.at(places[slot].point, places[slot].normal, executor.site_[operation]);
   }
   if (!executor.options_.contributors.part) return;
   for (int slot = 0; slot < machines; ++slot) {
@@ -112,7 +115,7 @@ void BlockRun::add_part(int machines) {
     const Temperatures estimate = part.workpiece().temperatures(twin.last_touch.time_s);
     const Vec3 d =
         part.error(block.parts[touch_batch.lane[slot]], places[slot], touch_batch.surface.get(slot) - *twin.fixed_point,
-                   estimate, lane.temperature_compensation, executor.site_[operation]);
+                   estimate, lane.temperature_compensation, twin.random_form);
     touch_batch.error.set(slot, touch_batch.error.get(slot) + d);
   }
 }

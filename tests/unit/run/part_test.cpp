@@ -178,14 +178,34 @@ TEST_CASE("a random form scatters like its standard deviation and belongs to the
   // The mean radius of 12 touches: the diameter has 2 / sqrt(12) um.
   const Moments m = moments(run(circle(false), w, n).samples[0].value);
   CHECK(std::fabs(m.sd / (0.002 / std::sqrt(12.0)) - 1) < 6 / std::sqrt(2.0 * n));
-  // The visit of a touch is in no address, its place is: the same place gives the same form again.
-  const plan::Plan plan = circle(false);
-  const Part part(w, plan);
-  const Part::Draw draw = part.draw({1, 0});
-  const PlaceOnPart at{{0}, {820, 500, -500}, {1, 0, 0}, plan.features[0].nominal, {1, 0, 0}, {0, 1, 0}};
-  const auto at_site = [&](std::uint32_t site) { return part.error(draw, at, {}, {}, false, site); };
-  CHECK(at_site(3) == at_site(3));
-  CHECK(at_site(3) != at_site(4));
+}
+
+TEST_CASE("a touch that is repeated finds the same random form, another one another") {
+  PlanBuilder b;
+  b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
+  Arguments a = nominal_zero();
+  a.add_text("axis", "XAXIS");
+  const Vec3 out{1, 0, 0};
+  for (const Vec3& place : {Vec3{800, 500, -500}, Vec3{800, 500, -500}, Vec3{800, 500.01, -500}})
+    b.evaluate({b.point(place, out)}, "CORTOL", a);
+  const Workpiece w = workpiece(
+      R"("surfaces": {"F0": {"random_form_um": 1}, "F1": {"random_form_um": 1}, "F2": {"random_form_um": 1}})");
+  const RunResult r = run(b.plan, w, 20);
+  CHECK(r.samples[1].value == r.samples[0].value);
+  for (std::size_t i = 0; i < 20; ++i) CHECK(r.samples[2].value[i] != r.samples[0].value[i]);
+
+  TouchedSpots spots;
+  const auto numbers = [&](const Vec3& point, std::uint32_t site) {
+    const TouchedSpots::Numbers n = spots.at(point, out, site);
+    return std::pair{n.site, n.visit};
+  };
+  CHECK(numbers({0, 0, 0}, 3) == std::pair{3u, 0u});
+  // A recorded point of the same place lies beside it along the normal; a step is another place.
+  CHECK(numbers({0.02, 0, 0}, 4) == std::pair{3u, 0u});
+  CHECK(numbers({5, 0, 0}, 4) == std::pair{4u, 0u});
+  // One touch of the plan that a loop makes at several places has another form at each.
+  CHECK(numbers({0, 1, 0}, 4) == std::pair{4u, 1u});
+  CHECK(numbers({0, 1, 0}, 4) == std::pair{4u, 1u});
 }
 
 TEST_CASE("effects of the machine see the temperatures and the load of the workpiece") {
