@@ -33,19 +33,22 @@ constexpr MachineInfluence kMachineInfluences[] = {
 /// What a workpiece file may describe of an influence.
 struct PartInfluence {
   std::string_view name;
-  bool (*described)(const Workpiece&);
+  bool (*described)(const Workpiece&, const PartInRun&);
 };
 
 constexpr PartInfluence kPartInfluences[] = {
-    {"part temperature", [](const Workpiece& w) { return w.knows.part && w.part_is_warm() && w.part_expands(); }},
+    {"part temperature",
+     [](const Workpiece& w, const PartInRun&) { return w.knows.part && w.part_is_warm() && w.part_expands(); }},
     {"scale temperature",
-     [](const Workpiece& w) { return w.knows.scale[0] && w.scales_are_warm() && w.scales_expand(); }},
-    {"true size of the part", [](const Workpiece& w) { return w.has_sizes(); }},
-    {"form error of the part", [](const Workpiece& w) { return w.has_form(); }},
+     [](const Workpiece& w, const PartInRun&) { return w.knows.scale[0] && w.scales_are_warm() && w.scales_expand(); }},
+    {"true size of the part",
+     [](const Workpiece& w, const PartInRun& run) { return w.has_sizes(run.recorded_points); }},
+    {"form error of the part",
+     [](const Workpiece& w, const PartInRun& run) { return w.has_form(run.recorded_points); }},
 };
 
 bool modelled(const InfluenceQuantity& quantity, const Machine& machine, const std::vector<char>& acted,
-              const Workpiece* workpiece) {
+              const Workpiece* workpiece, const PartInRun& run) {
   const auto* own = std::find_if(std::begin(kMachineInfluences), std::end(kMachineInfluences),
                                  [&](const MachineInfluence& i) { return i.name == quantity.name; });
   if (own == std::end(kMachineInfluences) ? quantity.always_modelled : own->acts(machine)) return true;
@@ -54,7 +57,7 @@ bool modelled(const InfluenceQuantity& quantity, const Machine& machine, const s
     if (acted[k] && effect && effect->influence == quantity.name) return true;
   }
   return workpiece && std::any_of(std::begin(kPartInfluences), std::end(kPartInfluences), [&](const PartInfluence& i) {
-           return i.name == quantity.name && i.described(*workpiece);
+           return i.name == quantity.name && i.described(*workpiece, run);
          });
 }
 
@@ -77,12 +80,13 @@ std::string_view name(InfluenceStatus status) {
   return names[static_cast<int>(status)];
 }
 
-Declaration declare_influences(const Machine& machine, const std::vector<char>& acted, const Workpiece* workpiece) {
+Declaration declare_influences(const Machine& machine, const std::vector<char>& acted, const Workpiece* workpiece,
+                               const PartInRun& run) {
   Declaration out;
   for (const InfluenceQuantity& quantity : influence_quantities()) {
     Influence influence{std::string(quantity.name)};
     const InfluenceBound* bound = bound_on(quantity.name, machine, workpiece);
-    if (modelled(quantity, machine, acted, workpiece)) {
+    if (modelled(quantity, machine, acted, workpiece, run)) {
       influence.status = InfluenceStatus::modelled;
       if (bound)
         out.messages.push_back(diagnostic(

@@ -16,10 +16,16 @@ struct Declaration {
   std::vector<Diagnostic> messages;   ///< bounds on what is modelled (W0434)
 };
 
+/// What a run makes of the part that a workpiece file describes.
+struct PartInRun {
+  bool recorded_points = false;  ///< errors are added to points that were measured on the true part
+};
+
 /// The declaration for a run on a machine and, when there is one, a workpiece file. An influence that
 /// is not modelled by itself is when an effect of the machine file that describes it moved a touch
 /// (`acted`: RunResult), or the workpiece file describes it; else it is bounded when one of the two
 /// states a bound.
-Declaration declare_influences(const Machine&, const std::vector<char>& acted, const Workpiece* workpiece = nullptr);
+Declaration declare_influences(const Machine&, const std::vector<char>& acted, const Workpiece* workpiece = nullptr,
+                               const PartInRun& = {});
 
 }  // namespace abbe

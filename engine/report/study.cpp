@@ -207,7 +207,8 @@ class StudyRun {
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics = characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
-    Declaration declaration = declare_influences(machine_, study_.result.acted, options_.workpiece);
+    Declaration declaration =
+        declare_influences(machine_, study_.result.acted, options_.workpiece, PartInRun{options_.recorded != nullptr});
     report.influences = std::move(declaration.influences);
     std::move(declaration.messages.begin(), declaration.messages.end(), std::back_inserter(report.messages));
     report.traps = study_.result.traps;

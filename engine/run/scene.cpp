@@ -96,6 +96,8 @@ void BlockRun::put_on_part(const plan::Touch& touch, Lane& twin, int slot) {
   const Vec3 normal = touch_batch.surface_normal.get(slot);
   places[slot] = {touch.feature, touch_batch.surface.get(slot), normal, state(twin, touch.feature).nominal, R_WD.cx,
                   R_WD.cy};
+  // Recorded points were made on the true part.
+  if (executor.options_.recorded) return;
   touch_batch.surface.set(slot, places[slot].point + executor.part_.known_offset_mm(places[slot]) * normal);
 }
 

@@ -80,9 +80,10 @@ struct Workpiece {
   std::vector<Surface> surfaces;
   std::vector<InfluenceBound> bounds;  ///< on influences that are not propagated
 
-  // Whether the file says more of these than nothing, or 0.
-  bool has_form() const;
-  bool has_sizes() const;
+  // Whether the file says more of these than nothing, or 0. Of sizes and forms of known phase recorded points hold the
+  // best estimate, so that beside them only doubts are more.
+  bool has_form(bool recorded) const;
+  bool has_sizes(bool recorded) const;
   bool part_expands() const;  ///< its coefficient of expansion
   bool scales_expand() const;
   /// Whether it has, or may have, another temperature than the reference, or is thought to have one.

@@ -172,16 +172,19 @@ bool is_warm(const Uncertain& temperature_C) {
 
 }  // namespace
 
-bool Workpiece::has_form() const {
-  return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) {
-    return !s.random_form_mm.is_zero() ||
-        std::any_of(s.form.begin(), s.form.end(), [](const FormHarmonic& h) { return !h.amplitude_mm.is_zero(); });
+bool Workpiece::has_form(bool recorded) const {
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
+    return !s.random_form_mm.is_zero() || std::any_of(s.form.begin(), s.form.end(), [&](const FormHarmonic& h) {
+      return recorded && h.phase_half_turns ? !h.amplitude_mm.exact() : !h.amplitude_mm.is_zero();
+    });
   });
 }
 
-bool Workpiece::has_sizes() const {
-  return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) {
-    return s.diameter_mm || !s.offset_mm.is_zero() || (s.diameter_deviation_mm && !s.diameter_deviation_mm->is_zero());
+bool Workpiece::has_sizes(bool recorded) const {
+  const auto more = [&](const Uncertain& q) { return recorded ? !q.exact() : !q.is_zero(); };
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
+    return more(s.offset_mm) || (s.diameter_mm && more(*s.diameter_mm)) ||
+        (s.diameter_deviation_mm && more(*s.diameter_deviation_mm));
   });
 }
 

@@ -115,6 +115,31 @@ class TruePart(harness.Case):
         for c in report["characteristics"]:
             self.assertEqual(c["conformance_probability"], 0)
 
+    def test_recorded_points_hold_what_is_known_of_the_part(self):
+        # The bore is 30 um larger, the points of the true part say so already: its certificate adds an uncertainty, no size.
+        self.program(DATUMS, BORE, BORE_TOUCHES, "T(D)=TOL/DIAM,-0.1,0.1\nT(R)=TOL/CIRLTY,0.1\nOUTPUT/FA(H),TA(D),TA(R)\n")
+        recording = self.recording(lambda feature, touch: (-0.017, -0.013)[touch % 2] if feature == "H" else 0)
+        known = self.write("w.json", """{"schema": "abbe.workpiece/1", "name": "w", "surfaces": {"H": {
+            "diameter_deviation_um": 30, "form": [{"undulations": 2, "amplitude_um": 2, "phase_deg": 0}]}}}""")
+        doubtful = self.write("doubtful.json", """{"schema": "abbe.workpiece/1", "name": "w", "surfaces": {"H": {
+            "diameter_deviation_um": {"value": 30, "u": 3}}}}""")
+        measured = {"D": 20.03, "R": 0.004}
+        self.assert_close(self.references("--workpiece", known), measured)
+        self.assert_close(self.references("--recording", recording), measured)
+        self.assert_close(self.references("--recording", recording, "--workpiece", known), measured)
+        self.assert_close(self.references("--recording", recording, "--workpiece", doubtful), measured)
+
+        def report(workpiece):
+            r = self.run_json("part.dmi", "--machines", 400, "--recording", recording, "--workpiece", workpiece)
+            return r["characteristics"][0], {i["name"]: i["status"] for i in r["influences"]}
+
+        size, influences = report(known)
+        self.assertEqual(size["contributions"]["part"], 0)
+        self.assertEqual((influences["true size of the part"], influences["form error of the part"]), ("not modelled",) * 2)
+        size, influences = report(doubtful)
+        self.assertAlmostEqual(size["u"], 0.003, delta=0.0005)
+        self.assertEqual(influences["true size of the part"], "modelled")
+
     def slot(self, lean_mm):
         """Touches of both faces of a slot at x = +-5 mm, y from 0 to 100, z from -10 to 0, that lean by that much over the depth."""
         corners = [(0, 0), (100, 0), (100, -10), (0, -10)]
