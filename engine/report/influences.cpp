@@ -38,9 +38,9 @@ struct PartInfluence {
 
 constexpr PartInfluence kPartInfluences[] = {
     {"part temperature",
-     [](const Workpiece& w, const PartInRun&) { return w.knows.part && w.part_is_warm() && w.part_expands(); }},
+     [](const Workpiece& w, const PartInRun& run) { return w.part_temperature_acts(run.temperature_compensated); }},
     {"scale temperature",
-     [](const Workpiece& w, const PartInRun&) { return w.knows.scale[0] && w.scales_are_warm() && w.scales_expand(); }},
+     [](const Workpiece& w, const PartInRun& run) { return w.scale_temperature_acts(run.temperature_compensated); }},
     {"true size of the part",
      [](const Workpiece& w, const PartInRun& run) { return w.has_sizes(run.recorded_points); }},
     {"form error of the part",
@@ -91,7 +91,7 @@ Declaration declare_influences(const Machine& machine, const std::vector<char>& 
       if (bound)
         out.messages.push_back(diagnostic(
             Code::W0434, fmt::format("the bound on \"{}\" is not shown: that influence is modelled", quantity.name),
-            "remove the bound from the file, or the effect that models the influence"));
+            "remove the bound, or what models the influence: an effect of the machine file, or the workpiece file"));
     } else if (bound) {
       influence = {influence.name, InfluenceStatus::bounded, kUmPerMm * bound->at_most_mm, bound->source};
     }

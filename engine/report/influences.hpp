@@ -18,7 +18,8 @@ struct Declaration {
 
 /// What a run makes of the part that a workpiece file describes.
 struct PartInRun {
-  bool recorded_points = false;  ///< errors are added to points that were measured on the true part
+  bool recorded_points = false;          ///< errors are added to points that were measured on the true part
+  bool temperature_compensated = false;  ///< the controller compensates somewhere in the program
 };
 
 /// The declaration for a run on a machine and, when there is one, a workpiece file. An influence that

@@ -207,8 +207,7 @@ class StudyRun {
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics = characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
-    Declaration declaration =
-        declare_influences(machine_, study_.result.acted, options_.workpiece, PartInRun{options_.recorded != nullptr});
+    Declaration declaration = declare_influences(machine_, study_.result.acted, options_.workpiece, part_in_run());
     report.influences = std::move(declaration.influences);
     std::move(declaration.messages.begin(), declaration.messages.end(), std::back_inserter(report.messages));
     report.traps = study_.result.traps;
@@ -221,6 +220,15 @@ class StudyRun {
     if (study_.result.samples.empty())
       message(Code::W0606, "the program evaluates no characteristic",
               "add an OUTPUT or EVAL statement with a feature and a tolerance");
+  }
+
+  PartInRun part_in_run() const {
+    const bool switched_on =
+        std::any_of(plan_.operations.begin(), plan_.operations.end(), [](const plan::Operation& op) {
+          const auto* set = std::get_if<plan::SetTemperatureCompensation>(&op.action);
+          return set && set->on;
+        });
+    return {options_.recorded != nullptr, switched_on || (options_.workpiece && options_.workpiece->compensated)};
   }
 
   /// Characteristics without figures, because fewer than two machines reached them.

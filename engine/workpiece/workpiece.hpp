@@ -86,9 +86,10 @@ struct Workpiece {
   bool has_sizes(bool recorded) const;
   bool part_expands() const;  ///< its coefficient of expansion
   bool scales_expand() const;
-  /// Whether it has, or may have, another temperature than the reference, or is thought to have one.
-  bool part_is_warm() const;
-  bool scales_are_warm() const;
+  /// Whether it has, or may have, another temperature than the reference, or, where the controller compensates, is
+  /// thought to have one, and changes a length by it.
+  bool part_temperature_acts(bool compensated) const;
+  bool scale_temperature_acts(bool compensated) const;
   /// Best estimates, for effects that depend on temperatures.
   Temperatures temperatures(double time_s) const;
 };

@@ -198,9 +198,25 @@ def check_what_is_named_without_saying_anything_is_not_modelled(folder):
     assert all(said[name] == "modelled" for name in ("true size of the part", "form error of the part", "part temperature")), said
 
 
+def check_sensors_model_a_temperature_where_the_controller_compensates(folder):
+    """The length has u = 11.5 ppm/K x 0.5 K x 50 mm of them alone, with no temperature in the file."""
+    def of(compensation, **more):
+        report = report_on(folder, {"compensation": compensation | {"sensor_K": {"value": 0, "u": 0.5}}} | more)
+        status = {i["name"]: i["status"] for i in report["influences"]}
+        return report["characteristics"][0]["contributions"]["part"] > 0, status["part temperature"], status["scale temperature"]
+
+    part, scale = {"cte_ppm_per_K": 11.5}, {"scale_cte_ppm_per_K": 8}
+    assert of({"on": True} | part) == (True, "modelled", "not modelled"), of({"on": True} | part)
+    assert of({"on": True} | scale) == (True, "not modelled", "modelled"), of({"on": True} | scale)
+    assert of({"on": False} | part | scale) == (False, "not modelled", "not modelled")
+    at_20 = {"material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 20}}
+    assert of({"on": False}, **at_20) == (False, "not modelled", "not modelled")
+
+
 with tempfile.TemporaryDirectory() as temporary:
     for check in (check_gauge_block, check_options, check_refusals, check_documented_example, check_part_stays_where_it_is,
-                  check_sensors_that_err, check_what_is_named_without_saying_anything_is_not_modelled):
+                  check_sensors_that_err, check_what_is_named_without_saying_anything_is_not_modelled,
+                  check_sensors_model_a_temperature_where_the_controller_compensates):
         try:
             check(pathlib.Path(temporary))
         except AssertionError as failure:
