@@ -85,14 +85,14 @@ std::string distributions(const RunReport& r) {
 std::string budget(const CharacteristicReport& c) {
   std::string rows = html_row({"source", "u, " + c.unit, "share"}, "th");
   for (const auto& line : budget_lines(c))
-    rows += html_row({line.name, decimal(line.u, decimals_for(line.u)), fmt::format("{:.1f} %", 100 * line.share)});
+    rows += html_row({line.name, decimal(line.u, decimals_for(line.u)), decimal(100 * line.share, 1) + " %"});
   return "<h3>" + escaped(name_of(c)) + "</h3>\n" + html_table(rows);
 }
 
 std::string budgets(const RunReport& r) {
   std::string out;
   for (const CharacteristicReport& c : r.characteristics)
-    if (!c.budget.empty()) out += budget(c);
+    if (!budget_lines(c).empty()) out += budget(c);
   return out.empty() ? "" : "<h2>Budget</h2>\n<p class=\"note\">" + escaped(budget_legend()) + "</p>\n" + out;
 }
 

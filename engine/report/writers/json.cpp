@@ -16,10 +16,10 @@ Json contributions(const CharacteristicReport& c) {
   return out;
 }
 
-Json budget(const std::vector<CharacteristicReport::BudgetLine>& lines) {
+Json budget(const CharacteristicReport& c, const std::vector<CharacteristicReport::BudgetLine>& lines) {
   Json out = Json::array();
   for (const auto& line : lines)
-    out.push_back({{"name", line.name}, {"share", number(line.share)}, {"u", number(line.u)}});
+    out.push_back({{"name", line.name}, {"share", number(known(c, line.share))}, {"u", number(known(c, line.u))}});
   return out;
 }
 
@@ -67,8 +67,8 @@ Json characteristic(const CharacteristicReport& c) {
     out["interval"] = {{"coverage", c.interval->coverage}};
     out["interval"].update(intervals(c, c.interval->symmetric, c.interval->shortest));
   }
-  if (!c.budget.empty()) out["budget"] = budget(c.budget);
-  if (!c.alignment_split.empty()) out["alignment_split"] = budget(c.alignment_split);
+  if (!c.budget.empty()) out["budget"] = budget(c, c.budget);
+  if (!c.alignment_split.empty()) out["alignment_split"] = budget(c, c.alignment_split);
   return out;
 }
 

@@ -99,6 +99,7 @@ std::string share_of(const CharacteristicReport& c, std::size_t k) {
 }
 
 std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicReport& c) {
+  if (!c.varies) return {};
   std::vector<CharacteristicReport::BudgetLine> lines = c.budget;
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
   std::erase_if(lines, [](const auto& line) { return line.share < 0.001; });

@@ -36,7 +36,7 @@ std::string from_reference(const CharacteristicReport&, const Interval&);
 std::string share_of(const CharacteristicReport&, std::size_t k);
 
 /// What a budget shows: the sources, the largest first, without those below a thousandth of the variance;
-/// then alignment and feature.
+/// then alignment and feature. Nothing where u is not known.
 std::vector<CharacteristicReport::BudgetLine> budget_lines(const CharacteristicReport&);
 
 /// Share of conforming machines: "99.8 %"; and of how many, where a condition sent some past it.

@@ -95,7 +95,7 @@ std::string budget_table(const RunReport& r) {
     for (const auto& line : budget_lines(c)) {
       any = true;
       table.add({std::to_string(c.line), joined(c.features), c.tolerance, line.name,
-                 decimal(line.u, decimals_for(line.u)) + " " + c.unit, fmt::format("{:.1f} %", 100 * line.share)});
+                 decimal(line.u, decimals_for(line.u)) + " " + c.unit, decimal(100 * line.share, 1) + " %"});
     }
   if (!any) return "";
   return "\n" + table.to_text() + "\n" + budget_legend() + "\n";

@@ -344,6 +344,19 @@ TEST_CASE("an uncertainty that is not known asks for no decimals and has no inte
   INFO(text);
   CHECK(text.find("500.00000") == std::string::npos);
   CHECK(text.find("0 to +0") == std::string::npos);
+  c.budget = {{"part", 0, 0}};
+  c.alignment_split = {{"alignment", 0, 0}, {"feature", 0, 0}};
+  for (const char* writer : {"text", "html"}) CHECK(written(writer, r).find("alignment") == std::string::npos);
+  const Json json = Json::parse(written("json", r))["characteristics"][0];
+  for (const char* key : {"budget", "alignment_split"})
+    for (const Json& line : json[key]) CHECK((line["share"].is_null() && line["u"].is_null()));
+}
+
+TEST_CASE("a share that rounds to nothing has no sign") {
+  RunReport r = report();
+  r.characteristics[0].budget = {{"probe", 1, 0.001}};
+  r.characteristics[0].alignment_split = {{"alignment", -2e-5, 1e-6}, {"feature", 1.00002, 0.001}};
+  for (const char* writer : {"text", "html"}) CHECK(written(writer, r).find("-0.0 %") == std::string::npos);
 }
 
 TEST_CASE("a report without characteristics says so") {
