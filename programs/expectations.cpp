@@ -53,7 +53,7 @@ ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) 
 
 /// Why a characteristic has no such figure.
 const char* reason(const CharacteristicReport& c, const std::string& quantity) {
-  if (!c.varies && quantity != "value") return "nothing that is modelled changes the value";
+  if (!c.varies && quantity != "value") return "nothing that is modelled makes the value vary";
   return quantity == "conformance" ? "the tolerance has no limits" : "a condition sends the error-free machine past it";
 }
 

@@ -32,7 +32,7 @@ struct CharacteristicReport {
   double nominal = 0;
   std::optional<double> reference;  ///< none where a condition sends the error-free machine elsewhere
   Summary summary;                  ///< of the values
-  /// false: nothing that is modelled changes the value, a circle through three touches has no form, and no touch shows
+  /// false: nothing that is modelled makes the value vary, a circle through three touches has no form, and no touch shows
   /// where a bore lies along itself: its u is unknown and not 0, and nothing is decided on it
   bool varies = true;
   Histogram histogram;             ///< of the values

@@ -8,6 +8,7 @@
 
 #include "engine/base/ids.hpp"
 #include "engine/machine/effect_names.hpp"
+#include "engine/report/budget.hpp"
 #include "engine/report/influences.hpp"
 #include "engine/report/report_unit.hpp"
 
@@ -277,13 +278,24 @@ class StudyRun {
     int fixed = 0;
     for (const CharacteristicReport& c : study_.report.characteristics) {
       if (c.varies || ++fixed > kShown) continue;
+      const double shift = c.reference ? c.summary.mean - *c.reference : 0;
+      const plan::ToleranceDef& tolerance = plan_[plan_[c.characteristic].tolerance];
+      const double least =
+          report_unit(plan_, c.characteristic).factor * smallest_u(unit_of(*tolerance.kind, tolerance.arguments));
+      const bool shifted = std::abs(shift) >= least;
       message(
           Code::W0621,
-          fmt::format("line {}: FA({}),TA({}): every machine finds the same value, because nothing that is modelled "
-                      "changes it: its uncertainty is not known",
-                      c.line, fmt::join(c.features, "),FA("), c.tolerance),
-          "a form shows only where more points were touched than settle the feature, as three settle a circle, and not in "
-          "what is constructed of other features; no touch shows where a feature lies along itself, as a bore along its axis");
+          fmt::format("line {}: FA({}),TA({}): every machine finds the same value{}, because nothing that is modelled "
+                      "makes it vary: its uncertainty is not known",
+                      c.line, fmt::join(c.features, "),FA("), c.tolerance,
+                      shifted ? fmt::format(", {:.3g} {} {} than the error-free machine", std::abs(shift), c.unit,
+                                            shift > 0 ? "more" : "less")
+                              : ""),
+          shifted
+              ? "what moves it stands in the files as certain: give its uncertainty there, and the probe its "
+                "repeatability; the value that they find is the `mean` of --format json"
+              : "a form shows only where more points were touched than settle the feature, as three settle a circle, and not in "
+                "what is constructed of other features; no touch shows where a feature lies along itself, as a bore along its axis");
     }
     if (fixed > kShown)
       message(Code::W0621, fmt::format("{} characteristics in all come out the same on every machine", fixed),

@@ -284,7 +284,17 @@ class Branches(harness.Case):
         self.assertEqual(form["interval95"]["symmetric"], [None, None])
         self.assertEqual(set(form["contributions"].values()), {None})
         self.assertNotIn("Monte Carlo error", self.abbe("run", "form.dmi", "--machines", 20).stdout)
-        self.assertIn("there is none, because nothing that is modelled changes the value", self.abbe("test", "form.dmi", code=1).stdout)
+        self.assertIn("there is none, because nothing that is modelled makes the value vary", self.abbe("test", "form.dmi", code=1).stdout)
+
+    def test_what_moves_every_machine_alike_is_told(self):
+        """A block that is 3 K warm, measured without any other error: 11.5 ppm/K x 3 K x 100 mm longer, on every machine."""
+        self.write("comparator.json", (harness.ROOT / "examples/gauge_block_h1/comparator.json").read_text())
+        self.write("warm.json", '{"schema": "abbe.workpiece/1", "name": "w", "material": {"cte_ppm_per_K": 11.5}, "temperature": {"part_C": 23}}')
+        self.write("length.dmi", LENGTH.replace("XORIG,800,YORIG,500,ZORIG,-700", "XORIG,100,YORIG,150,ZORIG,-550"))
+        report = self.run_json("length.dmi", "--machine", "comparator.json", "--workpiece", "warm.json", "--machines", 20)
+        told, = [m for m in report["messages"] if m["code"] == "W0621"]
+        self.assertIn("the same value, 0.00345 mm more than the error-free machine", told["message"])
+        self.assertIn("give its uncertainty", told["help"])
 
     def test_acceptance_limits_are_rounded_inwards(self):
         self.write("ring.dmi", RING)
