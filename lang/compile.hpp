@@ -13,11 +13,11 @@ namespace abbe::lang {
 
 /// One `$$! expect` line.
 struct Expectation {
-  std::string subject;              ///< tolerance label, or "accepted" (share of machines that passed the screening)
-  std::string feature;              ///< set when the line names a feature too: expect FA(x) TA(t) ...
-  int occurrence = 0;               ///< 0: every evaluation of that tolerance; else that one
-  std::string quantity;             ///< u, u95, lcl, ucl, mean, value, conformance
-  std::optional<double> low, high;  ///< between a b; >= a; <= b
+  std::string subject;                ///< tolerance label, or "accepted" (share of machines that passed the screening)
+  std::vector<std::string> features;  ///< that the line names too: expect FA(x) TA(t) ...
+  int occurrence = 0;                 ///< 0: every evaluation of that tolerance; else that one
+  std::string quantity;               ///< u, u95, lcl, ucl, mean, value, conformance
+  std::optional<double> low, high;    ///< between a b; >= a; <= b
   int line = 0;
   std::string text;  ///< the directive as written
 };

@@ -21,7 +21,7 @@ constexpr std::array kKnownDirectives = {
     DirectiveHelp{"workpiece", "workpiece FILE", "true sizes and calibration of the part"},
     DirectiveHelp{"place", "place X Y Z", "where the program's machine coordinate system lies in the machine, mm"},
     DirectiveHelp{"answer", "answer NAME=VALUE", "what PROMPT gives to the variable NAME; the command line wins"},
-    DirectiveHelp{"expect", "expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B",
+    DirectiveHelp{"expect", "expect [FA(x) ...] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B",
                   "an expected result, checked by `abbe test`; also: expect accepted between A B"}};
 
 constexpr std::array<std::string_view, 7> kQuantities = {"u", "u95", "lcl", "ucl", "mean", "value", "conformance"};
@@ -57,13 +57,15 @@ class DirectiveReader {
  private:
   void split() {
     const std::string& text = comment_.text();
+    std::string_view between = " \t";
     for (std::size_t i = text.find('!') + 1; i < text.size();) {
-      const std::size_t begin = text.find_first_not_of(" \t", i);
+      const std::size_t begin = text.find_first_not_of(between, i);
       if (begin == std::string::npos) break;
       std::size_t end = begin;
-      for (int depth = 0; end < text.size() && (depth > 0 || (text[end] != ' ' && text[end] != '\t')); ++end)
+      for (int depth = 0; end < text.size() && (depth > 0 || between.find(text[end]) == between.npos); ++end)
         depth += text[end] == '(' ? 1 : text[end] == ')' && depth > 0 ? -1 : 0;
       tokens_.push_back({text.substr(begin, end - begin), comment_.span(begin, end), begin});
+      if (upper(tokens_.back().text) == "EXPECT") between = " \t,";  // reports write FA(A),FA(B),TA(L)
       i = end;
     }
     whole_ = comment_.span(0, text.size());
@@ -188,8 +190,8 @@ class DirectiveReader {
     const std::string& text = comment_.text();
     e.text = text.substr(text.find_first_not_of(" \t", text.find('!') + 1));
     const Token* first = &take("expect", "TA(label) or accepted");
-    if (const auto feature = label(first->text, "FA", "F")) {
-      e.feature = *feature;
+    while (const auto feature = label(first->text, "FA", "F")) {
+      e.features.push_back(*feature);
       first = &take("expect", "TA(label)");
     }
     const Span subject_span = first->span;
@@ -197,7 +199,7 @@ class DirectiveReader {
       e.subject = *tolerance;
       occurrence(e);
       quantity(e);
-    } else if (upper(first->text) == "ACCEPTED" && e.feature.empty()) {
+    } else if (upper(first->text) == "ACCEPTED" && e.features.empty()) {
       e.subject = e.quantity = "accepted";
     } else {
       mistake(Code::E0114, subject_span,
@@ -263,9 +265,10 @@ int evaluations_of(const plan::Plan& plan, const Expectation& e) {
   return static_cast<int>(
       std::count_if(plan.characteristics.begin(), plan.characteristics.end(), [&](const plan::CharacteristicDef& c) {
         return upper(plan[c.tolerance].label) == upper(e.subject) &&
-            (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), [&](plan::FeatureId f) {
-                 return upper(plan[f].label) == upper(e.feature);
-               }));
+            std::all_of(e.features.begin(), e.features.end(), [&](const std::string& feature) {
+                 return std::any_of(c.features.begin(), c.features.end(),
+                                    [&](plan::FeatureId f) { return same_label(plan[f].label, feature); });
+               });
       }));
 }
 

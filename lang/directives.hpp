@@ -3,7 +3,7 @@
 //   machine NAME            machines N            seed N            workpiece FILE
 //   place X Y Z             where the program's machine coordinate system lies in the machine, mm whatever UNITS says
 //   answer NAME=VALUE       what PROMPT gives to a variable
-//   expect [FA(x)] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B
+//   expect [FA(x) ...] TA(t) [occurrence N] QUANTITY between A B | >= A | <= B
 //   expect accepted between A B
 // Several may stand in one comment; `answer` and `expect` take the rest of it.
 #pragma once

@@ -1,9 +1,11 @@
 #include "programs/expectations.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "engine/base/ids.hpp"
 #include "engine/base/letter_case.hpp"
@@ -31,16 +33,18 @@ std::optional<double> figure(const CharacteristicReport& c, const std::string& q
 }
 
 bool names(const lang::Expectation& e, const CharacteristicReport& c) {
-  const auto is_it = [&](const std::string& feature) { return same_label(feature, e.feature); };
+  const auto of_it = [&](const std::string& feature) {
+    return std::any_of(c.features.begin(), c.features.end(), [&](const auto& own) { return same_label(own, feature); });
+  };
   return same_label(c.tolerance, e.subject) && (e.occurrence == 0 || e.occurrence == c.occurrence) &&
-      (e.feature.empty() || std::any_of(c.features.begin(), c.features.end(), is_it));
+      std::all_of(e.features.begin(), e.features.end(), of_it);
 }
 
 ExpectationVerdict unknown(const lang::Expectation& e, const RunReport& report) {
   std::vector<std::string_view> tolerances;
   for (const CharacteristicReport& c : report.characteristics) tolerances.push_back(c.tolerance);
   std::string what = fmt::format("TA({})", e.subject);
-  if (!e.feature.empty()) what = fmt::format("FA({}) with ", e.feature) + what;
+  if (!e.features.empty()) what = fmt::format("FA({}) with ", fmt::join(e.features, "),FA(")) + what;
   if (e.occurrence > 0) what += fmt::format(", occurrence {}", e.occurrence);
   const bool label_known =
       std::any_of(tolerances.begin(), tolerances.end(), [&](auto t) { return same_label(t, e.subject); });
@@ -57,9 +61,16 @@ const char* reason(const CharacteristicReport& c, const std::string& quantity) {
   return quantity == "conformance" ? "the tolerance has no limits" : "a condition sends the error-free machine past it";
 }
 
+/// Six significant digits, and a nanometre of a length, which a mean of 200.0005 mm needs.
+std::string shown(double value) {
+  constexpr int kDigits = 6, kDecimals = 6;
+  const int before_point = value == 0 ? 0 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  return fmt::format("{:.{}g}", value, std::max(kDigits, before_point + kDecimals));
+}
+
 ExpectationVerdict compare(const lang::Expectation& e, const std::string& name, double value) {
   const bool inside = (!e.low || value >= *e.low) && (!e.high || value <= *e.high);
-  return {inside, fmt::format("{} = {:.6g}, {} {}", name, value, inside ? "is" : "is not", bounds(e))};
+  return {inside, fmt::format("{} = {}, {} {}", name, shown(value), inside ? "is" : "is not", bounds(e))};
 }
 
 }  // namespace

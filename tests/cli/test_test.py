@@ -34,6 +34,20 @@ class Expectations(harness.Case):
         self.assertTrue(lines[1].startswith("FAIL"), lines[1])
         self.assertTrue(lines[2].endswith("is <= 399"), lines[2])
 
+    def test_a_characteristic_has_the_name_that_reports_give_it(self):
+        other = LENGTH.replace("ENDFIL", "F(C)=FEAT/POINT,CART,400,0,0,1,0,0\nMEAS/POINT,F(C),1\nPTMEAS/CART,400,0,0,1,0,0\nENDMES\n"
+                               "OUTPUT/FA(A),FA(C),TA(LEN)\nOUTPUT/FA(B),FA(C),TA(LEN)\nENDFIL")
+        self.program("FA(A),FA(B),TA(LEN) value <= 101", "FA(A), FA(C), TA(LEN) value >= 399", "FA(B) FA(C) TA(LEN) occurrence 1 value <= 301", text=other)
+        self.abbe("test", "length.dmi")
+        self.program("FA(B),FA(B2),TA(LEN) value <= 101", text=other)
+        self.assertIn("evaluates no FA(B),FA(B2) with TA(LEN)", self.abbe("test", "length.dmi", code=1).stdout)
+
+    def test_a_micrometre_of_a_length_shows(self):
+        self.program("TA(LEN) value between 100.0000001 100.1", "TA(LEN) mean >= 101")
+        said = self.abbe("test", "length.dmi", code=1).stdout
+        self.assertIn("TA(LEN) value = 100, is not", said)
+        self.assertRegex(said, r"TA\(LEN\) mean = (100\.000\d{1,3}|99\.999\d{1,3}), is not >= 101")
+
     def test_a_failure_is_exit_code_1(self):
         self.program("TA(LEN) u <= 0.000001", "TA(LEN) u >= 0")
         done = self.abbe("test", "length.dmi", code=1)
