@@ -61,6 +61,18 @@ std::vector<NamedContributors> each_alone(const Machine& machine, bool workpiece
   return list;
 }
 
+/// The coverage of LCL and UCL.
+constexpr double kOfLimits = 0.95;
+
+/// The least whole number that is not below x but for rounding.
+double at_least(double x) { return std::ceil(x * (1 - 1e-9)); }
+
+/// Of the figures that are always there, and of the interval of the coverage that was asked for.
+struct Trials {
+  explicit Trials(int digits) : limits(digits), interval(digits) {}
+  AdaptiveTrials limits, interval;
+};
+
 /// One study in the making: what all its steps share.
 class StudyRun {
  public:
@@ -69,7 +81,7 @@ class StudyRun {
       : plan_(plan), machine_(machine), options_(options), source_(source), progress_(progress) {}
 
   Study run() {
-    const int count = options_.digits ? kBlockMachines : options_.machines;
+    const int count = options_.digits ? block_machines() : options_.machines;
     step("drawing virtual machines");
     const VirtualMachines machines = screened_machines(machine_, options_.seed, count, options_.threads);
     step("running the program");
@@ -161,30 +173,42 @@ class StudyRun {
     return all.size() - 1;
   }
 
+  /// JCGM 101, 7.9.4 a: enough values beyond the limits of a block.
+  int block_machines() const {
+    const double coverage = options_.coverage.value_or(kOfLimits);
+    return std::max(
+        kBlockMachines,
+        static_cast<int>(std::min(at_least(100 / (1 - coverage)), 1.0 * options_.max_blocks * kBlockMachines)));
+  }
+
   void add_to_trials(const RunResult& block) {
     if (!options_.digits) return;
-    trials_.resize(study_.result.samples.size(), AdaptiveTrials(*options_.digits));
+    trials_.resize(study_.result.samples.size(), Trials(*options_.digits));
     for (std::size_t i = 0; i < block.samples.size(); ++i) {
       const Samples& samples = block.samples[i];
       if (samples.value.size() < 2) continue;
       std::vector<double> values = samples.value;
       const double factor = report_unit(plan_, samples.characteristic).factor;
       for (double& v : values) v *= factor;  // the digits are those of the figures reported
-      trials_[entry(block, i)].add(summarize(values));
+      Trials& trials = trials_[entry(block, i)];
+      trials.limits.add(summarize(values));
+      if (options_.coverage) trials.interval.add(summarize(values, *options_.coverage));
     }
   }
 
   /// Characteristics that no block could summarise do not count: they are reported as lost.
   bool stable() const {
+    const auto settled = [](const AdaptiveTrials& t) { return t.blocks() == 0 || t.stable(); };
     return std::all_of(trials_.begin(), trials_.end(),
-                       [](const AdaptiveTrials& t) { return t.blocks() == 0 || t.stable(); });
+                       [&](const Trials& t) { return settled(t.limits) && settled(t.interval); });
   }
 
   void run_until_stable() {
-    for (int blocks = 1; blocks < options_.max_blocks && !stable(); ++blocks) {
+    const int block = block_machines(), most = options_.max_blocks * kBlockMachines;
+    while (study_.result.machines + block <= most && !stable()) {
       step(fmt::format("{} machines; not yet stable to {} digits", study_.result.machines, *options_.digits));
-      const VirtualMachines machines = more_screened_machines(machine_, options_.seed, kBlockMachines, options_.threads,
-                                                              study_.candidates.back() + 1);
+      const VirtualMachines machines =
+          more_screened_machines(machine_, options_.seed, block, options_.threads, study_.candidates.back() + 1);
       append(machines, run(machines, {}));
     }
     if (!stable())
@@ -322,12 +346,12 @@ class StudyRun {
   /// Beyond each end of an interval must be some values, or its ends are those of the sample. LCL and
   /// UCL have their coverage whatever else is asked for.
   void warn_of_few_machines() {
-    constexpr double kOfLimits = 0.95, kBeyond = 20;
+    constexpr double kBeyond = 20;
     const double coverage = std::max(kOfLimits, options_.coverage.value_or(kOfLimits));
     if (study_.result.machines * (1 - coverage) >= kBeyond) return;
     message(Code::W0435, fmt::format("{} machines are few for {:g} % limits", study_.result.machines, 100 * coverage),
             fmt::format("ask for --machines {:.0f} or more; JCGM 101, 7.2.2 recommends {:.0f}",
-                        std::ceil(kBeyond / (1 - coverage)), std::ceil(1e4 / (1 - coverage))));
+                        at_least(kBeyond / (1 - coverage)), at_least(1e4 / (1 - coverage))));
   }
 
   void warn_of_screening() {
@@ -342,7 +366,7 @@ class StudyRun {
   const SourceFile& source_;
   const Progress& progress_;
   Study study_;
-  std::vector<AdaptiveTrials> trials_;  ///< one per entry of result.samples
+  std::vector<Trials> trials_;  ///< one per entry of result.samples
 };
 
 }  // namespace

@@ -23,14 +23,14 @@
 
 namespace abbe {
 
-/// JCGM 101:2008, 7.9.4 b: M = max(J, 10^4), where J = 100/(1-p) = 2000.
+/// JCGM 101:2008, 7.9.4 b: M = max(J, 10^4), where J = 100/(1-p) is more for a coverage p above 0.99.
 inline constexpr int kBlockMachines = 10'000;
 
 struct StudyOptions {
   std::uint64_t seed = 1;
   int machines = 1000;        ///< at least 2; without meaning when `digits` is set
   std::optional<int> digits;  ///< 1 or 2 significant digits of u that must be stable
-  int max_blocks = 100;       ///< blocks after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
+  int max_blocks = 100;       ///< blocks of 10^4 after which that is given up: the 10^6 trials of JCGM 101:2008, 7.2.2
   int threads = 1;
   bool budget = false;             ///< also each error function alone, and the alignment against the features
   std::optional<double> coverage;  ///< in (0, 1): also report the intervals of this probability

@@ -117,6 +117,21 @@ TEST_CASE("an adaptive study continues where a fixed one ends, and says when it 
   CHECK(has(run_study(length_plan(), machine(), options, length_source()).report.messages, Code::W0605));
 }
 
+TEST_CASE("an adaptive study settles the interval of the coverage that was asked for, in blocks that hold its limits") {
+  StudyOptions options = few(0);
+  options.digits = 1;
+  const int settled = run_study(length_plan(), machine(), options, length_source()).result.machines;
+  options.coverage = 0.95;
+  CHECK(run_study(length_plan(), machine(), options, length_source()).result.machines == settled);
+  options.coverage = 0.998;  // J = 100 / (1 - p), JCGM 101, 7.9.4
+  options.max_blocks = 10;
+  CHECK(run_study(length_plan(), machine(), options, length_source()).result.machines == 100'000);
+  options.max_blocks = 9;
+  const Study stopped = run_study(length_plan(), machine(), options, length_source());
+  CHECK(stopped.result.machines == 50'000);
+  CHECK(has(stopped.report.messages, Code::W0605));
+}
+
 TEST_CASE("a characteristic that next to no machine reaches is lost, with the reason") {
   PlanBuilder b;
   b.append(plan::SelectSensor{b.sensor(0, 0, 150)});
@@ -213,6 +228,12 @@ TEST_CASE("limits from few machines are told, those of the coverage asked for an
   CHECK_FALSE(told(400, 0.5));
   CHECK(told(400, 0.99));
   CHECK_FALSE(told(2000, 0.99));
+  StudyOptions options = few(100);
+  options.coverage = 0.99999;
+  const auto messages = run_study(length_plan(), machine(), options, length_source()).report.messages;
+  const auto help =
+      std::find_if(messages.begin(), messages.end(), [](const auto& d) { return d.code == Code::W0435; })->help;
+  CHECK(help.find("--machines 2000000 or more; JCGM 101, 7.2.2 recommends 1000000000") != std::string::npos);
 }
 
 TEST_CASE("settings that make no sense are refused") {
