@@ -27,6 +27,15 @@ constexpr Word kWords[] = {
     {"curvilinear_trapezoid", Distribution::curvilinear_trapezoid, "inexactness"},
 };
 
+/// What JCGM 101 and other software call them too.
+struct OtherName {
+  std::string_view other, word;
+};
+constexpr OtherName kOtherNames[] = {
+    {"uniform", "rectangular"}, {"gaussian", "normal"},  {"Gaussian", "normal"},
+    {"u_shaped", "arcsine"},    {"U-shaped", "arcsine"}, {"t", "student_t"},
+};
+
 std::string address(std::string_view name) { return fmt::format("workpiece.{}", name); }
 
 bool has_width(Distribution d) { return d != Distribution::normal && d != Distribution::student_t; }
@@ -48,7 +57,13 @@ const Word* read_distribution(JsonObject& object) {
     if (w.word == word) return &w;
     words.push_back(w.word);
   }
-  object.one_of("distribution", word, words);
+  const auto* other =
+      std::find_if(std::begin(kOtherNames), std::end(kOtherNames), [&](const OtherName& o) { return o.other == word; });
+  if (other == std::end(kOtherNames))
+    object.one_of("distribution", word, words);
+  else
+    object.fault("distribution", Code::E0421, fmt::format("there is no distribution \"{}\" here", word),
+                 fmt::format("write \"{}\"", other->word));
   return nullptr;
 }
 
@@ -151,7 +166,11 @@ Uncertain read_uncertain(JsonObject& object, std::string_view key, double otherw
     written.fault("value", Code::E0421, fmt::format("\"{}\" is an object, but says nothing of an uncertainty", key),
                   "write the number alone, or add \"u\", \"half_width\" or \"components\"");
   }
-  for (JsonObject& component : listed ? written.object_list("components") : std::vector<JsonObject>{})
+  std::vector<JsonObject> components = listed ? written.object_list("components") : std::vector<JsonObject>{};
+  if (components.empty() && written.kind_of("components") == JsonNode::Kind::array)
+    written.fault("components", Code::E0421, fmt::format("\"{}\" lists no component of its uncertainty", key),
+                  "write the number alone, or add a component, such as {\"u\": 0.5}");
+  for (JsonObject& component : components)
     if (const auto d = read_deviation(component)) out.components.push_back(*d);
   if (alone)
     if (const auto d = read_deviation(written)) out.components.push_back(*d);

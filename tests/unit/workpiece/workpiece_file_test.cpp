@@ -77,6 +77,8 @@ TEST_CASE("contradictions in a quantity are named (E0421)") {
             "is more than the half width 1"));
   CHECK(has(offset(R"("half_width": 1, "distribution": "rectangulr")"), "did you mean \"rectangular\"?"));
   CHECK(has(offset(R"("u": 1, "components": [{"u": 1}])"), "has \"components\" and an uncertainty of its own"));
+  CHECK(has(offset(R"("half_width": 1, "distribution": "uniform")"), "write \"rectangular\""));
+  CHECK(has(offset(R"("components": [])"), "lists no component of its uncertainty"));
   CHECK(has(offset(R"("halfwidth": 1)"), "did you mean \"half_width\"?"));
   CHECK(has(offset(R"("u": 1, "dof": 2)"), "must be greater than 2"));
   CHECK(has(offset(R"("half_width": 1, "distribution": "rectangular", "dof": 5)"), "unknown key \"dof\""));
