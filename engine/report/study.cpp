@@ -190,13 +190,15 @@ class StudyRun {
       std::vector<double> values = samples.value;
       const double factor = report_unit(plan_, samples.characteristic).factor;
       for (double& v : values) v *= factor;  // the digits are those of the figures reported
+      const Summary summary = summarize(values);
+      if (summary.u < least_u(samples.characteristic)) continue;  // not known, however many machines there are
       Trials& trials = trials_[entry(block, i)];
-      trials.limits.add(summarize(values));
+      trials.limits.add(summary);
       if (options_.coverage) trials.interval.add(summarize(values, *options_.coverage));
     }
   }
 
-  /// Characteristics that no block could summarise do not count: they are reported as lost.
+  /// Characteristics that no block could summarise do not count: they are reported as lost, or without u.
   bool stable() const {
     const auto settled = [](const AdaptiveTrials& t) { return t.blocks() == 0 || t.stable(); };
     return std::all_of(trials_.begin(), trials_.end(),
@@ -216,6 +218,12 @@ class StudyRun {
               fmt::format("the figures are not yet stable to {} digits after {} machines, the most that are run for it",
                           *options_.digits, study_.result.machines),
               "see the Monte Carlo errors, or ask for --digits 1");
+  }
+
+  /// In the unit of the report: what scatters less is rounding.
+  double least_u(plan::CharacteristicId id) const {
+    const plan::ToleranceDef& tolerance = plan_[plan_[id].tolerance];
+    return report_unit(plan_, id).factor * smallest_u(unit_of(*tolerance.kind, tolerance.arguments));
   }
 
   void message(Code code, std::string text, std::string help) {
@@ -303,10 +311,7 @@ class StudyRun {
     for (const CharacteristicReport& c : study_.report.characteristics) {
       if (c.varies || ++fixed > kShown) continue;
       const double shift = c.reference ? c.summary.mean - *c.reference : 0;
-      const plan::ToleranceDef& tolerance = plan_[plan_[c.characteristic].tolerance];
-      const double least =
-          report_unit(plan_, c.characteristic).factor * smallest_u(unit_of(*tolerance.kind, tolerance.arguments));
-      const bool shifted = std::abs(shift) >= least;
+      const bool shifted = std::abs(shift) >= least_u(c.characteristic);
       message(
           Code::W0621,
           fmt::format("line {}: FA({}),TA({}): every machine finds the same value{}, because nothing that is modelled "

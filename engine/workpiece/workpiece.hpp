@@ -88,8 +88,8 @@ struct Workpiece {
   bool scales_expand() const;
   /// Whether it has, or may have, another temperature than the reference, or, where the controller compensates, is
   /// thought to have one, and changes a length by it.
-  bool part_temperature_acts(bool compensated) const;
-  bool scale_temperature_acts(bool compensated) const;
+  bool part_temperature_acts(bool compensates) const;
+  bool scale_temperature_acts(bool compensates) const;
   /// Best estimates, for effects that depend on temperatures.
   Temperatures temperatures(double time_s) const;
 };

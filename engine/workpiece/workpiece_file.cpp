@@ -194,19 +194,19 @@ bool Workpiece::part_expands() const {
 
 bool Workpiece::scales_expand() const { return !scale_cte_per_K.is_zero(); }
 
-bool Workpiece::part_temperature_acts(bool compensated) const {
+bool Workpiece::part_temperature_acts(bool compensates) const {
   const bool warm = log.has(TemperatureLog::part) || is_warm(part_C) ||
       (part_follows_scale && (!part_minus_scale_K->is_zero() || is_warm(scale_C[0])));
-  const bool assumed = compensated && assumed_part_cte_per_K != 0;
+  const bool assumed = compensates && assumed_part_cte_per_K != 0;
   return (warm && (part_expands() || assumed)) || (assumed && !sensor_K.is_zero());
 }
 
-bool Workpiece::scale_temperature_acts(bool compensated) const {
+bool Workpiece::scale_temperature_acts(bool compensates) const {
   const bool follow = part_minus_scale_K && !part_follows_scale;
   const bool warm = log.has(TemperatureLog::x) || log.has(TemperatureLog::y) || log.has(TemperatureLog::z) ||
       std::any_of(scale_C, scale_C + 3, is_warm) ||
       (follow && (!part_minus_scale_K->is_zero() || log.has(TemperatureLog::part) || is_warm(part_C)));
-  const bool assumed = compensated && assumed_scale_cte_per_K != 0;
+  const bool assumed = compensates && assumed_scale_cte_per_K != 0;
   return (warm && (scales_expand() || assumed)) || (assumed && !sensor_K.is_zero());
 }
 
