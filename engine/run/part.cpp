@@ -35,14 +35,10 @@ Diagnostic no_such_surface(const Workpiece& w, const Surface& surface, const pla
       near.empty() ? fmt::format("it measures: {}", fmt::join(labels, ", ")) : fmt::format("did you mean '{}'?", near));
 }
 
-/// The offset along the outward normal; that of a bore points to its axis.
-Uncertain offset_of(const Surface& surface, const plan::FeatureDef& def) {
-  const double per_diameter = def.inner ? -0.5 : 0.5;
-  if (surface.diameter_deviation_mm) return per_diameter * *surface.diameter_deviation_mm;
-  if (!surface.diameter_mm) return surface.offset_mm;
-  Uncertain deviation = *surface.diameter_mm;
-  deviation.value -= 2 * def.nominal.size;
-  return per_diameter * deviation;
+/// What the file gives of a surface: the offset along its outward normal, or the diameter in one of two ways.
+const Uncertain& given_of(const Surface& surface) {
+  if (surface.diameter_deviation_mm) return *surface.diameter_deviation_mm;
+  return surface.diameter_mm ? *surface.diameter_mm : surface.offset_mm;
 }
 
 struct CosSin {
@@ -85,55 +81,56 @@ TouchedSpots::Numbers TouchedSpots::at(const Vec3& point, const Vec3& normal, st
 }
 
 Part::Part(const Workpiece& workpiece, const plan::Plan& plan)
-    : workpiece_(&workpiece), surface_of_(plan.features.size(), -1) {
+    : workpiece_(&workpiece), on_surface_(plan.features.size()) {
   std::vector<Diagnostic> errors;
   const std::vector<std::string_view> touched = touched_labels(plan);
-  for (const Surface& surface : workpiece.surfaces) {
-    surfaces_.push_back({&surface, surface.offset_mm});
+  for (int index = 0; index < static_cast<int>(workpiece.surfaces.size()); ++index) {
+    const Surface& surface = workpiece.surfaces[index];
+    const std::size_t before = errors.size();
     bool found = false;
-    for (int f = 0; f < static_cast<int>(plan.features.size()); ++f) {
+    for (std::size_t f = 0; f < plan.features.size() && errors.size() == before; ++f) {
       if (!same_label(plan.features[f].label, surface.label)) continue;
       if (std::find(touched.begin(), touched.end(), plan.features[f].label) == touched.end()) continue;
-      if (!found) resolve(surface, {f}, plan, errors);
+      on_surface_[f] = resolve(index, plan.features[f], errors);
       found = true;
-      surface_of_[f] = static_cast<int>(surfaces_.size()) - 1;
     }
     if (!found) errors.push_back(no_such_surface(workpiece, surface, plan));
   }
   if (!errors.empty()) throw UserError(std::move(errors));
 }
 
-void Part::resolve(const Surface& surface, plan::FeatureId feature, const plan::Plan& plan,
-                   std::vector<Diagnostic>& errors) {
-  const plan::FeatureDef& def = plan[feature];
+Part::OnSurface Part::resolve(int index, const plan::FeatureDef& def, std::vector<Diagnostic>& errors) const {
+  const Surface& surface = workpiece_->surfaces[index];
   const auto refuse = [&](std::string_view what, std::string help) {
     errors.push_back(diagnostic_at(workpiece_->source, surface.label_span, Code::E0424,
                                    fmt::format("feature '{}' is a {} and has no {}", def.label, def.kind->word, what),
                                    std::move(help)));
   };
-  if ((surface.diameter_mm || surface.diameter_deviation_mm) && !has_diameter(def.kind->shape))
+  const bool as_diameter = surface.diameter_mm || surface.diameter_deviation_mm;
+  if (as_diameter && !has_diameter(def.kind->shape))
     refuse("diameter", "give \"offset_um\", how far its surface lies out of the material");
   if (!surface.form.empty() && !is_round(def.kind->shape))
     refuse("undulations", "\"form\" is for circles, cylinders and cones; \"random_form_um\" is for every surface");
-  surfaces_.back().offset_mm = offset_of(surface, def);
+  const double size = def.nominal.size, per_deviation = !as_diameter ? 1 : def.inner ? -0.5 : 0.5;
+  const double deviation_mm = given_of(surface).value - (surface.diameter_mm ? 2 * size : 0);
+  const OnSurface out{index, per_deviation * deviation_mm, per_deviation};
   constexpr double kNoDeviation = 0.1;  // of the size: that is another part, or another unit
-  const double offset = surfaces_.back().offset_mm.value, size = def.nominal.size;
-  if (!has_diameter(def.kind->shape) || !(size > 0) || std::abs(offset) <= kNoDeviation * size) return;
+  if (!has_diameter(def.kind->shape) || !(size > 0) || std::abs(out.known_mm) <= kNoDeviation * size) return out;
   const std::optional<ForeignUnit> unit =
       surface.diameter_mm ? foreign_unit(surface.diameter_mm->value, 2 * size) : std::nullopt;
   errors.push_back(diagnostic_at(
       workpiece_->source, surface.label_span, Code::E0424,
       fmt::format("the surface of '{}' lies {:g} mm from where the program has it, and its diameter there is {:g} mm{}",
-                  def.label, offset, 2 * size, unit ? fmt::format(": it is given in {}", unit->name) : ""),
+                  def.label, out.known_mm, 2 * size, unit ? fmt::format(": it is given in {}", unit->name) : ""),
       "diameters are in millimetres, offsets and deviations in micrometres"));
+  return out;
 }
 
 double Part::known_offset_mm(const PlaceOnPart& at) const {
-  const int index = given() ? surface_of_[at.feature.value] : -1;
-  if (index < 0) return 0;
-  const Resolved& resolved = surfaces_[index];
-  double offset = resolved.offset_mm.value;
-  for (const FormHarmonic& h : resolved.surface->form) {
+  const OnSurface on = given() ? on_surface_[at.feature.value] : OnSurface{};
+  if (on.index < 0) return 0;
+  double offset = on.known_mm;
+  for (const FormHarmonic& h : workpiece_->surfaces[on.index].form) {
     if (!h.phase_half_turns) continue;
     const CosSin angle = times(h.undulations, angle_about_axis(at));
     const SinCos phase = sin_cos_pi(*h.phase_half_turns);
@@ -146,14 +143,14 @@ Part::Draw Part::draw(DrawFor who) const {
   Draw d{who, {}, {}};
   if (!given()) return d;
   d.thermal = draw_thermal(*workpiece_, who);
-  for (const Resolved& resolved : surfaces_) {
-    const std::string name = "surfaces." + upper(resolved.surface->label);
+  for (const Surface& surface : workpiece_->surfaces) {
+    const std::string name = "surfaces." + upper(surface.label);
     Draw::Surface s;
-    s.offset_mm = deviation(resolved.offset_mm, name + ".offset", who);
-    const Uncertain& random = resolved.surface->random_form_mm;
+    s.deviation_mm = deviation(given_of(surface), name + ".offset", who);
+    const Uncertain& random = surface.random_form_mm;
     s.random_sd_mm = random.value + deviation(random, name + ".random_form", who);
-    for (std::size_t k = 0; k < resolved.surface->form.size(); ++k) {
-      const FormHarmonic& h = resolved.surface->form[k];
+    for (std::size_t k = 0; k < surface.form.size(); ++k) {
+      const FormHarmonic& h = surface.form[k];
       const std::string harmonic = fmt::format("{}.form.{}", name, k);
       double amplitude = deviation(h.amplitude_mm, harmonic + ".amplitude", who);
       if (!h.phase_half_turns) amplitude += h.amplitude_mm.value;
@@ -167,8 +164,8 @@ Part::Draw Part::draw(DrawFor who) const {
 }
 
 bool Part::has_random_form(plan::FeatureId feature) const {
-  const int index = given() ? surface_of_[feature.value] : -1;
-  return index >= 0 && !surfaces_[index].surface->random_form_mm.is_zero();
+  const int index = given() ? on_surface_[feature.value].index : -1;
+  return index >= 0 && !workpiece_->surfaces[index].random_form_mm.is_zero();
 }
 
 Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed, const Temperatures& estimate,
@@ -176,10 +173,10 @@ Vec3 Part::error(const Draw& draw, const PlaceOnPart& at, const Vec3& from_fixed
   constexpr std::uint32_t kRandomForm = stream_of("workpiece.random_form");
   const Vec3 strained = strain(*workpiece_, draw.thermal, estimate, compensated);
   Vec3 d{strained.x * from_fixed.x, strained.y * from_fixed.y, strained.z * from_fixed.z};
-  const int index = surface_of_[at.feature.value];
-  if (index < 0) return d;
-  const Draw::Surface& s = draw.surfaces[index];
-  double proud = s.offset_mm;
+  const OnSurface& on = on_surface_[at.feature.value];
+  if (on.index < 0) return d;
+  const Draw::Surface& s = draw.surfaces[on.index];
+  double proud = on.per_deviation * s.deviation_mm;
   for (const auto& h : s.form) {
     if (h.cos_mm == 0 && h.sin_mm == 0) continue;
     const CosSin angle = times(h.undulations, angle_about_axis(at));

@@ -60,7 +60,7 @@ class Part {
     DrawFor who;
     ThermalDraw thermal;
     struct Surface {
-      double offset_mm = 0;  ///< beyond the best estimate
+      double deviation_mm = 0;  ///< of what the file gives, offset or diameter, beyond the best estimate
       double random_sd_mm = 0;
       struct Harmonic {
         int undulations = 0;
@@ -79,15 +79,17 @@ class Part {
              TouchedSpots::Numbers random_form) const;
 
  private:
-  struct Resolved {
-    const Surface* surface = nullptr;
-    Uncertain offset_mm;  ///< whatever way the file gave it
+  /// What the file says of the surface of one feature. A label that is defined again is another feature on the same one.
+  struct OnSurface {
+    int index = -1;            ///< in the order of the workpiece; -1: nothing
+    double known_mm = 0;       ///< offset along the outward normal, best estimate
+    double per_deviation = 1;  ///< offset for what the file gives: half of a diameter, minus half of a bore's
   };
-  void resolve(const Surface&, plan::FeatureId, const plan::Plan&, std::vector<Diagnostic>&);
+  /// Adds what is wrong with it, if anything.
+  OnSurface resolve(int index, const plan::FeatureDef&, std::vector<Diagnostic>&) const;
 
   const Workpiece* workpiece_ = nullptr;
-  std::vector<Resolved> surfaces_;  ///< in the order of the workpiece
-  std::vector<int> surface_of_;     ///< by feature; -1 where nothing is said
+  std::vector<OnSurface> on_surface_;  ///< by feature
 };
 
 }  // namespace abbe

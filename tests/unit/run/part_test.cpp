@@ -154,6 +154,28 @@ TEST_CASE("a diameter is the same for a bore and a shaft") {
   }
 }
 
+TEST_CASE("a label that is defined again is on the same surface, seen from its own side and size") {
+  // A bore of 40 mm, then a plug of 40.004 mm under the same label: the surface of 40.01 mm is 10 um and 6 um from them.
+  plan::Plan twice = circle(true);
+  plan::FeatureDef plug = twice.features[0];
+  plug.inner = false, plug.nominal.size = 20.002;
+  twice.features.push_back(plug);
+  const Workpiece w = workpiece(R"("surfaces": {"F0": {"diameter_mm": {"value": 40.01, "u": 0.001}}})");
+  const Part part(w, twice);
+  const PlaceOnPart bore{{0}, {820, 500, -500}, {-1, 0, 0}, twice.features[0].nominal, {1, 0, 0}, {0, 1, 0}};
+  PlaceOnPart outside = bore;
+  outside.feature = {1}, outside.normal = {1, 0, 0};
+  CHECK(part.known_offset_mm(bore) == doctest::Approx(-0.005));
+  CHECK(part.known_offset_mm(outside) == doctest::Approx(0.003));
+  // The doubt of the diameter moves the same surface the same way, whichever side it is touched from.
+  const Part::Draw draw = part.draw({1, 0});
+  const double moved = part.error(draw, bore, {}, {}, false, {}).x;
+  CHECK(std::fabs(moved) > 1e-7);
+  CHECK(part.error(draw, outside, {}, {}, false, {}).x == doctest::Approx(moved));
+  twice.features[1].nominal.size = 30;
+  CHECK(faults(twice, w).find("its diameter there is 60 mm") != std::string::npos);
+}
+
 TEST_CASE("a known form is in the reference, an unknown one only in the machines") {
   // Three lobes with touches every 30 degrees: the touches meet crest and trough, so the roundness
   // is twice the amplitude.
