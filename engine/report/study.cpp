@@ -214,10 +214,14 @@ class StudyRun {
       append(machines, run(machines, {}));
     }
     if (!stable())
-      message(Code::W0605,
-              fmt::format("the figures are not yet stable to {} digits after {} machines, the most that are run for it",
-                          *options_.digits, study_.result.machines),
-              "see the Monte Carlo errors, or ask for --digits 1");
+      message(
+          Code::W0605,
+          fmt::format("the figures are not yet stable to {} digit{} after {} machines, the most that are run for it",
+                      *options_.digits, *options_.digits == 1 ? "" : "s", study_.result.machines),
+          fmt::format("see the Monte Carlo errors{}",
+                      *options_.digits > 1         ? ", or ask for --digits 1"
+                          : block > kBlockMachines ? ", or ask for a lower --coverage"
+                                                   : ""));
   }
 
   /// In the unit of the report: what scatters less is rounding.

@@ -129,7 +129,11 @@ TEST_CASE("an adaptive study settles the interval of the coverage that was asked
   options.max_blocks = 9;
   const Study stopped = run_study(length_plan(), machine(), options, length_source());
   CHECK(stopped.result.machines == 50'000);
-  CHECK(has(stopped.report.messages, Code::W0605));
+  const auto told = std::find_if(stopped.report.messages.begin(), stopped.report.messages.end(),
+                                 [](const Diagnostic& d) { return d.code == Code::W0605; });
+  REQUIRE(told != stopped.report.messages.end());
+  CHECK(told->message.find("stable to 1 digit after 50000 machines") != std::string::npos);
+  CHECK(told->help == "see the Monte Carlo errors, or ask for a lower --coverage");
 }
 
 TEST_CASE("a characteristic that next to no machine reaches is lost, with the reason") {
