@@ -37,15 +37,44 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, end + 1 - begin);
 }
 
+/// Behind the `!`: what blanks separate, in an expectation also commas, except for those in parentheses.
+std::vector<Token> split(const JoinedText& comment) {
+  std::vector<Token> tokens;
+  const std::string& text = comment.text();
+  std::string_view between = " \t";
+  for (std::size_t i = text.find('!') + 1; i < text.size();) {
+    const std::size_t begin = text.find_first_not_of(between, i);
+    if (begin == std::string::npos) break;
+    std::size_t end = begin;
+    for (int depth = 0; end < text.size() && (depth > 0 || between.find(text[end]) == between.npos); ++end)
+      depth += text[end] == '(' ? 1 : text[end] == ')' && depth > 0 ? -1 : 0;
+    tokens.push_back({text.substr(begin, end - begin), comment.span(begin, end), begin});
+    if (upper(tokens.back().text) == "EXPECT") between = " \t,";  // reports write FA(A),FA(B),TA(L)
+    i = end;
+  }
+  return tokens;
+}
+
+/// "TA(LEN)" to LEN when the kind is one of the two, else nothing.
+std::optional<std::string> label_of(const std::string& token, std::string_view kind, std::string_view other) {
+  const std::size_t open = token.find('(');
+  if (open == std::string::npos || !token.ends_with(')')) return std::nullopt;
+  const std::string written = upper(token.substr(0, open));
+  if (written != kind && written != other) return std::nullopt;
+  return token.substr(open + 1, token.size() - open - 2);
+}
+
 /// Thrown inside this file to leave a directive that has a mistake; the message is in the sink.
 struct Abandoned {};
 
 class DirectiveReader {
  public:
   DirectiveReader(const JoinedText& comment, Lowering& lowering, int line)
-      : lowering_(lowering), line_(line), comment_(comment) {
-    split();
-  }
+      : lowering_(lowering),
+        line_(line),
+        comment_(comment),
+        tokens_(split(comment)),
+        whole_(comment.span(0, comment.text().size())) {}
 
   void read() {
     try {
@@ -55,22 +84,6 @@ class DirectiveReader {
   }
 
  private:
-  void split() {
-    const std::string& text = comment_.text();
-    std::string_view between = " \t";
-    for (std::size_t i = text.find('!') + 1; i < text.size();) {
-      const std::size_t begin = text.find_first_not_of(between, i);
-      if (begin == std::string::npos) break;
-      std::size_t end = begin;
-      for (int depth = 0; end < text.size() && (depth > 0 || between.find(text[end]) == between.npos); ++end)
-        depth += text[end] == '(' ? 1 : text[end] == ')' && depth > 0 ? -1 : 0;
-      tokens_.push_back({text.substr(begin, end - begin), comment_.span(begin, end), begin});
-      if (upper(tokens_.back().text) == "EXPECT") between = " \t,";  // reports write FA(A),FA(B),TA(L)
-      i = end;
-    }
-    whole_ = comment_.span(0, text.size());
-  }
-
   [[noreturn]] void mistake(Code code, Span at, std::string message, std::string help, std::string replacement = "") {
     lowering_.sink.add(
         diagnostic_at(lowering_.source, at, code, std::move(message), std::move(help), std::move(replacement)));
@@ -175,27 +188,18 @@ class DirectiveReader {
             near);
   }
 
-  /// "TA(LEN)" to LEN when the kind is one of the two, else nothing.
-  static std::optional<std::string> label(const std::string& token, std::string_view kind, std::string_view other) {
-    const std::size_t open = token.find('(');
-    if (open == std::string::npos || !token.ends_with(')')) return std::nullopt;
-    const std::string written = upper(token.substr(0, open));
-    if (written != kind && written != other) return std::nullopt;
-    return token.substr(open + 1, token.size() - open - 2);
-  }
-
   void expect() {
     Expectation e;
     e.line = line_;
     const std::string& text = comment_.text();
     e.text = text.substr(text.find_first_not_of(" \t", text.find('!') + 1));
     const Token* first = &take("expect", "TA(label) or accepted");
-    while (const auto feature = label(first->text, "FA", "F")) {
+    while (const auto feature = label_of(first->text, "FA", "F")) {
       e.features.push_back(*feature);
       first = &take("expect", "TA(label)");
     }
     const Span subject_span = first->span;
-    if (const auto tolerance = label(first->text, "TA", "T")) {
+    if (const auto tolerance = label_of(first->text, "TA", "T")) {
       e.subject = *tolerance;
       occurrence(e);
       quantity(e);
@@ -256,9 +260,9 @@ class DirectiveReader {
   Lowering& lowering_;
   int line_;
   const JoinedText& comment_;
-  std::vector<Token> tokens_;
+  const std::vector<Token> tokens_;
+  const Span whole_;
   std::size_t next_ = 0;
-  Span whole_;
 };
 
 int evaluations_of(const plan::Plan& plan, const Expectation& e) {
@@ -272,15 +276,41 @@ int evaluations_of(const plan::Plan& plan, const Expectation& e) {
       }));
 }
 
-}  // namespace
-
-std::span<const DirectiveHelp> directives() { return kKnownDirectives; }
-
-namespace {
-
 bool is_directive(const LogicalLine& line) { return line.comment && line.comment->text().starts_with('!'); }
 
+/// How many words behind its name a directive takes; `answer` and `expect` take the rest of the comment.
+std::size_t words_of(std::string_view directive) {
+  constexpr std::size_t kRest = 1000;
+  return directive == "PLACE" ? 3 : directive == "ANSWER" || directive == "EXPECT" ? kRest : 1;
+}
+
+/// The first token of the directive that is not complete before `count`; `count` when the next one begins there.
+std::size_t last_directive(const std::vector<Token>& tokens, std::size_t count) {
+  std::size_t at = 0;
+  while (at < count && at + words_of(upper(tokens[at].text)) < count) at += words_of(upper(tokens[at].text)) + 1;
+  return at;
+}
+
 }  // namespace
+
+std::vector<LabelRef> directive_labels(const LogicalLine& line) {
+  std::vector<LabelRef> out;
+  if (!is_directive(line)) return out;
+  const std::vector<Token> tokens = split(*line.comment);
+  const std::size_t at = last_directive(tokens, tokens.size());
+  if (at >= tokens.size()) return out;
+  const std::string directive = upper(tokens[at].text);
+  for (std::size_t k = at + 1; k < tokens.size() && directive == "EXPECT"; ++k)
+    for (const auto& [kind, other] : {std::pair{"FA", "F"}, std::pair{"TA", "T"}})
+      if (auto name = label_of(tokens[k].text, kind, other)) out.push_back({other, std::move(*name), tokens[k].span});
+  if (directive != "ANSWER" || at + 1 >= tokens.size()) return out;
+  const std::size_t begin = tokens[at + 1].begin;
+  const std::string name = trimmed(line.comment->text().substr(begin, line.comment->text().find('=', begin) - begin));
+  if (!name.empty()) out.push_back({"", name, line.comment->span(begin, begin + name.size())});
+  return out;
+}
+
+std::span<const DirectiveHelp> directives() { return kKnownDirectives; }
 
 void read_directives(const LogicalLine& line, Lowering& lowering) {
   if (is_directive(line))

@@ -18,6 +18,9 @@ struct DirectiveHelp {
 };
 std::span<const DirectiveHelp> directives();
 
+/// The labels that a line's directives name, and the variable of `answer` (without a kind).
+std::vector<LabelRef> directive_labels(const LogicalLine&);
+
 /// Reads a comment if it is a directive; every mistake goes to the sink.
 void read_directives(const LogicalLine&, Lowering&);
 /// A directive in a module is an error: what it asks for is asked of the program.

@@ -43,6 +43,8 @@ Symbol symbol_of(std::string_view kind) {
 }
 
 std::string label_text(const lang::LabelUse& use) {
+  if (use.kind == lang::kJumpTarget) return fmt::format("({})", use.name);
+  if (use.kind == lang::kQuotedArgument) return fmt::format("'{}'", use.name);
   return use.kind.empty() ? use.name : fmt::format("{}({})", use.kind, use.name);
 }
 
@@ -106,18 +108,27 @@ json Document::diagnostics() const {
   return list;
 }
 
+/// The innermost one: the variable in F(@NAME) rather than the label.
 const lang::LabelUse* Document::use_at(std::uint32_t offset) const {
+  const lang::LabelUse* found = nullptr;
   for (const lang::LabelUse& use : uses_)
-    if (use.span.begin <= offset && offset <= use.span.end) return &use;
-  return nullptr;
+    if (use.span.begin <= offset && offset <= use.span.end &&
+        (!found || use.span.end - use.span.begin < found->span.end - found->span.begin))
+      found = &use;
+  return found;
 }
 
 json Document::hover(std::uint32_t offset) const {
   if (const lang::LabelUse* use = use_at(offset)) {
     const lang::LabelUse* definition = lang::definition_of(uses_, *use);
-    if (!definition) return markdown(label_text(*use) + " is not defined in this program");
-    return markdown(
-        fmt::format("{}\nline {}", source_.text(definition->statement), source_.place(definition->span.begin).line));
+    const std::string shown = !definition
+        ? ""
+        : fmt::format("{}\nline {}", source_.text(definition->statement), source_.place(definition->span.begin).line);
+    if (use->computed)
+      return markdown(
+          fmt::format("{}: computed label{}", label_text(*use), definition && definition != use ? "\n" + shown : ""));
+    // Without one it may come from a module, a computed label or the machine file.
+    return definition ? markdown(shown) : json(nullptr);
   }
   const auto help = lang::explain_word(word_at(source_.text(), offset));
   return help ? markdown(*help) : json(nullptr);

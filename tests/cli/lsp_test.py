@@ -2,6 +2,7 @@
 """abbe lsp: the language server, driven over its standard streams as an editor does it."""
 import json
 import subprocess
+import urllib.parse
 
 import harness
 from harness import LENGTH
@@ -51,13 +52,22 @@ class Lsp(harness.Case):
         self.capabilities = self.server.request("initialize", {"capabilities": {}})["result"]["capabilities"]
         self.server.notify("initialized", {})
 
-    def open(self, text):
-        self.text = text
-        self.server.notify("textDocument/didOpen", {"textDocument": {"uri": URI, "languageId": "dmis", "version": 1, "text": text}})
+    def open(self, text, uri=URI):
+        self.text, self.uri = text, uri
+        self.server.notify("textDocument/didOpen", {"textDocument": {"uri": uri, "languageId": "dmis", "version": 1, "text": text}})
         published = self.server.receive()
         self.assertEqual(published["method"], "textDocument/publishDiagnostics")
-        self.assertEqual(published["params"]["uri"], URI)
+        self.assertEqual(published["params"]["uri"], uri)
         return published["params"]["diagnostics"]
+
+    def open_beside(self, text, **modules):
+        """Opens a program that lies beside these modules."""
+        for name, module in modules.items():
+            self.write(name + ".dmi", module)
+        return self.open(text, self.uri_of("a program.dmi"))
+
+    def uri_of(self, name):
+        return "file://" + urllib.parse.quote(str(self.folder / name))
 
     def place(self, piece, shift=0, nth=0):
         """The position `shift` UTF-16 units behind the beginning of the nth occurrence of a piece of the text."""
@@ -70,10 +80,22 @@ class Lsp(harness.Case):
         return {"line": line, "character": units + shift}
 
     def ask(self, question, place=None, **more):
-        params = {"textDocument": {"uri": URI}, **more}
+        return self.answer(question, place, **more)["result"]
+
+    def answer(self, question, place=None, **more):
+        params = {"textDocument": {"uri": self.uri}, **more}
         if place:
             params["position"] = place
-        return self.server.request("textDocument/" + question, params)["result"]
+        return self.server.request("textDocument/" + question, params)
+
+    def hover(self, place):
+        answer = self.ask("hover", place)
+        return answer and answer["contents"]["value"]
+
+    def pieces(self, ranges):
+        """What stands at these ranges."""
+        lines = [line.encode("utf-16-le") for line in self.text.split("\n")]
+        return [lines[r["start"]["line"]][2 * r["start"]["character"]:2 * r["end"]["character"]].decode("utf-16-le") for r in ranges]
 
     def test_messages_as_you_type_and_their_quick_fixes(self):
         wrong = LENGTH.replace("SNSLCT/S(P)", "SNSLCTT/S(P)").replace("OUTPUT/FA(A)", "OUTPUT/FA(AA)")
@@ -159,6 +181,24 @@ class Lsp(harness.Case):
         self.assertEqual(edits[0]["range"]["start"], {"line": 0, "character": 0})
         self.open(edits[0]["newText"])
         self.assertEqual(self.ask("formatting", options={}), [])
+
+    def test_hover_claims_nothing_of_names_that_only_a_run_knows(self):
+        self.open("DECL/CHAR,5,L\nL=ASSIGN/'A'\nF(A)=FEAT/POINT,CART,0,0,0,0,0,1\nDO/I,1,3\n  F(H@I)=FEAT/POINT,CART,0,0,0,0,0,1\nENDDO\n"
+                  "MEAS/POINT,F(@L),1\nPTMEAS/CART,0,0,0\nENDMES\nOUTPUT/FA(H2)\nSNSLCT/SA(STAR)\n")
+        self.assertIn("F(@L): computed label", self.hover(self.place("F(@L)")))
+        self.assertIn("L=ASSIGN/'A'", self.hover(self.place("F(@L)", 4)))
+        self.assertIn("DO/I,1,3", self.hover(self.place("H@I", 3)))
+        self.assertIsNone(self.hover(self.place("FA(H2)", 3)))
+        self.assertIsNone(self.hover(self.place("SA(STAR)", 3)))
+
+    def test_declarations_name_variables_alone(self):
+        text = "DECL/GLOBAL,REAL,X,A[5]\nDECL/CHAR,20,S\nDECL/REAL,ABC\nA[2]=ASSIGN/A[1]+X\nX=ASSIGN/"
+        self.open(text)
+        self.assertEqual([s["name"] for s in self.ask("documentSymbol")], ["X", "A", "S", "ABC", "A", "X"])
+        self.assertEqual(self.labels(text), ["A", "ABC", "S", "X"])
+        self.assertIsNone(self.hover(self.place("REAL", 2)))
+        uses = self.ask("references", self.place("A[5]", 1), context={"includeDeclaration": True})
+        self.assertEqual([u["range"]["start"] for u in uses], [self.place("A[5]"), self.place("A[2]"), self.place("A[1]")])
 
     def test_requests_that_make_no_sense_are_answered_and_the_server_goes_on(self):
         self.open(LENGTH)
