@@ -45,6 +45,9 @@ struct Compilation {
   Directives directives;
   std::vector<Lost> lost;
   std::vector<std::string> modules;  ///< files that INCLUD, EXTFIL and CALL read
+  /// Of messages about modules, by the file and the first byte that they are about: where the program calls what stands
+  /// there.
+  std::map<std::pair<std::string, std::uint32_t>, Span> calls;
 };
 
 /// What a compilation needs to know beyond the program.

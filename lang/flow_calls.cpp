@@ -23,6 +23,20 @@ const RawArgument* labelled_argument(const RawStatement& raw, std::string_view k
   return nullptr;
 }
 
+/// What is read or lowered while it lives stands in another file or in a macro, called where the current statement is.
+struct Elsewhere {
+  Elsewhere(Lowering& lowering, const SourceFile& there, const std::string& where)
+      : statement(lowering.statement, lowering.statement),
+        place(lowering.place, &there == &lowering.source ? std::nullopt : std::optional(lowering.here())),
+        file(lowering.file, &there),
+        call(lowering.call, where) {}
+
+  Changed<const RawStatement*> statement;
+  Changed<std::optional<std::pair<Span, int>>> place;
+  Changed<const SourceFile*> file;
+  Changed<std::string> call;
+};
+
 }  // namespace
 
 void Flow::define_macro(int at) {
@@ -121,22 +135,15 @@ void Flow::call_macro(const LabelRef& label, std::span<const RawArgument> actual
 
 /// The lines of another routine; what is wrong with them is said of its file.
 Routine Flow::read_routine(const SourceFile& file, std::vector<LogicalLine> lines, const std::string& where) {
-  const Changed statement(lowering_.statement, lowering_.statement);
-  const Changed there(lowering_.file, &file);
-  const Changed call(lowering_.call, where);
+  const Elsewhere there(lowering_, file, where);
   return make_routine(file, std::move(lines), lowering_);
 }
 
 /// Lowers another routine and comes back.
 void Flow::inside(Routine& routine, const std::string& where, const std::string& scope) {
-  std::optional<std::pair<Span, int>> program_place;
-  if (routine.file != &lowering_.source) program_place = lowering_.here();
   std::vector<std::string> scopes = lowering_.scopes;
   if (!scope.empty()) scopes.push_back(scope);
-  const Changed statement(lowering_.statement, lowering_.statement);
-  const Changed place(lowering_.place, program_place);
-  const Changed file(lowering_.file, routine.file);
-  const Changed call(lowering_.call, where);
+  const Elsewhere there(lowering_, *routine.file, where);
   const Changed around(lowering_.scopes, std::move(scopes));
   const Changed here(routine_, &routine);
   const Changed targets(targets_, {});
@@ -163,15 +170,11 @@ void Flow::run_module(const RawArgument& name, bool only_macros) {
   Module* found = load(name);
   if (!found) return failed_control();
   const std::string where = fmt::format("(read in line {} of '{}')", raw.line, lowering_.file->name());
-  for (const LogicalLine& line : found->lines) {
-    const Changed there(lowering_.file, found->file.get());
-    const Changed call(lowering_.call, where);
-    refuse_directives(line, lowering_);
-  }
   Routine body = read_routine(*found->file, found->lines, where);
   {
-    const Changed statement(lowering_.statement, lowering_.statement);
+    const Elsewhere there(lowering_, *found->file, where);
     const Changed here(routine_, &body);
+    for (const LogicalLine& line : found->lines) refuse_directives(line, lowering_);
     for (int k = 0; k < body.size(); ++k)
       if (body[k].control == Control::macro && !body[k].skipped) define_macro(k);
   }

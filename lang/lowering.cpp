@@ -30,6 +30,7 @@ std::string chain(std::string consequence, std::string_view cause) {
 void Lowering::add(Diagnostic d) {
   const std::uint32_t at = d.span ? d.span->begin : 0;
   if (!reported_.insert({d.code, file, at}).second) return;
+  if (place) out.calls.try_emplace({d.file, at}, place->first);
   if (!call.empty()) d.help = fmt::format("{}{}{}", d.help, d.help.empty() ? "" : " ", call);
   sink.add(std::move(d));
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "lang/blocks.hpp"
-#include "lang/compile.hpp"
 #include "lang/format.hpp"
 #include "lang/lines.hpp"
 #include "lang/parser.hpp"
@@ -84,22 +84,52 @@ std::string path_of(const std::string& uri) {
   return path;
 }
 
-Document::Document(std::string uri, std::string text) : uri_(std::move(uri)), source_(path_of(uri_), std::move(text)) {
-  Sink sink;
-  lang::compile(source_, sink);
-  messages_ = sink.sorted();
-  uses_ = lang::label_uses(source_);
+std::string uri_of(const std::string& path) {
+  std::string uri = "file://";
+  for (const char c : std::filesystem::absolute(path).generic_string())
+    uri += std::isalnum(static_cast<unsigned char>(c)) || std::string_view("/-._~").find(c) != std::string_view::npos
+        ? std::string(1, c)
+        : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return uri;
 }
 
-json Document::location(Span span) const { return {{"uri", uri_}, {"range", range(source_, span)}}; }
+Document::Document(std::string uri, std::string text) : uri_(std::move(uri)), source_(path_of(uri_), std::move(text)) {
+  Sink sink;
+  compilation_ = lang::compile(source_, sink);
+  messages_ = sink.sorted();
+  uses_ = lang::label_uses(source_);
+  for (const std::string& path : compilation_.modules) {
+    try {
+      modules_.push_back(read_source(path));
+    } catch (const UserError&) {  // it went while the program was compiled
+    }
+  }
+}
 
+json Document::location(const SourceFile& source, Span span) const {
+  return {{"uri", &source == &source_ ? uri_ : uri_of(source.name())}, {"range", range(source, span)}};
+}
+
+bool Document::is_foreign(const Diagnostic& d) const { return !d.file.empty() && d.file != source_.name(); }
+
+/// What is wrong in a module stands where the program calls it.
 json Document::message(const Diagnostic& d) const {
   const int severity = d.severity() == Severity::error ? 1 : d.severity() == Severity::warning ? 2 : 3;
-  return {{"range", range(source_, d.span.value_or(Span{}))},
-          {"severity", severity},
-          {"code", info(d.code).name},
-          {"source", "abbe"},
-          {"message", d.help.empty() ? d.message : d.message + "\n" + d.help}};
+  const std::string text = d.help.empty() ? d.message : d.message + "\n" + d.help;
+  json out = {{"range", range(source_, d.span.value_or(Span{}))},
+              {"severity", severity},
+              {"code", info(d.code).name},
+              {"source", "abbe"},
+              {"message", text}};
+  if (!is_foreign(d)) return out;
+  const auto call = compilation_.calls.find({d.file, d.span.value_or(Span{}).begin});
+  out["range"] = range(source_, call == compilation_.calls.end() ? Span{} : call->second);
+  out["message"] =
+      fmt::format("{}, line {}: {}", std::filesystem::path(d.file).filename().string(), d.place.line, text);
+  for (const SourceFile& module : modules_)
+    if (d.span && module.name() == d.file)
+      out["relatedInformation"] = {{{"location", location(module, *d.span)}, {"message", d.message}}};
+  return out;
 }
 
 json Document::diagnostics() const {
@@ -137,14 +167,15 @@ json Document::hover(std::uint32_t offset) const {
 json Document::definition(std::uint32_t offset) const {
   const lang::LabelUse* use = use_at(offset);
   const lang::LabelUse* found = use ? lang::definition_of(uses_, *use) : nullptr;
-  return found ? location(found->span) : json(nullptr);
+  return found ? location(source_, found->span) : json(nullptr);
 }
 
 json Document::references(std::uint32_t offset, bool with_definition) const {
   json list = json::array();
   const lang::LabelUse* use = use_at(offset);
   for (const lang::LabelUse& other : uses_)
-    if (use && other.same_label(*use) && (with_definition || !other.definition)) list.push_back(location(other.span));
+    if (use && other.same_label(*use) && (with_definition || !other.definition))
+      list.push_back(location(source_, other.span));
   return list;
 }
 
@@ -204,7 +235,7 @@ json Document::folding() const {
 json Document::fixes(Span wanted) const {
   json list = json::array();
   for (const Diagnostic& d : messages_) {
-    if (d.replacement.empty() || !d.span || !touches(*d.span, wanted)) continue;
+    if (d.replacement.empty() || !d.span || is_foreign(d) || !touches(*d.span, wanted)) continue;
     const json edit = {{"range", range(source_, *d.span)}, {"newText", d.replacement}};
     list.push_back({{"title", fmt::format("Write {}", d.replacement)},
                     {"kind", "quickfix"},

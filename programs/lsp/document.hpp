@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "lang/compile.hpp"
 #include "lang/labels.hpp"
 
 namespace abbe::lsp {
@@ -34,16 +36,21 @@ class Document {
 
  private:
   const lang::LabelUse* use_at(std::uint32_t offset) const;
-  nlohmann::json location(Span) const;
+  nlohmann::json location(const SourceFile&, Span) const;
+  bool is_foreign(const Diagnostic&) const;
   nlohmann::json message(const Diagnostic&) const;
 
   std::string uri_;
   SourceFile source_;
+  lang::Compilation compilation_;
   std::vector<Diagnostic> messages_;
   std::vector<lang::LabelUse> uses_;
+  std::vector<SourceFile> modules_;  ///< the files that the program reads
 };
 
 /// The path of a `file:` URI, percent signs decoded; other URIs as they are.
 std::string path_of(const std::string& uri);
+/// The other way round.
+std::string uri_of(const std::string& path);
 
 }  // namespace abbe::lsp

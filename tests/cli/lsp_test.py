@@ -182,6 +182,25 @@ class Lsp(harness.Case):
         self.open(edits[0]["newText"])
         self.assertEqual(self.ask("formatting", options={}), [])
 
+    def test_what_is_wrong_in_a_module_stands_at_its_call(self):
+        module = "$$ touches \u00e4\nF(A)=FEAT/POINT,CART,0,0,0,0,0,1\nMEAS/POINT,F(A),1\n  PTMAES/CART,0,0,0\nENDMES\n"
+        found = self.open_beside("DMISMN/'a part with a long name',4.0\nUNITS/MM,ANGDEC\nT(LENGTH)=TOL/DIAM,-.1,.1\nINCLUD/DMIS,'touches'\nENDFIL\n",
+                                 touches=module)
+        first = [d for d in found if d["code"] == "E0110"][0]
+        self.assertEqual(self.pieces([first["range"]]), ["INCLUD/DMIS,'touches'"])
+        self.assertIn("touches.dmi, line 4: PTMAES is not a word", first["message"])
+        related = first["relatedInformation"][0]["location"]
+        self.assertEqual(related, {"uri": self.uri_of("touches.dmi"), "range": {"start": {"line": 3, "character": 2}, "end": {"line": 3, "character": 8}}})
+        whole = {"start": {"line": 0, "character": 0}, "end": {"line": 4, "character": 0}}
+        self.assertEqual(self.ask("codeAction", range=whole, context={"diagnostics": []}), [])
+
+    def test_what_is_wrong_in_a_macro_of_a_module_stands_at_its_call(self):
+        found = self.open_beside("UNITS/MM,ANGDEC\nXTERN\nEXTFIL/DMIS,'macros.dmi'\nENDXTN\nCALL/M(A),5\nCALL/M(A),'t'\nENDFIL\n",
+                                 macros="DMISMD/'macros',5.2\nM(A)=MACRO/X\n  GOTO/X,0,0\nENDMAC\nENDFIL\n")
+        first = [d for d in found if d["code"] == "E0106"][0]
+        self.assertEqual(self.pieces([first["range"]]), ["CALL/M(A),'t'"])
+        self.assertIn("macros.dmi, line 3", first["message"])
+
     def test_hover_claims_nothing_of_names_that_only_a_run_knows(self):
         self.open("DECL/CHAR,5,L\nL=ASSIGN/'A'\nF(A)=FEAT/POINT,CART,0,0,0,0,0,1\nDO/I,1,3\n  F(H@I)=FEAT/POINT,CART,0,0,0,0,0,1\nENDDO\n"
                   "MEAS/POINT,F(@L),1\nPTMEAS/CART,0,0,0\nENDMES\nOUTPUT/FA(H2)\nSNSLCT/SA(STAR)\n")
