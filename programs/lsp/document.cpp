@@ -42,12 +42,6 @@ Symbol symbol_of(std::string_view kind) {
                                          : Symbol::variable;
 }
 
-std::string label_text(const lang::LabelUse& use) {
-  if (use.kind == lang::kJumpTarget) return fmt::format("({})", use.name);
-  if (use.kind == lang::kQuotedArgument) return fmt::format("'{}'", use.name);
-  return use.kind.empty() ? use.name : fmt::format("{}({})", use.kind, use.name);
-}
-
 bool touches(Span a, Span b) { return a.begin <= b.end && b.begin <= a.end; }
 
 /// The word around an offset: letters, digits and a sign before them.
@@ -93,6 +87,12 @@ std::string uri_of(const std::string& path) {
   return uri;
 }
 
+std::string label_text(const lang::LabelUse& use) {
+  if (use.kind == lang::kJumpTarget) return fmt::format("({})", use.name);
+  if (use.kind == lang::kQuotedArgument) return fmt::format("'{}'", use.name);
+  return use.kind.empty() ? use.name : fmt::format("{}({})", use.kind, use.name);
+}
+
 Document::Document(std::string uri, std::string text) : uri_(std::move(uri)), source_(path_of(uri_), std::move(text)) {
   Sink sink;
   compilation_ = lang::compile(source_, sink);
@@ -100,7 +100,9 @@ Document::Document(std::string uri, std::string text) : uri_(std::move(uri)), so
   uses_ = lang::label_uses(source_);
   for (const std::string& path : compilation_.modules) {
     try {
-      modules_.push_back(read_source(path));
+      SourceFile module = read_source(path);
+      std::vector<lang::LabelUse> uses = lang::label_uses(module);
+      modules_.push_back({std::move(module), std::move(uses)});
     } catch (const UserError&) {  // it went while the program was compiled
     }
   }
@@ -126,9 +128,9 @@ json Document::message(const Diagnostic& d) const {
   out["range"] = range(source_, call == compilation_.calls.end() ? Span{} : call->second);
   out["message"] =
       fmt::format("{}, line {}: {}", std::filesystem::path(d.file).filename().string(), d.place.line, text);
-  for (const SourceFile& module : modules_)
-    if (d.span && module.name() == d.file)
-      out["relatedInformation"] = {{{"location", location(module, *d.span)}, {"message", d.message}}};
+  for (const Module& module : modules_)
+    if (d.span && module.source.name() == d.file)
+      out["relatedInformation"] = {{{"location", location(module.source, *d.span)}, {"message", d.message}}};
   return out;
 }
 
@@ -148,17 +150,27 @@ const lang::LabelUse* Document::use_at(std::uint32_t offset) const {
   return found;
 }
 
+std::optional<Document::Definition> Document::definition_of(const lang::LabelUse& use) const {
+  if (const lang::LabelUse* found = lang::definition_of(uses_, use)) return Definition{&source_, found};
+  for (const Module& module : modules_)
+    if (use.scope == 0)
+      if (const lang::LabelUse* found = lang::definition_of(module.uses, use)) return Definition{&module.source, found};
+  return std::nullopt;
+}
+
+std::string Document::shown(const Definition& d) const {
+  return fmt::format("{}\nline {}{}", d.source->text(d.use->statement), d.source->place(d.use->span.begin).line,
+                     d.source == &source_ ? "" : " of " + std::filesystem::path(d.source->name()).filename().string());
+}
+
 json Document::hover(std::uint32_t offset) const {
   if (const lang::LabelUse* use = use_at(offset)) {
-    const lang::LabelUse* definition = lang::definition_of(uses_, *use);
-    const std::string shown = !definition
-        ? ""
-        : fmt::format("{}\nline {}", source_.text(definition->statement), source_.place(definition->span.begin).line);
+    const auto definition = definition_of(*use);
     if (use->computed)
-      return markdown(
-          fmt::format("{}: computed label{}", label_text(*use), definition && definition != use ? "\n" + shown : ""));
-    // Without one it may come from a module, a computed label or the machine file.
-    return definition ? markdown(shown) : json(nullptr);
+      return markdown(fmt::format("{}: computed label{}", label_text(*use),
+                                  definition && definition->use != use ? "\n" + shown(*definition) : ""));
+    // Without one it may come from a computed label or from the machine file.
+    return definition ? markdown(shown(*definition)) : json(nullptr);
   }
   const auto help = lang::explain_word(word_at(source_.text(), offset));
   return help ? markdown(*help) : json(nullptr);
@@ -166,22 +178,32 @@ json Document::hover(std::uint32_t offset) const {
 
 json Document::definition(std::uint32_t offset) const {
   const lang::LabelUse* use = use_at(offset);
-  const lang::LabelUse* found = use ? lang::definition_of(uses_, *use) : nullptr;
-  return found ? location(source_, found->span) : json(nullptr);
+  const auto found = use ? definition_of(*use) : std::nullopt;
+  return found ? location(*found->source, found->use->span) : json(nullptr);
 }
 
 json Document::references(std::uint32_t offset, bool with_definition) const {
   json list = json::array();
   const lang::LabelUse* use = use_at(offset);
-  for (const lang::LabelUse& other : uses_)
-    if (use && other.same_label(*use) && (with_definition || !other.definition))
-      list.push_back(location(source_, other.span));
+  if (!use) return list;
+  const auto add = [&](const SourceFile& source, const std::vector<lang::LabelUse>& uses) {
+    for (const lang::LabelUse& other : uses)
+      if (other.same_label(*use) && (with_definition || !other.definition))
+        list.push_back(location(source, other.span));
+  };
+  add(source_, uses_);
+  for (const Module& module : modules_)
+    if (use->scope == 0) add(module.source, module.uses);
   return list;
 }
 
 json Document::completion(std::uint32_t offset) const {
   json items = json::array();
-  for (const Proposal& p : proposals(source_, uses_, offset))
+  std::vector<lang::LabelUse> uses = uses_;
+  for (const Module& module : modules_)
+    std::copy_if(module.uses.begin(), module.uses.end(), std::back_inserter(uses),
+                 [](const lang::LabelUse& use) { return use.definition && use.scope == 0; });
+  for (const Proposal& p : proposals(source_, uses, offset))
     items.push_back({{"label", p.text}, {"kind", static_cast<int>(p.kind)}, {"detail", p.detail}});
   return items;
 }

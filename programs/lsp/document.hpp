@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,20 @@ class Document {
   const SourceFile& source() const { return source_; }
 
  private:
+  /// A file that the program reads.
+  struct Module {
+    SourceFile source;
+    std::vector<lang::LabelUse> uses;
+  };
+  /// What defines a name, in the program or in a module.
+  struct Definition {
+    const SourceFile* source;
+    const lang::LabelUse* use;
+  };
+
   const lang::LabelUse* use_at(std::uint32_t offset) const;
+  std::optional<Definition> definition_of(const lang::LabelUse&) const;
+  std::string shown(const Definition&) const;
   nlohmann::json location(const SourceFile&, Span) const;
   bool is_foreign(const Diagnostic&) const;
   nlohmann::json message(const Diagnostic&) const;
@@ -45,12 +59,15 @@ class Document {
   lang::Compilation compilation_;
   std::vector<Diagnostic> messages_;
   std::vector<lang::LabelUse> uses_;
-  std::vector<SourceFile> modules_;  ///< the files that the program reads
+  std::vector<Module> modules_;
 };
 
 /// The path of a `file:` URI, percent signs decoded; other URIs as they are.
 std::string path_of(const std::string& uri);
 /// The other way round.
 std::string uri_of(const std::string& path);
+
+/// A label as programs write it; of a variable its name.
+std::string label_text(const lang::LabelUse&);
 
 }  // namespace abbe::lsp

@@ -201,6 +201,16 @@ class Lsp(harness.Case):
         self.assertEqual(self.pieces([first["range"]]), ["CALL/M(A),'t'"])
         self.assertIn("macros.dmi, line 3", first["message"])
 
+    def test_names_of_modules(self):
+        self.open_beside("DMISMN/'x',4.0\nUNITS/MM,ANGDEC\nINCLUD/DMIS,'macros'\nCALL/M(A),5\nENDFIL\n",
+                         macros="$$ moves\nM(A)=MACRO/X\nGOTO/X,0,0\nENDMAC\n")
+        place = self.place("CALL/M(A)", 6)
+        self.assertEqual(self.hover(place), "```\nM(A)=MACRO/X\nline 2 of macros.dmi\n```")
+        self.assertEqual(self.ask("definition", place), {"uri": self.uri_of("macros.dmi"), "range": {"start": {"line": 1, "character": 0}, "end": {"line": 1, "character": 4}}})
+        uses = self.ask("references", place, context={"includeDeclaration": True})
+        self.assertEqual([u["uri"] for u in uses], [self.uri, self.uri_of("macros.dmi")])
+        self.assertEqual([i["label"] for i in self.ask("completion", self.place("CALL/M(A)", 7))], ["A"])
+
     def test_hover_claims_nothing_of_names_that_only_a_run_knows(self):
         self.open("DECL/CHAR,5,L\nL=ASSIGN/'A'\nF(A)=FEAT/POINT,CART,0,0,0,0,0,1\nDO/I,1,3\n  F(H@I)=FEAT/POINT,CART,0,0,0,0,0,1\nENDDO\n"
                   "MEAS/POINT,F(@L),1\nPTMEAS/CART,0,0,0\nENDMES\nOUTPUT/FA(H2)\nSNSLCT/SA(STAR)\n")
