@@ -291,6 +291,29 @@ std::size_t last_directive(const std::vector<Token>& tokens, std::size_t count) 
   return at;
 }
 
+/// Behind these words of an `expect`.
+DirectiveNext next_expected(std::span<const Token> before) {
+  DirectiveNext next;
+  const auto words = [&](std::initializer_list<std::string_view> list, std::string_view help) {
+    for (const std::string_view word : list) next.words.push_back({word, "", help});
+  };
+  const auto is = [&](std::size_t from_end, std::string_view word) {
+    return before.size() >= from_end && upper(before[before.size() - from_end].text) == word;
+  };
+  if (before.empty()) {
+    next.kinds = {"FA", "TA"};
+    words({"accepted"}, "share of the machines that satisfy the specification");
+  } else if (before.size() == 1 && label_of(before[0].text, "FA", "F")) {
+    next.kinds = {"TA"};
+  } else if (const std::string& last = before.back().text; label_of(last, "TA", "T") || is(2, "OCCURRENCE")) {
+    for (const std::string_view quantity : kQuantities) next.words.push_back({quantity, "", ""});
+    if (!is(2, "OCCURRENCE")) words({"occurrence"}, "which evaluation of the tolerance, counted from 1");
+  } else if (is(1, "ACCEPTED") || std::find(kQuantities.begin(), kQuantities.end(), last) != kQuantities.end()) {
+    words({"between", ">=", "<="}, "");
+  }
+  return next;
+}
+
 }  // namespace
 
 std::vector<LabelRef> directive_labels(const LogicalLine& line) {
@@ -308,6 +331,15 @@ std::vector<LabelRef> directive_labels(const LogicalLine& line) {
   const std::string name = trimmed(line.comment->text().substr(begin, line.comment->text().find('=', begin) - begin));
   if (!name.empty()) out.push_back({"", name, line.comment->span(begin, begin + name.size())});
   return out;
+}
+
+DirectiveNext next_in_directive(const JoinedText& comment) {
+  const std::vector<Token> tokens = split(comment);
+  const bool half = !tokens.empty() && tokens.back().begin + tokens.back().text.size() == comment.text().size();
+  const std::size_t count = tokens.size() - (half ? 1 : 0), at = last_directive(tokens, count);
+  if (at >= count) return {{kKnownDirectives.begin(), kKnownDirectives.end()}, {}};
+  if (upper(tokens[at].text) != "EXPECT") return {};
+  return next_expected(std::span(tokens).subspan(at + 1, count - at - 1));
 }
 
 std::span<const DirectiveHelp> directives() { return kKnownDirectives; }

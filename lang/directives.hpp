@@ -21,6 +21,13 @@ std::span<const DirectiveHelp> directives();
 /// The labels that a line's directives name, and the variable of `answer` (without a kind).
 std::vector<LabelRef> directive_labels(const LogicalLine&);
 
+/// What may stand at the end of a directive that is being typed; its last word may be half written.
+struct DirectiveNext {
+  std::vector<DirectiveHelp> words;
+  std::vector<std::string_view> kinds;  ///< of labels
+};
+DirectiveNext next_in_directive(const JoinedText& comment);
+
 /// Reads a comment if it is a directive; every mistake goes to the sink.
 void read_directives(const LogicalLine&, Lowering&);
 /// A directive in a module is an error: what it asks for is asked of the program.

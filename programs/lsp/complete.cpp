@@ -47,7 +47,17 @@ void add_labels_of(Proposals& out, const lang::Statement& statement, const std::
   // What a kind of feature, tolerance or construction takes is published elsewhere.
   if (statement.word == "CONST") add_labels(out, uses, "F", "FA({})");
   if (statement.word == "TOL") add_labels(out, uses, "DAT", "DAT({})"), add_labels(out, uses, "F", "FA({})");
+  if (statement.word == "CALL") add_labels(out, uses, "M", "M({})");
+  if (statement.word == "JUMPTO") return add_labels(out, uses, lang::kJumpTarget, "({})");
   add_labels(out, uses, "", "{}");
+}
+
+void add_in_directive(Proposals& out, const lang::JoinedText& comment, const std::vector<lang::LabelUse>& uses) {
+  const lang::DirectiveNext next = lang::next_in_directive(comment);
+  for (const lang::DirectiveHelp& d : next.words)
+    out.push_back({std::string(d.word), Kind::keyword, std::string(d.help)});
+  for (const std::string_view kind : next.kinds)
+    add_labels(out, uses, lang::shared_kind(kind), fmt::format("{}({{}})", kind));
 }
 
 void add_major_words(Proposals& out) {
@@ -94,10 +104,13 @@ Proposals proposals(const SourceFile& source, const std::vector<lang::LabelUse>&
   const lang::LogicalLine line = typed_line(source, offset);
   const std::string& code = line.code.text();
   Proposals out;
-  if (line.comment) {
-    if (line.comment->text().starts_with('!'))
-      for (const lang::DirectiveHelp& d : lang::directives())
-        out.push_back({std::string(d.word), Kind::keyword, std::string(d.help)});
+  if (line.comment && line.comment->text().starts_with('!')) {
+    if (const std::string kind = open_label_kind(line.comment->text()); !kind.empty())
+      add_labels(out, uses, lang::shared_kind(kind), "{}");
+    else
+      add_in_directive(out, *line.comment, uses);
+  } else if (line.comment) {
+    return out;
   } else if (std::count(code.begin(), code.end(), '\'') % 2 != 0) {
     return out;  // inside a text
   } else if (code.find('/') != std::string::npos) {

@@ -161,6 +161,8 @@ class Lsp(harness.Case):
         self.assertIn("machines", self.labels(LENGTH + "$$! ma"))
         self.assertEqual(self.labels(LENGTH + "$$ ma"), [])
         self.assertEqual(self.labels(LENGTH + "TEXT/OPER,'PT"), [])
+        self.assertEqual(self.labels(LENGTH + "DECL/REAL,X\n(AGAIN)\nJUMPTO/"), ["(AGAIN)"])
+        self.assertIn("M(HOLE)", self.labels(LENGTH + "M(HOLE)=MACRO/U\nENDMAC\nCALL/"))
 
     def test_outline_and_folding(self):
         self.open(LENGTH)
@@ -228,6 +230,20 @@ class Lsp(harness.Case):
         self.assertIsNone(self.hover(self.place("REAL", 2)))
         uses = self.ask("references", self.place("A[5]", 1), context={"includeDeclaration": True})
         self.assertEqual([u["range"]["start"] for u in uses], [self.place("A[5]"), self.place("A[2]"), self.place("A[1]")])
+
+    def test_expectations_name_labels(self):
+        text = "$$! machines 50 expect FA(A) TA(LEN) u <= 1\n" + LENGTH
+        self.open(text)
+        uses = self.ask("references", self.place("T(LEN)=", 3), context={"includeDeclaration": True})
+        self.assertEqual(self.pieces([u["range"] for u in uses]), ["TA(LEN)", "T(LEN)", "TA(LEN)"])
+        self.assertEqual(self.labels(text + "$$! expect "), ["FA(A)", "FA(B)", "TA(LEN)", "accepted"])
+        self.assertEqual(self.labels(text + "$$! expect FA(A) "), ["TA(LEN)"])
+        self.assertEqual(self.labels(text + "$$! expect TA("), ["LEN"])
+        self.assertIn("u95", self.labels(text + "$$! seed 5 expect TA(LEN) occurrence 2 u"))
+        self.assertIn("occurrence", self.labels(text + "$$! expect TA(LEN) "))
+        self.assertEqual(self.labels(text + "$$! expect TA(LEN) u "), ["<=", ">=", "between"])
+        self.assertEqual(self.labels(text + "$$! expect TA(LEN) u between "), [])
+        self.assertEqual(self.labels(text + "$$! machine "), [])
 
     def test_requests_that_make_no_sense_are_answered_and_the_server_goes_on(self):
         self.open(LENGTH)
