@@ -40,15 +40,12 @@ nlohmann::json range(const SourceFile& source, Span span) {
   return {{"start", position(source, span.begin)}, {"end", position(source, span.end)}};
 }
 
-std::uint32_t offset_of(const SourceFile& source, const nlohmann::json& position) {
-  const auto number = [&](const char* key) {
-    return std::clamp<std::int64_t>(position.at(key).get<std::int64_t>(), 0, 1'000'000'000);
-  };
-  const std::int64_t line_index = number("line");
-  if (line_index >= source.line_count()) return static_cast<std::uint32_t>(source.text().size());
+std::uint32_t offset_of(const SourceFile& source, std::uint64_t line_index, std::uint64_t character) {
+  if (line_index >= static_cast<std::uint64_t>(source.line_count()))
+    return static_cast<std::uint32_t>(source.text().size());
   const int number_of_line = static_cast<int>(line_index) + 1;
   const std::string_view line = source.line(number_of_line);
-  std::int64_t left = number("character");
+  auto left = static_cast<std::int64_t>(std::min<std::uint64_t>(character, line.size()));
   std::size_t at = 0;
   while (left > 0 && at < line.size()) {
     const CodePoint point = code_point(line, at);

@@ -13,8 +13,8 @@ namespace abbe::lsp {
 nlohmann::json position(const SourceFile&, std::uint32_t offset);
 nlohmann::json range(const SourceFile&, Span);
 
-/// The offset of a position. Positions outside the text are brought to its nearest place, as the
-/// protocol asks for.
-std::uint32_t offset_of(const SourceFile&, const nlohmann::json& position);
+/// The offset of a position: line and UTF-16 unit. Positions outside the text are brought to its nearest place, as
+/// the protocol asks for.
+std::uint32_t offset_of(const SourceFile&, std::uint64_t line, std::uint64_t character);
 
 }  // namespace abbe::lsp

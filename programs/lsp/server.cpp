@@ -1,5 +1,7 @@
 #include "programs/lsp/server.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -30,6 +32,58 @@ struct RequestError {
   std::string message;
 };
 
+/// What a message holds, by name.
+class Parameters {
+ public:
+  Parameters(const json& parameters, std::string_view method) : root_(parameters), method_(method) {}
+
+  std::string text(std::string_view path) const {
+    const json& v = at(path);
+    if (!v.is_string()) wrong(path, "a text");
+    return v.get<std::string>();
+  }
+  bool truth(std::string_view path) const {
+    const json& v = at(path);
+    if (!v.is_boolean()) wrong(path, "true or false");
+    return v.get<bool>();
+  }
+  const json& list(std::string_view path) const {
+    const json& v = at(path);
+    if (!v.is_array()) wrong(path, "a list");
+    return v;
+  }
+  std::uint32_t place(const SourceFile& source, const std::string& path) const {
+    return offset_of(source, number(path + ".line"), number(path + ".character"));
+  }
+
+ private:
+  [[noreturn]] void wrong(std::string_view path, std::string_view expected) const {
+    throw RequestError{Fault::invalid_parameters, fmt::format("{}: {} must be {}", method_, path, expected)};
+  }
+
+  std::uint64_t number(std::string_view path) const {
+    const json& v = at(path);
+    if (!v.is_number_unsigned()) wrong(path, "a whole number that is not negative");
+    return v.get<std::uint64_t>();
+  }
+
+  /// `path`: names with dots between them.
+  const json& at(std::string_view path) const {
+    const json* found = &root_;
+    for (std::size_t begin = 0, end = 0; end != std::string_view::npos; begin = end + 1) {
+      end = path.find('.', begin);
+      const std::string name(path.substr(begin, end == std::string_view::npos ? end : end - begin));
+      if (!found->is_object() || !found->contains(name))
+        throw RequestError{Fault::invalid_parameters, fmt::format("{}: {} is missing", method_, path.substr(0, end))};
+      found = &(*found)[name];
+    }
+    return *found;
+  }
+
+  const json& root_;
+  std::string_view method_;
+};
+
 json capabilities() {
   return {{"capabilities",
            {{"positionEncoding", "utf-16"},
@@ -51,26 +105,25 @@ class Server {
 
   /// Nothing while the server goes on, else its exit code.
   std::optional<int> handle(const std::string& text) {
-    json message = json::parse(text, nullptr, false);
+    const json message = json::parse(text, nullptr, false);
     if (message.is_discarded()) return fail(nullptr, {Fault::parse, "the message is not JSON"});
-    const json id = message.is_object() && message.contains("id") ? message["id"] : json(nullptr);
-    if (!message.is_object() || !message.contains("method")) {
-      // An answer to a request of ours would come here; we make none.
-      if (!message.is_object()) fail(id, {Fault::invalid_request, "a message is an object with a method"});
-      return std::nullopt;
-    }
+    const bool object = message.is_object();
+    // An answer to a request of ours would come here; we make none.
+    if (object && (message.contains("result") || message.contains("error"))) return std::nullopt;
+    const json id = object && message.contains("id") ? message["id"] : json(nullptr);
+    if (!object || !message.contains("method") || !message["method"].is_string())
+      return fail(id, {Fault::invalid_request, "a message is an object with a method"});
+    const std::string method = message["method"].get<std::string>();
+    if (method == "exit") return shut_down_ ? 0 : 1;
+    const json parameters = message.value("params", json::object());
     try {
-      const std::string method = message["method"].get<std::string>();
-      if (method == "exit") return shut_down_ ? 0 : 1;
-      const json parameters = message.value("params", json::object());
-      if (id.is_null())
-        notice(method, parameters);
+      if (!message.contains("id"))
+        notice(method, {parameters, method});
       else
-        send({{"jsonrpc", "2.0"}, {"id", id}, {"result", answer(method, parameters)}});
+        send({{"jsonrpc", "2.0"}, {"id", id}, {"result", answer(method, {parameters, method})}});
     } catch (const RequestError& error) {
-      fail(id, error);
-    } catch (const json::exception& error) {
-      fail(id, {Fault::invalid_parameters, error.what()});
+      // Notices get no answer, not even when they are wrong.
+      return message.contains("id") ? fail(id, error) : std::nullopt;
     } catch (const std::exception& error) {  // a fault of ours must not take the editor's session away
       fail(id, {Fault::internal, error.what()});
     }
@@ -81,12 +134,10 @@ class Server {
   /// Names and labels may hold bytes that are not UTF-8; JSON must not.
   void send(const json& message) { write_message(out_, message.dump(-1, ' ', false, json::error_handler_t::replace)); }
 
-  /// Notices get no answer, not even when they are wrong.
   std::optional<int> fail(const json& id, const RequestError& error) {
-    if (!id.is_null() || error.fault == Fault::parse)
-      send({{"jsonrpc", "2.0"},
-            {"id", id},
-            {"error", {{"code", static_cast<int>(error.fault)}, {"message", error.message}}}});
+    send({{"jsonrpc", "2.0"},
+          {"id", id},
+          {"error", {{"code", static_cast<int>(error.fault)}, {"message", error.message}}}});
     return std::nullopt;
   }
 
@@ -101,26 +152,27 @@ class Server {
     publish(uri, it->second.diagnostics());
   }
 
-  void notice(const std::string& method, const json& p) {
+  void notice(const std::string& method, const Parameters& p) {
     if (method == "textDocument/didOpen") {
-      open(p.at("textDocument").at("uri"), p.at("textDocument").at("text"));
+      open(p.text("textDocument.uri"), p.text("textDocument.text"));
     } else if (method == "textDocument/didChange") {
-      const json& changes = p.at("contentChanges");
-      if (!changes.empty()) open(p.at("textDocument").at("uri"), changes.back().at("text"));
+      const json& changes = p.list("contentChanges");
+      if (!changes.empty()) open(p.text("textDocument.uri"), Parameters(changes.back(), method).text("text"));
     } else if (method == "textDocument/didClose") {
-      const std::string uri = p.at("textDocument").at("uri");
+      const std::string uri = p.text("textDocument.uri");
       documents_.erase(uri);
       publish(uri, json::array());
     }
   }
 
-  const Document& document(const json& p) const {
-    const auto it = documents_.find(p.at("textDocument").at("uri").get<std::string>());
+  const Document& document(const Parameters& p) const {
+    const auto it = documents_.find(p.text("textDocument.uri"));
     if (it == documents_.end()) throw RequestError{Fault::invalid_parameters, "this document is not open"};
     return it->second;
   }
 
-  json answer(const std::string& method, const json& p) {
+  json answer(const std::string& method, const Parameters& p) {
+    if (shut_down_) throw RequestError{Fault::invalid_request, "after shutdown only exit may come"};
     if (method == "initialize") {
       initialised_ = true;
       return capabilities();
@@ -134,19 +186,18 @@ class Server {
     throw RequestError{Fault::unknown_method, "there is no method " + method};
   }
 
-  json about_document(const std::string& question, const json& p) const {
-    const auto place = [&] { return offset_of(document(p).source(), p.at("position")); };
+  json about_document(const std::string& question, const Parameters& p) const {
+    const auto place = [&] { return p.place(document(p).source(), "position"); };
     if (question == "hover") return document(p).hover(place());
     if (question == "definition") return document(p).definition(place());
-    if (question == "references") return document(p).references(place(), p.at("context").at("includeDeclaration"));
+    if (question == "references") return document(p).references(place(), p.truth("context.includeDeclaration"));
     if (question == "completion") return document(p).completion(place());
     if (question == "documentSymbol") return document(p).outline();
     if (question == "foldingRange") return document(p).folding();
     if (question == "formatting") return document(p).formatting();
     if (question == "codeAction") {
       const SourceFile& source = document(p).source();
-      return document(p).fixes(
-          {offset_of(source, p.at("range").at("start")), offset_of(source, p.at("range").at("end"))});
+      return document(p).fixes({p.place(source, "range.start"), p.place(source, "range.end")});
     }
     throw RequestError{Fault::unknown_method, "there is no method textDocument/" + question};
   }
@@ -160,8 +211,12 @@ class Server {
 
 int serve(std::FILE* in, std::FILE* out) {
   Server server(out);
-  while (const auto message = read_message(in))
-    if (const auto code = server.handle(*message)) return *code;
+  try {
+    while (const auto message = read_message(in))
+      if (const auto code = server.handle(*message)) return *code;
+  } catch (const BrokenFrame& broken) {
+    fmt::print(stderr, "abbe lsp: {}\n", broken.reason);
+  }
   return 1;
 }
 

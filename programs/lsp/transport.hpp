@@ -12,8 +12,12 @@ namespace abbe::lsp {
 /// No message of an editor is longer; a header that claims more is not believed.
 inline constexpr std::size_t kLongestMessage = 64 << 20;
 
-/// The next message; nothing at the end of the input and after a header that cannot be read, since
-/// nobody knows then where the next message begins.
+/// The input cannot be read as messages, and why: nobody knows where the next one would begin.
+struct BrokenFrame {
+  std::string reason;
+};
+
+/// The next message; nothing at the end of the input. Throws BrokenFrame.
 std::optional<std::string> read_message(std::FILE*);
 void write_message(std::FILE*, std::string_view text);
 

@@ -253,21 +253,45 @@ class Lsp(harness.Case):
         self.assertEqual(self.server.request("textDocument/hover", {"textDocument": 5})["error"]["code"], -32602)
         self.server.send(b"{not json")
         self.assertEqual(self.server.receive()["error"]["code"], -32700)
-        self.server.send([1, 2])
+        for wrong in ([1, 2], {"id": 8}, {"id": 8, "method": 5}, 5):
+            self.server.send(wrong)
+            answer = self.server.receive()
+            self.assertEqual((answer["id"], answer["error"]["code"]), (8 if isinstance(wrong, dict) else None, -32600))
+        self.server.send({"id": 8, "result": None})
         self.server.notify("$/cancelRequest", {"id": 1})
         self.server.notify("textDocument/didChange", {})
         self.assertIsNone(self.ask("hover", {"line": 99999, "character": 99999}))
         self.assertIsNotNone(self.ask("hover", self.place("PTMEAS", 2)))
 
+    def test_wrong_parameters_are_told_in_words(self):
+        self.open(LENGTH)
+        document = {"uri": URI}
+        for params, words in (({}, "textDocument is missing"), ({"textDocument": 5}, "textDocument.uri is missing"),
+                              ({"textDocument": {"uri": 5}}, "textDocument.uri must be a text"), ({"textDocument": document}, "position is missing"),
+                              ({"textDocument": document, "position": {"line": 0, "character": -1}}, "position.character must be a whole number that is not negative"),
+                              ({"textDocument": document, "position": {"line": 0.5, "character": 0}}, "position.line must be a whole number")):
+            error = self.server.request("textDocument/hover", params)["error"]
+            self.assertEqual(error["code"], -32602)
+            self.assertIn("textDocument/hover: " + words, error["message"])
+
     def test_the_life_of_a_server(self):
         self.assertEqual(self.capabilities["positionEncoding"], "utf-16")
         self.assertIsNone(self.server.request("shutdown")["result"])
+        self.assertEqual(self.server.request("textDocument/hover")["error"]["code"], -32600)
+        self.assertEqual(self.server.request("shutdown")["error"]["code"], -32600)
         self.server.notify("exit", {})
         self.assertEqual(self.server.close(), 0)
         other = Server(self.abbe_path)
         self.assertEqual(other.request("shutdown")["error"]["code"], -32002)
-        other.process.stdin.write(b"Content-Length: 99999999999999\r\n\r\n")
         self.assertEqual(other.close(), 1)
+
+    def test_a_broken_frame_ends_the_server_with_a_word(self):
+        for frame, words in ((b"Content-Length: 99999999999999\r\n\r\n", "names no length"), (b"Content-Length: abc\r\n\r\n{}", "names no length"),
+                             (b"Content-Length: 10\r\n\r\n{}", "ends inside a message of 10 bytes"), (b"garbage\r\n\r\n", "no Content-Length"),
+                             (b"Content-Length: 2\r\n", "ends in the header"), (b"x" * 2000, "longer than")):
+            done = subprocess.run([self.abbe_path, "lsp"], input=frame, capture_output=True, timeout=20)
+            self.assertEqual((done.returncode, done.stdout), (1, b""))
+            self.assertIn(words, done.stderr.decode())
 
 
 if __name__ == "__main__":
