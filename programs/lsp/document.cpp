@@ -197,6 +197,17 @@ json Document::references(std::uint32_t offset, bool with_definition) const {
   return list;
 }
 
+json Document::highlights(std::uint32_t offset) const {
+  enum class Highlight { read = 2, write = 3 };  // LSP 3.17, DocumentHighlightKind
+  json list = json::array();
+  const lang::LabelUse* use = use_at(offset);
+  for (const lang::LabelUse& other : uses_)
+    if (use && other.same_label(*use))
+      list.push_back({{"range", range(source_, other.span)},
+                      {"kind", static_cast<int>(other.definition ? Highlight::write : Highlight::read)}});
+  return list;
+}
+
 json Document::completion(std::uint32_t offset) const {
   json items = json::array();
   std::vector<lang::LabelUse> uses = uses_;

@@ -16,6 +16,11 @@
 
 namespace abbe::lsp {
 
+/// A wish that cannot be granted, and why: a name that cannot be changed.
+struct Refused {
+  std::string reason;
+};
+
 class Document {
  public:
   /// `uri` as the editor names the file, `text` in UTF-8.
@@ -25,7 +30,12 @@ class Document {
   nlohmann::json hover(std::uint32_t offset) const;
   nlohmann::json definition(std::uint32_t offset) const;
   nlohmann::json references(std::uint32_t offset, bool with_definition) const;
+  nlohmann::json highlights(std::uint32_t offset) const;
   nlohmann::json completion(std::uint32_t offset) const;
+  /// The name that is to be changed and its place; null where there is none. Throws Refused.
+  nlohmann::json prepare_rename(std::uint32_t offset) const;
+  /// The edits that give a name another one, wherever it stands in this program. Throws Refused.
+  nlohmann::json rename(std::uint32_t offset, const std::string& name) const;
   nlohmann::json outline() const;
   nlohmann::json folding() const;
   /// Quick fixes for the messages that touch the range.
@@ -53,6 +63,9 @@ class Document {
   nlohmann::json location(const SourceFile&, Span) const;
   bool is_foreign(const Diagnostic&) const;
   nlohmann::json message(const Diagnostic&) const;
+  void check_renamable(const lang::LabelUse&) const;
+  void check_new_name(const lang::LabelUse&, const std::string& name) const;
+  void check_meaning(const std::vector<Span>& places, const std::string& name) const;
 
   std::string uri_;
   SourceFile source_;

@@ -24,7 +24,8 @@ enum class Fault {
   unknown_method = -32601,
   invalid_parameters = -32602,
   not_initialised = -32002,
-  internal = -32603
+  internal = -32603,
+  refused = -32803
 };
 
 struct RequestError {
@@ -91,6 +92,8 @@ json capabilities() {
             {"hoverProvider", true},
             {"definitionProvider", true},
             {"referencesProvider", true},
+            {"documentHighlightProvider", true},
+            {"renameProvider", {{"prepareProvider", true}}},
             {"completionProvider", {{"triggerCharacters", {"/", ",", "("}}}},
             {"documentSymbolProvider", true},
             {"foldingRangeProvider", true},
@@ -124,6 +127,8 @@ class Server {
     } catch (const RequestError& error) {
       // Notices get no answer, not even when they are wrong.
       return message.contains("id") ? fail(id, error) : std::nullopt;
+    } catch (const Refused& refused) {
+      fail(id, {Fault::refused, refused.reason});
     } catch (const std::exception& error) {  // a fault of ours must not take the editor's session away
       fail(id, {Fault::internal, error.what()});
     }
@@ -191,7 +196,10 @@ class Server {
     if (question == "hover") return document(p).hover(place());
     if (question == "definition") return document(p).definition(place());
     if (question == "references") return document(p).references(place(), p.truth("context.includeDeclaration"));
+    if (question == "documentHighlight") return document(p).highlights(place());
     if (question == "completion") return document(p).completion(place());
+    if (question == "prepareRename") return document(p).prepare_rename(place());
+    if (question == "rename") return document(p).rename(place(), p.text("newName"));
     if (question == "documentSymbol") return document(p).outline();
     if (question == "foldingRange") return document(p).folding();
     if (question == "formatting") return document(p).formatting();

@@ -97,6 +97,16 @@ class Lsp(harness.Case):
         lines = [line.encode("utf-16-le") for line in self.text.split("\n")]
         return [lines[r["start"]["line"]][2 * r["start"]["character"]:2 * r["end"]["character"]].decode("utf-16-le") for r in ranges]
 
+    def rename(self, place, name):
+        """The program with the new name."""
+        edits = self.ask("rename", place, newName=name)["changes"][self.uri]
+        lines = [line.encode("utf-16-le") for line in self.text.split("\n")]
+        for edit in sorted(edits, key=lambda e: (e["range"]["start"]["line"], -e["range"]["start"]["character"])):
+            begin, end = edit["range"]["start"], edit["range"]["end"]
+            line = lines[begin["line"]]
+            lines[begin["line"]] = line[:2 * begin["character"]] + edit["newText"].encode("utf-16-le") + line[2 * end["character"]:]
+        return "\n".join(line.decode("utf-16-le") for line in lines)
+
     def test_messages_as_you_type_and_their_quick_fixes(self):
         wrong = LENGTH.replace("SNSLCT/S(P)", "SNSLCTT/S(P)").replace("OUTPUT/FA(A)", "OUTPUT/FA(AA)")
         found = self.open("$$ \u00e4 \U0001f4d0\n" + wrong)
@@ -212,6 +222,7 @@ class Lsp(harness.Case):
         uses = self.ask("references", place, context={"includeDeclaration": True})
         self.assertEqual([u["uri"] for u in uses], [self.uri, self.uri_of("macros.dmi")])
         self.assertEqual([i["label"] for i in self.ask("completion", self.place("CALL/M(A)", 7))], ["A"])
+        self.assertIn("which other programs may read", self.answer("prepareRename", place)["error"]["message"])
 
     def test_hover_claims_nothing_of_names_that_only_a_run_knows(self):
         self.open("DECL/CHAR,5,L\nL=ASSIGN/'A'\nF(A)=FEAT/POINT,CART,0,0,0,0,0,1\nDO/I,1,3\n  F(H@I)=FEAT/POINT,CART,0,0,0,0,0,1\nENDDO\n"
@@ -221,6 +232,7 @@ class Lsp(harness.Case):
         self.assertIn("DO/I,1,3", self.hover(self.place("H@I", 3)))
         self.assertIsNone(self.hover(self.place("FA(H2)", 3)))
         self.assertIsNone(self.hover(self.place("SA(STAR)", 3)))
+        self.assertIn("computed label", self.answer("prepareRename", self.place("F(@L)"))["error"]["message"])
 
     def test_declarations_name_variables_alone(self):
         text = "DECL/GLOBAL,REAL,X,A[5]\nDECL/CHAR,20,S\nDECL/REAL,ABC\nA[2]=ASSIGN/A[1]+X\nX=ASSIGN/"
@@ -244,6 +256,42 @@ class Lsp(harness.Case):
         self.assertEqual(self.labels(text + "$$! expect TA(LEN) u "), ["<=", ">=", "between"])
         self.assertEqual(self.labels(text + "$$! expect TA(LEN) u between "), [])
         self.assertEqual(self.labels(text + "$$! machine "), [])
+
+    def test_rename_and_highlight(self):
+        self.open("$$! expect TA(LEN) u <= 1\n" + LENGTH)
+        place = self.place("FA(A)", 4)
+        marks = self.ask("documentHighlight", place)
+        self.assertEqual(self.pieces([m["range"] for m in marks]), ["F(A)", "F(A)", "FA(A)"])
+        self.assertEqual([m["kind"] for m in marks], [3, 2, 2])
+        ready = self.ask("prepareRename", place)
+        self.assertEqual((self.pieces([ready["range"]]), ready["placeholder"]), (["A"], "A"))
+        self.assertEqual(self.rename(place, "LEFT-1"), self.text.replace("(A)", "(LEFT-1)"))
+        self.assertEqual(self.rename(self.place("TA(LEN)"), "L"), self.text.replace("(LEN)", "(L)"))
+        self.assertIsNone(self.ask("prepareRename", self.place("UNITS")))
+        for wrong in ("", "B", "b", "A)", "A,B", "@A", "A" * 65):
+            self.assertEqual(self.answer("rename", place, newName=wrong)["error"]["code"], -32803, wrong)
+        self.open(LENGTH.replace("(A)", "(" + "A" * 65 + ")"))
+        self.assertEqual(self.rename(self.place("AAA"), "A"), LENGTH)
+
+    def test_rename_keeps_to_what_a_name_means(self):
+        text = ("UNITS/MM,ANGDEC\nDECL/REAL,X,Y\nX=ASSIGN/1\nM(MOVE)=MACRO/X,'L'\n  Y=ASSIGN/X+1\n  F(X)=FEAT/POINT,CART,X,0,0,0,0,1\n"
+                "  F('L')=FEAT/POINT,CART,Y,0,0,0,0,1\n  JUMPTO/(X)\n  (X)\nENDMAC\nCALL/M(MOVE),A,'L'\nCALL/M(MOVE),2,'L'\nF(X)=FEAT/POINT,CART,X,Y,0,0,0,1\n"
+                "JUMPTO/(E)\nTEXT/OPER,'E'\n(E)\n")
+        self.open(text)
+        self.assertEqual(self.rename(self.place("CART,X,Y", 5), "XX"), text.replace("REAL,X", "REAL,XX").replace("X=ASSIGN/1", "XX=ASSIGN/1").replace("CART,X,Y", "CART,XX,Y"))
+        self.assertEqual(self.rename(self.place("MACRO/X", 6), "U"), text.replace("MACRO/X", "MACRO/U").replace("ASSIGN/X", "ASSIGN/U").replace("  F(X)=FEAT/POINT,CART,X", "  F(U)=FEAT/POINT,CART,U")
+                         .replace("JUMPTO/(X)\n  (X)", "JUMPTO/(U)\n  (U)"))
+        self.assertEqual(self.rename(self.place("'L'", 1), "N"), text.replace("MACRO/X,'L'", "MACRO/X,'N'").replace("F('L')", "F('N')"))
+        self.assertEqual(self.rename(self.place("JUMPTO/(E)", 8), "END"), text.replace("JUMPTO/(E)\nTEXT/OPER,'E'\n(E)", "JUMPTO/(END)\nTEXT/OPER,'E'\n(END)"))
+        self.assertEqual(self.rename(self.place("M(MOVE)"), "GO"), text.replace("M(MOVE)", "M(GO)"))
+        self.assertIn("word of the language", self.answer("rename", self.place("Y=ASSIGN"), newName="CART")["error"]["message"])
+        self.assertIn("computed label", self.answer("prepareRename", self.place("F(X)"))["error"]["message"])
+
+    def test_rename_is_refused_where_the_compiler_finds_another_meaning(self):
+        self.open("DECL/CHAR,5,L\nL=ASSIGN/'A'\n" + LENGTH.replace("OUTPUT/FA(A)", "OUTPUT/FA(@L)"))
+        self.assertIn("FA(A) is not defined", self.answer("rename", self.place("F(A)"), newName="C")["error"]["message"])
+        self.open_beside("UNITS/MM,ANGDEC\nF(A)=FEAT/POINT,CART,0,0,0,0,0,1\nINCLUD/DMIS,'touches'\n", touches="MEAS/POINT,F(A),1\nPTMEAS/CART,0,0,0,0,0,1\nENDMES\n")
+        self.assertIn("F(A) is not defined", self.answer("rename", self.place("F(A)"), newName="C")["error"]["message"])
 
     def test_requests_that_make_no_sense_are_answered_and_the_server_goes_on(self):
         self.open(LENGTH)
