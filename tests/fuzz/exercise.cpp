@@ -45,7 +45,9 @@ Outcome exercise(const std::string& text) {
     require(!d.message.empty() && !render(d).empty(), "a message without words", text);
   }
   for (const lang::LabelUse& use : lang::label_uses(source))
-    require(use.span.begin <= use.span.end && use.span.end <= text.size(), "a label outside the text", text);
+    require(use.span.begin <= use.name_span.begin && use.name_span.begin <= use.name_span.end &&
+                use.name_span.end <= use.span.end && use.span.end <= text.size(),
+            "a label outside the text", text);
 
   const std::string formatted = lang::format(source);
   const SourceFile again("fuzz.dmi", formatted);
