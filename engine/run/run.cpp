@@ -254,7 +254,8 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
                           const RunOptions& options, const SourceFile& source) {
   ABBE_CHECK(one.size() == 1);
   Executor executor(plan, machine, options, source);
-  reference_run(executor, plan, machine, source);
+  MachineRecord record;
+  record.warnings = reference_run(executor, plan, machine, source).warnings;
   Block block = executor.make_block(one, 0, 1);
   Executor::Observed observed = executor.observe(block);
   const LaneTrap& trap = block.lanes[0].trap;
@@ -263,7 +264,6 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
                                   "the recorded machine cannot go on here: " + trap.reason,
                                   "choose another seed or smaller effects"));
   }
-  MachineRecord record;
   record.recording.rows = std::move(observed.rows);
   record.aims = std::move(observed.aims);
   for (const plan::SensorDef& def : plan.sensors)

@@ -135,7 +135,8 @@ struct MachineRecord {
   Recording recording;  ///< tip centres in the program's machine coordinates, targets, normals, motion, raw readings
   std::vector<TouchAim> aims;  ///< by row of the recording
   std::vector<OutputRecord> outputs;
-  std::vector<char> acted;  ///< by effect of the machine: RunResult::acted
+  std::vector<char> acted;           ///< by effect of the machine: RunResult::acted
+  std::vector<Diagnostic> warnings;  ///< RunResult::warnings
 };
 
 /// Runs the plan on the one machine of `one` and returns what it reports. Throws UserError as run_plan does,

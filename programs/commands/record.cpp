@@ -139,12 +139,19 @@ int record_command(const RecordOptions& options) {
   run.seed = options.seed.value_or(asked.seed.value_or(1));
   run.repeat = options.run - 1;
   run.setup = options.setup;
-  run.placement_mm =
-      asked.place_mm ? *asked.place_mm : find_placement(program.compilation.plan, machine, program.source).shift_mm;
   const plan::Plan& plan = program.compilation.plan;
+  print_messages(machine_warnings(machine));
+  if (asked.place_mm) {
+    run.placement_mm = *asked.place_mm;
+  } else {
+    const Placement placement = find_placement(plan, machine, program.source);
+    run.placement_mm = placement.shift_mm;
+    if (placement.message) print_messages({*placement.message});
+  }
   const std::vector<Rounding> roundings = take_roundings(machine);
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
   MachineRecord record = record_plan(plan, machine, one, run, program.source);
+  print_messages(record.warnings);
   for (const Rounding& rounding : roundings) {
     round_readings(record.recording, rounding.step_mm);
     record.acted[rounding.effect] = 1;

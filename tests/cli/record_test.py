@@ -146,6 +146,18 @@ with tempfile.TemporaryDirectory() as folder:
     run, out = record(folder, "--with", "noise.resolution:resolution_um=0")
     check("W0615" in run.stderr, "no step is no effect")
 
+    # What a run warns of holds for a recording, too.
+    suspect = pathlib.Path(folder) / "suspect.dmi"
+    suspect.write_text(
+        "DMISMN/'suspect',4.0\nUNITS/MM,ANGDEC\nPRCOMP/ON\nSNSLCT/SA(A0B0)\nF(P)=FEAT/POINT,CART,800,500,200,0,0,1\n"
+        "GOTO/CART,5000,500,300\nMEAS/POINT,F(P),1\nPTMEAS/CART,800,500,200,0,0,1\nENDMES\nENDFIL\n")
+    nowhere = json.loads(subprocess.run([ABBE, "machine", "init", "nowhere"], capture_output=True, text=True).stdout)
+    del nowhere["offsets_mm"]
+    (pathlib.Path(folder) / "nowhere.json").write_text(json.dumps(nowhere))
+    done = subprocess.run([ABBE, "record", str(suspect), "--machine", str(pathlib.Path(folder) / "nowhere.json"), "-o", str(out)], capture_output=True, text=True)
+    for code, what in (("W0303", "shifted"), ("W0309", "outside the travel"), ("W0417", "no scale position")):
+        check(done.returncode == 0 and done.stderr.count(code) == 1 and what in done.stderr, f"{code} is said once")
+
     # Several outputs are written all or none; a folder is refused before the work.
     for arguments, text in ((["--dmo", "/dev/full"], "/dev/full"), (["--dmo", folder], "is a folder"), (["--dmo", "/proc/none.dmo"], "/proc/none.dmo")):
         (pathlib.Path(folder) / "rec.csv").unlink(missing_ok=True)
