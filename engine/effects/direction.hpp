@@ -23,13 +23,15 @@ inline constexpr EffectParameter kAzimuthParameter{
     .unit = "deg",
     .help = "of an oblique direction: from the machine's x towards its y",
     .low = -360,
-    .high = 360};
+    .high = 360,
+    .only_with = {"direction", "oblique"}};
 
 inline constexpr EffectParameter kElevationParameter{.name = "elevation_deg",
                                                      .unit = "deg",
                                                      .help = "of an oblique direction: 90 is up, along z",
                                                      .low = -90,
-                                                     .high = 90};
+                                                     .high = 90,
+                                                     .only_with = {"direction", "oblique"}};
 
 /// Whether a parameter is such a direction, and not a choice of axes only.
 constexpr bool is_direction(const EffectParameter& p) { return p.sought == Sought::direction; }

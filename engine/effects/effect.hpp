@@ -125,6 +125,13 @@ enum class Sought {
   setup,          ///< the placements of the part, 0 for all
 };
 
+/// Where a parameter counts: with `choice` at `word`, or at any other of its words (`not_at`); no choice: everywhere.
+struct OnlyWith {
+  std::string_view choice = "";
+  std::string_view word = "";
+  bool not_at = false;
+};
+
 struct EffectParameter {
   std::string_view name;  ///< carries the unit: "amplitude_um"
   std::string_view unit;
@@ -137,6 +144,7 @@ struct EffectParameter {
   std::string_view group = "";  ///< of linear ones that often act without those of other groups
   /// names of the codes low, low + 1, ... of a parameter that is a choice
   std::span<const std::string_view> choices = {};
+  OnlyWith only_with = {};
   Sought sought = Sought::not_at_all;
   std::span<const double> tried = {};
   /// Whether it is a choice or an ordinal: a whole number, and certain.

@@ -52,6 +52,11 @@ class Refusal {
     refuse(span, Code::E0307,
            fmt::format("{}={} is not {}", p.name, value, p.is_code() ? "a value that it can have" : "plausible"), help);
   }
+  [[noreturn]] void not_read(const EffectParameter& p, std::string_view at, Span span) const {
+    const auto& [choice, word, not_at] = p.only_with;
+    refuse(span, Code::E0307, fmt::format("{} says nothing with {}={}", p.name, choice, at),
+           fmt::format("{} {}={}, or leave {} out", not_at ? "give another than" : "add", choice, word, p.name));
+  }
   [[noreturn]] void contradiction(std::string_view what) const {
     refuse(setting_.span, Code::E0307, std::string(what),
            fmt::format("`abbe explain {}` says what its parameters mean", setting_.name));
@@ -98,6 +103,21 @@ double checked_value(const EffectParameter& p, const EffectSetting::Value& given
   return value;
 }
 
+/// A person who gives on the command line what no one reads means something else. (A machine file may carry it.)
+void check_that_all_count(const Effect& effect, const EffectSetting& setting, const std::vector<double>& value,
+                          const Refusal& refusal) {
+  if (setting.option.empty()) return;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const EffectParameter& p = effect.parameters[k];
+    const auto given = setting.parameters.find(std::string(p.name));
+    if (p.only_with.choice.empty() || given == setting.parameters.end() || value[k] == p.standard) continue;
+    const std::size_t choice = *parameter_index(effect, std::string(p.only_with.choice));
+    const EffectParameter& chosen = effect.parameters[choice];
+    const std::string_view at = chosen.choices[static_cast<std::size_t>(value[choice] - chosen.low)];
+    if ((at == p.only_with.word) == p.only_with.not_at) refusal.not_read(p, at, given->second.span);
+  }
+}
+
 /// Whether d shows: only along the normal, and not below the rounding of coordinates of about a metre.
 bool shows(double along_normal_mm) { return std::fabs(along_normal_mm) >= 1e-9; }
 
@@ -135,6 +155,7 @@ EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, 
       a.value[*p] = checked_value(effect.parameters[*p], value, refusal);
       a.u[*p] = value.u;
     }
+    check_that_all_count(effect, setting, a.value, refusal);
     const std::string_view wrong = effect.contradiction ? effect.contradiction(a.value.data()) : "";
     if (!wrong.empty()) refusal.contradiction(wrong);
     a.linear = is_linear(a);

@@ -175,6 +175,11 @@ with tempfile.TemporaryDirectory() as folder:
                                   (["--with", "noise.outliers:share=2"], "E0307", "a number from 0 to 0.5\n"),
                                   (["--with", "machine.scale_interpolation:amplitude_um=5"], "E0307", "read backwards"),
                                   (["--with", "empirical.curve:from=3,to=3,x0_um=1"], "E0307", "two ends"),
+                                  (["--with", "thermal.drift:amplitude_um=3,azimuth_deg=30"], "E0307", "add direction=oblique"),
+                                  (["--with", "machine.step:amplitude_um=2,position_mm=800"], "E0307", "says nothing with along=time"),
+                                  (["--with", "machine.step:amplitude_um=2,along=x,t0_s=60"], "E0307", "add along=time"),
+                                  (["--with", "thermal.part_soak:start_K=1,shift_y_um=2"], "E0307", "add held=elsewhere"),
+                                  (["--with", "noise.unequal:ratio=2,faster_than_mm_s=3"], "E0307", "add group=fast probing"),
                                   (["--with", "machine.scal"], "E0305", "--with machine.scal:"),
                                   (["--with", "machine.scale:axis=x,axis=y"], "E0610", "twice"),
                                   (["--with", "probe.tip_radius:amplitude_um"], "E0610", "parameter=value")):

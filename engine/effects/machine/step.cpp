@@ -28,6 +28,7 @@ constexpr EffectParameter kMachineStepParameters[] = {
      .typical = 600,
      .low = 0,
      .high = 1e7,
+     .only_with = {"along", "time"},
      .sought = Sought::moment},
     kDirectionParameter,
     kAzimuthParameter,
@@ -43,6 +44,7 @@ constexpr EffectParameter kMachineStepParameters[] = {
      .typical = 0,
      .low = -5000,
      .high = 5000,
+     .only_with = {"along", "time", true},
      .sought = Sought::reading},
 };
 

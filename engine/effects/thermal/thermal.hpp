@@ -58,7 +58,14 @@ inline constexpr EffectParameter kHeldParameter{
     .choices = kHeldChoices};
 
 constexpr EffectParameter shift_parameter(std::string_view name, std::string_view unit, std::string_view help) {
-  return {.name = name, .unit = unit, .help = help, .typical = 1, .low = -50, .high = 50, .linear = true};
+  return {.name = name,
+          .unit = unit,
+          .help = help,
+          .typical = 1,
+          .low = -50,
+          .high = 50,
+          .linear = true,
+          .only_with = {"held", "elsewhere"}};
 }
 
 /// d of a part whose origin has shifted along the part's axes; `held`: a code of kHeldChoices.
