@@ -11,6 +11,7 @@
 #include "engine/report/budget.hpp"
 #include "engine/report/influences.hpp"
 #include "engine/report/report_unit.hpp"
+#include "engine/run/effect_set.hpp"
 
 namespace abbe {
 
@@ -342,13 +343,15 @@ class StudyRun {
     const bool corrected = options_.effect_use == EffectUse::corrected;
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (study_.result.acted[k]) continue;
+      const EffectParameter* size = missing_size(machine_.effects[k]);
       message(
           Code::W0615,
           fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
-          fmt::format(
-              "`abbe explain {}` says on what it depends, and which of its sizes are 0 unless given; temperatures and loads "
-              "come from a workpiece file{}",
-              machine_.effects[k].name, corrected ? "; of a corrected effect only the uncertainty remains" : ""));
+          size ? fmt::format("its {} is 0: give it a size, such as \"{}\": {:g}", size->name, size->name, size->typical)
+               : fmt::format("`abbe explain {}` says on what it depends; temperatures and loads "
+                             "come from a workpiece file{}",
+                             machine_.effects[k].name,
+                             corrected ? "; of a corrected effect only the uncertainty remains" : ""));
     }
   }
 

@@ -136,6 +136,18 @@ std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vec
 
 }  // namespace
 
+const EffectParameter* missing_size(const EffectSetting& setting) {
+  const std::span<const EffectParameter> parameters = find_effect(setting.name)->parameters;
+  const EffectParameter* first = nullptr;
+  for (const EffectParameter& p : parameters) {
+    if (p.standard != 0 || !(p.linear || &p == &parameters.front())) continue;
+    const auto given = setting.parameters.find(std::string(p.name));
+    if (given != setting.parameters.end() && (given->second.value != 0 || given->second.u != 0)) return nullptr;
+    if (!first) first = &p;
+  }
+  return first;
+}
+
 EffectSet::EffectSet(const std::vector<EffectSetting>& settings, EffectUse use, const std::string& machine) {
   const std::vector<std::string> names = effect_names(settings);
   for (std::size_t k = 0; k < settings.size(); ++k) {

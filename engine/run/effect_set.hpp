@@ -24,6 +24,9 @@
 
 namespace abbe {
 
+/// The size that a setting of a known effect does not give, so that it does nothing; nullptr: it has one.
+const EffectParameter* missing_size(const EffectSetting&);
+
 class EffectSet {
  public:
   EffectSet() = default;

@@ -67,10 +67,12 @@ void tell_idle(const std::vector<std::string>& with, const Machine& machine, con
   for (std::size_t k = 0; k < with.size(); ++k) {
     if (acted[own + k]) continue;
     const std::string& name = machine.effects[own + k].name;
-    const bool drawn = find_effect(name)->draws_per == DrawsPer::touch;
+    const EffectParameter* size = missing_size(machine.effects[own + k]);
+    const bool drawn = !size && find_effect(name)->draws_per == DrawsPer::touch;
     print_messages({diagnostic(
         Code::W0615, fmt::format("--with {}: it {} no touch of this program", with[k], drawn ? "moved" : "moves"),
-        drawn
+        size ? fmt::format("its {} is 0: give it a size, such as {}={:g}", size->name, size->name, size->typical)
+            : drawn
             ? fmt::format("it is drawn for each touch, and none came that shows: another --seed, or a larger size; see "
                           "`abbe explain {}`",
                           name)

@@ -90,6 +90,14 @@ with tempfile.TemporaryDirectory() as folder:
     run, out = record(folder, "--seed", "21", "--with", "noise.outliers:share=0.0001")
     check("W0615" in run.stderr and "another --seed" in run.stderr, "dirt that did not come is no effect without an effect")
 
+    for idle, size in (("noise.outliers:size_um=5", "share=0.005"), ("machine.scale:axis=y", "scale_um_per_m=5"), ("noise.resolution:resolution_um=0", "resolution_um=0.5")):
+        run, out = record(folder, "--with", idle)
+        check("W0615" in run.stderr and f"is 0: give it a size, such as {size}" in run.stderr, f"{idle} has no size, and that is the reason told")
+    run, out = record(folder, "--with", "machine.step:amplitude_um=2,along=x,position_mm=800")
+    check(run.returncode == 0 and rows(out) != plain, "a position counts along an axis")
+    run, out = record(folder, "--with", "thermal.drift:amplitude_um=3,direction=oblique,azimuth_deg=30")
+    check(run.returncode == 0 and run.stderr == "", "an azimuth counts in an oblique direction")
+
     # Who reads a recording sees which effects were at work, and every row that was written.
     init = json.loads(subprocess.run([ABBE, "machine", "init", "worn"], capture_output=True, text=True).stdout)
     init["effects"] = [{"name": "probe.tip_radius", "parameters": {"amplitude_um": 3}}]
