@@ -121,6 +121,9 @@ double share_accepted(const Specification& spec, const Lines& lines, const Scala
 constexpr int kFactorSteps = 466;
 double factor_of(int step) { return 0.01 * std::pow(1.02, step); }
 
+/// A factor with which fewer are accepted is no advice.
+constexpr double kHelps = 0.01;
+
 /// What a factor on e_max would change, as part of a sentence.
 std::string effect_of(const SuggestedFactor& best) {
   return fmt::format("by {:.2g}, then about {:.0f} % are accepted", best.factor, 100 * best.share_accepted);
@@ -130,11 +133,13 @@ constexpr const char* kLetBetterPass =
     "\"v_max\": \"unlimited\" in the specification lets machines pass however good they are";
 
 std::string way_out(const ScreeningCounts& counts, const std::optional<SuggestedFactor>& best) {
+  const bool helps = best && best->share_accepted >= kHelps;
   if (counts.too_small <= counts.failed_mpe)
-    return best ? "multiply every e_max " + effect_of(*best)
-                : "no factor on e_max helps: check the MPE, the offsets and the squarenesses of the machine file";
-  return best ? fmt::format("multiply every e_max {}; or else {}", effect_of(*best), kLetBetterPass)
-              : fmt::format("they are better than v_max allows, and no factor on e_max helps: {}", kLetBetterPass);
+    return helps ? "multiply every e_max " + effect_of(*best)
+                 : "no factor on all of e_max from 0.01 to 100 helps: check the MPE (um, um/m), each e_max (um/m, "
+                   "um/m2), the offsets and the squarenesses of the machine file";
+  return helps ? fmt::format("multiply every e_max {}; or else {}", effect_of(*best), kLetBetterPass)
+               : fmt::format("they are better than v_max allows, and no factor on e_max helps: {}", kLetBetterPass);
 }
 
 [[noreturn]] void give_up(const Machine& machine, std::uint64_t seed, const ScreeningCounts& counts, int threads) {

@@ -177,7 +177,7 @@ TEST_CASE("a specification that nothing satisfies is refused with the way out") 
     FAIL("machines were found where there are none");
   } catch (const UserError& error) {
     CHECK(error.diagnostics()[0].code == Code::E0415);
-    CHECK(error.diagnostics()[0].help.find("0.01") != std::string::npos);
+    CHECK(error.diagnostics()[0].help.find("multiply every e_max by 0.01") != std::string::npos);
   }
   for (ComponentSpec& component : machine.components) component.e_max = 0;
   try {
@@ -210,3 +210,19 @@ TEST_CASE(
 }
 
 }  // namespace abbe
+
+TEST_CASE("a factor with which next to none are accepted is not offered") {
+  const auto advice = [](const Machine& machine) {
+    try {
+      screened_machines(machine, 1, 10, 2);
+    } catch (const UserError& error) {
+      return error.diagnostics()[0].help;
+    }
+    return std::string("machines were found where there are none");
+  };
+  Machine slip = read_machine("coord3-mc16"), in_mm = slip;
+  slip[Component::exx].e_max *= 1e5;
+  in_mm.specification.mpe = {0.005e-3, 0.005e-6};
+  for (const Machine& machine : {slip, in_mm})
+    CHECK(advice(machine).starts_with("no factor on all of e_max from 0.01 to 100 helps: check the MPE"));
+}
