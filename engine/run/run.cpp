@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/math/units.hpp"
 #include "engine/run/executor.hpp"
 #include "engine/run/program_warnings.hpp"
 #include "engine/run/recorded_sensor.hpp"
@@ -98,6 +99,15 @@ std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& 
   return results;
 }
 
+/// What else may be wrong where a touch is outside the travel: offsets of which one is left out or has the other sign.
+std::string where_home_is(const Machine& machine) {
+  const Vec3 home = machine.home_offset();
+  if (norm(home) < kUm) return "";
+  return fmt::format(
+      "; at readings of 0 the head's mount stands at {:g}, {:g}, {:g} mm, the sum of the offsets_mm on the ram side",
+      home.x, home.y, home.z);
+}
+
 /// Every touch of the error-free machine must lie inside the travel.
 void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine,
                   const SourceFile& source) {
@@ -116,7 +126,8 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
               "this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
               machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
               machine[axis].highest_mm()),
-          "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine"));
+          "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine" +
+              where_home_is(machine)));
       break;
     }
   }

@@ -29,7 +29,9 @@ std::string axes_text(const Machine& machine) {
     out += fmt::format("  {:<5} {:<6} {:>9g}  0 .. {:<8g} {}\n", kAxisNames[k], axis.table_side ? "table" : "ram",
                        axis.travel_mm, axis.direction * axis.travel_mm, triple_text(axis.offset_mm));
   }
-  return out + fmt::format("  {:<40} {}\n", "mount", triple_text(machine.mount_offset_mm)) + chain_text(machine);
+  out += fmt::format("  {:<40} {}\n", "mount", triple_text(machine.mount_offset_mm));
+  out += fmt::format("  {:<40} {}\n", "the mount at readings of 0", triple_text(machine.home_offset()));
+  return out + chain_text(machine);
 }
 
 std::string components_text(const Machine& machine) {

@@ -210,6 +210,16 @@ class Machine(harness.Case):
         self.write("length.dmi", harness.LENGTH)
         self.assertIn("W0417", [m["code"] for m in self.run_json("length.dmi", "--machine", path, "--machines", 10)["messages"]])
 
+    def test_offsets_that_move_home_are_told(self):
+        machine = json.loads(self.machine("init", "mine"))
+        del machine["offsets_mm"]["x"]
+        path = self.write("mine.json", json.dumps(machine))
+        home = next(line for line in self.machine("show", path).splitlines() if "the mount at readings of 0" in line)
+        self.assertEqual(home.split()[-3:], ["120", "-1400", "950"])
+        self.write("length.dmi", harness.LENGTH)
+        self.assertIn("the head's mount stands at 120, -1400, 950 mm", self.refused("E0302", "run", "length.dmi", "--machine", path))
+        self.assertNotIn("the head's mount", self.refused("E0302", "run", "length.dmi", "--machine", "precision-500"))
+
     def test_what_a_machine_file_may_not_say(self):
         text = self.machine("init", "bad")
         for old, new, code, words in (('"travel_mm": 1600', '"travel_mm": -1600', "E0406", "greater than 0"),
