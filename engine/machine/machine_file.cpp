@@ -193,8 +193,8 @@ void read_head(JsonObject object, HeadSpec& head) {
   head.model = object.text_or("model", "");
   head.l_r_mm = object.number_or("l_r_mm", 0, kDistance_mm);
   JsonObject sd = object.object("angle_sd_arcsec");
-  head.sd_a_rad = sd.number("A", kNotNegative) * kArcsec;
-  head.sd_b_rad = sd.number("B", kNotNegative) * kArcsec;
+  head.sd_a_rad = sd.number("A", kIndexingSd_arcsec) * kArcsec;
+  head.sd_b_rad = sd.number("B", kIndexingSd_arcsec) * kArcsec;
   head.mounting_rad = object.object_or_absent("mounting").number_or("turn_deg", 0, kTurn_deg) * kDegree;
 }
 
@@ -234,8 +234,8 @@ NamedSensor read_sensor(JsonObject object) {
   }
   if (object.has("material") && !(object.has("young_GPa") && object.has("cte_ppm_per_K")))
     object.one_of("material", sensor.material, names);
-  sensor.young_GPa = object.number_or("young_GPa", material.young_GPa, kPositive);
-  sensor.cte_ppm_per_K = object.number_or("cte_ppm_per_K", material.cte_ppm_per_K);
+  sensor.young_GPa = object.number_or("young_GPa", material.young_GPa, kYoung_GPa);
+  sensor.cte_ppm_per_K = object.number_or("cte_ppm_per_K", material.cte_ppm_per_K, kCte_ppm_per_K);
   return sensor;
 }
 
@@ -320,8 +320,7 @@ Machine parse_machine(const std::string& file, const std::string& text) {
   read_geometry(root.object_or_absent("geometry"), machine);
   read_specification(root.object("specification"), machine.specification);
   read_head(root.object_or_absent("head"), machine.head);
-  machine.probe.sd_mm =
-      vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kNotNegative)) * kUm;
+  machine.probe.sd_mm = vec3(root.object_or_absent("probe").numbers_or("sd_um", {0.5, 0.5, 0.5}, 3, kProbeSd_um)) * kUm;
   JsonObject motion = root.object_or_absent("motion");
   machine.motion.speed_mm_s = motion.number_or("speed_mm_s", 200, kPositive);
   machine.motion.probing_speed_mm_s = motion.number_or("probing_speed_mm_s", 5, kPositive);

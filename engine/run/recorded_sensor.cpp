@@ -28,7 +28,7 @@ struct SensorWord {
 };
 constexpr SensorWord kWords[] = {{"head_deg", 2, kTurn_deg},           {"tip_in_r_mm", 3, kCoordinate_mm, true},
                                  {"diameter_mm", 1, kLength_mm, true}, {"shaft_diameter_mm", 1, kPositive},
-                                 {"young_GPa", 1, kPositive},          {"cte_ppm_per_K", 1}};
+                                 {"young_GPa", 1, kYoung_GPa},         {"cte_ppm_per_K", 1, kCte_ppm_per_K}};
 
 /// One sensor line of a recording, read word by word.
 class SensorLine {

@@ -227,7 +227,11 @@ class Machine(harness.Case):
                                       ('"travel_mm"', '"travel"', "E0402", 'did you mean "travel_mm"'),
                                       ('"a_um": 5, "k_um_per_m": 5', '"a_um": 0, "k_um_per_m": 0', "E041", "MPE"),
                                       ('"v_min": 1', '"v_min": 3', "E041", "v_min"),
-                                      ('["x", "y", "z"]', '["x", "y", "y"]', "E041", "y")):
+                                      ('["x", "y", "z"]', '["x", "y", "y"]', "E041", "y"),
+                                      ('"material": "tungsten carbide"', '"young_GPa": 620000', "E0406", "at most 2000"),
+                                      ('"material": "tungsten carbide"', '"cte_ppm_per_K": 5000', "E0406", "between -100 and 1000"),
+                                      ('"sd_um": [0.5,', '"sd_um": [5000,', "E0406", "between 0 and 1000"),
+                                      ('"A": 0.83', '"A": 8300', "E0406", "between 0 and 3600")):
             self.assertIn(old, text)
             path = self.write("bad.json", text.replace(old, new, 1))
             message = self.refused(code, "machine", "show", path.name)

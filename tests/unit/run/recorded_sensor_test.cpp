@@ -62,7 +62,7 @@ TEST_CASE("a sensor line that says too little, too much or what cannot be is ref
   CHECK(holds(sensor_refusal(good + " shaft_diameter_mm -1"), "'-1' of shaft_diameter_mm must be greater than 0"));
   CHECK(holds(sensor_refusal("tip_in_r_mm 0 0 -100 diameter_mm 0"), "must be greater than 0"));
   CHECK(holds(sensor_refusal("tip_in_r_mm 0 nan -100 diameter_mm 3"), "'nan' of tip_in_r_mm must be between"));
-  CHECK(holds(sensor_refusal(good + " cte_ppm_per_K inf"), "must be a finite number"));
+  CHECK(holds(sensor_refusal(good + " cte_ppm_per_K inf"), "must be between -100 and 1000"));
   CHECK(holds(sensor_refusal(good + " head_deg 400 0"), "'400' of head_deg must be between -360 and 360"));
   CHECK(holds(sensor_refusal(good + " shaft_diameter_mm 3.1"), "shaft is thicker than the ball"));
   CHECK(holds(sensor_refusal(good + " diameter_mm 4"), "twice"));
