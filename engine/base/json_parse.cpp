@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/json_reader.hpp"
+#include "engine/base/utf8.hpp"
 
 namespace abbe {
 
@@ -59,6 +60,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     if (error.id == kOverflow)
       fail({offset, offset + 1}, Code::E0406, "this number is too large",
            "numbers in JSON files are at most 1e12 in size");
+    if (const std::size_t foreign = first_foreign(text_); foreign < text_.size() && foreign <= offset) {
+      const auto at = static_cast<std::uint32_t>(foreign);
+      fail({at, at + 1}, Code::E0401, "this is not JSON: a character that is no UTF-8", "save the file as UTF-8");
+    }
     std::string what = error.what();
     if (const auto cut = what.find("column"); cut != std::string::npos) what.erase(0, what.find(": ", cut) + 2);
     fail({offset, offset + 1}, Code::E0401, "this is not JSON: " + what,

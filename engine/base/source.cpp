@@ -55,17 +55,6 @@ SourceFile read_source(const std::string& path) {
 
 namespace {
 
-/// Where the first byte stands that is no UTF-8; the size when there is none.
-std::size_t first_foreign(std::string_view text) {
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const Character c = utf8_character(text, at);
-    if (c.bytes == 0) return at;
-    at += c.bytes;
-  }
-  return at;
-}
-
 /// Windows-1252 above 0x7F; it is Latin-1 but for these. Bytes without a character stay the control
 /// characters that they are in Latin-1.
 char32_t windows_1252(unsigned char byte) {

@@ -37,6 +37,16 @@ Character character_at(std::string_view text, std::size_t at) {
   return c.bytes > 0 ? c : Character{static_cast<unsigned char>(text[at]), 1};
 }
 
+std::size_t first_foreign(std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const Character c = utf8_character(text, at);
+    if (c.bytes == 0) return at;
+    at += c.bytes;
+  }
+  return at;
+}
+
 std::size_t count_characters(std::string_view text) {
   std::size_t count = 0;
   for (std::size_t at = 0; at < text.size(); at += character_at(text, at).bytes) ++count;

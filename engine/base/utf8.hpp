@@ -17,6 +17,9 @@ Character utf8_character(std::string_view text, std::size_t at);
 /// The same; a byte that begins none stands for itself, as in Latin-1.
 Character character_at(std::string_view text, std::size_t at);
 
+/// Where the first byte stands that is no UTF-8; the size when there is none.
+std::size_t first_foreign(std::string_view text);
+
 /// How many characters the text has by `character_at`.
 std::size_t count_characters(std::string_view text);
 

@@ -116,6 +116,12 @@ TEST_CASE("a missing object is one error, not one for each of its keys") {
   check_one(reading("{}", [](JsonObject o) { o.object("axes").object("x").number("travel_mm"); }), Code::E0404, {1, 1});
 }
 
+TEST_CASE("a letter in the code of Windows is refused for its code, not for its place") {
+  const auto found = reading("{\"name\": \"Gef\xE4\xDF\"}", kNothing);
+  check_one(found, Code::E0401, {1, 14});
+  CHECK(found[0].help == "save the file as UTF-8");
+}
+
 TEST_CASE("a NUL character is refused: what follows it would not be read") {
   check_one(reading(std::string("{}\n \0 {\"a\": 1}", 13), kNothing), Code::E0401, {2, 2});
 }
