@@ -22,6 +22,18 @@ StylusScene stylus_scene(const Sensor& sensor) {
   return s;
 }
 
+namespace {
+
+/// The horizontal axis nearest to the base: its guide lies on the table, or under it where it carries the part.
+int axis_on_table(const Machine& machine) {
+  for (const std::vector<Axis>* chain : {&machine.table_chain, &machine.ram_chain})
+    for (const Axis axis : *chain)
+      if (axis != Axis::z) return static_cast<int>(axis);
+  return 0;
+}
+
+}  // namespace
+
 void set_structure(const Machine& machine, TouchScene& scene) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const int k = static_cast<int>(axis);
@@ -30,8 +42,8 @@ void set_structure(const Machine& machine, TouchScene& scene) {
     scene.lever_mm[k] = lever.at(scene.reading, scene.stylus.tip_from_mount_mm);
     scene.side[k] = lever.sign;
   }
-  // A table that moves along y has its guide under it, and leaves the bridge to x.
-  if (machine[Axis::y].table_side && !machine[Axis::x].table_side) scene.on_table = 1, scene.on_bridge = 0;
+  scene.on_table = axis_on_table(machine);
+  scene.on_bridge = 1 - scene.on_table;
 }
 
 }  // namespace abbe

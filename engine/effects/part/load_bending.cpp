@@ -4,7 +4,7 @@
 //   d_z = - k [ s_x^2/2 + s_x l_x + q (s_y^2/2 + s_y l_y) ]
 //   d_x = + k s_x l_z      d_y = + q k s_y l_z
 //
-// x stands for the axis whose guide lies on the table: y where that carries the part.
+// x stands for the axis whose guide lies on the table: y where the bridge or the part moves along it.
 //
 // To first order a central load makes a bowl: equal curvatures along x and y (q = 1). Rails of x at
 // the sides of the table follow its curvature along x only (q = 0). The guides pitch with their
@@ -28,7 +28,8 @@ constexpr double kRailsOrBowl[] = {0, 1};
 constexpr EffectParameter kLoadBendingParameters[] = {
     {.name = "sag_um_per_500kg",
      .unit = "um",
-     .help = "sag of the middle of the x travel below its ends, under 500 kg",
+     .help =
+         "sag of the middle of the x travel (y, where the bridge or the table moves along it) below its ends, under 500 kg",
      .typical = 1.5,
      .low = -100,
      .high = 100,

@@ -2,7 +2,7 @@
 //
 //   beam:  k = a dT / h      d_z = + k s^2 / 2 + k s l_y     d_y = - k s l_z
 //          s: reading of y, l: lever from the saddle to the tip
-//          y: the horizontal axis along the bridge; x where y carries the part
+//          y: the horizontal axis along the bridge; x where the bridge or the part moves along y
 //   legs:  f = a H dT_legs / W  (rad)     d = - (f e_x) x (lever from the foot of the guided leg)
 //
 // dT (top minus bottom of the beam) and dT_legs (leg at large y minus leg at small y) are
@@ -67,7 +67,7 @@ constexpr EffectParameter kBridgeBendingParameters[] = {
      .standard = 1000},
     {.name = "leg_distance_mm",
      .unit = "mm",
-     .help = "between the legs, along y",
+     .help = "between the legs, along the bridge",
      .typical = 1200,
      .low = 100,
      .high = 10000,
@@ -102,7 +102,8 @@ constinit const Effect kBridgeBending{
         "The top of the beam is warmer than its bottom, so the beam arches and heights measured "
         "along y show a parabola, with a roll of the saddle that makes an error in y below the "
         "beam. One leg warmer than the other rolls the bridge about x; beam and ram turn "
-        "together, so this shows only when it changes between two measurements.",
+        "together, so this shows only when it changes between two measurements. Where the bridge or "
+        "the table moves along y, x and y change places.",
     .source =
         "Timoshenko, J. Opt. Soc. Am. 11 (1925) 233: curvature = cte dT / height; roll = cte H "
         "dT / W",

@@ -3,7 +3,7 @@
 //   k = a dT / h      d_z = + k s^2 / 2 + k s l_x      d_x = - k s l_z
 //   s: reading of x, l: lever from the x carriage to the tip
 //
-// x stands for the horizontal axis whose guide lies on the table: y where that carries the part.
+// x stands for the horizontal axis whose guide lies on the table: y where the bridge or the part moves along it.
 // dT = gradient_K + logged_share * (top minus bottom as logged). One coefficient makes a parabola
 // in z over x and, because the carriage pitches, an Abbe error in x that grows with x and with the
 // height above the x scale (bent_guide.hpp). The part is stiff or stands on three points: it does
@@ -65,7 +65,7 @@ constinit const Effect kTableBending{
         "The top of the table is warmer than its underside, so the table arches and the guide of "
         "x with it. Heights measured along x show a parabola, and the pitch of the carriage "
         "makes an error in x that grows with x and with the height above the scale. One "
-        "curvature explains both.",
+        "curvature explains both. Where the bridge or the table moves along y, that takes the place of x.",
     .source =
         "Timoshenko, J. Opt. Soc. Am. 11 (1925) 233: curvature = cte dT / thickness; Abbe's "
         "principle",

@@ -50,11 +50,13 @@ TEST_CASE("effects know which axis carries the part, and which lies along the br
     for (RecordingRow& row : r.rows) row.reading_mm = Vec3{300, 300, -300};
     return recorded_touches(r, read_machine(machine), "r").touches.front().scene;
   };
-  const TouchScene portal = first("coord3-mc16"), table = first("moving-table-700");
+  const TouchScene portal = first("coord3-mc16"), table = first("moving-table-700"), along_y = first("precision-500");
   CHECK((portal.side[0] == 1 && portal.side[1] == 1 && portal.side[2] == 1));
   CHECK((portal.on_table == 0 && portal.on_bridge == 1));
   CHECK((table.side[0] == 1 && table.side[1] == -1 && table.side[2] == 1));
   CHECK((table.on_table == 1 && table.on_bridge == 0));
+  CHECK((along_y.side[0] == 1 && along_y.side[1] == 1 && along_y.side[2] == 1));
+  CHECK((along_y.on_table == 1 && along_y.on_bridge == 0));
 }
 
 TEST_CASE("two names are two names, even where their hashes are close") {
