@@ -31,18 +31,20 @@ def draw_load(scene, rng):
 
 
 def change_load(scene, p):
-    """The guide of x follows the granite along a line of the plate: it sinks, and its slope turns the
+    """The guide on the table follows the granite along a line of the plate: it sinks, and its slope turns the
     carriage."""
-    half = scene.machine.travel["x"] / 2
-    u = scene.reading[:, 0] / half - 1
+    guide = scene.machine.chain[0]
+    i = "xyz".index(guide)
+    half = scene.machine.travel[guide] / 2
+    u = scene.reading[:, i] / half - 1
     load = p["sag_um_per_500kg"] * scene.load / 500
     shape = lambda q: 1 - plate_bowl(0.8 * q, np.full_like(q, p["across"]))  # the guide ends near the supports
     low = shape(np.zeros(1))[0]
     slope = (shape(u + 1e-4) - shape(u - 1e-4)) / 2e-4
     move, turn = np.zeros((scene.size, 3)), np.zeros((scene.size, 3))
     move[:, 2] = -load * (shape(u) - low)
-    turn[:, 1] = load * slope / half * 1e3
-    return Change({"x": (move, turn)})
+    turn[:, 1 - i] = (1 if i == 0 else -1) * load * slope / half * 1e3
+    return Change({guide: (move, turn)})
 
 
 def draw_clamping(scene, rng):

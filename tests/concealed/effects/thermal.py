@@ -56,7 +56,7 @@ def draw_table(scene, rng):
 def change_table(scene, p):
     shape = slab_gradient(scene.time + p["since_h"] * 3600, p["thickness_mm"] * 1e-3)
     gradient = p["gradient_K"] * shape / shape.mean()
-    return Change(arch(scene, "x", p["cte_ppm_per_K"] * gradient / p["thickness_mm"] * 1e3))
+    return Change(arch(scene, scene.machine.chain[0], p["cte_ppm_per_K"] * gradient / p["thickness_mm"] * 1e3))
 
 
 def draw_bridge(scene, rng):
@@ -70,7 +70,7 @@ def draw_bridge(scene, rng):
 
 def change_bridge(scene, p):
     gradient = p["gradient_K"] * conduction_response(scene.time + 3 * p["tau_s"], p["tau_s"])
-    return Change(arch(scene, "y", p["cte_ppm_per_K"] * gradient / p["height_mm"] * 1e3))
+    return Change(arch(scene, scene.machine.chain[1], p["cte_ppm_per_K"] * gradient / p["height_mm"] * 1e3))
 
 
 def draw_drift(scene, rng):
