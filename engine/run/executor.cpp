@@ -67,26 +67,18 @@ void Executor::find_recorded_points() {
     features.emplace(upper(plan_.features[f].label), static_cast<int>(f));
   for (const RecordingRow& row : options_.recorded->rows) {
     const auto [begin, end] = features.equal_range(upper(row.feature));
-    for (auto feature = begin; feature != end; ++feature) {
-      const Vec3 tip = row.position_mm + options_.placement_mm +
-          (options_.recorded->point == RecordedPoint::surface && row.normal ? recorded_radius(row) * *row.normal
-                                                                            : Vec3{});
-      recorded_.emplace(std::pair{feature->second, static_cast<std::size_t>(row.touch - 1)}, tip);
-    }
+    for (auto feature = begin; feature != end; ++feature)
+      recorded_.emplace(std::pair{feature->second, static_cast<std::size_t>(row.touch - 1)},
+                        row.position_mm + options_.placement_mm);
   }
-}
-
-double Executor::recorded_radius(const RecordingRow& row) const {
-  for (const Sensor& sensor : sensors_)
-    if (row.sensor && same_label(sensor.name, *row.sensor)) return sensor.radius_mm;
-  return sensors_.empty() ? 0 : sensors_.front().radius_mm;
 }
 
 std::optional<Vec3> Executor::recorded_surface(plan::FeatureId feature, std::size_t touch, const Vec3& surface,
                                                const Vec3& normal, double radius_mm) const {
   const auto found = recorded_.find({feature.value, touch});
   if (found == recorded_.end()) return std::nullopt;
-  return surface + (dot(normal, found->second - surface) - radius_mm) * normal;
+  const double beyond = options_.recorded->point == RecordedPoint::surface ? 0 : radius_mm;
+  return surface + (dot(normal, found->second - surface) - beyond) * normal;
 }
 
 std::size_t Executor::lane_bytes() const {

@@ -90,7 +90,6 @@ class Executor {
   std::optional<Vec3> recorded_surface(plan::FeatureId, std::size_t touch, const Vec3& surface, const Vec3& normal,
                                        double radius_mm) const;
   void find_recorded_points();
-  double recorded_radius(const RecordingRow&) const;
   const Element* known_fit(int operation, const std::vector<Vec3>& points) const;
   /// Whether touches of this feature have errors in this run.
   bool errors_act_on(plan::FeatureId) const;
@@ -105,7 +104,7 @@ class Executor {
   Part part_;
   Rigid X_PW_;
   std::vector<char> curved_;                              ///< by FeatureId
-  std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< tip centres by feature and touch, W; of options_.recorded
+  std::map<std::pair<int, std::size_t>, Vec3> recorded_;  ///< by feature and touch, W; of options_.recorded
   std::vector<char> aligns_;                              ///< alignment_features
   std::vector<char> keeps_touches_;  ///< by FeatureId: a tolerance is evaluated of the touches themselves
   plan::FeatureSlots slots_;

@@ -25,6 +25,25 @@ class RecordedPoints(harness.Case):
         # The errors that are added are the same: to first order so is the uncertainty.
         self.assertAlmostEqual(recorded["u"] / nominal["u"], 1, delta=0.01)
 
+    def test_points_of_the_surface_are_no_centres_of_the_tip(self):
+        """Whether the file has the normals or leaves them to the program."""
+        self.abbe("record", PROGRAM, "-o", "rec.csv")
+        tips, _ = self.size("--recording", "rec.csv")
+        lines = (self.folder / "rec.csv").read_text().replace("# point: tip_centre\n", "# point: surface\n").splitlines()
+        head = next(k for k, line in enumerate(lines) if not line.startswith("#"))
+        columns = lines[head].split(",")
+        radius = 2.0  # of the stylus of the program
+        rows = [dict(zip(columns, line.split(","))) for line in lines[head + 1 :]]
+        for row in rows:
+            for axis in "xyz":
+                for column in (axis, "t" + axis):
+                    row[column] = str(float(row[column]) - radius * float(row["n" + axis]))
+        for kept in (columns, ["feature", "touch", "x", "y", "z"]):
+            text = "\n".join([*lines[:head], ",".join(kept), *(",".join(row[c] for c in kept) for row in rows)])
+            surface, _ = self.size("--recording", self.write("surface.csv", text + "\n"))
+            for one, other in zip(tips["characteristics"], surface["characteristics"]):
+                self.assertAlmostEqual(one["reference"], other["reference"], delta=1e-6)
+
     def test_every_touch_must_be_recorded(self):
         self.abbe("record", PROGRAM, "-o", "rec.csv")
         lines = (self.folder / "rec.csv").read_text().splitlines()
