@@ -228,3 +228,26 @@ TEST_CASE("Criteria that a shape does not have are refused") {
   }
   CHECK(criterion_refusal(feature_kind(Shape::torus), least_squares) == nullptr);
 }
+  // Of points in a plane the strip along one edge of their outline, wherever the plane is.
+  const Vec3 u = unit({1, 2, 2}), v = unit({2, 1, -2});
+  const double heights[] = {-0.0197, -0.0441, -0.0115, -0.0268, 0.007, -0.0189},
+               places[] = {-45, -28, -28.1, -3, 19, 30};
+  std::vector<Vec3> edge;
+  for (int i = 0; i < 6; ++i) edge.push_back(Vec3{700, 400, -300} + places[i] * u + heights[i] * v);
+  double narrowest = 1e300;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < i; ++j) {
+      const Vec3 normal = unit(cross(edge[i] - edge[j], cross(u, v)));
+      double low = 1e300, high = -1e300;
+      for (const Vec3& p : edge) low = std::min(low, dot(p, normal)), high = std::max(high, dot(p, normal));
+      narrowest = std::min(narrowest, high - low);
+    }
+  const Element strip = fitted(Shape::line, minimum_zone, edge);
+  CHECK(strip.high - strip.low == Approx(narrowest).epsilon(1e-9));
+  double above = -1e300, below = 1e300;
+  for (const Vec3& p : edge) {
+    const double off = dot(p - strip.point, unit(cross(strip.direction, cross(u, v))));
+    above = std::max(above, off), below = std::min(below, off);
+  }
+  CHECK(above == Approx(0.5 * narrowest).epsilon(1e-9));
+  CHECK(below == Approx(-0.5 * narrowest).epsilon(1e-9));
