@@ -9,6 +9,9 @@
 //
 // minimax_fit.hpp says how. The start is the least-squares element; of several local optima the one next
 // to it is found, which for features with a form error that is small against their size is the only one.
+//
+// Points on less than half of a circle, a cylinder or a sphere stop no inscribed one: the larger, the farther beside them.
+// About them the smallest one stands on the outermost points, and is smaller than what was touched.
 #pragma once
 
 #include <span>
@@ -23,8 +26,8 @@ enum class FitCriterion { least_squares, minimum_zone, maximum_inscribed, minimu
 const char* criterion_refusal(const FeatureKind&, FitCriterion);
 
 /// Replaces the least-squares element of the points by that of the criterion, same frame, mm. `low`
-/// and `high` are the residuals of the points about it. Precondition: no refusal, and `element` is
-/// the least-squares element.
-void refit(const FeatureKind&, FitCriterion, std::span<const Vec3> points, Element& element);
+/// and `high` are the residuals of the points about it. Returns why there is none, or nullptr. Precondition: no refusal,
+/// and `element` is the least-squares element.
+[[nodiscard]] const char* refit(const FeatureKind&, FitCriterion, std::span<const Vec3> points, Element& element);
 
 }  // namespace abbe

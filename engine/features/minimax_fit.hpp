@@ -31,7 +31,7 @@ class MinimaxFit {
 
   void run(Element& element) {
     double worst = linearise(surface_);
-    double trust = std::max(4 * (start_.high - start_.low), kResolution * extent_);
+    double trust = std::max(4 * (start_.high - start_.low), kFirstStep * extent_);
     for (int round = 0; round < kRounds && trust > kResolution * extent_; ++round) {
       double step[N];
       const double model = minimax_in_box<N>(scaled(worst, trust), step);
@@ -57,6 +57,7 @@ class MinimaxFit {
   static constexpr int N = kUnknowns<Profile>;
   static constexpr int kRounds = 200;
   static constexpr double kResolution = 1e-14;
+  static constexpr double kFirstStep = 1e-6;  ///< a perfect form must not hide that nothing holds the element
   static constexpr double kOrigin[3] = {0, 0, 0};
 
   bool one_sided() const { return criterion_ != FitCriterion::minimum_zone; }

@@ -251,7 +251,7 @@ void BlockRun::fit_twins(plan::FeatureId feature, FitCriterion criterion) {
       // Fitted as the shape that it acts as: what it has besides is that of the nominal.
       if (kind.acts_as != kind.shape) result.angle = nominal.angle;
       result.second = nominal.second;
-      refit(kind, criterion, lane.points, result);
+      if (const char* reason = refit(kind, criterion, lane.points, result)) return reason;
       if (observed) observed->fits.push_back({operation, lane.points, result});
     }
     of.has_actual = true;
@@ -278,13 +278,13 @@ void BlockRun::fit_machines(plan::FeatureId feature, FitCriterion criterion, std
   executor.plan_[feature].kind->fit_lanes({points_buffer.data(), static_cast<int>(points), n, n}, start.data(),
                                           result.data(), failure.data());
   for (int k = 0; k < n; ++k) {
+    const FeatureKind& kind = *executor.plan_[feature].kind;
+    if (kind.fit_points) result[k].second = start[k].second;
+    if (!failure[k]) failure[k] = refit(kind, criterion, block.lanes[lanes[k]].points, result[k]);
     if (failure[k]) {
       trap(lanes[k], failure[k]);
       continue;
     }
-    const FeatureKind& kind = *executor.plan_[feature].kind;
-    if (kind.fit_points) result[k].second = start[k].second;
-    refit(kind, criterion, block.lanes[lanes[k]].points, result[k]);
     FeatureState& of = state(block.lanes[lanes[k]], feature);
     of.actual = result[k];
     of.has_actual = true;

@@ -9,6 +9,7 @@
 
 #include "engine/features/fit.hpp"
 #include "engine/lanes/random.hpp"
+#include "engine/math/units.hpp"
 
 using namespace abbe;
 using doctest::Approx;
@@ -29,7 +30,7 @@ Element least_squares_of(Shape shape, const std::vector<Vec3>& points, Vec3 norm
 
 Element fitted(Shape shape, FitCriterion criterion, const std::vector<Vec3>& points) {
   Element e = least_squares_of(shape, points);
-  refit(feature_kind(shape), criterion, points, e);
+  CHECK(refit(feature_kind(shape), criterion, points, e) == nullptr);
   return e;
 }
 
@@ -193,6 +194,27 @@ TEST_CASE("No neighbour of a cylinder is better") {
   }
 }
 
+TEST_CASE("Between points on less than half of a circle, a cylinder or a sphere there is no largest one") {
+  // Of 20 mm radius, from 0 degrees on, at two heights, `rise` apart; 190 degrees are more than half.
+  const auto refused = [](Shape shape, FitCriterion criterion, double degrees, double rise) {
+    std::vector<Vec3> points;
+    for (int i = 0; i < 8; ++i)
+      for (const double z : {-rise, rise}) {
+        const double a = degrees * kDegree * i / 7, across = shape == Shape::sphere ? std::sqrt(400 - z * z) : 20;
+        points.push_back({across * std::cos(a), across * std::sin(a), z});
+      }
+    Element e = least_squares_of(shape, points);
+    return refit(feature_kind(shape), criterion, points, e) != nullptr;
+  };
+  CHECK(refused(Shape::circle, maximum_inscribed, 150, 0));
+  CHECK(refused(Shape::cylinder, maximum_inscribed, 150, 5));
+  CHECK(refused(Shape::sphere, maximum_inscribed, 150, 5));
+  CHECK_FALSE(refused(Shape::circle, maximum_inscribed, 190, 0));
+  CHECK_FALSE(refused(Shape::cylinder, maximum_inscribed, 190, 5));
+  CHECK_FALSE(refused(Shape::circle, minimum_circumscribed, 150, 0));
+  CHECK_FALSE(refused(Shape::circle, minimum_zone, 150, 0));
+}
+
 TEST_CASE("Spheres, cones and lines in space") {
   // A cube's corners with one pulled out: the smallest sphere touches it and stays centred on the opposite ones.
   std::vector<Vec3> corners;
@@ -207,27 +229,6 @@ TEST_CASE("Spheres, cones and lines in space") {
   const Element line = fitted(Shape::line, minimum_zone, bowed);
   CHECK(line.high - line.low == Approx(0.1).epsilon(1e-9));
   CHECK(line.end - line.begin == Approx(20).epsilon(1e-4));
-  std::vector<Vec3> cone;
-  for (int i = 0; i < 12; ++i) {
-    const double a = 2 * kPi * (i % 4) / 4 + 0.3 * (i / 4), h = 20 + 10 * (i / 4),
-                 r = 0.5 * h + 0.004 * uniform(777 + static_cast<std::uint32_t>(i));
-    cone.push_back({r * std::cos(a), r * std::sin(a), h});
-  }
-  const Element mz = fitted(Shape::cone, minimum_zone, cone), ls = least_squares_of(Shape::cone, cone);
-  CHECK(mz.high - mz.low < ls.high - ls.low);
-  CHECK(mz.high == Approx(-mz.low).epsilon(1e-9));
-  CHECK(mz.angle == Approx(std::atan(0.5)).epsilon(1e-3));
-}
-
-TEST_CASE("Criteria that a shape does not have are refused") {
-  for (const FitCriterion c : {minimum_zone, maximum_inscribed, minimum_circumscribed}) {
-    CHECK(criterion_refusal(feature_kind(Shape::point), c) != nullptr);
-    CHECK(criterion_refusal(feature_kind(Shape::torus), c) != nullptr);
-    CHECK(criterion_refusal(feature_kind(Shape::cylinder), c) == nullptr);
-    CHECK((criterion_refusal(feature_kind(Shape::plane), c) == nullptr) == (c == minimum_zone));
-  }
-  CHECK(criterion_refusal(feature_kind(Shape::torus), least_squares) == nullptr);
-}
   // Of points in a plane the strip along one edge of their outline, wherever the plane is.
   const Vec3 u = unit({1, 2, 2}), v = unit({2, 1, -2});
   const double heights[] = {-0.0197, -0.0441, -0.0115, -0.0268, 0.007, -0.0189},
@@ -251,3 +252,24 @@ TEST_CASE("Criteria that a shape does not have are refused") {
   }
   CHECK(above == Approx(0.5 * narrowest).epsilon(1e-9));
   CHECK(below == Approx(-0.5 * narrowest).epsilon(1e-9));
+  std::vector<Vec3> cone;
+  for (int i = 0; i < 12; ++i) {
+    const double a = 2 * kPi * (i % 4) / 4 + 0.3 * (i / 4), h = 20 + 10 * (i / 4),
+                 r = 0.5 * h + 0.004 * uniform(777 + static_cast<std::uint32_t>(i));
+    cone.push_back({r * std::cos(a), r * std::sin(a), h});
+  }
+  const Element mz = fitted(Shape::cone, minimum_zone, cone), ls = least_squares_of(Shape::cone, cone);
+  CHECK(mz.high - mz.low < ls.high - ls.low);
+  CHECK(mz.high == Approx(-mz.low).epsilon(1e-9));
+  CHECK(mz.angle == Approx(std::atan(0.5)).epsilon(1e-3));
+}
+
+TEST_CASE("Criteria that a shape does not have are refused") {
+  for (const FitCriterion c : {minimum_zone, maximum_inscribed, minimum_circumscribed}) {
+    CHECK(criterion_refusal(feature_kind(Shape::point), c) != nullptr);
+    CHECK(criterion_refusal(feature_kind(Shape::torus), c) != nullptr);
+    CHECK(criterion_refusal(feature_kind(Shape::cylinder), c) == nullptr);
+    CHECK((criterion_refusal(feature_kind(Shape::plane), c) == nullptr) == (c == minimum_zone));
+  }
+  CHECK(criterion_refusal(feature_kind(Shape::torus), least_squares) == nullptr);
+}
