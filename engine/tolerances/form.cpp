@@ -2,8 +2,7 @@
 // least-squares one (reference element LS of ISO 12781, 12780, 12181 and 12180) unless GEOALG chose
 // another; then the minimum zone, or the spread about the inscribed or circumscribed element. Of a
 // line see form.hpp. The circularity of a cylinder is that of its sections, the largest of them: in each the touches
-// about the least-squares circle of the section, as distances from the fitted axis less a constant and a cosine (the
-// centre of the section beside the axis); what that leaves out is a thousandth of a micrometre for centres 5 um apart.
+// about the least-squares circle of the section, as seen along the fitted axis.
 #include "engine/tolerances/form.hpp"
 
 #include <algorithm>
@@ -33,32 +32,57 @@ const char* cylinder_only(const Arguments&, Shapes s) {
 
 Outcome<double> spread(const Arguments&, const EvaluationInput& in) { return {in.actual[0].high - in.actual[0].low}; }
 
-/// Of distances from an axis, as seen from it in the direction (cos, sin): how far apart they lie beside a constant and a
-/// cosine that fit best.
-struct Polar {
-  double distance, cosine, sine;
+struct InSection {
+  double x, y;
 };
-double range_about_circle(const std::vector<Polar>& points) {
+
+/// Of the distances from a centre the constant, and the shift of the centre that makes them most alike.
+Vec3 radius_and_shift(const std::vector<InSection>& points, const InSection& centre) {
   Mat3 normal{{}, {}, {}};
   Vec3 right;
-  for (const Polar& p : points) {
-    const Vec3 row{1, p.cosine, p.sine};
-    normal.cx += row, normal.cy += p.cosine * row, normal.cz += p.sine * row;
-    right += p.distance * row;
+  for (const InSection& p : points) {
+    const double x = p.x - centre.x, y = p.y - centre.y, distance = std::hypot(x, y);
+    const Vec3 row{1, x / distance, y / distance};
+    normal.cx += row, normal.cy += row.y * row, normal.cz += row.z * row;
+    right += distance * row;
   }
   const double determinant = dot(normal.cx, cross(normal.cy, normal.cz));
-  const Vec3 fit = 1 / determinant *
+  return 1 / determinant *
       Vec3{dot(right, cross(normal.cy, normal.cz)), dot(normal.cx, cross(right, normal.cz)),
            dot(normal.cx, cross(normal.cy, right))};
-  std::vector<double> left;
-  for (const Polar& p : points) left.push_back(p.distance - dot(fit, {1, p.cosine, p.sine}));
-  const auto [low, high] = std::minmax_element(left.begin(), left.end());
+}
+
+/// How far apart the points lie about their least-squares circle, which is next to the origin (Gauss-Newton).
+double range_about_circle(const std::vector<InSection>& points) {
+  constexpr int kRounds = 20;
+  constexpr double kSettled_mm = 1e-10;
+  InSection centre{0, 0};
+  double shift = 1;
+  for (int round = 0; round < kRounds && shift > kSettled_mm; ++round) {
+    const Vec3 fit = radius_and_shift(points, centre);
+    centre.x += fit.y, centre.y += fit.z;
+    shift = std::hypot(fit.y, fit.z);
+  }
+  std::vector<double> distances;
+  for (const InSection& p : points) distances.push_back(std::hypot(p.x - centre.x, p.y - centre.y));
+  const auto [low, high] = std::minmax_element(distances.begin(), distances.end());
   return *high - *low;
+}
+
+/// Whether a section has a circle, at three places, and touches besides.
+bool shows_form(const std::vector<std::size_t>& section, std::span<const TouchedPoint> touches) {
+  constexpr std::size_t kSettleCircle = 3;
+  constexpr double kSamePlace_mm = 0.1;
+  std::vector<Vec3> places;
+  for (const std::size_t k : section)
+    if (std::none_of(places.begin(), places.end(),
+                     [&](const Vec3& p) { return norm(p - touches[k].nominal) < kSamePlace_mm; }))
+      places.push_back(touches[k].nominal);
+  return section.size() > kSettleCircle && places.size() >= kSettleCircle;
 }
 
 /// The largest circularity of the sections of a cylinder.
 Outcome<double> circularity_of_sections(const EvaluationInput& in) {
-  constexpr std::size_t kShowsForm = 4;  // three settle a circle
   const Element& axis = in.actual[0];
   std::vector<double> heights;
   for (const TouchedPoint& touch : in.touches)
@@ -66,17 +90,17 @@ Outcome<double> circularity_of_sections(const EvaluationInput& in) {
   const Vec3 e1 = any_perpendicular(axis.direction), e2 = cross(axis.direction, e1);
   std::optional<double> largest;
   for (const std::vector<std::size_t>& section : sections(heights)) {
-    if (section.size() < kShowsForm) continue;
-    std::vector<Polar> points;
+    if (!shows_form(section, in.touches)) continue;
+    std::vector<InSection> points;
     for (const std::size_t k : section) {
-      const Vec3 arm = perpendicular_part(in.touches[k].actual - axis.point, axis.direction);
-      const double distance = norm(arm);
-      points.push_back({distance, dot(arm, e1) / distance, dot(arm, e2) / distance});
+      const Vec3 arm = in.touches[k].actual - axis.point;
+      points.push_back({dot(arm, e1), dot(arm, e2)});
     }
     largest = std::max(largest.value_or(0), range_about_circle(points));
   }
-  return largest ? Outcome<double>{*largest}
-                 : no_value("no section of the cylinder was touched four times: it shows no circularity");
+  return largest
+      ? Outcome<double>{*largest}
+      : no_value("no section of the cylinder was touched four times, at three places or more: it shows no circularity");
 }
 
 Outcome<double> circularity(const Arguments& arguments, const EvaluationInput& in) {
