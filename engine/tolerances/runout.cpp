@@ -9,6 +9,7 @@
 // no range.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "engine/features/alignment.hpp"
@@ -76,13 +77,14 @@ Outcome<double> circular(const Arguments&, const EvaluationInput& in) {
   if (!all) return no_value(all.failure);
   std::vector<double> heights;
   for (const Reading& reading : all.value) heights.push_back(reading.section);
-  double largest = 0;
+  std::optional<double> largest;
   for (const std::vector<std::size_t>& section : sections(heights)) {
+    if (section.size() < 2) continue;
     std::vector<Reading> list;
     for (const std::size_t k : section) list.push_back(all.value[k]);
-    largest = std::max(largest, range(list));
+    largest = std::max(largest.value_or(0), range(list));
   }
-  return {largest};
+  return largest ? Outcome<double>{*largest} : no_value("no section was touched twice: it shows no circular run-out");
 }
 
 }  // namespace

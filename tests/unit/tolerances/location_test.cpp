@@ -147,6 +147,11 @@ TEST_CASE("Run-outs say what they lack") {
   no_axis.feature(Shape::circle, at({})).datum(Shape::plane, kFace);
   quarters(no_axis, 10, 20, 0, {3}, 3);
   CHECK(no_axis.failure() == "a run-out needs a datum with an axis");
+  // Touches on a spiral: no two of them at one height.
+  Evaluation spiral("CRNOUT");
+  spiral.feature(Shape::cylinder, kBore).datum(Shape::cylinder, kBore);
+  for (int k = 0; k < 4; ++k) quarters(spiral, 10, 20, 3 * k, {30}, 30);
+  CHECK(spiral.failure() == "no section was touched twice: it shows no circular run-out");
   Evaluation cone("TRNOUT");
   cone.feature(Shape::cone, at({}));
   CHECK(cone.refusal() == "a total run-out is for cylinders, circles and planes");
