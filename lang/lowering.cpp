@@ -263,7 +263,11 @@ std::optional<plan::FeatureId> Lowering::actual_feature(const LabelRef& label) {
 
 std::optional<plan::FeatureId> Lowering::datum(const LabelRef& label) {
   if (label.kind == "FA") return actual_feature(label);
-  const plan::FeatureId* id = find(symbols.datums, "datum", label, "bind it with DATDEF/FA(feature),DAT(name)");
+  std::string next_step = "bind it with DATDEF/FA(feature),DAT(name)";
+  if (label.name.find('-') != std::string::npos)
+    next_step =
+        fmt::format("construct the common axis or plane, then bind it with DATDEF/FA(both),DAT({})", label.name);
+  const plan::FeatureId* id = find(symbols.datums, "datum", label, next_step);
   return id ? std::optional(*id) : std::nullopt;
 }
 

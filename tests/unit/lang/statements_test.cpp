@@ -119,6 +119,15 @@ TEST_CASE("where a statement may end, the message about an argument says so") {
   CHECK(c.sink.list()[0].message == "argument 5 of TOL/PERP is 'DAT(B)', expected MMC|LMC|RFS or nothing more");
 }
 
+TEST_CASE("a common datum is said to be constructed") {
+  const Compiled c = compile_text(
+      "DMISMN/'common'\nSNSLCT/SA(P)\nF(J)=FEAT/CYLNDR,OUTER,CART,0,0,0,0,0,1,20,9\nMEAS/CYLNDR,F(J),6\nENDMES\n"
+      "DATDEF/FA(J),DAT(A)\nDATDEF/FA(J),DAT(B)\nT(R)=TOL/CRNOUT,0.05,DAT(A-B)\nOUTPUT/FA(J),TA(R)\nENDFIL\n");
+  REQUIRE(c.sink.list().size() == 1);
+  CHECK(c.sink.list()[0].message == "datum DAT(A-B) is not defined above");
+  CHECK(c.sink.list()[0].help.ends_with("bind it with DATDEF/FA(both),DAT(A-B)"));
+}
+
 TEST_CASE("what is lost says why") {
   const Compiled c = compile_text(
       "DMISMN/'lost'\nSNSLCT/SA(P)\nF(A)=FEAT/POINT,CART,0,0,0,0,0\nT(T)=TOL/CORTOL,XAXIS,-1,1\n"
