@@ -25,8 +25,7 @@ bool is_standard_kind(std::string_view statement, std::string_view word) {
        {"COMPOUND", "CONRADSEGMNT", "CYLRADSEGMNT", "ELONGCYL", "GCURVE", "GEOM", "OBJECT", "PATERN", "REVSURF",
         "SPHRADSEGMNT", "TORRADSEGMNT"}},
       {"TOL", {"COMPOS", "CPROFL", "CPROFS", "GTOL", "USETOL"}},
-      {"CONST",
-       {"BUILD", "CONE", "CURVE", "GEOM", "NEARPT", "PIERCE", "PROJCT", "PTDATA", "RETRIEVE", "SPHERE", "TRMATX"}}};
+      {"CONST", {"BUILD", "CURVE", "GEOM", "NEARPT", "PIERCE", "PROJCT", "PTDATA", "RETRIEVE", "SPHERE", "TRMATX"}}};
   const auto found = kinds.find(statement);
   return found != kinds.end() && found->second.contains(word);
 }

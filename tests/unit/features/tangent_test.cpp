@@ -47,6 +47,24 @@ Arguments extreme(const char* end, Vec3 along) {
 
 }  // namespace
 
+TEST_CASE("The circle of a cone lies where it has the diameter, or at the distance from the apex") {
+  // Apex at (1, 2, 3), 60 degrees full angle, opening along -x; the element has its point where it was touched.
+  const double angle = kPi / 6, slope = std::tan(angle);
+  const Operand cone{Shape::cone, {.point = {-39, 2, 3}, .direction = {-1, 0, 0}, .size = 40 * slope, .angle = angle}};
+  Arguments diameter, distance, none;
+  diameter.add_number("diameter", 12), distance.add_number("distance", 25), none.add_number("diameter", 0);
+  const Element gauge = made_near("CONE", Shape::circle, {cone}, {.point = {}, .direction = {1, 0, 0}}, diameter);
+  check_near(gauge.point, {1 - 6 / slope, 2, 3});
+  check_near(gauge.direction, {1, 0, 0});
+  CHECK(gauge.size == doctest::Approx(6));
+  const Element section = made_near("CONE", Shape::circle, {cone}, {.point = {}, .direction = {-1, 0, 0}}, distance);
+  check_near(section.point, {-24, 2, 3});
+  check_near(section.direction, {-1, 0, 0});
+  CHECK(section.size == doctest::Approx(25 * slope));
+  CHECK_FALSE(build_near("CONE", Shape::circle, {cone}, {}, none));
+  CHECK(reason_near("CONE", Shape::circle, {circle({}, 6)}) == "CONE makes a circle of a cone");
+}
+
 TEST_CASE("A tangent through a point touches at the right angle") {
   // From (10, 0) to the circle of radius 6 about 0: touching points at (3.6, +-4.8).
   const std::vector<Operand> both = {circle({0, 0, 1}, 6), point({10, 0, 5})};

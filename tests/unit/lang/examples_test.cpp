@@ -47,10 +47,15 @@ std::string feature(const std::string& label, const Kinds& kinds = {}) {
   static const std::map<std::string, const char*> kForms = {{"POINT", "CART,50,50,0,0,0,1"},
                                                             {"LINE", "UNBND,CART,50,50,0,1,0,0,0,0,1"},
                                                             {"PLANE", "CART,50,50,0,0,0,1"},
-                                                            {"CIRCLE", "INNER,CART,50,50,0,0,0,1,20"}};
+                                                            {"CIRCLE", "INNER,CART,50,50,0,0,0,1,20"},
+                                                            {"CONE", "INNER,CART,50,50,-10,0,0,1,90"}};
   const auto found = kinds.find(upper(label));
   const std::string kind = found == kinds.end() ? "CIRCLE" : found->second;
-  return fmt::format("F({0})=FEAT/{1},{2}\nMEAS/{1},F({0}),4\nENDMES\n", label, kind, kForms.at(kind));
+  std::string out = fmt::format("F({0})=FEAT/{1},{2}\nMEAS/{1},F({0}),6\n", label, kind, kForms.at(kind));
+  if (kind == "CONE")  // which has no default points
+    for (const char* at : {"55,50,-5", "50,55,-5", "45,50,-5", "58,50,-2", "50,58,-2", "42,50,-2"})
+      out += fmt::format("PTMEAS/CART,{}\n", at);
+  return out + "ENDMES\n";
 }
 
 /// The kind that a CONST statement names, for its result; for the features it takes, kinds of which the
@@ -60,7 +65,7 @@ Kinds kinds_in(const Construction& method, const std::string& example) {
   const std::string result = example.substr(begin, example.find(',') - begin);
   std::vector<std::string> labels;
   for (const LabelUse& use : label_uses(SourceFile("example", example))) labels.push_back(upper(use.name));
-  const std::vector<std::string> words{"POINT", "LINE", "PLANE", "CIRCLE"};
+  const std::vector<std::string> words{"POINT", "LINE", "PLANE", "CIRCLE", "CONE"};
   std::size_t combinations = 1;
   for (std::size_t i = 1; i < labels.size(); ++i) combinations *= words.size();
   for (std::size_t c = 0; c < combinations; ++c) {

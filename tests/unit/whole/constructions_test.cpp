@@ -111,6 +111,22 @@ TEST_CASE("constructed planes and circles are those of hand calculation") {
   CHECK(made(kCircle, "INTOF,FA(Z),FA(TOP)").size == Approx(8));
 }
 
+TEST_CASE("a gauge diameter of a countersink lies as deep as hand calculation says") {
+  // 90 degrees, apex at (50, 50, -10): touched at radius 5 and 8, and 0.1 higher than the nominal is.
+  std::vector<std::string> touches;
+  for (const double r : {5.0, 8.0})
+    for (const auto& [i, j] : {std::pair{1, 0}, {0, 1}, {-1, 0}, {0, -1}})
+      touches.push_back(fmt::format("{},{},{},{},{},1", 50 + r * i, 50 + r * j, r - 9.9, -i, -j));
+  const Ran ran(measured("SINK", "CONE,INNER,CART,50,50,-10,0,0,1,90", touches) +
+                "F(G)=FEAT/CIRCLE,INNER,CART,50,50,-4,0,0,1,12\nCONST/CIRCLE,F(G),CONE,DIAM,12,FA(SINK)\n"
+                "F(H)=FEAT/CIRCLE,INNER,CART,50,50,-3,0,0,1,14\nCONST/CIRCLE,F(H),CONE,DIST,7,FA(SINK)\n"
+                "OUTPUT/FA(G)\nOUTPUT/FA(H)\n");
+  check_near(ran.output("G").point, {50, 50, -3.9});
+  CHECK(ran.output("G").size == Approx(6));
+  check_near(ran.output("H").point, {50, 50, -2.9});
+  CHECK(ran.output("H").size == Approx(7));
+}
+
 TEST_CASE("a torus is found where its touches are") {
   // The tube has a radius of 10.1 about a circle of radius 40: outside at 50.1, above at 10.1.
   const Ran ran(measured("T", "TORUS,OUTER,CART,0,0,0,0,0,1,80,20",
@@ -125,7 +141,7 @@ TEST_CASE("a torus is found where its touches are") {
 TEST_CASE("every construction is tried here") {
   // A construction without a line in the cases above has no value that anyone worked out.
   const std::string_view tried =
-      "INTOF MIDPT PROJPT MOVEPT EXTREM COG TR VECBLD BF MIDLI PROJLI PERPTO PARTO TANTO MIDPL OFFSET";
+      "INTOF MIDPT PROJPT MOVEPT EXTREM COG TR VECBLD BF MIDLI PROJLI PERPTO PARTO TANTO MIDPL OFFSET CONE";
   for (const Construction* method : constructions()) {
     CAPTURE(std::string(method->word));
     CHECK(tried.find(method->word) != std::string_view::npos);
