@@ -63,8 +63,9 @@ Vec3 zone_normal(const Vec3& u, const Vec3& datum, Inclination wanted) {
   const Vec3 v = dot(u, datum) < 0 ? -datum : datum;
   const Vec3 across = u - dot(u, v) * v;
   const double length = norm(across);
+  if (length > 0) return wanted.cosine * v + (wanted.sine / length) * across;
   // A plane that lies along the datum and shall stand on it: no side is nearer than another.
-  return length > 0 ? wanted.cosine * v + (wanted.sine / length) * across : u;
+  return wanted.cosine * v + wanted.sine * any_perpendicular(v);
 }
 
 /// The zone that holds the touches of a line whose zone is at `wanted` to the datum.

@@ -58,6 +58,11 @@ TEST_CASE("The zone of a measured plane holds its touches") {
   const std::vector<Vec3> top{{0, 0, 20}, {100, 0, 20.03}, {100, 100, 20.03}, {0, 100, 20}};
   CHECK(zone("PARLEL", {-3e-4, 0, 1}, kUp, Shape::plane, top) == Approx(0.03));
   CHECK(zone("PERP", {-3e-4, 0, 1}, kUp, Shape::cylinder, top) == Approx(0.03));
+  // One that lies exactly along the datum does not stand on it, and is not flawless for having no side to lean to.
+  const std::vector<Vec3> level{{0, 0, 20}, {100, 0, 20}, {100, 100, 20}, {0, 100, 20}};
+  CHECK(zone("PERP", {0, 0, 1}, kUp, Shape::plane, level) > 99);
+  CHECK(zone("ANGLR", {0, 0, 1}, kUp, Shape::plane, level, kPi / 6) > 49);
+  CHECK(zone("PARLEL", {0, 0, 1}, kUp, Shape::plane, level) == 0);
   CHECK(zone("PARLEL", {-3e-4, 0, 1}, kAlongX, Shape::cylinder, top) == Approx(0.03));
   CHECK(zone("PARLEL", {-3e-4, 0, 1}, kAlongY, Shape::cylinder, top) == Approx(0).epsilon(1e-9));
   // 30 degrees, and 0.02 too much over 40 along the slope.
