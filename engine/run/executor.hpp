@@ -64,6 +64,7 @@ class Executor {
     std::vector<OutputRecord> outputs;  ///< of lane 0, which is the reference when there are no machines
     std::vector<Stop> stops;            ///< of the reference: where the program asks the machine to go
     std::vector<Measured> measured;     ///< by the reference
+    std::vector<Value> nominal_values;  ///< what the reference would evaluate of the nominal part
     FrameCount frames;                  ///< of the reference: in which it touches
     CurvedFeatures curved;              ///< by what the reference touches
     std::vector<RecordingRow> rows;     ///< of lane 0: what it reported; coordinates of the program's machine system

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "engine/features/nominal_normal.hpp"
@@ -136,6 +137,31 @@ void warn_of_thick_balls(const Executor::Observed& observed, const plan::Plan& p
   }
 }
 
+std::map<int, int> first_evaluations(const plan::Plan& plan) {
+  std::map<int, int> operations;  // by characteristic
+  for (std::size_t k = 0; k < plan.operations.size(); ++k)
+    if (const auto* evaluate = std::get_if<plan::Evaluate>(&plan.operations[k].action))
+      operations.emplace(evaluate->characteristic.value, static_cast<int>(k));
+  return operations;
+}
+
+/// Form, orientation, location and run-out of the nominal part are 0 but for rounded numbers. What is far from that
+/// was taken of another datum or angle than is meant, or FEAT lies elsewhere than the touches.
+void warn_of_zones(const Executor::Observed& observed, const plan::Plan& plan, Warnings& out) {
+  constexpr double kRounded_mm = 1;  // taught touches too: as far from the drawing as a part may be
+  const std::map<int, int> evaluations = first_evaluations(plan);
+  for (const Value& v : observed.nominal_values) {
+    const plan::CharacteristicDef& def = plan[v.characteristic];
+    const plan::ToleranceDef& tolerance = plan[def.tolerance];
+    const bool zone = tolerance.kind->unit == Unit::mm && !v.limits.lower && v.limits.upper;
+    if (!zone || v.value <= std::max(kRounded_mm, *v.limits.upper)) continue;
+    out.add(evaluations.at(v.characteristic.value), Code::W0313,
+            fmt::format("even of the nominal part {} of FA({}) is {:.3f} mm", tolerance.kind->word,
+                        plan[def.features.front()].label, v.value),
+            "check the datum and what is asked of it, and that FEAT says what PTMEAS touches");
+  }
+}
+
 }  // namespace
 
 std::vector<Diagnostic> program_warnings(const Executor::Observed& observed, const plan::Plan& plan,
@@ -145,6 +171,7 @@ std::vector<Diagnostic> program_warnings(const Executor::Observed& observed, con
   warn_of_sides(observed, plan, out);
   warn_of_vectors(observed, plan, out);
   warn_of_thick_balls(observed, plan, out);
+  warn_of_zones(observed, plan, out);
   return out.take();
 }
 

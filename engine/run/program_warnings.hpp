@@ -1,5 +1,6 @@
 // What is suspect in what a program asks of a machine, though an error-free machine carries it out: a move beyond the
-// travel, touches from the side that FEAT does not name or along the surface, a ball that does not fit into its bore.
+// travel, touches from the side that FEAT does not name or along the surface, a ball that does not fit into its bore, a zone that
+// the nominal part does not fit into.
 #pragma once
 
 #include <vector>

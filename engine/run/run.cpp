@@ -145,6 +145,7 @@ struct ReferenceRun {
 std::pair<Lane, Executor::Observed> run_alone(const Executor& executor) {
   Block block = executor.make_block({}, 0, 0);
   Executor::Observed observed = executor.observe(block);
+  observed.nominal_values = block.lanes[block.lanes[block.reference()].nominal].values;
   return {std::move(block.lanes[block.reference()]), std::move(observed)};
 }
 

@@ -47,6 +47,26 @@ class Check(harness.Case):
             line = text[:text.rindex("ENDMES")].count("\n") + 1
             self.assertEqual(self.told(text, code=0), [("W0310", line)])
 
+    def test_zones_that_the_nominal_part_does_not_fit_into(self):
+        def told(*lines):
+            """The messages, with the line counted from the first of these."""
+            faces = ""
+            for name, z in (("A", 0), ("B", -20)):
+                faces += f"F({name})=FEAT/PLANE,CART,0,0,{z},0,0,1\nMEAS/PLANE,F({name}),4\nENDMES\n"
+            begin = harness.LENGTH.replace("ENDFIL\n", faces + "DATDEF/FA(A),DAT(A)\n")
+            text = begin + "".join(line + "\n" for line in lines) + "ENDFIL\n"
+            return [(code, line - begin.count("\n")) for code, line in self.told(text, code=0)]
+
+        self.assertEqual(told("T(T)=TOL/PARLEL,0.05,DAT(A)", "OUTPUT/FA(B),TA(T)"), [])
+        self.assertEqual(told("T(T)=TOL/PERP,0.05,DAT(A)", "OUTPUT/FA(B),TA(T)"), [("W0313", 2)])
+        message = json.loads(self.abbe("check", "program.dmi", "--format", "json").stdout)["messages"][0]["message"]
+        self.assertEqual(message, "even of the nominal part PERP of FA(B) is 20.000 mm")
+        # Of a zone of 0 only the value is asked, and a nominal that is rounded is none that lies elsewhere.
+        self.assertEqual(told("T(T)=TOL/PERP,0,DAT(A)", "OUTPUT/FA(B),TA(T)"), [])
+        rounded = ["F(C)=FEAT/CIRCLE,INNER,CART,30.4,0,0,0,0,1,20", "MEAS/CIRCLE,F(C),3"]
+        rounded += [f"PTMEAS/CART,{x},{y},0,{i},{j},0" for x, y, i, j in ((40, 0, -1, 0), (30, 10, 0, -1), (20, 0, 1, 0))]
+        self.assertEqual(told(*rounded, "ENDMES", "T(T)=TOL/POS,2D,0.05", "OUTPUT/FA(C),TA(T)"), [])
+
     def test_vectors_that_lie_in_the_surface(self):
         def told(feature, *touches):
             """The messages about a feature with these touches: (code, number of the touch)."""
