@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "engine/run/check_plan.hpp"
-#include "engine/run/placement.hpp"
 #include "programs/recorded_points.hpp"
 #include "programs/thread_count.hpp"
 
@@ -98,6 +97,11 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
   return in;
 }
 
+Placement placement_of(const CompiledProgram& program, const Machine& machine) {
+  if (const auto& asked = program.compilation.directives.place_mm) return {*asked, {}};
+  return find_placement(program.compilation.plan, machine, program.source);
+}
+
 namespace {
 
 void compile_again(CompiledProgram& program, const lang::CompileOptions& options) {
@@ -165,13 +169,9 @@ Study study_program(const CompiledProgram& program, const StudySettings& setting
       messages.push_back(std::move(warning));
   for (Diagnostic& warning : machine_warnings(in.machine)) messages.push_back(std::move(warning));
   messages.insert(messages.end(), in.messages.begin(), in.messages.end());
-  if (asked.place_mm) {
-    options.placement_mm = *asked.place_mm;
-  } else {
-    const Placement placement = find_placement(plan, in.machine, program.source);
-    options.placement_mm = placement.shift_mm;
-    if (placement.message) messages.push_back(*placement.message);
-  }
+  const Placement placement = placement_of(program, in.machine);
+  options.placement_mm = placement.shift_mm;
+  if (placement.message) messages.push_back(*placement.message);
 
   Study study = run_study(plan, in.machine, options, program.source, progress);
   study.report.version = ABBE_VERSION;

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "engine/report/study.hpp"
+#include "engine/run/placement.hpp"
 #include "lang/compile.hpp"
 
 namespace abbe {
@@ -76,6 +77,9 @@ struct StudyInputs {
 std::vector<Diagnostic> placed(const UserError&, const SourceFile& program, Span directive);
 /// Reads each of them once. Throws UserError as read_machine, read_workpiece and read_recording do.
 StudyInputs read_inputs(const CompiledProgram&, const StudySettings&);
+
+/// Where the program stands in the machine: what it asks for, else what is found. Throws UserError as find_placement does.
+Placement placement_of(const CompiledProgram&, const Machine&);
 
 /// Takes out of the program what even an error-free machine cannot do, an evaluation by itself, any other statement with
 /// all that rests on it; `lost` then says why. Compiled with these options. Returns the messages about it.

@@ -11,7 +11,6 @@
 
 #include "engine/base/letter_case.hpp"
 #include "engine/diagnose/diagnosis.hpp"
-#include "engine/run/placement.hpp"
 #include "engine/run/recorded_sensor.hpp"
 #include "engine/run/recorded_touch.hpp"
 
@@ -77,8 +76,7 @@ MachineRecord nominal_record(const CompiledProgram& program, const Machine& mach
   RunOptions run;
   run.contributors = Contributors::none();
   const plan::Plan& plan = program.compilation.plan;
-  run.placement_mm = program.compilation.directives.place_mm ? *program.compilation.directives.place_mm
-                                                             : find_placement(plan, machine, program.source).shift_mm;
+  run.placement_mm = placement_of(program, machine).shift_mm;
   return record_plan(plan, machine, screened_machines(machine, 1, 1, 1), run, program.source);
 }
 

@@ -7,7 +7,6 @@
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/run/check_plan.hpp"
-#include "engine/run/placement.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
 
@@ -48,8 +47,7 @@ void check_on_machine(const CompiledProgram& program, Sink& sink) {
     const Machine machine = read_machine(machine_name(program, std::nullopt));
     for (const Diagnostic& d : machine_warnings(machine))
       sink.add(diagnostic_at(program.source, asked.machine_span, d.code, d.message, d.help));
-    const Placement found =
-        asked.place_mm ? Placement{*asked.place_mm, {}} : find_placement(plan, machine, program.source);
+    const Placement found = placement_of(program, machine);
     if (found.message) sink.add(*found.message);
     options.placement_mm = found.shift_mm;
     for (const Diagnostic& d : check_plan(plan, machine, options, program.source)) sink.add(d);

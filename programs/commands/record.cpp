@@ -10,7 +10,6 @@
 #include "engine/effects/effect.hpp"
 #include "engine/report/dmis_result.hpp"
 #include "engine/run/effect_set.hpp"
-#include "engine/run/placement.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/commands/usable_program.hpp"
 #include "programs/terminal.hpp"
@@ -143,13 +142,9 @@ int record_command(const RecordOptions& options) {
   run.setup = options.setup;
   const plan::Plan& plan = program.compilation.plan;
   print_messages(machine_warnings(machine));
-  if (asked.place_mm) {
-    run.placement_mm = *asked.place_mm;
-  } else {
-    const Placement placement = find_placement(plan, machine, program.source);
-    run.placement_mm = placement.shift_mm;
-    if (placement.message) print_messages({*placement.message});
-  }
+  const Placement placement = placement_of(program, machine);
+  run.placement_mm = placement.shift_mm;
+  if (placement.message) print_messages({*placement.message});
   const std::vector<Rounding> roundings = take_roundings(machine);
   const VirtualMachines one = screened_machines(machine, run.seed, 1, 1);
   MachineRecord record = record_plan(plan, machine, one, run, program.source);

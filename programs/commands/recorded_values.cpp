@@ -11,7 +11,6 @@
 #include "engine/base/numbers.hpp"
 #include "engine/math/units.hpp"
 #include "engine/recording/recording.hpp"
-#include "engine/run/placement.hpp"
 #include "lang/lines.hpp"
 #include "lang/result_reader.hpp"
 #include "programs/commands/usable_program.hpp"
@@ -149,9 +148,7 @@ Diagnosis RecordedValues::diagnosis(const Machine& machine, const DiagnoseOption
   for (std::size_t k = 0; k < programs_.size(); ++k) {
     const CompiledProgram& p = programs_[k];
     const plan::Plan& plan = p.compilation.plan;
-    const auto& place = p.compilation.directives.place_mm;
-    programs.push_back(
-        {names_[k], &plan, &p.source, place ? *place : find_placement(plan, machine, p.source).shift_mm});
+    programs.push_back({names_[k], &plan, &p.source, placement_of(p, machine).shift_mm});
   }
   return diagnose_values(recording_, programs, machine, how);
 }
