@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -45,34 +46,53 @@ struct NumberOf<std::optional<Value>> {
   using Type = Value;
 };
 
+/// The numbers that an option takes. What lies beyond is for the command to refuse, which knows why; `strict`: no command
+/// does.
+template <class Number>
+struct Range {
+  Number least, most;
+  bool strict = false;
+};
+
 /// A number in decimals, as the directives of a program have it, and nothing else: CLI11 would read 010 as 8
 /// and 0x64 as 100, and make the largest number of what is too large.
 template <class Number>
-Number decimal(const std::string& option, const std::string& text, Number least, Number most) {
+Number decimal(const std::string& option, const std::string& text, const Range<Number>& range) {
   const char *begin = text.data(), *end = begin + text.size();
   if (begin != end && *begin == '+') ++begin;
   Number value{};
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error == std::errc{} && stop == end && value >= least && value <= most) return value;
-  const std::string expected = std::is_integral_v<Number> ? fmt::format("a whole number from {} to {}", least, most)
-                                                          : "a number with a decimal point";
-  throw CLI::ValidationError(option, fmt::format("expected {}, found {}", expected, text));
+  const bool inside = value >= range.least && value <= range.most;
+  const bool number = error == std::errc{} && stop == end && std::isfinite(static_cast<double>(value));
+  if (number && (inside || !range.strict)) return value;
+  const char* const kind = std::is_integral_v<Number> ? "a whole number" : "a number with a decimal point";
+  throw CLI::ValidationError(option,
+                             fmt::format("expected {} from {} to {}, found {}", kind, range.least, range.most, text));
 }
 
-/// An option that takes a number. What a command can do with it is for the command to say.
+/// An option that takes a number.
 template <class Value, class Number = typename NumberOf<Value>::Type>
-CLI::Option* add_number(CLI::App* command, const std::string& option, Value& value, const std::string& help,
-                        Number least = std::numeric_limits<Number>::lowest(),
-                        Number most = std::numeric_limits<Number>::max()) {
+CLI::Option* add_number(CLI::App* command, const std::string& option, Value& value, Range<Number> range,
+                        const std::string& help) {
   return command->add_option_function<std::string>(
-      option,
-      [&value, option, least, most](const std::string& text) { value = decimal<Number>(option, text, least, most); },
-      help);
+      option, [&value, option, range](const std::string& text) { value = decimal<Number>(option, text, range); }, help);
+}
+
+template <class Value>
+void add_seed(CLI::App* command, Value& seed, const std::string& help) {
+  add_number(command, "--seed", seed, {0, std::numeric_limits<std::uint64_t>::max()}, help + " (default 1)")
+      ->type_name("S");
+}
+
+template <class Value>
+void add_machines(CLI::App* command, Value& machines, int least, const std::string& help) {
+  add_number(command, "--machines", machines, {least, std::numeric_limits<int>::max()}, help + " (default 1000)")
+      ->type_name("N");
 }
 
 void add_threads(CLI::App* command, int& threads) {
   add_number(
-      command, "--threads", threads,
+      command, "--threads", threads, {0, kMostThreads},
       fmt::format("1 to {}; 0, the default: all of the computer; the result does not depend on it", kMostThreads))
       ->type_name("T");
 }
@@ -80,8 +100,8 @@ void add_threads(CLI::App* command, int& threads) {
 void add_settings(CLI::App* command, StudySettings& s) {
   command->add_option("--workpiece", s.workpiece, "workpiece file: true sizes, temperatures and form of the part")
       ->type_name("W.json");
-  add_number(command, "--machines", s.machines, "how many virtual machines (default 1000)")->type_name("N");
-  add_number(command, "--seed", s.seed, "of the random numbers (default 1)")->type_name("S");
+  add_machines(command, s.machines, 2, "how many virtual machines");
+  add_seed(command, s.seed, "of the random numbers");
   add_threads(command, s.threads);
 }
 
@@ -131,7 +151,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   command->add_option("--machine", settings.machine, "machine file, or name of a shipped machine (default coord3-mc16)")
       ->type_name("M");
   add_settings(command, settings);
-  add_number(command, "--digits", settings.digits,
+  add_number(command, "--digits", settings.digits, {1, 2},
              "go on until u is stable to 1 or 2 significant digits (JCGM 101, 7.9)")
       ->type_name("D")
       ->excludes("--machines");
@@ -142,7 +162,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
   add_effects(command, settings.effect_use);
   command->add_flag("--budget", settings.budget,
                     "share out the variance among all sources, and between alignment and features");
-  add_number(command, "--coverage", settings.coverage,
+  add_number(command, "--coverage", settings.coverage, {0, 1},
              "also report the intervals of this coverage probability (LCL and UCL stay those of 0.95)")
       ->type_name("P");
   add_answers(command, o->request.answers);
@@ -209,11 +229,10 @@ void add_machine_action(CLI::App* machine, Chosen& chosen, const char* action, c
   o->action = action;
   if (operand) command->add_option(operand, o->machine, "machine file or name")->required();
   if (o->action == "screen") {
-    add_number(command, "--machines", o->machines, "how many accepted machines to draw (default 1000)")->type_name("N");
+    add_machines(command, o->machines, 1, "how many accepted machines to draw");
     add_threads(command, o->threads);
   }
-  if (o->action == "screen" || o->action == "show")
-    add_number(command, "--seed", o->seed, "of the random numbers (default 1)")->type_name("S");
+  if (o->action == "screen" || o->action == "show") add_seed(command, o->seed, "of the random numbers");
   if (o->action != "init") add_format(command, o->format, {"text", "json"});
 }
 
@@ -243,14 +262,13 @@ void add_record(CLI::App& app, Chosen& chosen) {
       ->type_name("EFFECT")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  add_number(command, "--seed", o->seed, "chooses the machine and its noise (default 1)")->type_name("S");
-  add_number(command, "--run", o->run,
-             "which repeat: the same machine and part, other noise of probe and head (default 1)", 1, kMostRepeats)
+  add_seed(command, o->seed, "chooses the machine and its noise");
+  add_number(command, "--run", o->run, {1, kMostRepeats, true},
+             "which repeat: the same machine and part, other noise of probe and head (default 1)")
       ->type_name("K");
   add_number(
-      command, "--setup", o->setup,
-      "which placement of the part, with other noise: a diagnosis takes those of other setups as placed anew (default 1)",
-      1, kMostRepeats)
+      command, "--setup", o->setup, {1, kMostRepeats, true},
+      "which placement of the part, with other noise: a diagnosis takes those of other setups as placed anew (default 1)")
       ->type_name("N");
   add_answers(command, o->answers);
   command->add_option("-o,--output", o->output, "the CSV file to write")->required()->type_name("REC.csv");
@@ -287,7 +305,7 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
       ->add_flag("--design-only", o->design_only, "say what such a recording could tell, without looking at its values")
       ->excludes(model_out)
       ->excludes(fail);
-  add_number(command, "--seed", o->seed, "of the simulated recordings (default 1)")->type_name("S");
+  add_seed(command, o->seed, "of the simulated recordings");
   add_threads(command, o->threads);
   add_format(command, o->format, {"text", "json"});
 }

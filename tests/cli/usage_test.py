@@ -103,9 +103,12 @@ class Usage(harness.Case):
         self.assertIn("found -1", self.refused("E0609", "run", "x.dmi", "--seed", "-1"))
         for number in ("0x64", "1e3", "12.5", "99999999999999999999999", "3 4", ""):
             self.assertIn(f"found {number}", self.refused("E0609", "run", "x.dmi", "--seed", number))
-            self.assertIn("a whole number", self.refused("E0609", "run", "x.dmi", "--machines", number))
+            self.assertIn("a whole number from 2 to 2147483647", self.refused("E0609", "run", "x.dmi", "--machines", number))
+        self.assertIn("from 1 to 2,", self.refused("E0609", "run", "x.dmi", "--digits", "two"))
+        self.assertIn("from 0 to 256,", self.refused("E0609", "run", "x.dmi", "--threads", "all"))
+        self.assertIn("from 1 to 2147483647,", self.refused("E0609", "machine", "screen", "coord3-mc16", "--machines", "x"))
         for number in ("0x1p-1", "nan", "inf", "95%"):
-            self.assertIn(f"found {number}", self.refused("E0609", "run", "x.dmi", "--coverage", number))
+            self.assertIn(f"from 0 to 1, found {number}", self.refused("E0609", "run", "x.dmi", "--coverage", number))
         self.assertIn("from 1 to", self.refused("E0609", "record", "x.dmi", "-o", "r.csv", "--run", "0"))
         self.assertIn("xml", self.refused("E0609", "run", "x.dmi", "--format", "xml"))
         self.assertIn("1,2", self.refused("E0609", "fit", "circle", "p.csv", "--normal", "1,2"))
