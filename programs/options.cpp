@@ -320,8 +320,8 @@ void add_format_command(CLI::App& app, Chosen& chosen) {
 
 void add_lsp(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("lsp", "language server for editors, on stdin and stdout");
-  const auto o = chosen_by(command, chosen, lsp_command);
-  command->add_flag("--stdio", o->stdio, "speak on stdin and stdout (the only way)");
+  command->callback([&chosen] { chosen = lsp_command; });
+  command->add_flag("--stdio")->description("speak on stdin and stdout (the only way)");
 }
 
 void add_repl(CLI::App& app, Chosen& chosen) {

@@ -97,10 +97,7 @@ struct FormatOptions {
 };
 int format_command(const FormatOptions&);
 
-struct LspOptions {
-  bool stdio = true;  ///< the only way; editors say so all the same
-};
-int lsp_command(const LspOptions&);
+int lsp_command();
 
 struct ReplOptions {
   std::optional<std::string> program;  ///< to begin with

@@ -4,6 +4,6 @@
 
 namespace abbe {
 
-int lsp_command(const LspOptions&) { return lsp::serve(stdin, stdout); }
+int lsp_command() { return lsp::serve(stdin, stdout); }
 
 }  // namespace abbe
