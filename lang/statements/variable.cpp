@@ -1,6 +1,7 @@
 // Variables: DECL, ASSIGN, PROMPT, VALUE. (OBTAIN is in obtain.cpp.)
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "engine/base/numbers.hpp"
@@ -9,18 +10,39 @@
 
 namespace abbe::lang {
 
+namespace {
+
+/// NAME, NAME[index] or NAME(index), as it is written.
+struct WrittenVariable {
+  std::string name;
+  char closing = 0;    ///< ends the index; 0: there is none
+  bool closed = true;  ///< whether it does
+  RawArgument index;   ///< where it stands in the text of the statement
+};
+
+/// `begin`: where `text` stands in the text of the statement.
+WrittenVariable parse_variable(std::string_view text, std::size_t begin) {
+  WrittenVariable out;
+  const std::size_t open = std::min(text.find_first_of("[("), text.size());
+  out.name = text.substr(0, open);
+  out.name.erase(out.name.find_last_not_of(" \t") + 1);
+  if (open == text.size()) return out;
+  out.closing = text[open] == '[' ? ']' : ')';
+  out.closed = text.back() == out.closing;
+  out.index.begin = begin + open + 1;
+  out.index.end = begin + text.size() - 1;
+  return out;
+}
+
+}  // namespace
+
 bool assign_to_label(Lowering& lowering, const RawStatement& raw, Value value) {
   const std::string& written = raw.label->name;
-  const std::size_t bracket = written.find('[');
-  const std::string name =
-      written.substr(0, written.find_last_not_of(" \t", bracket == std::string::npos ? bracket : bracket - 1) + 1);
+  const WrittenVariable label = parse_variable(written, raw.code->text().find(written));
+  const std::string& name = label.name;
   std::optional<Value> index;
-  if (bracket != std::string::npos) {
-    const std::string& code = raw.code->text();
-    RawArgument inner;
-    inner.begin = code.find('[') + 1;
-    inner.end = code.find('=') == std::string::npos ? code.size() : code.rfind(']', code.find('='));
-    index = lowering.value(inner);
+  if (label.closing) {
+    index = lowering.value(label.index);
     if (!index) return false;
     if (!index->is_number()) {
       lowering.error(Code::E0236, raw.label->span,
@@ -66,9 +88,8 @@ Type type_of(const std::string& word) {
 
 /// NAME or NAME[size]; name and size, or nothing after an error.
 std::optional<std::pair<std::string, int>> declared(Lowering& lowering, const RawArgument& a) {
-  const std::size_t bracket = a.text.find_first_of("[(");
-  const std::string name =
-      a.text.substr(0, a.text.find_last_not_of(" \t", bracket == std::string::npos ? bracket : bracket - 1) + 1);
+  const WrittenVariable variable = parse_variable(a.text, a.begin);
+  const std::string& name = variable.name;
   const auto letter = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || static_cast<unsigned char>(c) >= 0x80;
   };
@@ -79,17 +100,13 @@ std::optional<std::pair<std::string, int>> declared(Lowering& lowering, const Ra
                    "a name has letters, digits and _ and does not begin with a digit");
     return std::nullopt;
   }
-  if (bracket == std::string::npos) return std::pair{name, 0};
-  const char closing = a.text[bracket] == '[' ? ']' : ')';
-  if (a.text.back() != closing) {
-    lowering.error(Code::E0243, a.span, fmt::format("the size of an array ends with '{}'", closing),
+  if (!variable.closing) return std::pair{name, 0};
+  if (!variable.closed) {
+    lowering.error(Code::E0243, a.span, fmt::format("the size of an array ends with '{}'", variable.closing),
                    fmt::format("write {}[10] for ten elements; there is one index", name));
     return std::nullopt;
   }
-  RawArgument inner;
-  inner.begin = a.begin + bracket + 1;
-  inner.end = a.end - 1;
-  const std::optional<Value> size = lowering.value(inner);
+  const std::optional<Value> size = lowering.value(variable.index);
   if (!size) return std::nullopt;
   if (!size->is_number() || !size->known() || !(size->constant() >= 1 && size->constant() <= kMostElements)) {
     lowering.error(Code::E0243, a.span, fmt::format("an array has 1 to {} elements", kMostElements),
@@ -138,7 +155,7 @@ std::optional<Value> answer_value(Lowering& lowering, const std::string& answer,
 }
 
 void prompt(Lowering& lowering, const RawStatement& raw, const Match& match) {
-  const std::string name = raw.label->name.substr(0, raw.label->name.find_first_of(" ["));
+  const std::string name = parse_variable(raw.label->name, 0).name;
   lowering.asked.insert(upper(name));
   const auto answer = lowering.answers.find(upper(name));
   if (answer == lowering.answers.end())
