@@ -178,7 +178,7 @@ void add_run(CLI::App& app, Chosen& chosen) {
 void add_check(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("check", "read programs and list every message");
   const auto o = chosen_by(command, chosen, check_command);
-  command->add_option("PROGRAM", o->programs, "DMIS programs")->required();
+  command->add_option("PATH", o->paths, "programs, and folders to search for .dmi files")->required();
   add_answers(command, o->answers);
   command->add_flag("--plan", o->plan, "also print what each program was compiled to");
   add_format(command, o->format, {"text", "json"});
@@ -313,7 +313,7 @@ void add_diagnose(CLI::App& app, Chosen& chosen) {
 void add_format_command(CLI::App& app, Chosen& chosen) {
   CLI::App* command = app.add_subcommand("format", "write programs in one style, without changing what they mean");
   const auto o = chosen_by(command, chosen, format_command);
-  command->add_option("PROGRAM", o->programs, "DMIS programs")->required();
+  command->add_option("PATH", o->paths, "programs, and folders to search for .dmi files")->required();
   CLI::Option* check = command->add_flag("--check", o->check, "only list the programs that are not in that style");
   command->add_flag("--write", o->write, "write the programs back instead of to stdout")->excludes(check);
 }

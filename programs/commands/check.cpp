@@ -1,4 +1,4 @@
-// abbe check PROGRAM.dmi...: every message about the programs, and on request their plans. Only the
+// abbe check PATH...: every message about the programs, and on request their plans. Only the
 // error-free machine runs them, on the machine that the program names. Where it names none, the default
 // machine shows what no machine can do.
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include "engine/base/diagnostic.hpp"
 #include "engine/run/check_plan.hpp"
 #include "programs/commands/commands.hpp"
+#include "programs/program_files.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
@@ -83,10 +84,11 @@ std::string indented(const nlohmann::ordered_json& json) {
 
 int check_command(const CheckOptions& options) {
   const bool as_json = options.format == "json";
+  const std::vector<std::string> programs = some_program_files(options.paths);
   nlohmann::ordered_json messages = nlohmann::ordered_json::array(), plans = nlohmann::ordered_json::object();
   std::size_t errors = 0, warnings = 0;
   std::string result;
-  for (const std::string& program : options.programs) {
+  for (const std::string& program : programs) {
     const Checked checked = check(program, options.answers);
     for (const Diagnostic& d : checked.messages) {
       errors += d.severity() == Severity::error ? 1 : 0;
@@ -108,7 +110,7 @@ int check_command(const CheckOptions& options) {
     result = indented(out) + "\n";
   } else {
     result += fmt::format("{}, {} in {}\n", counted(errors, "error"), counted(warnings, "warning"),
-                          counted(options.programs.size(), "program"));
+                          counted(programs.size(), "program"));
   }
   print_result(result);
   return errors > 0 ? kNo : kDone;

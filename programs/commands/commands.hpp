@@ -31,7 +31,7 @@ struct RunCommandOptions {
 int run_command(const RunCommandOptions&);
 
 struct CheckOptions {
-  std::vector<std::string> programs;
+  std::vector<std::string> paths;              ///< programs, and folders to search for them
   bool plan = false;                           ///< also print the plan of each program
   std::map<std::string, std::string> answers;  ///< to PROMPT, by variable
   std::string format = "text";                 ///< text or json
@@ -91,9 +91,9 @@ struct DiagnoseCommandOptions {
 int diagnose_command(const DiagnoseCommandOptions&);
 
 struct FormatOptions {
-  std::vector<std::string> programs;
-  bool check = false;  ///< only say which files are not formatted; then the answer is no
-  bool write = false;  ///< write the files back instead of to stdout
+  std::vector<std::string> paths;  ///< programs, and folders to search for them
+  bool check = false;              ///< only say which files are not formatted; then the answer is no
+  bool write = false;              ///< write the files back instead of to stdout
 };
 int format_command(const FormatOptions&);
 

@@ -1,17 +1,18 @@
-// abbe format FILE...: programs in the one style of lang/format.hpp, on stdout; or checked, or
+// abbe format PATH...: programs in the one style of lang/format.hpp, on stdout; or checked, or
 // written back.
 #include <fmt/format.h>
 
 #include "engine/base/files.hpp"
 #include "lang/format.hpp"
 #include "programs/commands/commands.hpp"
+#include "programs/program_files.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
 
 int format_command(const FormatOptions& options) {
   int differ = 0;
-  for (const std::string& path : options.programs) {
+  for (const std::string& path : some_program_files(options.paths)) {
     const SourceFile source = read_source(path);
     const std::string text = lang::format(source);
     const bool changes = text != source.text();

@@ -2,45 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 #include "engine/base/files.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/expectations.hpp"
 #include "programs/junit.hpp"
+#include "programs/program_files.hpp"
 #include "programs/terminal.hpp"
 
 namespace abbe {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-bool is_program(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".dmi";
-}
-
-/// The files named, and below the folders named all programs, in the order of their names.
-std::vector<std::string> programs_of(const std::vector<std::string>& paths) {
-  std::vector<std::string> found;
-  for (const std::string& path : paths) {
-    std::error_code none;
-    if (!fs::is_directory(path, none)) {
-      found.push_back(path);
-      continue;
-    }
-    std::vector<std::string> below;
-    for (const auto& entry : fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
-      if (entry.is_regular_file() && is_program(entry.path())) below.push_back(entry.path().string());
-    std::sort(below.begin(), below.end());
-    found.insert(found.end(), below.begin(), below.end());
-  }
-  return found;
-}
 
 /// Every expectation of a program that cannot be run fails for the same reason.
 void fail_all(TestSuite& suite, const std::vector<lang::Expectation>& expectations, const std::string& reason) {
@@ -118,7 +90,7 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
 }  // namespace
 
 int test_command(const TestOptions& options) {
-  const std::vector<std::string> programs = programs_of(options.paths);
+  const std::vector<std::string> programs = program_files(options.paths);
   if (options.junit) refuse_overwriting(programs, {*options.junit});
   std::vector<TestSuite> suites;
   int passed = 0, failed = 0;

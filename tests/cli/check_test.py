@@ -24,6 +24,14 @@ class Check(harness.Case):
         self.assertEqual(self.told(outside), [("E0302", 10), ("E0302", 14)])
         self.assertEqual(self.told("$$! place -7200 0 0\n" + outside, code=0), [])
 
+    def test_folders_are_searched_for_programs(self):
+        self.write("programs/a.dmi", harness.LENGTH)
+        self.write("programs/deeper/b.DMI", harness.LENGTH)
+        self.write("programs/note.txt", "no program")
+        self.assertIn("in 2 programs", self.abbe("check", "programs").stdout)
+        self.write("empty/note.txt", "no program")
+        self.assertIn("empty", self.refused("E0601", "check", "empty"))
+
     def test_what_not_even_an_error_free_machine_can_evaluate(self):
         # A plane through a point has no extent, so that its orientation has no zone. Any machine shows it.
         constructed = "F(M)=FEAT/PLANE,CART,0,0,0,1,0,0\nF(N)=FEAT/PLANE,CART,0,0,0,1,0,0\nMEAS/PLANE,F(M),3\nPTMEAS/CART,0,0,0,1,0,0\nPTMEAS/CART,0,9,0,1,0,0\nPTMEAS/CART,0,0,9,1,0,0\nENDMES\nCONST/PLANE,F(N),PARTO,FA(M),THRU,FA(A)\nT(PA)=TOL/PARLEL,0.1,FA(M)\nOUTPUT/FA(N),TA(PA)\nENDFIL\n"

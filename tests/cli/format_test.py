@@ -29,6 +29,15 @@ class Format(harness.Case):
         self.assertEqual(path.read_text(), TIDY)
         self.assertEqual(self.abbe("check", "--plan", "a.dmi").stdout, plan)
 
+    def test_folders_are_searched_for_programs(self):
+        self.write("programs/a.dmi", LENGTH)
+        self.write("programs/deeper/b.dmi", TIDY)
+        self.assertIn("programs/a.dmi", self.abbe("format", "--check", "programs", code=1).stdout)
+        self.abbe("format", "--write", "programs")
+        self.assertEqual((self.folder / "programs/a.dmi").read_text(), TIDY)
+        self.write("empty/note.txt", "no program")
+        self.refused("E0601", "format", "empty")
+
     def test_bytes_that_are_not_utf8_stay(self):
         path = self.write("latin.dmi", LENGTH.replace("F(A)", "F(\u00c4)").encode("latin-1"))
         self.abbe("format", "--write", "latin.dmi")
