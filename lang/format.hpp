@@ -1,7 +1,7 @@
 // The one style in which programs are written out (`abbe format`).
 //
-//   - words of the language in capitals; names, numbers, texts and comments as they were written
-//   - no blanks around `/ , = ( )`; one blank before a comment behind a statement
+//   - words of the language in capitals; names, numbers, texts, comments and expressions as they were written
+//   - no blanks around `/ , =` and the parentheses of labels; one blank before a comment behind a statement
 //   - two blanks of indentation for every block that is open
 //   - a statement in one line of at most 80 columns, the line length of the older editions of the
 //     standard, which some controllers insist on; a longer one is cut behind a comma with `$` and

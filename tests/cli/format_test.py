@@ -38,6 +38,10 @@ class Format(harness.Case):
         self.write("empty/note.txt", "no program")
         self.refused("E0601", "format", "empty")
 
+    def test_expressions_stay_as_they_were_written(self):
+        self.write("x.dmi", "x=assign/sqrt(2) + sin( 3 ) .and. .true.\n")
+        self.assertEqual(self.abbe("format", "x.dmi").stdout, "x=ASSIGN/sqrt(2) + sin( 3 ) .and. .true.\n")
+
     def test_bytes_that_are_not_utf8_stay(self):
         path = self.write("latin.dmi", LENGTH.replace("F(A)", "F(\u00c4)").encode("latin-1"))
         self.abbe("format", "--write", "latin.dmi")
