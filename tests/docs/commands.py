@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Runs every `build/abbe ...` command of README.md and docs/. usage: commands.py PATH-OF-ABBE
+"""Runs every command of README.md and docs/. usage: commands.py PATH-OF-ABBE
 
-A command is an indented line that begins with `build/abbe`. It runs in a fresh folder that sees the project's examples, tests and docs,
-and must exit with 0. The program text of the README is run too.
+A command is an indented line that begins with `build/abbe`, `abbe` or the path of a script in `examples`; one with brackets is a form. They
+run in the order of their pages, in a fresh folder that sees the project's examples, tests and docs, and must exit with 0. The program text of
+the README is run too.
 """
 import os
 import pathlib
@@ -19,7 +20,7 @@ ABBE = pathlib.Path(sys.argv[1]).resolve()
 def commands():
     for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
         for number, line in enumerate(page.read_text().splitlines(), 1):
-            if re.match(r" {4,}build/abbe ", line):
+            if re.match(r" {4,}(build/abbe|abbe|examples/\S+) ", line) and "[" not in line:
                 yield f"{page.relative_to(ROOT)}:{number}", shlex.split(line, comments=True)
 
 
@@ -35,12 +36,14 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for name in ("examples", "tests", "docs"):
             os.symlink(ROOT / name, pathlib.Path(folder) / name)
-        (pathlib.Path(folder) / "build").mkdir()
-        os.symlink(ABBE, pathlib.Path(folder) / "build/abbe")
+        built = pathlib.Path(folder) / "build"
+        built.mkdir()
+        os.symlink(ABBE, built / "abbe")
+        path = f"{built}{os.pathsep}{os.environ['PATH']}"
         (pathlib.Path(folder) / "readme.dmi").write_text(readme_program())
         todo = [("README.md program", ["build/abbe", "test", "readme.dmi"]), *commands()]
         for place, command in todo:
-            run = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+            run = subprocess.run(command, cwd=folder, env={**os.environ, "PATH": path}, capture_output=True, text=True)
             ran += 1
             print(f"{'ok  ' if run.returncode == 0 else 'FAIL'} {place}: {' '.join(command)}")
             if run.returncode != 0:
