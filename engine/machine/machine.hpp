@@ -32,6 +32,9 @@ std::string_view name(Component);  ///< "exx"
 constexpr Axis axis_of(Component c) { return static_cast<Axis>(static_cast<int>(c) / 6); }
 constexpr bool is_rotation(Component c) { return static_cast<int>(c) % 6 >= 3; }
 
+/// What a reading may lie outside the travel: less than programs and messages tell, and rounding leaves that much.
+inline constexpr double kEndOfTravel_mm = 0.0005;
+
 struct MachineAxis {
   double travel_mm = 0;
   int direction = 1;  ///< +1: readings run from 0 to travel; -1: from 0 to -travel
@@ -40,7 +43,9 @@ struct MachineAxis {
 
   double lowest_mm() const { return direction > 0 ? 0.0 : -travel_mm; }
   double highest_mm() const { return direction > 0 ? travel_mm : 0.0; }
-  bool reaches(double reading_mm) const { return reading_mm >= lowest_mm() && reading_mm <= highest_mm(); }
+  bool reaches(double reading_mm) const {
+    return reading_mm > lowest_mm() - kEndOfTravel_mm && reading_mm < highest_mm() + kEndOfTravel_mm;
+  }
 };
 
 /// How one error function is generated (paper eq. 13-16).

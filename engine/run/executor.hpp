@@ -44,6 +44,7 @@ class Executor {
     Vec3 reading_mm;  ///< nominal scale readings
     int operation = 0;
     bool touch = false;  ///< else the target of a move
+    Vec3 surface_mm;     ///< of a touch: its point in the coordinate system of the program there
   };
   /// The fit of an error-free machine at one EndMeasure operation.
   struct KnownFit {

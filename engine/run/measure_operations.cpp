@@ -73,7 +73,7 @@ void BlockRun::go_to(int lane, const Vec3& point) {
   block.lanes[lane].motion->move_to(point);
   if (!observed || lane != block.reference() || !twin.sensor.valid()) return;
   const Vec3 reading = point - executor.machine_.home_offset() - executor.sensors_[twin.sensor.value].tip_from_mount_mm;
-  observed->stops.push_back({reading, operation, false});
+  observed->stops.push_back({reading, operation, false, {}});
 }
 
 void BlockRun::operator()(const plan::Move& move) {

@@ -22,7 +22,7 @@ Placement find_placement(const plan::Plan& plan, const Machine& machine, const S
   }
   const MachineAxis& z = machine[Axis::z];
   const double first = z.lowest_mm(), last = z.highest_mm();
-  if (low > high || (low >= first && high <= last) || high - low > z.travel_mm) return {};
+  if (low > high || (z.reaches(low) && z.reaches(high)) || high - low > z.travel_mm) return {};
   const double shift = std::round((first + last) / 2 - (low + high) / 2);
   if (std::fabs(shift) > z.travel_mm + std::max(std::fabs(first), std::fabs(last))) return {};
   Placement placement;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -108,6 +109,16 @@ std::string where_home_is(const Machine& machine) {
       home.x, home.y, home.z);
 }
 
+/// A touch is its statement; of a default touch there is none.
+std::string name_of(const Executor::Stop& stop, const plan::Plan& plan) {
+  const auto& touch = std::get<plan::Touch>(plan.operations[stop.operation].action);
+  if (touch.pattern_count == 0) return "this touch";
+  const auto shown = [](double mm) { return std::round(1000 * mm) / 1000 + 0.0; };  // no -0.000
+  const Vec3& at = stop.surface_mm;
+  return fmt::format("default touch {} of F({}), at {:.3f}, {:.3f}, {:.3f} mm in the coordinate system there,",
+                     touch.pattern_index + 1, plan[touch.feature].label, shown(at.x), shown(at.y), shown(at.z));
+}
+
 /// Every touch of the error-free machine must lie inside the travel.
 void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine,
                   const SourceFile& source) {
@@ -123,8 +134,8 @@ void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& pl
       errors.push_back(diagnostic_at(
           source, plan.operations[stop.operation].span, Code::E0302,
           fmt::format(
-              "this touch is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
-              machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
+              "{} is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
+              name_of(stop, plan), machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
               machine[axis].highest_mm()),
           "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine" +
               where_home_is(machine)));

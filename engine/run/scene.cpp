@@ -125,8 +125,10 @@ void BlockRun::add_part(int machines) {
 void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
   const int lane = touch_batch.lane[slot];
   if (lane == block.reference()) {
-    observed->stops.push_back({touch_batch.reading.get(slot), operation, true});
-    observed->frames.add(block.lanes[lane].X_WD, touch_batch.surface.get(slot));
+    const Rigid& X_WD = block.lanes[lane].X_WD;
+    observed->stops.push_back(
+        {touch_batch.reading.get(slot), operation, true, inverse(X_WD) * touch_batch.surface.get(slot)});
+    observed->frames.add(X_WD, touch_batch.surface.get(slot));
     observed->curved.add(upper(executor.plan_[touch.feature].label), executor.options_.setup,
                          touch_batch.surface_normal.get(slot));
   }

@@ -189,6 +189,7 @@ void measure_by_pattern(Lowering& lowering, const OpenMeasure& block) {
     touch.pattern_index = k, touch.pattern_count = block.declared;
     if (block.displaced) touch.point = *block.displaced;
     lowering.emit(touch);
+    lowering.out.plan.operations.back().span = block.place;  // the MEAS asks for it, not the ENDMES
   }
 }
 

@@ -24,6 +24,18 @@ class Check(harness.Case):
         self.assertEqual(self.told(outside), [("E0302", 10), ("E0302", 14)])
         self.assertEqual(self.told("$$! place -7200 0 0\n" + outside, code=0), [])
 
+    def test_a_default_touch_outside_is_named(self):
+        circle = "F(C)=FEAT/CIRCLE,INNER,CART,5,0,0,0,0,1,50\nMEAS/CIRCLE,F(C),4\nENDMES\nENDFIL"
+        text = "$$! machine coord3-mc16\n" + harness.LENGTH.replace("XORIG,800", "XORIG,2").replace("ENDFIL", circle)
+        self.assertEqual(self.told(text), [("E0302", text[:text.index("MEAS/CIRCLE")].count("\n") + 1)])
+        said = self.abbe("check", "program.dmi", code=1).stderr
+        self.assertIn("default touch 3 of F(C), at -20.000, 0.000, 0.000 mm in the coordinate system there, is outside", said)
+
+    def test_the_end_of_the_travel_is_inside(self):
+        named = "$$! machine coord3-mc16\n" + harness.LENGTH.replace("XORIG,800", "XORIG,2.0")  # the radius of the tip
+        for shift, told in (("2.0", []), ("1.9996", []), ("1.99", [("E0302", 10)])):
+            self.assertEqual(self.told(named.replace("XORIG,2.0", f"XORIG,{shift}"), code=1 if told else 0), told)
+
     def test_folders_are_searched_for_programs(self):
         self.write("programs/a.dmi", harness.LENGTH)
         self.write("programs/deeper/b.DMI", harness.LENGTH)
