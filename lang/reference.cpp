@@ -141,23 +141,28 @@ std::vector<std::string_view> explained_words() {
   return out;
 }
 
-std::string list_of_words() {
-  std::string out;
-  std::string_view group;
-  std::size_t column = 0;
-  for (const Entry& e : entries()) {
-    if (e.group != group) {
-      out += fmt::format("{}{}\n ", group.empty() ? "" : "\n\n", e.group);
-      column = 1;
-    } else if (column + e.word.size() > 78) {
-      out += "\n ";
-      column = 1;
-    }
-    out += fmt::format(" {}", e.word);
-    column += e.word.size() + 1;
-    group = e.group;
+std::string list_of_group(std::string_view title, const std::vector<std::string_view>& words) {
+  constexpr std::size_t kColumns = 78;
+  std::string out = fmt::format("{}\n ", title);
+  std::size_t column = 1;
+  for (const std::string_view word : words) {
+    if (column + word.size() > kColumns) out += "\n ", column = 1;
+    out += fmt::format(" {}", word);
+    column += word.size() + 1;
   }
   return out + "\n";
+}
+
+std::string list_of_words() {
+  std::string out;
+  const std::vector<Entry> all = entries();
+  for (auto first = all.begin(), next = first; first != all.end(); first = next) {
+    next = std::find_if(first, all.end(), [&](const Entry& e) { return e.group != first->group; });
+    std::vector<std::string_view> words;
+    for (auto e = first; e != next; ++e) words.push_back(e->word);
+    out += (out.empty() ? "" : "\n") + list_of_group(first->group, words);
+  }
+  return out;
 }
 
 std::string reference_markdown() {

@@ -21,6 +21,9 @@ std::optional<std::string> explain_argument_word(std::string_view word);
 /// Every word that explain_word knows: for lists and suggestions.
 std::vector<std::string_view> explained_words();
 
+/// Words below their title, in lines of 78 columns.
+std::string list_of_group(std::string_view title, const std::vector<std::string_view>& words);
+
 /// The words by group, for people: what `abbe explain` shows without a word.
 std::string list_of_words();
 

@@ -1,4 +1,4 @@
-// abbe explain [WORD|EFFECT|MESSAGE-CODE]: help from the tables that the program itself uses.
+// abbe explain [WORD|EFFECT|FAMILY|MESSAGE-CODE]: help from the tables that the program itself uses.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "engine/effects/effect.hpp"
 #include "engine/figures/signature.hpp"
 #include "engine/machine/machine.hpp"
+#include "engine/report/report_words.hpp"
 #include "lang/reference.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/terminal.hpp"
@@ -112,17 +113,54 @@ std::optional<std::string> explain_effect(const std::string& name) {
       alone(*effect) + fmt::format("  told apart by: {}\n  source: {}\n", effect->separate, effect->source);
 }
 
+std::string line_of(const Effect& effect) { return fmt::format("  {:<34} {}\n", effect.name, effect.title); }
+
+/// The effects of a family: head, probe, ...
+std::optional<std::string> explain_family(std::string_view name) {
+  std::string lines;
+  for (const Effect* effect : effects())
+    if (effect->name.starts_with(name) && effect->name.substr(name.size()).starts_with('.')) lines += line_of(*effect);
+  if (lines.empty()) return std::nullopt;
+  return fmt::format("{}: a family of effects\n{}", name, lines);
+}
+
+/// A word of the report, first as it is written: u is not U.
+std::optional<std::string> explain_report_word(const std::string& asked) {
+  const std::span<const ReportWord> words = report_words();
+  auto found =
+      std::find_if(words.begin(), words.end(), [&](const ReportWord& w) { return w.word == asked || w.key == asked; });
+  const std::string same = upper(asked);
+  if (found == words.end())
+    found = std::find_if(words.begin(), words.end(),
+                         [&](const ReportWord& w) { return upper(w.word) == same || upper(w.key) == same; });
+  if (found == words.end() || asked.empty()) return std::nullopt;
+  const auto& [word, key, help] = *found;
+  const bool both = !word.empty() && !key.empty() && word != key;
+  return fmt::format("{}: a word of reports{}\n  {}\n", word.empty() ? key : word,
+                     both ? fmt::format("; `{}` in the JSON", key) : "", help);
+}
+
+std::vector<std::string_view> words_of_reports() {
+  std::vector<std::string_view> names;
+  for (const ReportWord& w : report_words())
+    for (const std::string_view name : {w.word, w.key})
+      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  return names;
+}
+
 std::string overview() {
-  std::string out = lang::list_of_words() + "\nEffects\n";
-  for (const Effect* effect : effects()) out += fmt::format("  {:<34} {}\n", effect->name, effect->title);
-  return out + "\n`abbe explain WORD` explains a word, an effect, or the code of a message (E0110).\n";
+  std::string out = lang::list_of_words() + "\n" + lang::list_of_group("Report", words_of_reports()) + "\nEffects\n";
+  for (const Effect* effect : effects()) out += line_of(*effect);
+  return out +
+      "\n`abbe explain WORD` explains a word, an effect, a family of effects (head), or the code of a message (E0110).\n";
 }
 
 [[noreturn]] void unknown(const std::string& word) {
   std::vector<std::string_view> candidates = lang::explained_words();
   for (const Effect* effect : effects()) candidates.push_back(effect->name);
+  for (const std::string_view name : words_of_reports()) candidates.push_back(name);
   for (const CodeInfo& code : all_codes()) candidates.push_back(code.name);
-  const std::string near = nearest_word(word, candidates);
+  const std::string near = nearest_name(word, candidates);
   throw UserError(diagnostic(Code::E0609, fmt::format("there is nothing to explain under '{}'", word),
                              near.empty() ? "`abbe explain` lists the words" : fmt::format("did you mean {}?", near)));
 }
@@ -130,7 +168,7 @@ std::string overview() {
 [[noreturn]] void no_figure(const std::string& what, const std::string& word) {
   std::vector<std::string_view> names;
   for (const Effect* effect : effects()) names.push_back(effect->name);
-  const std::string near = nearest_word(word, names);
+  const std::string near = nearest_name(word, names);
   throw UserError(diagnostic(
       Code::E0431, what,
       near.empty() ? "`abbe explain` lists the effects; each has a figure" : fmt::format("did you mean {}?", near)));
@@ -148,12 +186,14 @@ std::string text_of(const ExplainOptions& options) {
   if (options.format == "vega") return figure(options.word);
   if (options.markdown) return lang::reference_markdown();
   if (!options.word) return overview();
-  std::optional<std::string> text = explain_code(upper(*options.word));
-  if (!text) text = lang::explain_word(*options.word);
-  if (!text) text = explain_effect(*options.word);
-  if (!text) text = lang::explain_argument_word(*options.word);
-  if (!text) unknown(*options.word);
-  return *text;
+  const std::string& word = *options.word;
+  std::string out;  // a word may be one of programs and of reports: VALUE
+  for (const auto& text : {explain_code(upper(word)), lang::explain_word(word), explain_report_word(word),
+                           explain_effect(word), explain_family(word)})
+    if (text) out += (out.empty() ? "" : "\n") + *text;
+  if (out.empty()) out = lang::explain_argument_word(word).value_or("");
+  if (out.empty()) unknown(word);
+  return out;
 }
 
 }  // namespace

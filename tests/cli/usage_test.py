@@ -57,6 +57,28 @@ class Usage(harness.Case):
         for no_word in ("F", "LABEL", "INNE", ",", ""):
             self.refused("E0609", "explain", no_word)
 
+    def test_every_word_of_a_report_is_explained(self):
+        self.write("length.dmi", harness.LENGTH)
+        report = self.run_json("length.dmi", "--machines", 50, "--budget", "--coverage", 0.99)
+        one = report["characteristics"][0]
+        text = self.abbe("run", "length.dmi", "--machines", 50).stdout
+        titles = [line.split() for line in text.splitlines() if line.startswith("line ")]
+        self.assertEqual(len(titles), 2)
+        listed = self.abbe("explain").stdout.split("\nReport\n")[1].split("\n\n")[0].split()
+        for word in {*one, *one["decision"], *report["machines"], *one["contributions"], *titles[0], *titles[1], *listed}:
+            self.assertIn(": a word of reports", self.abbe("explain", word).stdout, word)
+        self.assertIn("standard uncertainty", self.abbe("explain", "u").stdout)
+        self.assertIn("expanded uncertainty", self.abbe("explain", "U").stdout)
+        self.assertIn("`lcl` in the JSON", self.abbe("explain", "LCL").stdout)
+        self.assertIn("VALUE/", self.abbe("explain", "value").stdout)
+
+    def test_families_and_parts_of_the_names_of_effects(self):
+        self.assertIn("  head.reindexing ", self.abbe("explain", "head").stdout)
+        self.assertIn("  thermal.drift ", self.abbe("explain", "thermal").stdout)
+        for part, effect in (("pretravel_lobing", "probe.pretravel_lobing"), ("squarenes", "machine.squareness"), ("tip_radius", "probe.tip_radius")):
+            self.assertIn(f"did you mean {effect}?", self.refused("E0609", "explain", part))
+            self.assertIn(f"did you mean {effect}?", self.refused("E0431", "explain", part, "--format", "vega"))
+
     def test_only_effects_have_a_figure(self):
         self.assertIn('"reading of x, mm"', self.abbe("explain", "machine.scale", "--format", "vega").stdout)
         self.assertIn("machine.scale", self.refused("E0431", "explain", "machine.scal", "--format", "vega"))
