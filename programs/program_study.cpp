@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/run/check_plan.hpp"
 #include "programs/recorded_points.hpp"
 #include "programs/thread_count.hpp"
@@ -32,6 +33,7 @@ std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std:
 CompiledProgram compile_program(const std::string& path, const lang::CompileOptions& options) {
   Sink sink;
   SourceFile source = read_text(path, sink);
+  refuse_other_kind(source, FileKind::program);
   lang::Compilation compilation = lang::compile(source, sink, options);
   return {std::move(source), std::move(compilation), sink.sorted(), sink.has_errors()};
 }
@@ -83,7 +85,9 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
   for (const std::string& file : files_of(in.workpiece)) in.files.push_back(file);
   if (settings.recording) {
     Sink sink;
-    in.recording = read_recording(read_text(*settings.recording, sink));
+    const SourceFile recording = read_text(*settings.recording, sink);
+    refuse_other_kind(recording, FileKind::table);
+    in.recording = read_recording(recording);
     in.messages = sink.list();
     in.files.push_back(*settings.recording);
     if (in.recording->in_part_frame)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/machine/shipped.hpp"
 
 namespace abbe {
@@ -33,7 +34,11 @@ SourceFile machine_source(const std::string& name_or_path) {
     names.push_back(file.name);
   }
   const bool is_path = name_or_path.find_first_of("/.") != std::string::npos || std::filesystem::exists(name_or_path);
-  if (is_path) return read_source(name_or_path);
+  if (is_path) {
+    SourceFile source = read_source(name_or_path);
+    refuse_other_kind(source, FileKind::json);
+    return source;
+  }
   const std::string near = nearest_word(name_or_path, names);
   throw UserError(
       diagnostic(Code::E0411,

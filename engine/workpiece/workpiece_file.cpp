@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/base/letter_case.hpp"
 #include "engine/base/limits.hpp"
 #include "engine/math/units.hpp"
@@ -229,6 +230,10 @@ Workpiece parse_workpiece(const SourceFile& file) {
   return w;
 }
 
-Workpiece read_workpiece(const std::string& path) { return parse_workpiece(read_source(path)); }
+Workpiece read_workpiece(const std::string& path) {
+  const SourceFile source = read_source(path);
+  refuse_other_kind(source, FileKind::json);
+  return parse_workpiece(source);
+}
 
 }  // namespace abbe

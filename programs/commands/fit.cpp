@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/file_kind.hpp"
 #include "engine/features/feature.hpp"
 #include "engine/features/fit.hpp"
 #include "engine/features/points_csv.hpp"
@@ -95,7 +96,9 @@ std::vector<std::string_view> fit_elements() {
 int fit_command(const FitOptions& options) {
   const FeatureKind& kind = element_named(options.element);
   const std::string_view name = kind.fit_names.element;
-  FitProblem problem{kind.shape, points_from_csv(read_source(options.points)), {}};
+  const SourceFile points = read_source(options.points);
+  refuse_other_kind(points, FileKind::table);
+  FitProblem problem{kind.shape, points_from_csv(points), {}};
   if (options.normal) {
     if (kind.shape != Shape::circle)
       throw UserError(diagnostic(Code::E0506, fmt::format("--normal has no meaning for a {}", name),

@@ -2,6 +2,7 @@
 // written back.
 #include <fmt/format.h>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/base/files.hpp"
 #include "lang/format.hpp"
 #include "programs/commands/commands.hpp"
@@ -14,6 +15,7 @@ int format_command(const FormatOptions& options) {
   int differ = 0;
   for (const std::string& path : some_program_files(options.paths)) {
     const SourceFile source = read_source(path);
+    refuse_other_kind(source, FileKind::program);
     const std::string text = lang::format(source);
     const bool changes = text != source.text();
     differ += changes ? 1 : 0;

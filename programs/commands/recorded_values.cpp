@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/base/letter_case.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/math/units.hpp"
@@ -90,6 +91,8 @@ bool is_result(const std::string& file) { return file.ends_with(".dmo") || file.
 }  // namespace
 
 bool are_values(const std::vector<SourceFile>& files) {
+  for (const SourceFile& file : files)
+    if (!is_result(file.name())) refuse_other_kind(file, FileKind::table);
   const auto count = std::count_if(files.begin(), files.end(),
                                    [](const SourceFile& f) { return is_result(f.name()) || is_value_recording(f); });
   if (count > 0 && files.size() > 1)

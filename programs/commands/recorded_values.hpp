@@ -7,7 +7,7 @@
 namespace abbe {
 
 /// Whether these recordings are tables of values, not of touches. Throws UserError when several files are and
-/// so cannot be one machine's.
+/// so cannot be one machine's, and of files that are no recordings.
 bool are_values(const std::vector<SourceFile>& files);
 
 /// The machine that one of these recordings names, as read_machine takes it: a file beside one of them, a

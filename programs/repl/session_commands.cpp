@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/base/files.hpp"
 #include "lang/lines.hpp"
 #include "lang/parser.hpp"
@@ -202,6 +203,7 @@ std::string Session::compare(const std::vector<std::string>& operands) {
 
 std::string Session::load(const std::string& path) {
   const SourceFile source = read_source(path);
+  refuse_other_kind(source, FileKind::program);
   const std::string text = without_end(source);
   const std::string old_path = std::exchange(path_, path);
   const CompiledProgram program = compiled(text);

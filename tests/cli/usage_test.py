@@ -79,6 +79,27 @@ class Usage(harness.Case):
             self.assertIn(f"did you mean {effect}?", self.refused("E0609", "explain", part))
             self.assertIn(f"did you mean {effect}?", self.refused("E0431", "explain", part, "--format", "vega"))
 
+    def test_a_file_of_another_kind_is_named_once(self):
+        self.write("length.dmi", harness.LENGTH)
+        self.abbe("record", "length.dmi", "-o", "rec.csv", "--dmo", "length.dmo")
+        self.abbe("run", "length.dmi", "--machines", 20, "--csv", "values.csv")
+        self.write("result.txt", (self.folder / "length.dmo").read_text())
+        self.write("bare.csv", "feature,touch,x,y,z\nA,1,0,0,0\n")
+        machine = harness.ROOT / "examples/machines/coord3-mc16.json"
+        for file, what, readers in (
+                ("rec.csv", "a table", ("run", "check", "test", "format", "machine show", "record -o x.csv", "run length.dmi --workpiece")),
+                ("bare.csv", "a table", ("run", "machine screen", "diagnose rec.csv --program", "run length.dmi --machine")),
+                ("values.csv", "a table", ("run", "check")),
+                ("length.dmo", "a DMIS result file", ("run", "check", "machine show", "fit circle")),
+                ("result.txt", "a DMIS result file", ("diagnose", "run length.dmi --recording")),
+                (machine, "a JSON file", ("run", "check", "test", "format", "diagnose", "fit circle", "run length.dmi --recording")),
+                ("length.dmi", "a DMIS program", ("machine show", "diagnose", "fit circle", "diagnose rec.csv --known", "run length.dmi --recording", "run length.dmi --workpiece"))):
+            for reader in readers:
+                said = self.refused("E0622", *reader.split(), file)
+                self.assertIn(f"is {what}", said)
+                self.assertEqual(said.count("error"), 1, said)
+        self.assertIn("`abbe diagnose` reads recordings", self.refused("E0622", "run", "rec.csv"))
+
     def test_only_effects_have_a_figure(self):
         self.assertIn('"reading of x, mm"', self.abbe("explain", "machine.scale", "--format", "vega").stdout)
         self.assertIn("machine.scale", self.refused("E0431", "explain", "machine.scal", "--format", "vega"))
