@@ -31,7 +31,8 @@ int repl_command(const ReplOptions& options) {
   while (!session.finished()) {
     const auto line = editor.read(session.waiting() ? "  ... " : "abbe> ");
     if (!line) break;
-    if (const std::string reply = session.enter(*line); !reply.empty()) print_result(reply);
+    if (const std::string reply = line->dropped ? session.drop() : session.enter(line->text); !reply.empty())
+      print_result(reply);
   }
   if (session.waiting()) print_result("the input ended inside an entry, which is dropped\n");
   return kDone;

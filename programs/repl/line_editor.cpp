@@ -64,10 +64,10 @@ struct LineEditor::Terminal {
     el_set(edit, EL_HIST, history, past);
     el_set(edit, EL_ADDFN, "abbe-complete", "complete the word", &Terminal::complete_word);
     el_set(edit, EL_BIND, "^I", "abbe-complete", nullptr);
-    // While a line is typed ^C drops that line and not the session; while figures are computed it ends the
+    // While a line is typed ^C drops its entry and not the session; while figures are computed it ends the
     // program as ever.
     el_set(edit, EL_SETTY, "-d", "-isig", nullptr);
-    el_set(edit, EL_ADDFN, "abbe-drop", "drop the line", &Terminal::drop_line);
+    el_set(edit, EL_ADDFN, "abbe-drop", "drop the entry", &Terminal::drop_entry);
     el_set(edit, EL_BIND, "^C", "abbe-drop", nullptr);
     el_set(edit, EL_SIGNAL, 1);
   }
@@ -94,7 +94,7 @@ struct LineEditor::Terminal {
     return show_choice(line, words) ? CC_REDISPLAY : CC_ERROR;
   }
 
-  static unsigned char drop_line(EditLine* edit, int) {
+  static unsigned char drop_entry(EditLine* edit, int) {
     std::fputs("^C\n", stdout);
     of(edit).dropped = true;
     return CC_NEWLINE;
@@ -148,24 +148,25 @@ std::optional<std::string> LineEditor::read_plainly(const std::string& prompt) {
   return line;
 }
 
-std::optional<std::string> LineEditor::read(const std::string& prompt) {
+std::optional<LineEditor::Line> LineEditor::read(const std::string& prompt) {
 #ifdef ABBE_HAS_LIBEDIT
   if (terminal_) {
     terminal_->prompt = prompt;
     int length = 0;
     const char* text = el_gets(terminal_->edit, &length);
-    if (std::exchange(terminal_->dropped, false)) return "";
+    if (std::exchange(terminal_->dropped, false)) return Line{"", true};
     if (!text || length <= 0) return std::nullopt;
     std::string line(text, static_cast<std::size_t>(length));
     while (line.ends_with('\n') || line.ends_with('\r')) line.pop_back();
     HistEvent event;
     if (!line.empty()) history(terminal_->past, &event, H_ENTER, line.c_str());
-    return line;
+    return Line{std::move(line)};
   }
 #endif
   std::optional<std::string> line = read_plainly(prompt);
-  if (line && line->ends_with('\r')) line->pop_back();
-  return line;
+  if (!line) return std::nullopt;
+  if (line->ends_with('\r')) line->pop_back();
+  return Line{std::move(*line)};
 }
 
 }  // namespace abbe

@@ -19,8 +19,12 @@ class LineEditor {
   explicit LineEditor(Completer);
   ~LineEditor();
 
-  /// The next line without its end; nothing when the input ends.
-  std::optional<std::string> read(const std::string& prompt);
+  struct Line {
+    std::string text;      ///< without its end
+    bool dropped = false;  ///< by ctrl-C, with the entry that it belongs to
+  };
+  /// The next line; nothing when the input ends.
+  std::optional<Line> read(const std::string& prompt);
   /// Whether a person sees the prompts.
   bool interactive() const { return interactive_; }
 

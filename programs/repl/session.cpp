@@ -90,6 +90,12 @@ std::string Session::enter(const std::string& line) {
   return entry(std::exchange(pending_, ""));
 }
 
+std::string Session::drop() {
+  if (pending_.empty()) return "";
+  pending_.clear();
+  return "the unfinished entry is dropped\n";
+}
+
 std::string Session::entry(const std::string& text) {
   const std::string before = this->text();
   const int first_line = line_count(before);

@@ -26,6 +26,8 @@ class Session {
 
   /// What one line of input brings: text for the person; results and messages alike.
   std::string enter(const std::string& line);
+  /// Forgets the beginning of an entry.
+  std::string drop();
   /// The program in a file becomes the program of the session.
   std::string load(const std::string& path);
 

@@ -113,10 +113,7 @@ std::string Session::run(const std::vector<std::string>&) {
 }
 
 std::string Session::undo(const std::vector<std::string>&) {
-  if (!pending_.empty()) {
-    pending_.clear();
-    return "the unfinished entry is dropped\n";
-  }
+  if (!pending_.empty()) return drop();
   if (entries_.empty()) return "nothing has been entered\n";
   const std::string last = entries_.back().text;
   entries_.pop_back();

@@ -3,6 +3,7 @@
 import os
 import pty
 import subprocess
+import time
 
 import harness
 from harness import LENGTH, ROOT
@@ -38,17 +39,25 @@ class Repl(harness.Case):
         self.assertIn("other.dmi", self.terminal(".load parts/\t\t\r.quit\r"))
         self.assertIn("OUTPUT/FA(A)", self.terminal(".load parts/other.dmi\rOUTP\t/FA(A\t\r.list\r.quit\r"))
 
-    def terminal(self, keys):
-        """What a session in a terminal shows when these keys are pressed."""
+    def test_ctrl_c_drops_the_entry_that_is_being_typed(self):
+        shown = self.terminal("IF/(1 .EQ. 1)\r", ("  ... ", "GOTO/1,2\x03"), ("is dropped\r\nabbe> ", "GOTO/0,0,0\r.list\r.quit\r"))
+        self.assertIn("the unfinished entry is dropped", shown)
+        self.assertIn("   1  GOTO/0,0,0", shown)
+        self.assertNotIn("   1  IF/", shown)
+
+    def terminal(self, keys, *later):
+        """What a session in a terminal shows when these keys are pressed; `later`: what is shown first, and the keys then."""
         master, slave = pty.openpty()
         with subprocess.Popen([self.abbe_path, "repl", "--machines", "20"], cwd=self.folder, stdin=slave, stdout=slave, stderr=slave,
                               env={**os.environ, "TERM": "xterm"}, start_new_session=True) as process:
             os.close(slave)
             shown = b""
             try:
-                while b"abbe> " not in shown:
-                    shown += os.read(master, 4096)
-                os.write(master, keys.encode())
+                for first, pressed in (("abbe> ", keys), *later):
+                    while first.encode() not in shown:
+                        shown += os.read(master, 4096)
+                    time.sleep(0.3)  # the prompt is there before the terminal is ready for single keys
+                    os.write(master, pressed.encode())
                 while piece := os.read(master, 4096):
                     shown += piece
             except OSError:  # the session has closed the terminal
