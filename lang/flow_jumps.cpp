@@ -35,7 +35,7 @@ Flow::Step Flow::jump(int at) {
     std::vector<std::string_view> names;
     for (const auto& [key, target] : routine_->targets) names.push_back(key);
     const std::string near = nearest_word(name, names);
-    lowering_.error(Code::E0233, raw.span,
+    lowering_.error(name.empty() ? Code::E0106 : Code::E0233, raw.span,
                     name.empty() ? "JUMPTO names no target" : fmt::format("there is no target ({})", name),
                     near.empty() ? "write the target (NAME) alone on a line, and JUMPTO/(NAME)"
                                  : fmt::format("did you mean ({})?", near));

@@ -129,7 +129,7 @@ class Blocks {
   void target(int at, const Line& l) {
     const auto [known, is_new] = routine_.targets.emplace(upper(l.raw.target->name), at);
     if (!is_new)
-      error(Code::E0233, l,
+      error(Code::E0246, l,
             fmt::format("({}) stands in line {} already", l.raw.target->name, line(known->second).raw.line),
             "give each target a name of its own");
   }

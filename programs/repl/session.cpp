@@ -46,6 +46,17 @@ bool premature(Code code) {
   return code == Code::W0225 || code == Code::W0226 || code == Code::E0215 || code == Code::E0205;
 }
 
+/// The targets that jumps of the program lack, a line each.
+std::string missing_targets(const SourceFile& source, const Sink& sink) {
+  std::set<std::string> lines;
+  for (const Diagnostic& d : sink.list()) {
+    if (d.code != Code::E0233 || d.file != source.name()) continue;
+    const std::string_view jump = source.text(*d.span);
+    lines.insert(fmt::format("{}\n", jump.substr(jump.find('('))));
+  }
+  return fmt::format("{}", fmt::join(lines, ""));
+}
+
 int line_count(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
 /// Two significant digits of the uncertainty.
@@ -73,6 +84,12 @@ CompiledProgram Session::compiled(const std::string& text) const {
   SourceFile source(path_.empty() ? "session" : path_, text);
   Sink sink;
   lang::Compilation compilation = lang::compile(source, sink);
+  // A target that is still to come stands at the end, where its jumps lead for now.
+  if (const std::string targets = missing_targets(source, sink); !targets.empty()) {
+    sink = {};
+    source = SourceFile(source.name(), text + targets);
+    compilation = lang::compile(source, sink);
+  }
   std::vector<Diagnostic> messages = sink.sorted();
   std::erase_if(messages, [](const Diagnostic& d) { return premature(d.code); });
   const bool errors = std::any_of(messages.begin(), messages.end(),

@@ -232,7 +232,10 @@ std::string Session::save(const std::vector<std::string>& operands) {
       std::none_of(sink.list().begin(), sink.list().end(), [](const Diagnostic& d) { return d.code == Code::W0226; });
   write_whole(path, (has_begin ? "" : "DMISMN/'session',5.2\n") + text() + "ENDFIL\n");
   path_ = path;
-  return fmt::format("{} written\n", path);
+  std::string out = fmt::format("{} written\n", path);
+  for (const Diagnostic& d : sink.list())
+    if (d.code == Code::E0233) out += render(d);
+  return out;
 }
 
 std::string Session::quit(const std::vector<std::string>&) {

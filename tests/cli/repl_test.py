@@ -101,6 +101,19 @@ class Repl(harness.Case):
         self.assertIn("E0302", out)
         self.assertNotIn("  OUTPUT/", out)
 
+    def test_a_jump_waits_for_its_target(self):
+        loop = "I=ASSIGN/0\n(AGAIN)\nI=ASSIGN/I+1\nIF/(I .GT. 3)\nJUMPTO/(DONE)\nENDIF\nJUMPTO/(AGAIN)\n(DONE)\n"
+        out = self.session("DECL/INTGR,I\n" + loop + STATEMENTS[STATEMENTS.index("\n") + 1:] + ".save loop.dmi\n")
+        self.assertNotIn("error E", out)
+        self.assertEqual(out.count("TA(LEN) of"), 1)
+        self.assertEqual(len(self.run_json("loop.dmi", "--machines", 50)["characteristics"]), 1)
+        out = self.session("JUMPTO/()\nJUMPTO/(L)\n.list\n.save open.dmi\n(L)\n(L)\n.save closed.dmi\n")
+        self.assertIn("   1  JUMPTO/(L)\n", out)
+        self.assertIn("E0106", out)
+        self.assertIn("open.dmi written\nsession:1:1: error E0233: there is no target (L)", out)
+        self.assertIn("E0246", out)
+        self.assertTrue(out.endswith("closed.dmi written\n"), out)
+
     def test_undo_list_save_and_load(self):
         out = self.session(STATEMENTS + ".undo\n.list\n.save saved.dmi\n.quit\nnever read\n")
         self.assertIn("taken back: OUTPUT/FA(A),FA(B),TA(LEN)", out)
