@@ -57,7 +57,10 @@ std::string missing_targets(const SourceFile& source, const Sink& sink) {
   return fmt::format("{}", fmt::join(lines, ""));
 }
 
-int line_count(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
+/// A message about an earlier line is new when that line is reached on another path: a macro by its CALL.
+bool same_mistake(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && a.file == b.file && a.span == b.span;
+}
 
 /// Two significant digits of the uncertainty.
 int decimals_for(double u) { return u > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 0, 9) : 6; }
@@ -74,11 +77,13 @@ std::string result_line(const CharacteristicReport& c) {
 
 }  // namespace
 
-std::string Session::text() const {
-  std::string all;
-  for (const Entry& entry : entries_) all += entry.text;
-  return all;
+std::string rendered(const UserError& error) {
+  std::string out;
+  for (const Diagnostic& d : error.diagnostics()) out += render(d);
+  return out;
 }
+
+std::string Session::text() const { return fmt::format("{}", fmt::join(entries_, "")); }
 
 CompiledProgram Session::compiled(const std::string& text) const {
   SourceFile source(path_.empty() ? "session" : path_, text);
@@ -115,40 +120,43 @@ std::string Session::drop() {
 
 std::string Session::entry(const std::string& text) {
   const std::string before = this->text();
-  const int first_line = line_count(before);
-  const CompiledProgram program = compiled(before + text);
+  const CompiledProgram known = compiled(before), program = compiled(before + text);
   std::string out;
-  for (const Diagnostic& d : program.messages)
-    if (d.place.line > first_line) out += render(d);
-  if (program.has_errors) return out;
-  const std::size_t known = entries_.empty() ? 0 : entries_.back().characteristics;
-  const std::size_t now = program.compilation.plan.characteristics.size();
-  if (now > known) {
-    try {
-      out += evaluate(program, first_line);
-    } catch (const UserError& error) {
-      for (const Diagnostic& d : error.diagnostics()) out += render(d);
-      return out;
-    }
+  for (const Diagnostic& d : program.messages) {
+    const bool told = std::any_of(known.messages.begin(), known.messages.end(),
+                                  [&](const Diagnostic& k) { return same_mistake(k, d); });
+    if (!told || d.severity() == Severity::error) out += render(d);
   }
-  entries_.push_back({text, now});
+  if (program.has_errors) return out;
+  try {
+    const std::size_t first = known.compilation.plan.characteristics.size();
+    if (program.compilation.plan.characteristics.size() > first) out += evaluate(program, first);
+  } catch (const UserError& error) {
+    return out + rendered(error);
+  }
+  entries_.push_back(text);
   return out;
 }
 
-std::string Session::evaluate(const CompiledProgram& program, int after) {
+std::string Session::tell_once(const std::vector<Diagnostic>& messages) {
+  std::string out;
+  for (const Diagnostic& d : messages)
+    if (const auto [text, is_new] = told_.insert(render(d)); is_new) out += *text;
+  return out;
+}
+
+std::string Session::evaluate(const CompiledProgram& program, std::size_t first) {
   CompiledProgram quiet = program;
   quiet.messages.clear();  // they were shown when they arose
   const RunReport report = study_program(quiet, settings_, read_inputs(quiet, settings_)).report;
   std::string out;
   for (const CharacteristicReport& c : report.characteristics)
-    if (c.line > after) out += result_line(c);
-  for (const LostCharacteristic& l : report.lost)
-    if (l.line > after) out += fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
-  for (const Diagnostic& d : report.messages) {
-    std::string rendered = render(d);
-    if (told_.insert(rendered).second) out += rendered;
+    if (static_cast<std::size_t>(c.characteristic.value) >= first) out += result_line(c);
+  for (const LostCharacteristic& l : report.lost) {
+    const std::string lost = fmt::format("lost: line {}: {}: {}\n", l.line, l.feature, l.reason);
+    if (told_.insert(lost).second || first == 0) out += lost;
   }
-  return out;
+  return out + tell_once(report.messages);
 }
 
 std::vector<std::string> Session::completions(const std::string& line) const {

@@ -48,8 +48,9 @@ class Session {
   std::string command(const std::string& line);
   /// Takes the text if it has no error, and evaluates what it asks for.
   std::string entry(const std::string& text);
-  /// Runs the program and shows what stands behind line `after`.
-  std::string evaluate(const CompiledProgram&, int after);
+  /// Runs the program and shows its characteristics from `first` on.
+  std::string evaluate(const CompiledProgram&, std::size_t first);
+  std::string tell_once(const std::vector<Diagnostic>&);
   CompiledProgram compiled(const std::string& text) const;
   std::vector<plan::SensorDef> candidates(const std::vector<std::string>& labels) const;
   std::string text() const;
@@ -66,17 +67,15 @@ class Session {
   std::string save(const std::vector<std::string>&);
   std::string quit(const std::vector<std::string>&);
 
-  struct Entry {
-    std::string text;                 ///< with its line ends
-    std::size_t characteristics = 0;  ///< of the program up to its end
-  };
-
   StudySettings settings_;
-  std::vector<Entry> entries_;  ///< accepted
-  std::string pending_;         ///< the beginning of an entry
-  std::set<std::string> told_;  ///< what runs had to say and has been shown
-  std::string path_;            ///< of the program that was loaded or saved
+  std::vector<std::string> entries_;  ///< accepted, with their line ends
+  std::string pending_;               ///< the beginning of an entry
+  std::set<std::string> told_;        ///< what runs had to say and has been shown
+  std::string path_;                  ///< of the program that was loaded or saved
   bool finished_ = false;
 };
+
+/// All messages of an error.
+std::string rendered(const UserError&);
 
 }  // namespace abbe

@@ -115,7 +115,7 @@ std::string Session::run(const std::vector<std::string>&) {
 std::string Session::undo(const std::vector<std::string>&) {
   if (!pending_.empty()) return drop();
   if (entries_.empty()) return "nothing has been entered\n";
-  const std::string last = entries_.back().text;
+  const std::string last = entries_.back();
   entries_.pop_back();
   return fmt::format("taken back: {}{}", last.substr(0, last.find('\n') + 1),
                      std::count(last.begin(), last.end(), '\n') > 1 ? "  ...\n" : "");
@@ -211,7 +211,7 @@ std::string Session::load(const std::string& path) {
     return out + fmt::format("{} has errors and was not loaded\n", path);
   }
   const std::size_t count = program.compilation.plan.characteristics.size();
-  entries_ = {{text, count}};
+  entries_ = {text};
   pending_.clear();
   return out +
       fmt::format("{}: {} lines, {}{}\n", path, std::count(text.begin(), text.end(), '\n'),

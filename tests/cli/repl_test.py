@@ -101,6 +101,22 @@ class Repl(harness.Case):
         self.assertIn("E0302", out)
         self.assertNotIn("  OUTPUT/", out)
 
+    def test_a_mistake_in_another_place_is_told(self):
+        out = self.session("M(A)=MACRO/X\nGOTO/X,0,0\nENDMAC\nCALL/M(A),'text'\n.list\n")
+        self.assertIn("session:2:6: error E0106", out)
+        self.assertNotIn("  CALL/", out)
+        self.write("inc.dmi", "FOO/BAR\n")
+        out = self.session(STATEMENTS + "INCLUD/DMIS,'inc.dmi'\n.list\n")
+        self.assertIn("inc.dmi:1:1: error E0110", out)
+        self.assertNotIn("  INCLUD/", out)
+
+    def test_a_warning_is_told_once(self):
+        self.assertEqual(self.session("X=ASSIGN/1\nY=ASSIGN/X\nX=ASSIGN/2\n").count("W0124"), 2)
+
+    def test_a_macro_that_evaluates_shows_its_results(self):
+        out = self.session(STATEMENTS.replace("OUTPUT", "M(O)=MACRO/'X'\nOUTPUT") + "ENDMAC\nCALL/M(O),F(A)\nCALL/M(O),F(A)\n")
+        self.assertEqual(out.count("TA(LEN) of"), 2, out)
+
     def test_a_jump_waits_for_its_target(self):
         loop = "I=ASSIGN/0\n(AGAIN)\nI=ASSIGN/I+1\nIF/(I .GT. 3)\nJUMPTO/(DONE)\nENDIF\nJUMPTO/(AGAIN)\n(DONE)\n"
         out = self.session("DECL/INTGR,I\n" + loop + STATEMENTS[STATEMENTS.index("\n") + 1:] + ".save loop.dmi\n")
