@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/run/check_plan.hpp"
 #include "lang/blocks.hpp"
 #include "lang/labels.hpp"
 #include "lang/lines.hpp"
@@ -129,6 +130,7 @@ std::string Session::entry(const std::string& text) {
   }
   if (program.has_errors) return out;
   try {
+    out += tried(program);
     const std::size_t first = known.compilation.plan.characteristics.size();
     if (program.compilation.plan.characteristics.size() > first) out += evaluate(program, first);
   } catch (const UserError& error) {
@@ -143,6 +145,14 @@ std::string Session::tell_once(const std::vector<Diagnostic>& messages) {
   for (const Diagnostic& d : messages)
     if (const auto [text, is_new] = told_.insert(render(d)); is_new) out += *text;
   return out;
+}
+
+std::string Session::tried(const CompiledProgram& program) {
+  const StudyInputs in = read_inputs(program, settings_);
+  RunOptions options;
+  options.workpiece = in.workpiece ? &*in.workpiece : nullptr;
+  options.placement_mm = placement_of(program, in.machine).shift_mm;
+  return tell_once(check_plan(program.compilation.plan, in.machine, options, program.source));
 }
 
 std::string Session::evaluate(const CompiledProgram& program, std::size_t first) {

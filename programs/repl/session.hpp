@@ -1,7 +1,8 @@
 // An interactive session: statements one at a time, on the same machinery as everything else. Each
 // entry is compiled as the end of the program that has been entered so far, so a session can do
 // what a program can, and what it saves runs elsewhere. An entry with an error is reported and
-// dropped; the session goes on as if it had not been typed.
+// dropped; the session goes on as if it had not been typed. So is one that the error-free machine cannot
+// do, and a machine that cannot do what was entered is not taken: a session can always be run.
 //
 // An entry is a statement, or a whole block: inside MEAS..ENDMES, IF..ENDIF and the like, and
 // behind a `$` at the end of a line, the session waits for the rest. When an entry evaluates
@@ -48,6 +49,8 @@ class Session {
   std::string command(const std::string& line);
   /// Takes the text if it has no error, and evaluates what it asks for.
   std::string entry(const std::string& text);
+  /// What the error-free machine says that has not been told. Throws UserError when it cannot run the program.
+  std::string tried(const CompiledProgram&);
   /// Runs the program and shows its characteristics from `first` on.
   std::string evaluate(const CompiledProgram&, std::size_t first);
   std::string tell_once(const std::vector<Diagnostic>&);

@@ -84,9 +84,7 @@ std::string Session::command(const std::string& line) {
     throw UserError(diagnostic(Code::E0612, fmt::format("there is no command {}", word),
                                near.empty() ? ".help lists the commands" : fmt::format("did you mean {}?", near)));
   } catch (const UserError& error) {
-    std::string out;
-    for (const Diagnostic& d : error.diagnostics()) out += render(d);
-    return out;
+    return rendered(error);
   }
 }
 
@@ -122,13 +120,21 @@ std::string Session::undo(const std::vector<std::string>&) {
 }
 
 std::string Session::machine(const std::vector<std::string>& operands) {
+  const CompiledProgram program = compiled(text());
+  std::string out;
   if (!operands.empty()) {
-    read_machine(operands[0]);  // throws when it cannot be used
-    settings_.machine = operands[0];
+    const auto before = std::exchange(settings_.machine, operands[0]);
+    try {
+      out = tried(program);
+    } catch (const UserError& error) {
+      settings_.machine = before;
+      return rendered(error) + fmt::format("the machine is still {}\n", machine_name(program, before));
+    }
   }
-  const Machine now = read_machine(machine_name(compiled(text()), settings_.machine));
-  return fmt::format("machine {}: travel {:.0f} x {:.0f} x {:.0f} mm\n", now.name, now.axes[0].travel_mm,
-                     now.axes[1].travel_mm, now.axes[2].travel_mm);
+  const Machine now = read_machine(machine_name(program, settings_.machine));
+  return out +
+      fmt::format("machine {}: travel {:.0f} x {:.0f} x {:.0f} mm\n", now.name, now.axes[0].travel_mm,
+                  now.axes[1].travel_mm, now.axes[2].travel_mm);
 }
 
 std::string Session::machines(const std::vector<std::string>& operands) {
@@ -206,7 +212,14 @@ std::string Session::load(const std::string& path) {
   const CompiledProgram program = compiled(text);
   std::string out;
   for (const Diagnostic& d : program.messages) out += render(d);
-  if (program.has_errors) {
+  bool usable = !program.has_errors;
+  try {
+    if (usable) out += tried(program);
+  } catch (const UserError& error) {
+    out += rendered(error);
+    usable = false;
+  }
+  if (!usable) {
     path_ = old_path;
     return out + fmt::format("{} has errors and was not loaded\n", path);
   }

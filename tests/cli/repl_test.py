@@ -96,10 +96,29 @@ class Repl(harness.Case):
         self.assertIn("unfinished entry", self.session("MEAS/POINT,F(A),1\n.undo\n"))
 
     def test_a_touch_that_no_machine_can_reach_is_dropped(self):
-        far = STATEMENTS.replace("XORIG,800", "XORIG,80000")
-        out = self.session(far + ".list\n")
-        self.assertIn("E0302", out)
-        self.assertNotIn("  OUTPUT/", out)
+        out = self.session(STATEMENTS.replace("MEAS/POINT,F(B)", "D(FAR)=TRANS/XORIG,80000\nMEAS/POINT,F(B)") + ".list\n")
+        self.assertEqual(out.count("E0302"), 1, out)
+        self.assertIn("session:14:1: error E0302", out)
+        listed = out[out.index("   1  "):]
+        self.assertIn("  PTMEAS/CART,0,0,0,-1,0,0\n", listed)
+        self.assertNotIn("  PTMEAS/CART,100,0,0,1,0,0\n", listed)
+        mended = self.session(STATEMENTS.replace("PTMEAS/CART,100,0,0,1,0,0", "PTMEAS/CART,99999,0,0,1,0,0") +
+                              "MEAS/POINT,F(B),1\nPTMEAS/CART,100,0,0,1,0,0\nENDMES\nOUTPUT/FA(A),FA(B),TA(LEN)\n")
+        self.assertEqual(mended.count("TA(LEN) of"), 1, mended)
+
+    def test_what_a_directive_names_is_read_at_once(self):
+        out = self.session("$$! machine nope\n$$! workpiece none.json\n.list\n")
+        self.assertIn("session:1:13: error E0411", out)
+        self.assertIn("session:1:15: error E0601", out)
+        self.assertIn("nothing has been entered", out)
+
+    def test_a_machine_that_cannot_do_what_was_entered_is_not_taken(self):
+        out = self.session(STATEMENTS.replace("ZORIG,-700", "ZORIG,-1050") + ".machine precision-500\n.run\n")
+        self.assertIn("error E0302", out)
+        self.assertIn("the machine is still coord3-mc16", out)
+        self.assertEqual(out.count("TA(LEN) of"), 2, out)
+        self.write("far.dmi", LENGTH.replace("XORIG,800", "XORIG,80000"))
+        self.assertIn("was not loaded", self.session(".load far.dmi\n"))
 
     def test_a_mistake_in_another_place_is_told(self):
         out = self.session("M(A)=MACRO/X\nGOTO/X,0,0\nENDMAC\nCALL/M(A),'text'\n.list\n")
