@@ -138,8 +138,8 @@ void tell_nothing_judged(const Case& c, const std::string& file, Diagnosis& out)
   out.verdict = Verdict::cannot_judge;
 }
 
-/// Each stylus in each orientation has an offset of its own, and here nobody knows which touches share one: what was found
-/// may be that. Until it is known, it is no mismatch of the machine.
+/// Each stylus in each orientation has an offset of its own, and here nobody knows which touches share one: what was found,
+/// or errors that seem large, may be that. Until it is known, it is no mismatch of the machine.
 Diagnosis without_styli(Diagnosis found, std::vector<Diagnostic> of_the_file) {
   Diagnosis out;
   out.judged = Judged::styli_unlogged;
@@ -291,7 +291,8 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
   tell_machine(c, result, file, out);
-  if (c.styli_unlogged && is_mismatch(out)) return without_styli(std::move(out), of_the_file);
+  const bool large = out.baseline.geometry_scale >= kLargeErrors;
+  if (c.styli_unlogged && (is_mismatch(out) || large)) return without_styli(std::move(out), of_the_file);
   at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);
