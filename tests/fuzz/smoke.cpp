@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   for (int i = 0; i < count; ++i) {
     take(random_program(random));
     const std::string& victim = existing[random() % existing.size()];
-    if (i % 10 == 0 && victim.size() < 20'000) take(victim);
+    if (i % 5 == 0 && victim.size() < 20'000) take(victim);
     if (victim.size() < 20'000) take(damaged(victim, existing[random() % existing.size()], random));
     take(damaged(random_program(random), random_program(random), random));
   }
