@@ -68,16 +68,29 @@ TouchedSpots::Numbers TouchedSpots::at(const Vec3& point, const Vec3& normal, st
   constexpr double kAcross_mm = 1e-3;  // a program says places to a micrometre
   constexpr double kAlong_mm = 0.1;    // recorded points scatter along the normal
   constexpr double kParallel = 0.99;
-  std::uint32_t first_here = 0;
-  for (const Spot& spot : spots_) {
+  const auto is_here = [&](const Spot& spot) {
     const Vec3 from = point - spot.point;
-    if (std::abs(dot(from, normal)) < kAlong_mm && norm(perpendicular_part(from, normal)) < kAcross_mm &&
-        dot(normal, spot.normal) > kParallel)
-      return spot.numbers;
-    if (spot.numbers.site == site) ++first_here;
-  }
-  spots_.push_back({point, normal, {site, first_here}});
+    return std::abs(dot(from, normal)) < kAlong_mm && norm(perpendicular_part(from, normal)) < kAcross_mm &&
+        dot(normal, spot.normal) > kParallel;
+  };
+  constexpr double kReach_mm = kAlong_mm + kAcross_mm;
+  const Cell low = cell_of(point - Vec3{kReach_mm, kReach_mm, kReach_mm}),
+             high = cell_of(point + Vec3{kReach_mm, kReach_mm, kReach_mm});
+  std::size_t first = spots_.size();
+  for (long x = low[0]; x <= high[0]; ++x)
+    for (long y = low[1]; y <= high[1]; ++y)
+      for (long z = low[2]; z <= high[2]; ++z)
+        if (const auto in = cells_.find({x, y, z}); in != cells_.end())
+          for (const std::size_t k : in->second)
+            if (k < first && is_here(spots_[k])) first = k;
+  if (first < spots_.size()) return spots_[first].numbers;
+  cells_[cell_of(point)].push_back(spots_.size());
+  spots_.push_back({point, normal, {site, visits_[site]++}});
   return spots_.back().numbers;
+}
+
+TouchedSpots::Cell TouchedSpots::cell_of(const Vec3& point) {
+  return {std::lround(std::floor(point.x)), std::lround(std::floor(point.y)), std::lround(std::floor(point.z))};
 }
 
 Part::Part(const Workpiece& workpiece, const plan::Plan& plan)

@@ -6,6 +6,8 @@
 // = true + d (engine/workpiece/workpiece.hpp).
 #pragma once
 
+#include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -37,7 +39,12 @@ class TouchedSpots {
     Vec3 point, normal;
     Numbers numbers;
   };
+  using Cell = std::array<long, 3>;  ///< a millimetre each way, so that only spots nearby are looked at
+  static Cell cell_of(const Vec3&);
+
   std::vector<Spot> spots_;
+  std::map<Cell, std::vector<std::size_t>> cells_;  ///< indices of spots
+  std::map<std::uint32_t, std::uint32_t> visits_;   ///< by touch of the plan: the spots that it was the first at
 };
 
 class Part {

@@ -228,6 +228,9 @@ TEST_CASE("a touch that is repeated finds the same random form, another one anot
   // One touch of the plan that a loop makes at several places has another form at each.
   CHECK(numbers({0, 1, 0}, 4) == std::pair{4u, 1u});
   CHECK(numbers({0, 1, 0}, 4) == std::pair{4u, 1u});
+  // Where spots are looked for ends nowhere between two that are one, nor between positive and negative places.
+  CHECK(numbers({-0.05, -0.0004, 6.9996}, 5) == std::pair{5u, 0u});
+  CHECK(numbers({0.04, 0.0003, 7.0003}, 6) == std::pair{5u, 0u});
 }
 
 TEST_CASE("effects of the machine see the temperatures and the load of the workpiece") {
