@@ -19,14 +19,9 @@ double chi2_above(double x, double n) {
 /// Forward selection by BIC over single variants, at the baseline of the recording.
 std::vector<int> forward_selection(const Case& c, const std::vector<Variant>& variants) {
   constexpr int kMost = 3;
-  Eigen::Index columns = 0;
-  for (const Variant& v : variants) columns += v.signature.cols();
-  Matrix patterns(c.model.y.size(), columns);
-  columns = 0;
-  for (const Variant& v : variants) {
-    patterns.middleCols(columns, v.signature.cols()) = v.signature;
-    columns += v.signature.cols();
-  }
+  std::vector<const Matrix*> signatures;
+  for (const Variant& v : variants) signatures.push_back(&v.signature);
+  const Matrix patterns = side_by_side(c.model.y.size(), signatures);
   const double log_n = std::log(double(c.model.y.size()));
   std::vector<const Matrix*> taken;
   std::vector<int> out;

@@ -96,13 +96,8 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::
   for (std::size_t begin = 0, end = 0; begin < signatures.size(); begin = end) {
     Eigen::Index count = 0;
     while (end < signatures.size() && count < kTogether) count += signatures[end++]->cols();
-    Matrix together(rotated_.rows(), count);
-    count = 0;
-    for (std::size_t k = begin; k < end; ++k) {
-      together.middleCols(count, signatures[k]->cols()) = *signatures[k];
-      count += signatures[k]->cols();
-    }
-    together = rotated_.project_patterns(together);
+    const Matrix together =
+        rotated_.project_patterns(side_by_side(rotated_.rows(), std::span(signatures).subspan(begin, end - begin)));
     coordinates_.middleCols(first, count) = rotated_.coordinates(together);
     projected_.middleCols(first, count) = together;
     for (std::size_t k = begin; k < end; ++k) {

@@ -156,6 +156,18 @@ Matrix scaled(const LinearModel& m, const Hyperparameters& h) {
 
 }  // namespace
 
+Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const> list) {
+  Eigen::Index columns = 0;
+  for (const Matrix* m : list) columns += m->cols();
+  Matrix out(rows, columns);
+  columns = 0;
+  for (const Matrix* m : list) {
+    out.middleCols(columns, m->cols()) = *m;
+    columns += m->cols();
+  }
+  return out;
+}
+
 Matrix independent(const Matrix& columns) {
   // an unknown that these rows do not have is no column
   const Vector length = columns.colwise().norm().cwiseMax(1e-300);
@@ -425,10 +437,9 @@ Matrix Rotated::precision() const {
 
 LinearModel with_free(const LinearModel& m, const std::vector<const Matrix*>& signatures) {
   LinearModel out = m;
-  for (const Matrix* s : signatures) {
-    out.free.conservativeResize(Eigen::NoChange, out.free.cols() + s->cols());
-    out.free.rightCols(s->cols()) = *s;
-  }
+  std::vector<const Matrix*> free = {&m.free};
+  free.insert(free.end(), signatures.begin(), signatures.end());
+  out.free = side_by_side(m.free.rows(), free);
   return out;
 }
 

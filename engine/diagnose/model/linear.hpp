@@ -16,6 +16,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,9 @@ LinearModel compact(const LinearModel&);
 
 /// The model whose group 0 of Z is the other ensemble.
 LinearModel rougher(const LinearModel&);
+
+/// The columns of all of them, which have so many rows, one after the other.
+Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
 
 /// Orthonormal columns that span the same space: touches of few directions leave parts of a placement open.
 Matrix independent(const Matrix& columns);
