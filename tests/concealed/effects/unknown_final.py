@@ -2,7 +2,7 @@
 
 from portable import np
 
-from .base import Change, Effect, unit, vector
+from .base import Change, Effect, unit
 
 UNKNOWN = {}
 
@@ -11,150 +11,164 @@ def unknown(name, draw, change, factors, designs="CD"):
     UNKNOWN[name] = Effect(name, draw, change, ("amplitude_um",), 20.0, tuple(factors), designs=designs)
 
 
-def draw_matrix(scene, rng):
-    return {"amplitude_um": 1.0, "digits": int(rng.integers(4, 8))}
+def centres(scene):
+    """Middle of the ball that is touched, in the part."""
+    return scene.part_point - 12.5 * scene.part_normal
 
 
-def change_matrix(scene, p):
-    """The matrix that says how the part lies is handed on as text with a few digits. Its rows are then not quite of
-    length one nor at right angles, and the part is stretched and sheared, in another way in each placement; where it
-    lies straight along the axes nothing is lost. Amplitude at the farthest ball, for half a unit of the last digit."""
-    exact = scene.turn * 10.0 ** p["digits"]
-    lost = 2 * (np.floor(exact + 0.5) - exact)
-    far = scene.part_point / np.linalg.norm(scene.part_point, axis=1).max()
-    return Change(tip=p["amplitude_um"] * np.einsum("nij,nj->ni", lost, far))
-
-
-def draw_archive(scene, rng):
+def draw_plastic(scene, rng):
     names = [str(f) for f in rng.permutation(np.unique(scene.feature))]
-    moved = rng.normal(size=(len(scene.styli), 3))
+    return {"amplitude_um": 1.0, "balls": sorted(names[: int(rng.integers(3, 6))])}
+
+
+def change_plastic(scene, p):
+    """Some balls of the part were lost, and cheap ones of plastic have been screwed on in their place. They have the
+    right diameter at 20 degrees, but with every kelvin they grow many times as much as the others: touched from any
+    side they seem larger in the warm, while their middle stays where it is. Amplitude of the radius for 1 K."""
+    swollen = np.array([f in p["balls"] for f in scene.feature]) * (scene.temperature["part"] - 20)
+    return Change(along=p["amplitude_um"] * swollen)
+
+
+def draw_homing(scene, rng):
+    skew = rng.normal(size=len(scene.placements))
+    skew = skew - skew.mean()
+    return {"amplitude_um": 1.0, "skew": (skew / np.abs(skew).max()).tolist()}
+
+
+def change_homing(scene, p):
+    """The bridge is driven at both legs, and each leg has its own scale. Before every placement the machine is switched
+    on and homed, and the reference mark of one leg, which is dirty, is found a little early or late: until it is homed
+    again the bridge stands askew. The calibration has the mean. Amplitude at the end of the bridge, at the worst."""
+    first, second = scene.machine.chain[:2]
+    move, turn = np.zeros((scene.size, 3)), np.zeros((scene.size, 3))
+    askew = np.asarray(p["skew"])[scene.setup - 1]
+    turn[:, 2] = p["amplitude_um"] * askew / (scene.machine.travel[second] / 2) * 1e3
+    return Change({first: (move, turn)})
+
+
+def draw_reference(scene, rng):
+    return {"amplitude_um": rng.choice([-1.0, 1.0]), "axis": unit(rng).tolist()}
+
+
+def change_reference(scene, p):
+    """The reference sphere is worn oval. Each orientation has been qualified on the side of it that it faces, on a
+    slender end or on a flat flank, and has got another radius of the tip: with this orientation all balls seem larger
+    or smaller, with another one less so. The first check has taken the mean. Amplitude from the smallest to the
+    largest."""
+    used = np.unique(scene.sensor, return_index=True)[1]
+    radius = (scene.shank @ np.asarray(p["axis"])) ** 2
+    of_each = radius[used]
+    return Change(along=p["amplitude_um"] * (radius - of_each.mean()) / np.ptp(of_each))
+
+
+def draw_aligned(scene, rng):
+    every = int(rng.integers(5, 10))
+    turns = rng.normal(size=(len(scene.blocks) // every + 1, 3))
     return {
         "amplitude_um": 1.0,
-        "balls": sorted(names[: int(rng.integers(3, 6))]),
-        "moved": (moved / np.sqrt(np.mean(moved**2))).tolist(),
+        "origin": str(rng.choice(np.unique(scene.feature))),
+        "every": every,
+        "turns": (turns / np.sqrt(np.mean(turns**2))).tolist(),
     }
 
 
-def change_archive(scene, p):
-    """Some balls are measured by a subprogram that was copied from elsewhere, and it loads the tips as they were
-    qualified a month ago: there every orientation has its old place, at all other balls the right one. Amplitude is
-    the root of the mean square of the coordinates by which the tips have moved since."""
-    there = np.array([f in p["balls"] for f in scene.feature])
-    return Change(tip=p["amplitude_um"] * np.asarray(p["moved"])[scene.sensor] * there[:, None])
+def change_aligned(scene, p):
+    """The program aligns the part anew after every few balls, by some touches of its rough frame, and each time finds
+    it turned a little otherwise. The origin stays in the middle of one ball, so that this one is always right and those
+    far from it are off by their distance, till the next alignment. Amplitude at the farthest ball, the root of the mean
+    square of the turns about each axis."""
+    here = np.array([f == p["origin"] for f in scene.feature])
+    away = centres(scene) - centres(scene)[here].mean(0)
+    turn = np.asarray(p["turns"])[scene.block // p["every"]]
+    moved = np.cross(turn, away / np.linalg.norm(away, axis=1).max())
+    return Change(along=p["amplitude_um"] * np.sum(moved * scene.part_normal, 1))
 
 
-def draw_averaged(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "touches": int(rng.integers(20, 45))}
-
-
-def change_averaged(scene, p):
-    """Against the noise of the thermometer the software takes the mean of its last readings, one for each touch. When
-    the hall has become warmer or colder in a pause, the first touches after it are still corrected for the old
-    temperature of the part, and bit by bit for the new one. Amplitude at the farthest ball, for 1 K."""
-    warm = scene.temperature["part"]
-    mean = np.array([warm[max(0, k + 1 - p["touches"]) : k + 1].mean() for k in range(scene.size)])
-    far = np.sum(scene.part_point * scene.part_normal, 1) / np.linalg.norm(scene.part_point, axis=1).max()
-    return Change(along=p["amplitude_um"] * (warm - mean) * far)
-
-
-def draw_rack(scene, rng):
-    return {"amplitude_um": 1.0, "tau_s": rng.uniform(30, 90)}
-
-
-def change_rack(scene, p):
-    """The rack of the styli stands in the warm air of the controller's fan. A module that has waited there is long when
-    it is fetched, shrinks while it measures, and gets warm again when it is put back, the long one by more than the
-    short one. The qualification has taken the mean of each. Amplitude of the longest, from cool to warm."""
-    lengths = np.unique(scene.length)
-    module = np.searchsorted(lengths, scene.length)
-    warm, grown = np.ones(len(lengths)), np.zeros(scene.size)
-    for k in range(scene.size):
-        if k:
-            air = (np.arange(len(lengths)) != module[k - 1]).astype(float)
-            warm = air + (warm - air) * np.exp(-(scene.time[k] - scene.time[k - 1]) / p["tau_s"])
-        grown[k] = warm[module[k]]
-    for j in range(len(lengths)):
-        grown[module == j] -= grown[module == j].mean()
-    return Change(tip=scene.shank * (p["amplitude_um"] * grown * scene.length / scene.length.max())[:, None])
-
-
-def draw_parked(scene, rng):
-    axis = int(rng.integers(2))
-    x = scene.reading[:, axis]
-    return {
-        "amplitude_um": rng.choice([-1.0, 1.0]),
-        "axis": axis,
-        "parked_mm": float(np.quantile(x, rng.uniform(0.1, 0.9))),
-        "width_mm": rng.uniform(0.12, 0.22) * float(np.ptp(x)),
-        "tau_s": rng.uniform(300, 900),
-    }
-
-
-def change_parked(scene, p):
-    """In every long pause the machine is parked at the same place. The air that blows out of the bearings cools one
-    side of the guide just there, and the guide is bent there when the machine starts again, until the stone has warmed
-    through: the carriage is pushed aside when it passes this place soon after a pause. Amplitude at the place, right
-    after the pause."""
-    pause = np.diff(scene.time, prepend=scene.time[0] - 3600) > 600
-    began = scene.time[np.maximum.accumulate(np.where(pause, np.arange(scene.size), 0))]
-    cold = np.exp(-(scene.time - began) / p["tau_s"])
-    away = (scene.reading[:, p["axis"]] - p["parked_mm"]) / p["width_mm"]
-    return Change(tip=vector(np.eye(3)[1 - p["axis"]], p["amplitude_um"] * cold * np.exp(-0.5 * away**2)))
-
-
-def draw_knob(scene, rng):
-    share = rng.uniform(0.3, 1, len(scene.styli))
-    return {"amplitude_um": 1.0, "slower": ((share.mean() - share) / 0.35).tolist()}
-
-
-def change_knob(scene, p):
-    """While the orientations were qualified somebody played with the knob that slows the machine down. The software
-    believes in the speed of the program, and has got for each orientation another delay of the probe, some too short,
-    some too long: a touch is off along its way in proportion to the speed. Amplitude at 8 mm/s for an orientation
-    at one end of the knob, when the mean is half way."""
-    late = np.asarray(p["slower"])[scene.sensor] * scene.speed / 8
-    return Change(tip=scene.travel * (p["amplitude_um"] * late)[:, None])
-
-
-def draw_ring(scene, rng):
-    slots = int(rng.choice([4, 8]))
-    return {"amplitude_um": 1.0, "slots": slots, "slot": int(rng.integers(slots)), "zero": unit(rng).tolist()}
-
-
-def change_ring(scene, p):
-    """The controller puts the counters of the scales, touch by touch, into a few memories in turn. When the machine was
-    homed again one of these was forgotten and still adds the old zero: every fourth or eighth touch is off, by the same
-    vector, whatever is touched. Amplitude is the distance between the zeros."""
-    here = np.arange(scene.size) % p["slots"] == p["slot"]
-    return Change(tip=vector(p["zero"], p["amplitude_um"] * here))
-
-
-def draw_fillets(scene, rng):
-    names = [str(f) for f in rng.permutation(np.unique(scene.feature))][: int(rng.integers(3, 6))]
+def draw_swing(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "begins": {f: rng.uniform(0.05, 0.4) for f in names},
-        "thick_at": {f: rng.uniform(0, 2 * np.pi) for f in names},
+        "period_s": rng.uniform(7, 16),
+        "tau_s": rng.uniform(12, 30),
+        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
     }
 
 
-def change_fillets(scene, p):
-    """The balls are glued on their posts. On some of them there was too much glue, and it has crept up the underside,
-    on one higher than on another, mostly on the side to which it ran. Touches of the upper half are right, those well
-    below the equator meet the glue. Amplitude 40 degrees below the equator, where it is thick."""
-    glued = np.array([f in p["begins"] for f in scene.feature])
-    begins = np.array([p["begins"].get(f, 0.0) for f in scene.feature])
-    thick = np.array([p["thick_at"].get(f, 0.0) for f in scene.feature])
-    around = np.arctan2(scene.part_normal[:, 1], scene.part_normal[:, 0])
-    deep = np.clip((-scene.part_normal[:, 2] - begins) / (np.sin(np.radians(40)) - begins), 0, None)
-    return Change(along=p["amplitude_um"] * glued * deep * (1 + np.cos(around - thick)) / 2)
+def change_swing(scene, p):
+    """The part stands on a turntable whose brake is open: a soft spring alone holds it. Every touch beside the axis
+    sets it swinging about its vertical, by the lever and to the side of the push, and the next touches find it
+    somewhere on its way to and fro, until the swing has died away or the part is placed anew. Touches that point at the
+    axis neither move it nor see it. Amplitude of the undamped swing for a lever of half the size, after such a push."""
+    lever = np.cross(scene.part_point, scene.part_normal)[:, 2] / p["half_size_mm"]
+    angle = np.zeros(scene.size)
+    for back in range(1, 20):
+        since = scene.time[back:] - scene.time[:-back]
+        swing = np.exp(-since / p["tau_s"]) * np.sin(2 * np.pi * since / p["period_s"])
+        angle[back:] -= lever[:-back] * swing * (scene.setup[back:] == scene.setup[:-back])
+    return Change(along=p["amplitude_um"] * angle * lever)
 
 
-unknown("rounded_matrix", draw_matrix, change_matrix, ["setup", "position", "feature"], "D")
-unknown("archived_tips", draw_archive, change_archive, ["feature", "sensor", "head"])
-unknown("averaged_thermometer", draw_averaged, change_averaged, ["temperature", "time", "position", "feature"], "D")
-unknown("warm_rack", draw_rack, change_rack, ["time", "sensor", "head"], "D")
-unknown("parked_chill", draw_parked, change_parked, ["time", "position", "feature", "setup"], "D")
-unknown("turned_knob", draw_knob, change_knob, ["speed", "sensor", "head"], "D")
-unknown("ring_buffer", draw_ring, change_ring, ["time"])
-unknown("glue_fillets", draw_fillets, change_fillets, ["direction", "feature"])
+def draw_humming(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "turned": rng.uniform(-0.3, 0.3),
+        "half_size_mm": float(np.abs(centres(scene)[:, :2]).max()),
+    }
+
+
+def change_humming(scene, p):
+    """A fan of the controller makes the plate of the part hum in its second mode, the saddle: balls on the nodal lines,
+    about the diagonals, stand still, those between them swing up and down, and those on tall posts rock. A ball that
+    swings meets the tip early, from whichever side this comes. The tip radius has taken the mean. Amplitude of the mode
+    where it is largest."""
+    u, v, z = (scene.part_point / p["half_size_mm"]).T
+    c, s = np.cos(2 * p["turned"]), np.sin(2 * p["turned"])
+    w, along_u, along_v = c * (u**2 - v**2) + 2 * s * u * v, 2 * (c * u + s * v), 2 * (s * u - c * v)
+    early = np.abs(np.sum(scene.part_normal * np.column_stack([-z * along_u, -z * along_v, w]), 1))
+    return Change(along=p["amplitude_um"] * (early - early.mean()))
+
+
+def draw_lift(scene, rng):
+    return {
+        "amplitude_um": 1.0,
+        "seat": rng.uniform(0, 2 * np.pi),
+        "weight": rng.uniform(0.5, 0.9),
+        "held": rng.uniform(0.2, 0.5),
+    }
+
+
+def change_lift(scene, p):
+    """The long module hangs on a magnet that has lost strength at one of its three seats. Where the push of a touch and
+    the weight of the module, as the head holds it, pull together at this seat by more than the magnet, the module is
+    lifted from it, tips aside and snaps back when the tip is free again. The other modules are held. Amplitude for
+    a push straight from the seat, lifted by its full moment."""
+    towards = scene.head @ np.array([np.cos(p["seat"]), np.sin(p["seat"]), 0.0])
+    push = -np.sum(scene.normal * towards, 1)
+    lifted = np.clip(push - p["weight"] * towards[:, 2] - p["held"], 0, None)
+    long = scene.length > scene.length.max() - 1
+    return Change(along=-p["amplitude_um"] * long * lifted * np.clip(push, 0, None))
+
+
+def draw_modal(scene, rng):
+    return {"amplitude_um": rng.choice([-1.0, 1.0]), "touches": int(rng.integers(1, 3))}
+
+
+def change_modal(scene, p):
+    """A new speed of probing reaches the software at once, the drives only when the next touches are already under way.
+    The first one or two after each change from slow to fast are still made slowly, those after a change from fast to
+    slow fast, and the delay of the probe is taken off for the other speed. Where the speed stays all is right.
+    Amplitude for the change from 2 to 8 mm/s."""
+    starts = np.unique(scene.block, return_index=True)[1]
+    number = np.arange(scene.size) - starts[scene.block]
+    before = scene.speed[np.maximum(starts[scene.block] - 1, 0)]
+    wrong = (before - scene.speed) / 6 * (number < p["touches"])
+    return Change(tip=scene.travel * (p["amplitude_um"] * wrong)[:, None])
+
+
+unknown("plastic_balls", draw_plastic, change_plastic, ["temperature", "feature"], "D")
+unknown("askew_homing", draw_homing, change_homing, ["setup", "position", "feature"], "D")
+unknown("oval_reference", draw_reference, change_reference, ["sensor", "head", "direction"], "D")
+unknown("anxious_alignment", draw_aligned, change_aligned, ["time", "position", "feature"])
+unknown("open_turntable", draw_swing, change_swing, ["time", "direction", "feature", "position"])
+unknown("humming_plate", draw_humming, change_humming, ["feature", "direction", "position"], "D")
+unknown("weak_magnet", draw_lift, change_lift, ["sensor", "head", "direction"], "D")
+unknown("late_speed", draw_modal, change_modal, ["speed", "time"], "D")
