@@ -169,6 +169,16 @@ class Columns(harness.Case):
         self.assertEqual([e["members"] for e in scattered["effects"]], [["noise.unequal"]])
         self.assertIn("W0723", self.codes(scattered))
 
+    def test_a_name_beside_errors_far_beyond_the_specification_is_doubted(self):
+        """The same step beside lobes: it hides in the errors of the machine, and the lobes are told for certain only without it."""
+        lobes = ("--with", "probe.pretravel_lobing:amplitude_um=0.4")
+        certain = self.diagnosis(self.record("--seed", 4, *lobes))["effects"][0]
+        self.assertGreater(certain["probability"], 0.9)
+        said = self.diagnosis(self.record("--seed", 4, *lobes, "--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))
+        self.assertGreater(said["baseline"]["geometry_scale"], 2)
+        self.assertEqual((said["effects"][0]["members"], said["effects"][0]["probability"]), (["probe.pretravel_lobing"], 0.5))
+        self.assertRegex(said["effects"][0]["sentence"], r"beside it the machine's errors would have to be 2\.\d times those of its specification")
+
     def test_scatter_beyond_the_machine_file_is_told(self):
         """Of 25 touches scatter twice as large as it should be may have no name; five times as large has one. Neither is a machine in order."""
         sphere = harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi"

@@ -118,6 +118,9 @@ Explanations named_explanations(const RecordedTouches&, const std::vector<int>& 
 /// Appends the variants of OTHER (patterns/).
 void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
 
+/// One pattern more, believed as most of them, with these columns; `shape`: what it is.
+void add_pattern(Explanations&, Factor, std::string shape, const Matrix& columns);
+
 /// Where something may have changed between runs: in front of one of a stretch of runs.
 struct LaterRun {
   int from_run = 0;  ///< the middle one, which stands for all

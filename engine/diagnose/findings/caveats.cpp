@@ -15,6 +15,18 @@ std::string pattern_beside(const Case& c, const Finding& f) {
                      name(e.factor), e.shape);
 }
 
+std::string not_of_one_size(const Finding& f) {
+  if (!of_several_sizes(f.sizes)) return "";
+  return fmt::format(" But its size {}. Such an effect has one size: it may be something else that looks like it.",
+                     in_words(*f.sizes));
+}
+
+std::string beside_large_errors(double times) {
+  return fmt::format(
+      " But beside it the machine's errors would have to be {:.1f} times those of its specification: something else hides in them, or made both.",
+      times);
+}
+
 std::string whose_coordinates(const Case& c, const Effect& effect) {
   if (c.recording->in_part_frame || lies_as_planned(*c.recording) ||
       (effect.needs & static_cast<unsigned>(Covariate::part_frame)) == 0)

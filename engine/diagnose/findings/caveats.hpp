@@ -12,6 +12,12 @@ namespace abbe::diagnose {
 /// A pattern without a name explains the finding as well.
 std::string pattern_beside(const Case&, const Finding&);
 
+/// What is there is of one size wherever it shows; this is not.
+std::string not_of_one_size(const Finding&);
+
+/// Beside it the machine's errors would have to be so many times those of its specification.
+std::string beside_large_errors(double times);
+
 /// Where no program says how the part lies, what an effect does there is told in coordinates that no other program shares.
 std::string whose_coordinates(const Case&, const Effect&);
 

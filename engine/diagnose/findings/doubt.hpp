@@ -15,6 +15,8 @@ namespace abbe::diagnose {
 inline constexpr double kTold = 0.9;
 /// The most that is believed of a name that is doubted. A name is doubted
 /// - beside something that has none, a pattern or more than chance leaves: whatever made that may have made the rest too;
+/// - beside errors of the machine that are twice those of its specification, or more: likewise;
+/// - whose size differs between touches more than chance allows (one_size.hpp);
 /// - on a covariate that was not logged or did not change: other functions of it would look the same;
 /// - where touches are of several styli or orientations that were not logged;
 /// - where it is smaller than the steps to which positions are rounded;

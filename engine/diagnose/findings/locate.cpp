@@ -186,8 +186,10 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
   for (const auto& [factor, located] : by_factor(c, result.first)) {
     const int variant = best_variant(all, located.best, result.first);
     const Pattern pattern = pattern_of(search, all.variants[variant], variant);
+    const auto best = static_cast<std::size_t>(located.best);
+    const Evidence& judged = best < result.on_grid.log_bayes.size() ? result.on_grid : result.first;
     entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
-                        tail_probability(result.on_grid.log_bayes[located.best], simulated)},
+                        tail_probability(judged.log_bayes[best], simulated)},
                        log_sum_exp(located.log_belief),
                        pattern.energy});
   }
@@ -233,12 +235,15 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   u.sentence = fmt::format("A pattern over {} ({}) of {} um rms is in the recording", u.factor, u.shape,
                            two_digits(u.amplitude_um));
   const CredibleSet name = credible_set(c.explanations, f.evidence, true);
-  const bool as_good = kAsWell * name.probability >= f.probability;
-  const std::string leaves = fmt::format("leaves more than chance does (p = {:.1f} %)", 100 * result.adequacy);
+  const bool several_sizes = result.nearest && result.nearest->sizes;
+  const bool as_good = !several_sizes && kAsWell * name.probability >= f.probability;
+  const std::string leaves = several_sizes
+      ? fmt::format("its size {}", in_words(*result.nearest->sizes))
+      : fmt::format("leaves more than chance does (p = {:.1f} %)", 100 * result.adequacy);
   const bool alone = result.nearest && name.set.size() == 1 && name.explanation == result.nearest->explanation;
   u.sentence += as_good ? fmt::format(". {} would explain it as well{}.", listed(c.explanations, name.set),
                                       alone ? ", but " + leaves : "")
-      : !predicts_as_well.empty()
+      : !predicts_as_well.empty() && !several_sizes
       ? fmt::format(". {} predicts what the model had not seen as well, but explains the whole less well.",
                     predicts_as_well)
       : " that no single effect of the catalogue makes.";

@@ -10,12 +10,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// The probability that chi-squared of n degrees of freedom exceeds x (Wilson & Hilferty 1931).
-double chi2_above(double x, double n) {
-  const double z = (std::cbrt(x / n) - (1 - 2 / (9 * n))) / std::sqrt(2 / (9 * n));
-  return normal_below(-z);
-}
-
 /// Forward selection by BIC over single variants, at the baseline of the recording.
 std::vector<int> forward_selection(const Case& c, const std::vector<Variant>& variants) {
   constexpr int kMost = 3;

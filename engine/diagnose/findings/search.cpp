@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
 
 namespace abbe::diagnose {
@@ -88,6 +89,10 @@ EvidenceSearch rest_of(const Case& c, const std::vector<const Matrix*>& found) {
   const LinearModel model = with_free(c.model, found);
   return {model, estimate(model), c.explanations};
 }
+
+/// The share of what names explain, in squares, up to which what they leave is little: their laws are simpler than the
+/// world.
+constexpr double kLittle = 0.05;
 
 double alarm_of(int round) { return round == 0 ? kAlarm : kLaterAlarm; }
 
@@ -259,11 +264,45 @@ double left_share(const Case& c, const SearchResult& result) {
 /// What the names leave is a mismatch of its own, but no further name was found for it: a pattern. Of a large effect
 /// the catalogue's simple law leaves something too, which is little beside what it explains.
 void add_what_names_leave(const Case& c, SearchResult& result) {
-  constexpr double kLittle = 0.05;
   if (result.findings.empty() || result.other || result.adequacy > kLaterAlarm || left_share(c, result) < kLittle)
     return;
   result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
   drop_names_beside_a_pattern(c, result);
+}
+
+/// How the size of each name differs between the touches.
+void compare_sizes(const Case& c, SearchResult& result) {
+  const std::vector<const Matrix*> found = signatures_of(c, result);
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    Finding& f = result.findings[k];
+    if (!c.explanations.list[f.explanation].effect->only_spread) f.sizes = size_difference(c, found, k, result.hyper);
+  }
+}
+
+/// A name by itself whose size clearly differs is none: what it does, with a size of its own for each group of touches,
+/// is a pattern over what they were grouped by. As of what is left, little of a large effect is nothing.
+void drop_name_of_several_sizes(Case& c, EvidenceSearch& first, SearchResult& result) {
+  if (result.findings.size() != 1 || result.other) return;
+  const std::optional<SizeDifference>& sizes = result.findings.front().sizes;
+  if (!sizes || sizes->p >= kLaterAlarm || sizes->share < kLittle) return;
+  const std::size_t before = c.explanations.variants.size();
+  add_pattern(c.explanations, sizes->factor,
+              c.explanations.list[result.findings.front().explanation].name + ", not of one size",
+              patterns::by_group(*signatures_of(c, result.findings).front(), sizes->group));
+  first.extend(c.explanations, before);
+  result.first = first.evidence();
+  result.nearest = std::move(result.findings.front());
+  result.findings.clear();
+  const int pattern = static_cast<int>(c.explanations.list.size()) - 1;
+  Finding other;
+  other.explanation = pattern;
+  other.set = {pattern};
+  other.probability = probabilities(c.explanations, result.first)[pattern];
+  other.variant = static_cast<int>(before);
+  other.evidence = result.first;
+  other.best = best_variants(c.explanations, result.first);
+  result.other = std::move(other);
+  result.hyper = estimate(with_free(c.model, signatures_of(c, result)));
 }
 
 /// A finding that later ones have taken over altogether is none: beside them nothing speaks for it.
@@ -334,6 +373,8 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   add_what_names_leave(c, result);
   result.hyper =
       result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
+  compare_sizes(c, result);
+  drop_name_of_several_sizes(c, first, result);
   return result;
 }
 

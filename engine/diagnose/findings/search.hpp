@@ -4,6 +4,7 @@
 #include <set>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/findings/one_size.hpp"
 #include "engine/diagnose/model/evidence.hpp"
 
 namespace abbe::diagnose {
@@ -21,10 +22,11 @@ CredibleSet credible_set(const Explanations&, const Evidence&, bool catalogue);
 
 /// One mismatch that the search has found.
 struct Finding : CredibleSet {
-  int variant = -1;           ///< the likeliest variant of its likeliest explanation
-  std::vector<int> variants;  ///< those of its explanation that count, on a finer grid; empty: all
-  Evidence evidence;          ///< given the findings before; of variants as they were numbered then
-  std::vector<int> best;      ///< by explanation: the likeliest of the variants that the case had then
+  int variant = -1;                     ///< the likeliest variant of its likeliest explanation
+  std::vector<int> variants;            ///< those of its explanation that count, on a finer grid; empty: all
+  Evidence evidence;                    ///< given the findings before; of variants as they were numbered then
+  std::vector<int> best;                ///< by explanation: the likeliest of the variants that the case had then
+  std::optional<SizeDifference> sizes;  ///< of a name that has a law: how its size differs between touches
 
   int variant_of(int member) const { return member == explanation ? variant : best[member]; }
 };

@@ -101,16 +101,18 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
                                            : tell_machine_file(c, effect, e.parameters, out);
     const bool possible = plausible(e.parameters);
     const bool same_phase = is_same_phase(c, f);
-    const bool doubted = something_else || rounding || same_phase || effect.only_spread || !judged(c, f) || !possible ||
-        !shown(out.improvement);
+    const bool large_errors = !out.baseline.known && out.baseline.geometry_scale >= kLargeErrors;
+    const bool doubted = something_else || large_errors || of_several_sizes(f.sizes) || rounding || same_phase ||
+        effect.only_spread || !judged(c, f) || !possible || !shown(out.improvement);
     e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
     for (const int m : f.set) titles.push_back(c.explanations.list[m].effect->title);
     const bool unsure = e.probability < kTold;
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
-        pattern_beside(c, f) + (same_phase ? kSamePhase : "") + much_like_it(effect) + whose_coordinates(c, effect) +
-        clock + in_file;
+        pattern_beside(c, f) + not_of_one_size(f) +
+        (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
+        much_like_it(effect) + whose_coordinates(c, effect) + clock + in_file;
     if (change.any() && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";

@@ -92,9 +92,11 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
 
 /// What would show whether a name that stands alone is right, where it is not told for certain.
 std::string to_check_a_name(const Case& c, const SearchResult& result) {
-  for (const Finding& f : result.findings)
+  for (const Finding& f : result.findings) {
+    if (of_several_sizes(f.sizes)) return to_follow_a_pattern(c, f.sizes->factor);
     if (f.set.size() == 1 && f.probability < kTold)
       return to_follow_a_pattern(c, shown_in(c, c.explanations.list[f.explanation]));
+  }
   return "";
 }
 

@@ -26,6 +26,15 @@ void Family::append(std::string shape, const std::vector<Matrix>& variants, doub
 
 }  // namespace patterns
 
+void add_pattern(Explanations& all, Factor factor, std::string shape, const Matrix& columns) {
+  double prior = 0;
+  for (const Explanation& e : all.list)
+    if (!e.effect && e.share == 1) prior = e.prior;
+  patterns::Family(factor, all).add(std::move(shape), columns);
+  all.list.back().share = 1;
+  all.list.back().prior = prior;
+}
+
 void add_other(const RecordedTouches& t, const std::vector<int>& rows, Explanations& out) {
   using namespace patterns;
   constexpr std::pair<Factor, void (*)(const TouchFactors&, Family&)> families[] = {

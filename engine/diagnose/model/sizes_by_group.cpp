@@ -1,0 +1,92 @@
+#include "engine/diagnose/model/sizes_by_group.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "engine/math/normal.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+using Solver = Eigen::CompleteOrthogonalDecomposition<Matrix>;
+
+/// Number of each row's group, in the order of their first use.
+std::vector<Eigen::Index> ordinals(const std::vector<int>& group, Eigen::Index& count) {
+  std::map<int, Eigen::Index> known;
+  std::vector<Eigen::Index> out;
+  for (const int g : group) out.push_back(known.emplace(g, static_cast<Eigen::Index>(known.size())).first->second);
+  count = static_cast<Eigen::Index>(known.size());
+  return out;
+}
+
+}  // namespace
+
+double SizesByGroup::p() const { return dof == 0 ? 1 : chi2_above(chi2, dof); }
+
+OneShape::OneShape(const LinearModel& model, const Hyperparameters& h, const std::vector<const Matrix*>& found,
+                   std::size_t which)
+    : precision_(model, h), y_(precision_.y()) {
+  const Eigen::Index rows = model.y.size();
+  found_ = precision_.seen(side_by_side(rows, found));
+  information_ = inner(found_, found_);
+  const Vector u = inner(found_, y_);
+  coefficients_ = Solver(information_).solve(u);
+  std::vector<const Matrix*> others = found;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
+  others_ = side_by_side(rows, others);
+  Eigen::Index first = 0;
+  for (std::size_t k = 0; k < which; ++k) first += found[k]->cols();
+  shape_ = *found[which] * coefficients_.segment(first, found[which]->cols());
+  const Precision::Seen shape = precision_.seen(shape_);
+  explains_ = inner(shape, shape)(0, 0);
+}
+
+Matrix OneShape::columns(const std::vector<int>& group) const {
+  Eigen::Index count = 0;
+  const std::vector<Eigen::Index> of = ordinals(group, count);
+  Matrix out = Matrix::Zero(shape_.size(), count);
+  for (Eigen::Index i = 0; i < shape_.size(); ++i) out(i, of[static_cast<std::size_t>(i)]) = shape_(i);
+  return out;
+}
+
+SizesByGroup OneShape::by(const std::vector<int>& group) const {
+  // Of what tells less, a size in one group that is twice that in the others would not show.
+  constexpr double kTellsNothing = 0.25;
+  const Precision::Seen by_group = precision_.seen(columns(group));
+  const Matrix information = inner(by_group, by_group), with_found = inner(by_group, found_);
+  const Vector u = inner(by_group, y_);
+  SizesByGroup out;
+  // beside all that was found, whatever its size
+  const Solver free(information_);
+  const Eigen::SelfAdjointEigenSolver<Matrix> contrasts(information - with_found * free.solve(with_found.transpose()));
+  const Vector t = contrasts.eigenvectors().transpose() * (u - with_found * coefficients_);
+  for (Eigen::Index k = 0; k < t.size(); ++k) {
+    const double tells = contrasts.eigenvalues()(k);
+    if (tells < kTellsNothing) continue;
+    out.chi2 += t(k) * t(k) / tells;
+    ++out.dof;
+  }
+  // beside what else was found
+  Matrix g = information;
+  Vector v = u;
+  if (others_.cols() > 0) {
+    const Precision::Seen others = precision_.seen(others_);
+    const Matrix across = inner(by_group, others);
+    const Solver beside(inner(others, others));
+    g -= across * beside.solve(across.transpose());
+    v -= across * beside.solve(Matrix(inner(others, y_)));
+  }
+  const Solver sizes(g);
+  out.size = sizes.solve(v);
+  const Matrix covariance = sizes.pseudoInverse();
+  out.u = Vector::Constant(v.size(), std::numeric_limits<double>::infinity());
+  for (Eigen::Index k = 0; k < v.size(); ++k)
+    if (information(k, k) >= kTellsNothing) out.u(k) = std::sqrt(std::max(0.0, covariance(k, k)));
+  return out;
+}
+
+}  // namespace abbe::diagnose
