@@ -1,4 +1,4 @@
-// What a diagnosis says, as plain data (docs/diagnosis.md explains every figure), and the one function that makes it.
+// What a diagnosis says, as plain data (docs/diagnosis_method.md explains every figure), and the one function that makes it.
 //
 // A recording is compared with what a machine of this specification may do. If they agree, that is all, with
 // the list of what could have been seen. If not, the mismatch is located by factor and named over the
