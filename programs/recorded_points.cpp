@@ -11,8 +11,9 @@
 
 #include "engine/base/letter_case.hpp"
 #include "engine/diagnose/diagnosis.hpp"
-#include "engine/run/recorded_sensor.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/from_program.hpp"
+#include "engine/run/recorded/sensor_lines.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe {
 

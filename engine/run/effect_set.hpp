@@ -19,7 +19,7 @@
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/run/effect_use.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/touch.hpp"
 #include "engine/run/touch.hpp"
 
 namespace abbe {

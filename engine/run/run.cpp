@@ -11,7 +11,7 @@
 #include "engine/math/units.hpp"
 #include "engine/run/executor.hpp"
 #include "engine/run/program_warnings.hpp"
-#include "engine/run/recorded_sensor.hpp"
+#include "engine/run/recorded/sensor_lines.hpp"
 
 namespace abbe {
 

@@ -4,9 +4,10 @@
 
 #include "engine/base/files.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
-#include "engine/run/recorded_part.hpp"
-#include "engine/run/recorded_sensor.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/from_program.hpp"
+#include "engine/run/recorded/part.hpp"
+#include "engine/run/recorded/sensor_lines.hpp"
+#include "engine/run/recorded/touch.hpp"
 #include "programs/commands/joined_recordings.hpp"
 #include "programs/commands/recorded_values.hpp"
 #include "programs/commands/usable_program.hpp"

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/diagnose/baseline/baseline.hpp"
-#include "engine/run/recorded_part.hpp"
+#include "engine/run/recorded/part.hpp"
 
 namespace abbe::diagnose {
 

@@ -8,7 +8,7 @@
 
 #include "engine/diagnose/model/linear.hpp"
 #include "engine/machine/machine.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
 

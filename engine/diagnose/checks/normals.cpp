@@ -16,6 +16,7 @@
 #include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/checks/remedies.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/run/recorded/from_program.hpp"
 
 namespace abbe::diagnose {
 

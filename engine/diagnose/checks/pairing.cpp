@@ -11,7 +11,7 @@
 #include "engine/diagnose/baseline/most_agree.hpp"
 #include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/recording/units.hpp"
-#include "engine/run/recorded_part.hpp"
+#include "engine/run/recorded/part.hpp"
 
 namespace abbe::diagnose {
 

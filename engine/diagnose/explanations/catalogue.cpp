@@ -11,6 +11,7 @@
 #include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/diagnose/explanations/search_grid.hpp"
+#include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
 

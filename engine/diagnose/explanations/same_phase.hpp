@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/diagnose/model/linear.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
 

@@ -1,4 +1,5 @@
 #include "engine/diagnose/findings/caveats.hpp"
+#include "engine/run/recorded/from_program.hpp"
 
 #include <fmt/format.h>
 

@@ -10,6 +10,7 @@
 #include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/planning/question.hpp"
+#include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
 

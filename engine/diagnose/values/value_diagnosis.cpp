@@ -21,6 +21,7 @@
 #include "engine/diagnose/values/value_signature.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/math/normal.hpp"
+#include "engine/run/recorded/logged.hpp"
 
 namespace abbe {
 

@@ -1,4 +1,5 @@
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/from_program.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 #include <doctest/doctest.h>
 

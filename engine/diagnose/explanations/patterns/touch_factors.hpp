@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/diagnose/explanations/patterns/functions.hpp"
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose::patterns {
 

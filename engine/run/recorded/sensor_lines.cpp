@@ -1,4 +1,4 @@
-#include "engine/run/recorded_sensor.hpp"
+#include "engine/run/recorded/sensor_lines.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "engine/run/recorded_part.hpp"
+#include "engine/run/recorded/part.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

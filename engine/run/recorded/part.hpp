@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/run/recorded_touch.hpp"
+#include "engine/run/recorded/touch.hpp"
 #include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {

@@ -18,7 +18,6 @@
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
 #include "engine/recording/recording.hpp"
-#include "engine/run/run.hpp"
 
 namespace abbe {
 
@@ -44,20 +43,8 @@ struct RecordedTouches {
   std::vector<Diagnostic> messages;
 };
 
-/// Whether a program has said of every row where on the part it lies.
-bool lies_as_planned(const Recording&);
-
-/// Fills what rows lack (target, normal, sensor, times, ...) from what an error-free machine makes of their
-/// program, pairing rows by feature and touch. Targets are of the point that the recording states. Part
-/// coordinates, those of the program at each touch, become machine coordinates: the program says where the
-/// part stands. Throws UserError when rows have no partner and need one: which, and what the program has.
-void complete_from_program(Recording&, const MachineRecord& nominal, const std::string& file);
-
 /// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that
 /// the machine does not know.
 RecordedTouches recorded_touches(const Recording&, const Machine&, const std::string& file);
-
-/// The columns of a recording that hold these covariates, for messages: {"temp_part_C"}.
-std::vector<std::string> columns_of(unsigned covariates);
 
 }  // namespace abbe

@@ -1,0 +1,52 @@
+// The stylus system of each row of a recording.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/base/diagnostic.hpp"
+#include "engine/machine/machine.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/recording/recording.hpp"
+#include "engine/run/sensor.hpp"
+
+namespace abbe {
+
+/// The stylus systems of a recording, resolved once each: by name, and by the angles of the head where rows give them.
+/// Angles that were read back scatter by thousandths of a degree about those that the head was sent to.
+class RecordedStyli {
+ public:
+  RecordedStyli(const Machine& machine, const std::string& file) : machine_(machine), file_(file) {}
+
+  /// That of a row, which stays where it is. Throws UserError: a name that neither the recording nor the machine knows.
+  const Sensor& of(const RecordingRow&);
+
+  /// By StylusScene::ordinal - 1: the name of the first sensor with that stylus.
+  const std::vector<std::string>& names() const { return names_; }
+  /// Qualified tips: styli in each of their orientations.
+  int tips() const { return static_cast<int>(met_.size()); }
+  /// W0541 where a stylus had to be assumed.
+  const std::vector<Diagnostic>& messages() const { return messages_; }
+
+ private:
+  struct Known {
+    std::optional<double> a_deg, b_deg;
+    Sensor sensor;
+  };
+
+  Sensor resolve(const std::string& name, const RecordingRow&);
+  void require_sensor(const std::string& label, const RecordingRow&) const;
+  void assume(const RecordingRow&, plan::SensorDef&);
+
+  const Machine& machine_;
+  std::string file_;
+  std::map<std::string, std::deque<Known>> known_;  ///< by name
+  std::vector<Sensor> met_;
+  std::vector<std::string> names_;
+  std::vector<Diagnostic> messages_;
+};
+
+}  // namespace abbe

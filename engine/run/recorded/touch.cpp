@@ -1,0 +1,205 @@
+#include "engine/run/recorded/touch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "engine/machine/geometry.hpp"
+#include "engine/run/curved_features.hpp"
+#include "engine/run/motion.hpp"
+#include "engine/run/part_frame.hpp"
+#include "engine/run/recorded/from_program.hpp"
+#include "engine/run/recorded/logged.hpp"
+#include "engine/run/recorded/styli.hpp"
+#include "engine/run/scene_terms.hpp"
+
+namespace abbe {
+
+namespace {
+
+/// Rows in the order in which they were measured.
+std::vector<int> order_of(const Recording& recording) {
+  std::vector<int> order(recording.rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  const bool timed = std::all_of(recording.rows.begin(), recording.rows.end(),
+                                 [](const RecordingRow& r) { return r.time_s.has_value(); });
+  if (timed)
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return *recording.rows[a].time_s < *recording.rows[b].time_s; });
+  return order;
+}
+
+/// How far the recording must be moved to lie inside the travel: nothing when it does.
+Vec3 placement(const Recording& recording, const Machine& machine, const std::vector<Vec3>& reading,
+               RecordedTouches& out, const std::string& file) {
+  Vec3 shift;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+    const int k = static_cast<int>(axis);
+    const double end = machine[axis].direction * machine[axis].travel_mm;
+    const auto [low, high] =
+        std::minmax_element(reading.begin(), reading.end(), [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; });
+    if ((*low)[k] >= std::min(0.0, end) && (*high)[k] <= std::max(0.0, end)) continue;
+    shift[k] = end / 2 - ((*low)[k] + (*high)[k]) / 2;
+  }
+  if (shift == Vec3{} || recording.rows.empty()) return shift;
+  out.messages.push_back(diagnostic(
+      Code::W0542,
+      fmt::format("{}: the touches lie outside the travel of machine '{}'; they are taken as made in the middle of it, "
+                  "{:.0f}, {:.0f}, {:.0f} mm from where they stand",
+                  file, machine.name, shift.x, shift.y, shift.z),
+      "errors of the machine depend on the place: record machine coordinates, or name the right machine"));
+  return shift;
+}
+
+/// How a part stood is not in its own coordinates.
+void doubt_axes(const Recording& recording, RecordedTouches& out, const std::string& file) {
+  if (!recording.in_part_frame) return;
+  out.messages.push_back(diagnostic(
+      Code::W0558,
+      fmt::format("{}: in part coordinates; the axes of the part are taken for those of the machine", file),
+      "if the part stood turned, errors of machine, head and probe are sought in the wrong directions: record machine coordinates"));
+}
+
+int label_index(std::vector<std::string>& labels, const std::string& label) {
+  const auto index = std::find(labels.begin(), labels.end(), label) - labels.begin();
+  if (index == static_cast<std::ptrdiff_t>(labels.size())) labels.push_back(label);
+  return static_cast<int>(index);
+}
+
+/// What the scene has of time, motion and temperatures; what was not logged stays at its usual value.
+void fill_covariates(const RecordingRow& row, const Machine& machine, int ordinal, TouchScene& scene) {
+  constexpr double kTypicalInterval_s = 5;
+  const MotionSettings usual = default_motion(machine);
+  scene.time_s = row.time_s.value_or(kTypicalInterval_s * ordinal);
+  scene.speed_mm_s = row.speed_mm_s.value_or(usual.measuring_mm_s);
+  scene.acceleration_mm_s2 = row.accel_mm_s2.value_or(usual.measuring_mm_s2);
+  scene.travel = row.travel.value_or(-scene.normal);
+
+  scene.settled_s = 0;  // not logged: what rings is taken as it is right after the ramp
+  scene.temperature.part = row.temp_part_C.value_or(20);
+  scene.temperature.scale[0] = row.temp_x_C.value_or(20);
+  scene.temperature.scale[1] = row.temp_y_C.value_or(20);
+  scene.temperature.scale[2] = row.temp_z_C.value_or(20);
+  scene.temperature.air = row.temp_air_C.value_or(20);
+  scene.load_kg = row.load_kg.value_or(0);
+  scene.setup = row.setup;
+  scene.run = row.run;
+  scene.qualification = row.qualification.value_or(1);
+}
+
+/// Senses of the axes and indexing visits follow from the sequence of touches.
+void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
+  constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
+  int sense[3] = {1, 1, 1}, visit = 0;
+  std::map<std::pair<int, int>, int> visits;  // every run counts its own
+  double a = 1e9, b = 1e9;
+  for (RecordedTouch& t : touches) {
+    for (int k = 0; k < 3; ++k) {
+      if (std::abs(t.scene.travel[k]) > kMoves) sense[k] = t.scene.travel[k] > 0 ? 1 : -1;
+      t.scene.sense[k] = sense[k];
+      t.scene.since_reversal_mm[k] = 1000;
+    }
+    if (t.scene.stylus.head_a_rad != a || t.scene.stylus.head_b_rad != b) ++visit;
+    a = t.scene.stylus.head_a_rad;
+    b = t.scene.stylus.head_b_rad;
+    const std::pair logged{t.scene.run, recording.rows[t.row].visit.value_or(visit)};
+    t.scene.visit = visits.emplace(logged, static_cast<int>(visits.size())).first->second;
+  }
+}
+
+void require_target(const RecordingRow& row, const std::string& file) {
+  if (row.target_mm && row.normal) return;
+  throw UserError(diagnostic(Code::E0543,
+                             fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature,
+                                         row.target_mm ? "normal" : "target"),
+                             "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
+}
+
+void find_curved(RecordedTouches& out) {
+  CurvedFeatures curved;
+  for (const RecordedTouch& t : out.touches)
+    curved.add(out.features[t.scene.feature], t.scene.setup, t.scene.normal_on_part);
+  for (RecordedTouch& t : out.touches) t.scene.curved = curved.has(out.features[t.scene.feature]);
+}
+
+}  // namespace
+
+TouchScene scene_for(const Effect& effect, const RecordedTouch& touch) {
+  TouchScene scene = touch.scene;
+  if (needs_raw_reading(effect)) scene.reading += touch.beyond_target_mm;
+  return scene;
+}
+
+RecordedTouches recorded_touches(const Recording& recording, const Machine& machine, const std::string& file) {
+  ABBE_CHECK(!recording.rows.empty());
+  RecordedTouches out;
+  for (const RecordingRow& row : recording.rows) require_target(row, file);
+  RecordedStyli styli(machine, file);
+  std::vector<Vec3> readings;
+  std::vector<const Sensor*> sensor_of;
+  for (const RecordingRow& row : recording.rows) {
+    const Sensor& sensor = styli.of(row);
+    sensor_of.push_back(&sensor);
+    const Vec3 tip =
+        *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
+    readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
+  }
+  out.styli = styli.names();
+  out.tips = styli.tips();
+  out.messages = styli.messages();
+  const Logged logged = logged_covariates(recording, sensor_of);
+  out.known = logged.known;
+  out.varying = logged.varying;
+  doubt_axes(recording, out, file);
+  const Vec3 shift = placement(recording, machine, readings, out, file);
+  const auto surface_of = [&](std::size_t i) {
+    const RecordingRow& row = recording.rows[i];
+    return recording.point == RecordedPoint::surface ? *row.target_mm
+                                                     : *row.target_mm - sensor_of[i]->radius_mm * *row.normal;
+  };
+  std::vector<AimedTouch> aimed;
+  for (std::size_t i = 0; i < recording.rows.size(); ++i)
+    aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i),
+                     *recording.rows[i].normal});
+  const PartFrames part(aimed);
+  const bool planned = lies_as_planned(recording);
+  for (const int i : order_of(recording)) {
+    const RecordingRow& row = recording.rows[i];
+    const Sensor& sensor = *sensor_of[i];
+    RecordedTouch t;
+    t.row = i;
+    t.residual_mm = dot(*row.normal, row.position_mm - *row.target_mm);
+    t.per_rad_a_mm = sensor.per_rad_a_mm;
+    t.per_rad_b_mm = sensor.per_rad_b_mm;
+    TouchScene& s = t.scene;
+    s.normal = *row.normal;
+    const Vec3 surface = surface_of(static_cast<std::size_t>(i));
+    s.point = surface + shift;
+    s.reading = readings[i] + shift;
+    if (planned)
+      s.on_part = *row.on_part_mm, s.normal_on_part = *row.normal_on_part;
+    else if (recording.in_part_frame)
+      s.on_part = surface, s.normal_on_part = s.normal;
+    else
+      s.on_part = part.on_part(row.setup, surface), s.normal_on_part = part.direction_on_part(row.setup, s.normal);
+    s.stylus = stylus_scene(sensor);
+    s.touch = static_cast<int>(out.touches.size());
+    s.feature = label_index(out.features, row.feature);
+    fill_covariates(row, machine, s.touch, s);
+    set_structure(machine, s);
+    if (row.reading_mm) {
+      t.beyond_target_mm = t.residual_mm * s.normal;
+      s.reading = *row.reading_mm - t.residual_mm * s.normal;
+    }
+    out.touches.push_back(std::move(t));
+  }
+  for (RecordedTouch& t : out.touches) t.scene.stylus.name = *out.names.insert(sensor_of[t.row]->name).first;
+  follow_sequence(recording, out.touches);
+  find_curved(out);
+  return out;
+}
+
+}  // namespace abbe
