@@ -254,6 +254,19 @@ class Traps(harness.Case):
         self.assertLess(abs(cte["value"] - 15), 3 * cte["u"])
         self.assertEqual(held["value"], "elsewhere")
 
+    def test_a_part_without_a_thermometer_follows_the_scales(self):
+        """The part grows as the scales get warmer, and only these have thermometers: whether it is the part or they is not told for certain."""
+        def warm(row):
+            kelvin = float(row["time_s"]) / 114
+            grown = [15e-3 * kelvin * (float(row["t" + a]) - at) for a, at in zip("xyz", (700, 525, -600))]   # um
+            return (farther(row, sum(g * float(row["n" + a]) for g, a in zip(grown, "xyz")))
+                    | {f"temp_{a}_C": f"{20 + kelvin + k / 10:.3f}" for k, a in enumerate("xyz")})
+        said = self.diagnosis(self.changed(self.record("--seed", 5), warm))
+        self.assertEqual(said["verdict"], "cannot_judge")
+        self.assertIn("thermal.part_expansion", said["effects"][0]["members"])
+        self.assertLessEqual(said["effects"][0]["probability"], 0.5)
+        self.assertIn("temp_part_C", said["otherwise"])
+
     def test_a_phase_is_as_uncertain_as_its_period_makes_it(self):
         squares, beyond = 0, []
         for seed in range(21, 27):

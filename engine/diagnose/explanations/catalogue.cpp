@@ -31,11 +31,18 @@ unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
 
 /// Scenes in which what was not logged has a value that lets the effect act, so that it stays an explanation,
 /// though one that cannot be judged: a deviation from 20 degrees C that nobody noted, a load that nobody
-/// weighed.
-TouchScene with_surrogates(TouchScene scene, unsigned known) {
-  const auto unknown = [known](Covariate c) { return (known & static_cast<unsigned>(c)) == 0; };
-  if (unknown(Covariate::part_temperature)) scene.temperature.part = 21;
-  if (unknown(Covariate::scale_temperature)) std::fill(scene.temperature.scale, scene.temperature.scale + 3, 21.0);
+/// weighed. A part or a scale without a thermometer follows those that have one: what expands with it would else be taken
+/// for what has one.
+TouchScene with_surrogates(TouchScene scene, const RecordedTouches& t) {
+  const auto unknown = [&](Covariate c) { return (t.known & static_cast<unsigned>(c)) == 0; };
+  const auto varies = [&](Covariate c) { return (t.varying & static_cast<unsigned>(c)) != 0; };
+  constexpr double kNobodyNoted_C = 21;
+  auto& [x, y, z] = scene.temperature.scale;
+  const double room = varies(Covariate::air_temperature) ? scene.temperature.air : kNobodyNoted_C;
+  const double scales = varies(Covariate::scale_temperature) ? (x + y + z) / 3 : room;
+  const double part = varies(Covariate::part_temperature) ? scene.temperature.part : room;
+  if (unknown(Covariate::part_temperature)) scene.temperature.part = scales;
+  if (unknown(Covariate::scale_temperature)) x = y = z = part;
   if (unknown(Covariate::load)) scene.load_kg = 100;
   return scene;
 }
@@ -44,7 +51,7 @@ TouchScene with_surrogates(TouchScene scene, unsigned known) {
 class Evaluation {
  public:
   Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
-    for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t.known));
+    for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t));
   }
 
   Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws,
