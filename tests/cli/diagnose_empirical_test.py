@@ -105,7 +105,7 @@ class Empirical(harness.Case):
         """The touches from above are off by as much, with touches of other sides in between."""
         said = self.diagnosis(self.plate_that(lambda at: (0, 0, 8 if 170 < at["time_s"] < 300 else 0), seed=3, side=3, rounds=3, directions=UPPER), "--machine", MACHINE)
         self.assertEqual(said["baseline"]["outliers"], [])
-        self.assertEqual({"machine.step", "part.shift"} - set(said["effects"][0]["members"]), set())
+        self.assertRegex(said["unexplained"]["sentence"], r"probe.step comes nearest, but its size differs: 2\.\d ± 0\.\d times that of all touches at time_s 1\d\d to 30\d s, 0\.1 ")
 
     def test_an_uncertain_end_of_a_curve(self):
         """All numbers of an effect may be uncertain, however many it has."""

@@ -158,14 +158,10 @@ std::optional<SizeDifference> size_difference(const Case& c, const std::vector<c
     const SizesByGroup sizes = shape.by(g.group);
     if (sizes.dof == 0) continue;
     ++looked_at;
-    const double p = sizes.p();
-    if (out && p >= out->p) continue;
-    out.emplace();
-    out->factor = g.factor;
-    out->group = g.group;
-    out->p = p;
-    out->share = sizes.chi2 / std::max(shape.explains(), 1e-12);
-    tell_extremes(g, sizes, *out);
+    SizeDifference d{g.factor, g.group, sizes.p(), sizes.chi2 / std::max(shape.explains(), 1e-12), {}, {}};
+    tell_extremes(g, sizes, d);
+    const bool matters = d.share >= kOneSize && d.largest.times - d.smallest.times >= kApart;
+    if (matters && (!out || d.p < out->p)) out = std::move(d);
   }
   if (out) out->p = std::min(1.0, out->p * looked_at);
   return out;
@@ -174,7 +170,6 @@ std::optional<SizeDifference> size_difference(const Case& c, const std::vector<c
 bool of_several_sizes(const std::optional<SizeDifference>& d) { return d && d->p < kAlarm; }
 
 std::string in_words(const SizeDifference& d) {
-  if (d.largest.where.empty() || d.smallest.where.empty()) return fmt::format("differs over {}", name(d.factor));
   return fmt::format("differs: {:.1f} ± {:.1f} times that of all touches at {}, {:.1f} ± {:.1f} times at {}",
                      d.largest.times, 2 * d.largest.u, d.largest.where, d.smallest.times, 2 * d.smallest.u,
                      d.smallest.where);

@@ -26,8 +26,11 @@ struct SizeDifference {
   Size largest, smallest;
 };
 
-/// Of the name with the signature `which` of all that was found. Nothing where no factor can tell: it shows in one group
-/// of each.
+/// The laws of the catalogue are simpler than the world, and where the placement of the part takes up most of an effect,
+/// touches tell a hundredth of its size: sizes that are nearer to one another, or explain a smaller share, are one.
+inline constexpr double kApart = 0.5, kOneSize = 0.1;
+/// Of the name with the signature `which` of all that was found. Nothing where it is of one size, or shows in one
+/// group of each factor only.
 std::optional<SizeDifference> size_difference(const Case&, const std::vector<const Matrix*>& found, std::size_t which,
                                               const Hyperparameters&);
 /// Whether that is hardly chance.

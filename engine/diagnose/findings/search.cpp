@@ -90,10 +90,6 @@ EvidenceSearch rest_of(const Case& c, const std::vector<const Matrix*>& found) {
   return {model, estimate(model), c.explanations};
 }
 
-/// The share of what names explain, in squares, up to which what they leave is little: their laws are simpler than the
-/// world.
-constexpr double kLittle = 0.05;
-
 double alarm_of(int round) { return round == 0 ? kAlarm : kLaterAlarm; }
 
 struct Round {
@@ -264,6 +260,7 @@ double left_share(const Case& c, const SearchResult& result) {
 /// What the names leave is a mismatch of its own, but no further name was found for it: a pattern. Of a large effect
 /// the catalogue's simple law leaves something too, which is little beside what it explains.
 void add_what_names_leave(const Case& c, SearchResult& result) {
+  constexpr double kLittle = 0.05;
   if (result.findings.empty() || result.other || result.adequacy > kLaterAlarm || left_share(c, result) < kLittle)
     return;
   result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
@@ -280,11 +277,12 @@ void compare_sizes(const Case& c, SearchResult& result) {
 }
 
 /// A name by itself whose size clearly differs is none: what it does, with a size of its own for each group of touches,
-/// is a pattern over what they were grouped by. As of what is left, little of a large effect is nothing.
+/// is a pattern over what they were grouped by.
 void drop_name_of_several_sizes(Case& c, EvidenceSearch& first, SearchResult& result) {
   if (result.findings.size() != 1 || result.other) return;
+  constexpr double kOtherSizes = 2 * kOneSize;
   const std::optional<SizeDifference>& sizes = result.findings.front().sizes;
-  if (!sizes || sizes->p >= kLaterAlarm || sizes->share < kLittle) return;
+  if (!sizes || sizes->p >= kLaterAlarm || sizes->share < kOtherSizes) return;
   const std::size_t before = c.explanations.variants.size();
   add_pattern(c.explanations, sizes->factor,
               c.explanations.list[result.findings.front().explanation].name + ", not of one size",
