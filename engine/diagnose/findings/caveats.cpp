@@ -1,10 +1,11 @@
 #include "engine/diagnose/findings/caveats.hpp"
-#include "engine/run/recorded/from_program.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "engine/run/recorded/from_program.hpp"
 
 namespace abbe::diagnose {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <set>
+#include <utility>
 
 #include "engine/diagnose/explanations/patterns/touch_factors.hpp"
 #include "engine/diagnose/model/sizes_by_group.hpp"
@@ -117,15 +117,12 @@ class Groupings {
   std::vector<Grouping> all_;
 };
 
-/// The rows of each group, in the order of their first use.
+/// The rows of each group, in the order of their numbers.
 std::vector<std::vector<int>> rows_of_groups(const std::vector<int>& group) {
-  std::map<int, std::size_t> known;
+  std::map<int, std::vector<int>> rows;
+  for (std::size_t i = 0; i < group.size(); ++i) rows[group[i]].push_back(static_cast<int>(i));
   std::vector<std::vector<int>> out;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const std::size_t k = known.emplace(group[i], known.size()).first->second;
-    if (k == out.size()) out.emplace_back();
-    out[k].push_back(static_cast<int>(i));
-  }
+  for (auto& [number, list] : rows) out.push_back(std::move(list));
   return out;
 }
 

@@ -4,8 +4,8 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
-#include <map>
 
+#include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
@@ -13,15 +13,6 @@ namespace abbe::diagnose {
 namespace {
 
 using Solver = Eigen::CompleteOrthogonalDecomposition<Matrix>;
-
-/// Number of each row's group, in the order of their first use.
-std::vector<Eigen::Index> ordinals(const std::vector<int>& group, Eigen::Index& count) {
-  std::map<int, Eigen::Index> known;
-  std::vector<Eigen::Index> out;
-  for (const int g : group) out.push_back(known.emplace(g, static_cast<Eigen::Index>(known.size())).first->second);
-  count = static_cast<Eigen::Index>(known.size());
-  return out;
-}
 
 }  // namespace
 
@@ -37,7 +28,7 @@ OneShape::OneShape(const LinearModel& model, const Hyperparameters& h, const std
   coefficients_ = Solver(information_).solve(u);
   std::vector<const Matrix*> others = found;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
-  others_ = side_by_side(rows, others);
+  others_ = precision_.seen(side_by_side(rows, others));
   Eigen::Index first = 0;
   for (std::size_t k = 0; k < which; ++k) first += found[k]->cols();
   shape_ = *found[which] * coefficients_.segment(first, found[which]->cols());
@@ -45,18 +36,10 @@ OneShape::OneShape(const LinearModel& model, const Hyperparameters& h, const std
   explains_ = inner(shape, shape)(0, 0);
 }
 
-Matrix OneShape::columns(const std::vector<int>& group) const {
-  Eigen::Index count = 0;
-  const std::vector<Eigen::Index> of = ordinals(group, count);
-  Matrix out = Matrix::Zero(shape_.size(), count);
-  for (Eigen::Index i = 0; i < shape_.size(); ++i) out(i, of[static_cast<std::size_t>(i)]) = shape_(i);
-  return out;
-}
-
 SizesByGroup OneShape::by(const std::vector<int>& group) const {
   // Of what tells less, a size in one group that is twice that in the others would not show.
   constexpr double kTellsNothing = 0.25;
-  const Precision::Seen by_group = precision_.seen(columns(group));
+  const Precision::Seen by_group = precision_.seen(patterns::by_group(shape_, group));
   const Matrix information = inner(by_group, by_group), with_found = inner(by_group, found_);
   const Vector u = inner(by_group, y_);
   SizesByGroup out;
@@ -73,12 +56,11 @@ SizesByGroup OneShape::by(const std::vector<int>& group) const {
   // beside what else was found
   Matrix g = information;
   Vector v = u;
-  if (others_.cols() > 0) {
-    const Precision::Seen others = precision_.seen(others_);
-    const Matrix across = inner(by_group, others);
-    const Solver beside(inner(others, others));
+  if (others_.rows.cols() > 0) {
+    const Matrix across = inner(by_group, others_);
+    const Solver beside(inner(others_, others_));
     g -= across * beside.solve(across.transpose());
-    v -= across * beside.solve(Matrix(inner(others, y_)));
+    v -= across * beside.solve(Matrix(inner(others_, y_)));
   }
   const Solver sizes(g);
   out.size = sizes.solve(v);

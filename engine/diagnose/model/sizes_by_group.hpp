@@ -12,7 +12,7 @@
 
 namespace abbe::diagnose {
 
-/// Sizes in units of that of all touches, with their standard uncertainties, by group in the order of their first use;
+/// Sizes in units of that of all touches, with their standard uncertainties, by group in the order of their numbers;
 /// of a group that tells nothing u is infinite.
 struct SizesByGroup {
   Vector size, u;
@@ -29,15 +29,12 @@ class OneShape {
   OneShape(const LinearModel&, const Hyperparameters&, const std::vector<const Matrix*>& found, std::size_t which);
 
   SizesByGroup by(const std::vector<int>& group) const;
-  /// A column for each group: the shape in its rows, um.
-  Matrix columns(const std::vector<int>& group) const;
   /// What it explains, as chi-squared.
   double explains() const { return explains_; }
 
  private:
   Precision precision_;
-  Matrix others_;
-  Precision::Seen y_, found_;
+  Precision::Seen y_, found_, others_;  ///< others: what was found but the shape
   Vector coefficients_, shape_;
   Matrix information_;  ///< of all that was found
   double explains_ = 0;
