@@ -73,6 +73,31 @@ class Functions {
   Vector home_;
 };
 
+/// The profile of a wavy rail as `machine.straightness_angle_coupling` draws it, its amplitudes as one over the number of
+/// waves, or its slope, whose amplitudes are alike; rms 1, less the value at home.
+class RailWaves {
+ public:
+  enum class Of { profile, slope };
+  RailWaves(Of of, int harmonics) : amplitudes_(harmonics) {
+    for (int n = 1; n <= harmonics; ++n) amplitudes_(n - 1) = of == Of::profile ? 1.0 / n : 1;
+    amplitudes_.normalize();
+    home_ = row(-1);
+  }
+  int count() const { return 2 * static_cast<int>(amplitudes_.size()); }
+  Vector at(double u) const { return row(u) - home_; }
+
+ private:
+  Vector row(double u) const {
+    Vector out(count());
+    for (Eigen::Index k = 0; k < amplitudes_.size(); ++k) {
+      const double angle = double(k + 1) * kPi * u;
+      out(2 * k) = amplitudes_(k) * std::cos(angle), out(2 * k + 1) = amplitudes_(k) * std::sin(angle);
+    }
+    return out;
+  }
+  Vector amplitudes_, home_;
+};
+
 /// What of functions is no sum of harmonics.
 class BeyondHarmonics {
  public:
@@ -122,6 +147,30 @@ std::vector<Matrix> error_functions(const RecordedTouches& t, const Machine& mac
   return out;
 }
 
+Matrix side_by_side(const std::vector<Matrix>& functions) {
+  Eigen::Index columns = 0;
+  for (const Matrix& m : functions) columns += m.cols();
+  Matrix out(functions.front().rows(), columns);
+  Eigen::Index first = 0;
+  for (const Matrix& m : functions) out.middleCols(first, m.cols()) = m, first += m.cols();
+  return out;
+}
+
+/// Of each axis, what a wavy rail makes of the two straightnesses, and of the two angles across them, each time without the
+/// other: that straightness and angle have waves is no physics left out, that they have the same ones is.
+std::vector<Matrix> wavy_rails(const RecordedTouches& t, const Machine& machine) {
+  const std::vector<Matrix> shifted = error_functions(t, machine, RailWaves(RailWaves::Of::profile, machine.harmonics)),
+                            tilted = error_functions(t, machine, RailWaves(RailWaves::Of::slope, machine.harmonics));
+  constexpr int kOfAxis = 6, kTilts = 3;
+  std::vector<Matrix> out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int first = kOfAxis * axis, one = (axis + 1) % 3, other = (axis + 2) % 3;
+    out.push_back(compressed(side_by_side({shifted[first + one], shifted[first + other]})));
+    out.push_back(compressed(side_by_side({tilted[first + kTilts + one], tilted[first + kTilts + other]})));
+  }
+  return out;
+}
+
 /// The same of what an earlier recording leaves open: a share of every shape, and all that its harmonics
 /// could not follow.
 std::vector<Matrix> left_open(const RecordedTouches& t, const Machine& machine, std::span<const double> lengths) {
@@ -132,15 +181,6 @@ std::vector<Matrix> left_open(const RecordedTouches& t, const Machine& machine, 
     both << kNotFollowed * out[c], beyond[c];
     out[c] = std::move(both);
   }
-  return out;
-}
-
-Matrix side_by_side(const std::vector<Matrix>& functions) {
-  Eigen::Index columns = 0;
-  for (const Matrix& m : functions) columns += m.cols();
-  Matrix out(functions.front().rows(), columns);
-  Eigen::Index first = 0;
-  for (const Matrix& m : functions) out.middleCols(first, m.cols()) = m, first += m.cols();
   return out;
 }
 
@@ -165,7 +205,9 @@ Matrix rough_geometry(const RecordedTouches& t, const Machine& machine) {
 }
 
 std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {
-  return functions_and_guides(error_functions(t, machine, Functions(kShortLengths, 0)));
+  std::vector<Matrix> out = functions_and_guides(error_functions(t, machine, Functions(kShortLengths, 0)));
+  for (Matrix& rail : wavy_rails(t, machine)) out.push_back(std::move(rail));
+  return out;
 }
 
 Matrix rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
@@ -173,7 +215,9 @@ Matrix rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
 }
 
 std::vector<Matrix> uneven_functions_left(const RecordedTouches& t, const Machine& machine) {
-  return functions_and_guides(left_open(t, machine, kShortLengths));
+  std::vector<Matrix> out = functions_and_guides(left_open(t, machine, kShortLengths));
+  for (const Matrix& rail : wavy_rails(t, machine)) out.push_back(kNotFollowed * rail);
+  return out;
 }
 
 }  // namespace abbe::diagnose

@@ -15,8 +15,10 @@ namespace abbe::diagnose {
 /// Rows x columns, um per standard deviation. The straight lines of scale and squareness are larger than waviness.
 Matrix rough_geometry(const RecordedTouches&, const Machine&);
 
-/// Each error function by itself, of short length only and without a line, in the order of the components, and then all
-/// those of each axis together: one bad error function, or a bad guide.
+/// Each error function by itself, of short length only and without a line, in the order of the components; then all
+/// those of each axis together; then, for each axis, its straightnesses and its angles by themselves as a wavy rail makes
+/// them: one bad error function, a bad guide, or a rail whose waves show in one of the two only, which is no coupling of
+/// both.
 std::vector<Matrix> uneven_functions(const RecordedTouches&, const Machine&);
 
 /// The same of a machine that an earlier recording has told, by sums of harmonics: what these cannot follow,

@@ -4,7 +4,9 @@
 #include <Eigen/QR>
 
 #include <cmath>
+#include <numeric>
 
+#include "engine/diagnose/model/evidence.hpp"
 #include "engine/machine/geometry.hpp"
 
 using namespace abbe;
@@ -69,10 +71,83 @@ TEST_CASE("a bad guide may have several bad error functions, at their full size"
   const Machine machine = read_machine("coord3-mc16");
   const RecordedTouches t = along_x(machine);
   const std::vector<Matrix> uneven = uneven_functions(t, machine);
-  REQUIRE(uneven.size() == kComponents + 3);
+  constexpr int kGuides = 3, kRails = 2 * 3;
+  REQUIRE(uneven.size() == kComponents + kGuides + kRails);
   Matrix sum = Matrix::Zero(kTouches, kTouches);
   for (std::size_t c = 0; c < kComponents; ++c)
     if (axis_of(static_cast<Component>(c)) == Axis::x) sum += uneven[c] * uneven[c].transpose();
   const Matrix& guide = uneven[kComponents];
   CHECK((guide * guide.transpose() - sum).norm() < 1e-4 * sum.norm());
+}
+
+namespace {
+
+/// Touches along x of faces towards all sides, with a short and a long stylus, and what a rail of these waves does to
+/// them: what its profile does, and what its slope does, um.
+struct OnRail {
+  RecordedTouches t;
+  Vector shifted, tilted;
+};
+OnRail on_wavy_rail(const Machine& machine, double bearing_base_mm) {
+  const double travel = machine[Axis::x].travel_mm;
+  const auto profile = [&](double x) { return 2 * std::sin(2 * kPi * x / travel) + std::cos(4 * kPi * x / travel); };
+  OnRail out;
+  std::vector<double> shifted, tilted;
+  for (const double length : {50.0, 350.0})
+    for (const int faces : {0, 1, 2})
+      for (int i = 0; i < kTouches; ++i) {
+        RecordedTouch touch;
+        const double x = travel * i / (kTouches - 1);
+        touch.scene.reading = {x, 300, -300};
+        touch.scene.normal[faces] = 1;
+        touch.scene.stylus.tip_from_mount_mm = {0, 0, -length};
+        touch.scene.travel_length_mm = {travel, machine[Axis::y].travel_mm, machine[Axis::z].travel_mm};
+        touch.scene.lever_mm[0] =
+            axis_lever(machine, Axis::x).at(touch.scene.reading, touch.scene.stylus.tip_from_mount_mm);
+        out.t.touches.push_back(touch);
+        const double front = profile(x + bearing_base_mm / 2), back = profile(x - bearing_base_mm / 2);
+        const Vec3 rail{0, 1, 1};  // the same in both directions
+        const Vec3 slope = (front - back) / bearing_base_mm * rail;
+        shifted.push_back((front + back) / 2 * rail[faces]);
+        tilted.push_back(dot(touch.scene.normal, cross(cross(Vec3{1, 0, 0}, slope), touch.scene.lever_mm[0])));
+      }
+  out.t.known = out.t.varying = static_cast<unsigned>(Covariate::position);
+  const auto n = static_cast<Eigen::Index>(shifted.size());
+  out.shifted = Eigen::Map<const Vector>(shifted.data(), n);
+  out.tilted = Eigen::Map<const Vector>(tilted.data(), n);
+  return out;
+}
+
+/// What speaks for a coupling of straightness and angle in these touches, nats.
+double belief_in_coupling(const OnRail& rail, const Vector& y, std::vector<Matrix> uneven) {
+  const Eigen::Index n = y.size();
+  LinearModel m;
+  m.y = y;
+  for (Eigen::Index i = 0; i < n; ++i) m.y(i) += 0.3 * std::sin(1e3 * double(i * i));
+  m.free = m.random = Matrix::Ones(n, 1);
+  m.random_group.assign(1, 0);
+  m.uneven = std::move(uneven);
+  m.noise_um = Vector::Constant(n, 0.3);
+  m.noise_group.assign(static_cast<std::size_t>(n), 0);
+  m.follows.assign(static_cast<std::size_t>(n), 0);
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  std::vector<int> rows(static_cast<std::size_t>(n));
+  std::iota(rows.begin(), rows.end(), 0);
+  const Explanations coupling = named_explanations(rail.t, rows, {"machine.straightness_angle_coupling"});
+  return EvidenceSearch(m, h, coupling).evidence().log_bayes[0];
+}
+
+}  // namespace
+
+TEST_CASE("waves of straightness or of angles alone are no coupling of both") {
+  const Machine machine = read_machine("coord3-mc16");
+  const OnRail rail = on_wavy_rail(machine, 300);
+  const std::vector<Matrix> uneven = uneven_functions(rail.t, machine);
+  CHECK(belief_in_coupling(rail, rail.shifted, {}) > 100);
+  CHECK(belief_in_coupling(rail, rail.shifted, uneven) < 2);
+  const Vector tilted = 0.4 * rail.tilted;  // as large as angles of this machine may be
+  CHECK(belief_in_coupling(rail, tilted, {}) > 100);
+  CHECK(belief_in_coupling(rail, tilted, uneven) < 2);
+  CHECK(belief_in_coupling(rail, rail.shifted + rail.tilted, uneven) > 20);
 }
