@@ -2,7 +2,7 @@
 
 from portable import np
 
-from .base import Change, Effect, unit
+from .base import Change, Effect, unit, vector
 
 UNKNOWN = {}
 
@@ -16,159 +16,172 @@ def centres(scene):
     return scene.part_point - 12.5 * scene.part_normal
 
 
-def draw_plastic(scene, rng):
-    names = [str(f) for f in rng.permutation(np.unique(scene.feature))]
-    return {"amplitude_um": 1.0, "balls": sorted(names[: int(rng.integers(3, 6))])}
-
-
-def change_plastic(scene, p):
-    """Some balls of the part were lost, and cheap ones of plastic have been screwed on in their place. They have the
-    right diameter at 20 degrees, but with every kelvin they grow many times as much as the others: touched from any
-    side they seem larger in the warm, while their middle stays where it is. Amplitude of the radius for 1 K."""
-    swollen = np.array([f in p["balls"] for f in scene.feature]) * (scene.temperature["part"] - 20)
-    return Change(along=p["amplitude_um"] * swollen)
-
-
-def draw_homing(scene, rng):
-    skew = rng.normal(size=len(scene.placements))
-    skew = skew - skew.mean()
-    return {"amplitude_um": 1.0, "skew": (skew / np.abs(skew).max()).tolist()}
-
-
-def change_homing(scene, p):
-    """The bridge is driven at both legs, and each leg has its own scale. Before every placement the machine is switched
-    on and homed, and the reference mark of one leg, which is dirty, is found a little early or late: until it is homed
-    again the bridge stands askew. The calibration has the mean. Amplitude at the end of the bridge, at the worst."""
-    first, second = scene.machine.chain[:2]
-    move, turn = np.zeros((scene.size, 3)), np.zeros((scene.size, 3))
-    askew = np.asarray(p["skew"])[scene.setup - 1]
-    turn[:, 2] = p["amplitude_um"] * askew / (scene.machine.travel[second] / 2) * 1e3
-    return Change({first: (move, turn)})
-
-
-def draw_reference(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "axis": unit(rng).tolist()}
-
-
-def change_reference(scene, p):
-    """The reference sphere is worn oval. Each orientation has been qualified on the side of it that it faces, on a
-    slender end or on a flat flank, and has got another radius of the tip: with this orientation all balls seem larger
-    or smaller, with another one less so. The first check has taken the mean. Amplitude from the smallest to the
-    largest."""
-    used = np.unique(scene.sensor, return_index=True)[1]
-    radius = (scene.shank @ np.asarray(p["axis"])) ** 2
-    of_each = radius[used]
-    return Change(along=p["amplitude_um"] * (radius - of_each.mean()) / np.ptp(of_each))
-
-
-def draw_aligned(scene, rng):
-    every = int(rng.integers(5, 10))
-    turns = rng.normal(size=(len(scene.blocks) // every + 1, 3))
+def draw_drum(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "origin": str(rng.choice(np.unique(scene.feature))),
-        "every": every,
-        "turns": (turns / np.sqrt(np.mean(turns**2))).tolist(),
+        "period_s": float(rng.uniform(31, 67)),
+        "batch_s": float(scene.duration * rng.uniform(0.12, 0.3)),
+        "filled": float(rng.uniform(0.5, 0.75)),
+        "begun": float(rng.uniform(0, 1)),
+        "phase": float(rng.uniform(0, 2 * np.pi)),
+        "across": float(rng.uniform(0.5, 1) * rng.choice([-1, 1])),
     }
 
 
-def change_aligned(scene, p):
-    """The program aligns the part anew after every few balls, by some touches of its rough frame, and each time finds
-    it turned a little otherwise. The origin stays in the middle of one ball, so that this one is always right and those
-    far from it are off by their distance, till the next alignment. Amplitude at the farthest ball, the root of the mean
-    square of the turns about each axis."""
-    here = np.array([f == p["origin"] for f in scene.feature])
-    away = centres(scene) - centres(scene)[here].mean(0)
-    turn = np.asarray(p["turns"])[scene.block // p["every"]]
-    moved = np.cross(turn, away / np.linalg.norm(away, axis=1).max())
-    return Change(along=p["amplitude_um"] * np.sum(moved * scene.part_normal, 1))
+def change_drum(scene, p):
+    """In the next hall a drum turns slowly round an upright axis, with all of its load on one side. The floor leans
+    after the load, and the slender machine follows: the tip goes round on an ellipse, once in less than a minute or
+    somewhat more. Between two batches the drum is empty and stands. Amplitude is the longer half axis of the
+    ellipse."""
+    angle = 2 * np.pi * scene.time / p["period_s"] + p["phase"]
+    on = np.mod(scene.time / p["batch_s"] + p["begun"], 1) < p["filled"]
+    path = np.column_stack([np.cos(angle), p["across"] * np.sin(angle), np.zeros(scene.size)])
+    return Change(tip=p["amplitude_um"] * on[:, None] * path)
 
 
-def draw_swing(scene, rng):
+def draw_stations(scene, rng):
+    angle = rng.uniform(np.radians(25), np.radians(65)) + rng.integers(4) * np.pi / 2
     return {
         "amplitude_um": 1.0,
-        "period_s": rng.uniform(7, 16),
-        "tau_s": rng.uniform(12, 30),
-        "half_size_mm": float(np.abs(scene.part_point[:, :2]).max()),
+        "border": [float(np.cos(angle)), float(np.sin(angle)), float(rng.uniform(-0.4, 0.4))],
+        "shift": unit(rng).tolist(),
+        "turn": unit(rng).tolist(),
+        "half_size_mm": float(np.abs(scene.target - scene.middle).max()),
     }
 
 
-def change_swing(scene, p):
-    """The part stands on a turntable whose brake is open: a soft spring alone holds it. Every touch beside the axis
-    sets it swinging about its vertical, by the lever and to the side of the push, and the next touches find it
-    somewhere on its way to and fro, until the swing has died away or the part is placed anew. Touches that point at the
-    axis neither move it nor see it. Amplitude of the undamped swing for a lever of half the size, after such a push."""
-    lever = np.cross(scene.part_point, scene.part_normal)[:, 2] / p["half_size_mm"]
-    angle = np.zeros(scene.size)
-    for back in range(1, 20):
-        since = scene.time[back:] - scene.time[:-back]
-        swing = np.exp(-since / p["tau_s"]) * np.sin(2 * np.pi * since / p["period_s"])
-        angle[back:] -= lever[:-back] * swing * (scene.setup[back:] == scene.setup[:-back])
-    return Change(along=p["amplitude_um"] * angle * lever)
+def change_stations(scene, p):
+    """The errors of the machine were mapped with a laser tracker from two places, near opposite corners of the table.
+    Each point takes its correction from the nearer place. At the second one the tracker was not quite where it was
+    believed to be: beyond the plane half way between both, which lies obliquely, all is shifted and turned. Amplitude
+    of the shift, and of what the turn adds at half the size of the part."""
+    away = (scene.target - scene.middle) / p["half_size_mm"]
+    beyond = away @ np.asarray(p["border"]) > 0
+    moved = np.asarray(p["shift"]) + np.cross(np.asarray(p["turn"]), away)
+    return Change(tip=p["amplitude_um"] * beyond[:, None] * moved)
 
 
-def draw_humming(scene, rng):
+def draw_crack(scene, rng):
+    half = float(np.abs(centres(scene)[:, :2]).max())
     return {
-        "amplitude_um": 1.0,
-        "turned": rng.uniform(-0.3, 0.3),
-        "half_size_mm": float(np.abs(centres(scene)[:, :2]).max()),
+        "amplitude_um": float(rng.choice([-1.0, 1.0])),
+        "end_mm": [float(v) for v in half * rng.uniform(-0.4, 0.4, 2)],
+        "angle": float(rng.uniform(0, 2 * np.pi)),
+        "t0_s": float(scene.duration * rng.uniform(0.1, 0.35)),
+        "t1_s": float(scene.duration),
+        "half_size_mm": half,
     }
 
 
-def change_humming(scene, p):
-    """A fan of the controller makes the plate of the part hum in its second mode, the saddle: balls on the nodal lines,
-    about the diagonals, stand still, those between them swing up and down, and those on tall posts rock. A ball that
-    swings meets the tip early, from whichever side this comes. The tip radius has taken the mean. Amplitude of the mode
-    where it is largest."""
-    u, v, z = (scene.part_point / p["half_size_mm"]).T
-    c, s = np.cos(2 * p["turned"]), np.sin(2 * p["turned"])
-    w, along_u, along_v = c * (u**2 - v**2) + 2 * s * u * v, 2 * (c * u + s * v), 2 * (s * u - c * v)
-    early = np.abs(np.sum(scene.part_normal * np.column_stack([-z * along_u, -z * along_v, w]), 1))
-    return Change(along=p["amplitude_um"] * (early - early.mean()))
+def change_crack(scene, p):
+    """The plate of the part has a crack that runs from its edge to somewhere near the middle, and it opens in the
+    course of the run, slowly at first: the balls on one side of the crack turn in the plane about its end, away from
+    the other ones, which stay as they are in the certificate. Amplitude at half the size of the part, when the run
+    ends."""
+    away = centres(scene)[:, :2] - np.asarray(p["end_mm"])
+    piece = away @ np.array([np.cos(p["angle"]), np.sin(p["angle"])]) > 0
+    opened = np.clip((scene.time - p["t0_s"]) / (p["t1_s"] - p["t0_s"]), 0, 1.5) ** 2
+    aside = np.column_stack([-away[:, 1], away[:, 0], np.zeros(scene.size)]) / p["half_size_mm"]
+    return Change(along=p["amplitude_um"] * piece * opened * np.sum(aside * scene.part_normal, 1))
 
 
-def draw_lift(scene, rng):
+def draw_ram(scene, rng):
+    return {"amplitude_um": 1.0, "at_home": float(rng.uniform(0.2, 0.6))}
+
+
+def change_ram(scene, p):
+    """The air cylinder that carries the weight of the ram leaks. The ram goes down faster than the controller commands,
+    and up more slowly, all the more the farther it is out, while the delay of the probe is taken off for the commanded
+    speed: touched from above and from below alike the tip is read too low. Level touches are right. Amplitude straight
+    down or up at 8 mm/s, with the ram right out."""
+    out = np.abs(scene.reading[:, 2]) / scene.machine.travel["z"]
+    weight = p["at_home"] + (1 - p["at_home"]) * out
+    low = scene.speed / 8 * np.abs(scene.travel[:, 2]) * weight
+    return Change(tip=vector(np.array([0, 0, -1.0]), p["amplitude_um"] * low))
+
+
+def draw_legs(scene, rng):
+    return {"amplitude_um": float(rng.choice([-1.0, 1.0])), "turned": float(rng.uniform(-0.5, 0.5))}
+
+
+def change_legs(scene, p):
+    """One leg of the bridge has been replaced by one of another metal: with every kelvin one end of the beam rises
+    above the other, and as the new leg is also held at another place the beam turns a little about the vertical. All
+    that hangs on it turns with it, as one rigid body. The styli are qualified anew after every pause, in the middle of
+    the table, where all is right. Amplitude at the end of the beam, for 1 K."""
+    first, second = (scene.machine.chain[k] for k in (0, 1))
+    about = np.eye(3)["xyz".index(first)] + p["turned"] * np.array([0, 0, 1.0])
+    lever = (scene.target - scene.middle) / (scene.machine.travel[second] / 2)
+    warmer = scene.temperature["y"] - 20
+    return Change(tip=p["amplitude_um"] * warmer[:, None] * np.cross(about, lever))
+
+
+def draw_departure(scene, rng):
+    return {"amplitude_um": 1.0}
+
+
+def change_departure(scene, p):
+    """The controller is impatient: when the last touch of a ball has triggered it sets out for the next ball at once,
+    and reads the scales a moment too late. This touch is off towards the next ball, in proportion to the acceleration;
+    after all other touches the machine backs off in good order. Before a new placement it waits, too. Amplitude at
+    600 mm/s^2."""
+    last = np.flatnonzero(np.diff(scene.block) != 0)
+    last = last[scene.setup[last] == scene.setup[last + 1]]
+    way = scene.start[last + 1] - scene.reading[last]
+    tip = np.zeros((scene.size, 3))
+    tip[last] = way / np.linalg.norm(way, axis=1, keepdims=True) * scene.acceleration[last, None] / 600
+    return Change(tip=p["amplitude_um"] * tip)
+
+
+def draw_frames(scene, rng):
+    drift = rng.normal(size=(len(scene.styli), 3))
+    drift -= drift.mean(0)
+    return {"amplitude_um": 1.0, "moved": (drift / np.sqrt(np.mean(drift**2))).tolist()}
+
+
+def change_frames(scene, p):
+    """A routine checks the styli now and then, and hands on by what small vector each tip has moved since it was
+    qualified. The software adds these vectors in the frame of the part, where they belong in that of the machine: as
+    long as the part lies straight nothing is wrong, but where it is turned or tilted each vector points elsewhere.
+    Amplitude is the root of the mean square of the coordinates of these vectors."""
+    moved = np.asarray(p["moved"])[scene.sensor % len(p["moved"])]
+    wrong = np.einsum("nij,nj->ni", scene.turn, moved) - moved
+    return Change(tip=p["amplitude_um"] * wrong)
+
+
+def draw_width(scene, rng):
+    names = sorted(set(scene.feature))
     return {
         "amplitude_um": 1.0,
-        "seat": rng.uniform(0, 2 * np.pi),
-        "weight": rng.uniform(0.5, 0.9),
-        "held": rng.uniform(0.2, 0.5),
+        "axes": {n: unit(rng).tolist() for n in names},
+        "phases": {n: float(rng.uniform(0, 2 * np.pi)) for n in names},
+        "lobes": {n: int(rng.choice([3, 5])) for n in names},
     }
 
 
-def change_lift(scene, p):
-    """The long module hangs on a magnet that has lost strength at one of its three seats. Where the push of a touch and
-    the weight of the module, as the head holds it, pull together at this seat by more than the magnet, the module is
-    lifted from it, tips aside and snaps back when the tip is free again. The other modules are held. Amplitude for
-    a push straight from the seat, lifted by its full moment."""
-    towards = scene.head @ np.array([np.cos(p["seat"]), np.sin(p["seat"]), 0.0])
-    push = -np.sum(scene.normal * towards, 1)
-    lifted = np.clip(push - p["weight"] * towards[:, 2] - p["held"], 0, None)
-    long = scene.length > scene.length.max() - 1
-    return Change(along=-p["amplitude_um"] * long * lifted * np.clip(push, 0, None))
+def change_width(scene, p):
+    """The balls were ground without centres, and have three or five lobes around an axis that lies in each as it was
+    screwed on. Whoever takes a micrometer finds the same diameter everywhere, as a hill is always opposite a hollow:
+    nobody has noticed. Towards the two poles the lobes die away. Amplitude of the lobes at the equator of the ball."""
+    out = np.zeros(scene.size)
+    for name in sorted(set(scene.feature)):
+        if name not in p["axes"]:
+            continue
+        mine = np.array([f == name for f in scene.feature])
+        axis = np.asarray(p["axes"][name])
+        e1 = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
+        e1 /= np.linalg.norm(e1)
+        u, v = scene.part_normal[mine] @ e1, scene.part_normal[mine] @ np.cross(axis, e1)
+        m = p["lobes"][name]
+        out[mine] = np.hypot(u, v) ** m * np.cos(m * np.arctan2(v, u) + p["phases"][name])
+    return Change(along=p["amplitude_um"] * out)
 
 
-def draw_modal(scene, rng):
-    return {"amplitude_um": rng.choice([-1.0, 1.0]), "touches": int(rng.integers(1, 3))}
-
-
-def change_modal(scene, p):
-    """A new speed of probing reaches the software at once, the drives only when the next touches are already under way.
-    The first one or two after each change from slow to fast are still made slowly, those after a change from fast to
-    slow fast, and the delay of the probe is taken off for the other speed. Where the speed stays all is right.
-    Amplitude for the change from 2 to 8 mm/s."""
-    starts = np.unique(scene.block, return_index=True)[1]
-    number = np.arange(scene.size) - starts[scene.block]
-    before = scene.speed[np.maximum(starts[scene.block] - 1, 0)]
-    wrong = (before - scene.speed) / 6 * (number < p["touches"])
-    return Change(tip=scene.travel * (p["amplitude_um"] * wrong)[:, None])
-
-
-unknown("plastic_balls", draw_plastic, change_plastic, ["temperature", "feature"], "D")
-unknown("askew_homing", draw_homing, change_homing, ["setup", "position", "feature"], "D")
-unknown("oval_reference", draw_reference, change_reference, ["sensor", "head", "direction"], "D")
-unknown("anxious_alignment", draw_aligned, change_aligned, ["time", "position", "feature"])
-unknown("open_turntable", draw_swing, change_swing, ["time", "direction", "feature", "position"])
-unknown("humming_plate", draw_humming, change_humming, ["feature", "direction", "position"], "D")
-unknown("weak_magnet", draw_lift, change_lift, ["sensor", "head", "direction"], "D")
-unknown("late_speed", draw_modal, change_modal, ["speed", "time"], "D")
+unknown("lopsided_drum", draw_drum, change_drum, ["time"])
+unknown("two_stations", draw_stations, change_stations, ["position", "feature"])
+unknown("cracked_plate", draw_crack, change_crack, ["time", "feature", "position"])
+unknown("sinking_ram", draw_ram, change_ram, ["speed", "direction"], "D")
+unknown("unequal_legs", draw_legs, change_legs, ["temperature", "position", "feature", "setup"], "D")
+unknown("early_departure", draw_departure, change_departure, ["time", "feature"])
+unknown("confused_frames", draw_frames, change_frames, ["setup", "sensor", "head"], "D")
+unknown("constant_width", draw_width, change_width, ["feature", "direction"])
