@@ -9,7 +9,9 @@
 #include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
-#include "engine/diagnose/checks/data_problems.hpp"
+#include "engine/diagnose/checks/normals.hpp"
+#include "engine/diagnose/checks/pairing.hpp"
+#include "engine/diagnose/checks/unlogged_styli.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/warnings.hpp"
 

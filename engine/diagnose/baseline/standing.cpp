@@ -11,8 +11,9 @@
 
 #include "engine/diagnose/baseline/most_agree.hpp"
 #include "engine/diagnose/baseline/round_surface.hpp"
-#include "engine/diagnose/checks/data_problems.hpp"
+#include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe::diagnose {
 

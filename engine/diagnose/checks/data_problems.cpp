@@ -1,5 +1,3 @@
-// Recordings that no physics explains: another unit, swapped axes, one value in all rows, rows twice. Each is
-// recognised by what would mend it, and said instead of being diagnosed.
 #include "engine/diagnose/checks/data_problems.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +10,11 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/remedies.hpp"
+#include "engine/diagnose/checks/scale_readings.hpp"
 #include "engine/diagnose/quantile.hpp"
+#include "engine/math/units.hpp"
 #include "engine/recording/units.hpp"
 
 namespace abbe::diagnose {

@@ -1,5 +1,5 @@
-// Normals, and directions of travel, that contradict the targets or each other: of other axes, the wrong way, or one value
-// for all rows.
+#include "engine/diagnose/checks/normals.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/checks/remedies.hpp"
+#include "engine/diagnose/checks/unlogged_styli.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/run/recorded/from_program.hpp"
 

@@ -1,6 +1,5 @@
-// Touches that are paired with the wrong targets: a row of another feature, numbers that count from another
-// touch. Labels and numbers agree then, but not the places. What a machine and a part do to a touch lies
-// along the normal; beside its target it is only as far as the part was not aligned.
+#include "engine/diagnose/checks/pairing.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,7 +8,6 @@
 #include <optional>
 
 #include "engine/diagnose/baseline/most_agree.hpp"
-#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/recording/units.hpp"
 #include "engine/run/recorded/part.hpp"
 

@@ -1,5 +1,5 @@
-// Readings of the scales that are not those of the touches: in another unit, of other axes, commanded, or none at all.
-// From the scales to the tip is one vector for each stylus and orientation, but for what the controller corrects.
+#include "engine/diagnose/checks/scale_readings.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/checks/remedies.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"

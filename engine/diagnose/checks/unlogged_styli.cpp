@@ -1,9 +1,8 @@
-// Touches that no row says the stylus of, on surfaces that one stylus cannot have reached.
+#include "engine/diagnose/checks/unlogged_styli.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "engine/diagnose/checks/data_problems.hpp"
 
 namespace abbe::diagnose {
 
