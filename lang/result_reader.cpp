@@ -4,10 +4,10 @@
 
 #include <sstream>
 
-#include "engine/math/units.hpp"
 #include "lang/lines.hpp"
 #include "lang/parser.hpp"
 #include "lang/signature.hpp"
+#include "lang/units.hpp"
 
 namespace abbe::lang {
 
@@ -40,10 +40,8 @@ class ResultReader {
 
   void read_units(const RawStatement& raw) {
     for (const RawArgument& argument : raw.arguments) {
-      const std::string& w = argument.word;
-      if (w == "MM" || w == "CM" || w == "M") units_.mm_per_unit = w == "MM" ? 1 : w == "CM" ? 10 : 1000;
-      if (w == "INCH" || w == "FEET") units_.mm_per_unit = w == "INCH" ? 25.4 : 304.8;
-      if (w.starts_with("ANG")) units_.rad_per_unit = w == "ANGRAD" ? 1 : kDegree;
+      units_.mm_per_unit = length_unit_mm(argument.word).value_or(units_.mm_per_unit);
+      units_.rad_per_unit = angle_unit_rad(argument.word).value_or(units_.rad_per_unit);
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace abbe::lang {
 
@@ -28,6 +29,19 @@ std::optional<double> sexagesimal(std::string_view text) {
 }
 
 }  // namespace
+
+std::optional<double> length_unit_mm(std::string_view word) {
+  constexpr std::pair<std::string_view, double> units[] = {
+      {"MM", 1}, {"CM", 10}, {"M", 1000}, {"INCH", kMmPerInch}, {"FEET", 304.8}};
+  for (const auto& [name, mm] : units)
+    if (word == name) return mm;
+  return std::nullopt;
+}
+
+std::optional<double> angle_unit_rad(std::string_view word) {
+  if (word == "ANGRAD") return 1;
+  return word == "ANGDEC" || word == "ANGDMS" ? std::optional(kDegree) : std::nullopt;
+}
 
 double unit_of(Quantity quantity, const Units& units) {
   return quantity == Quantity::length ? units.mm_per_unit : quantity == Quantity::angle ? units.rad_per_unit : 1;

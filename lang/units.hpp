@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "engine/math/units.hpp"
 #include "lang/parser.hpp"
@@ -13,6 +14,11 @@ struct Units {
   double mm_per_unit = 1;
   double rad_per_unit = kDegree;
 };
+
+/// What UNITS calls it, in mm: MM, CM, M, INCH or FEET; nothing for another word.
+std::optional<double> length_unit_mm(std::string_view word);
+/// Likewise in rad: ANGDEC, ANGDMS or ANGRAD.
+std::optional<double> angle_unit_rad(std::string_view word);
 
 enum class Quantity { number, length, angle };
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/math/units.hpp"
+
 namespace abbe {
 
 struct ForeignUnit {
@@ -17,7 +19,7 @@ struct ForeignUnit {
 inline std::optional<ForeignUnit> foreign_unit(double written, double meant_mm) {
   constexpr double kAgree = 0.02;
   for (const ForeignUnit unit :
-       {ForeignUnit{"metres", 1000}, ForeignUnit{"micrometres", 1e-3}, ForeignUnit{"inches", 25.4}})
+       {ForeignUnit{"metres", 1000}, ForeignUnit{"micrometres", 1e-3}, ForeignUnit{"inches", kMmPerInch}})
     if (meant_mm != 0 && std::abs(written * unit.mm / meant_mm - 1) < kAgree) return unit;
   return std::nullopt;
 }

@@ -23,13 +23,7 @@ void end_program(Lowering& lowering, const RawStatement& raw, const Match&) { lo
 
 void set_units(Lowering& lowering, const RawStatement& raw, const Match& match) {
   const Units before = lowering.units;
-  const std::string length = match.text("unit");
-  lowering.units.mm_per_unit = length == "MM" ? 1
-      : length == "CM"                        ? 10
-      : length == "M"                         ? 1000
-      : length == "INCH"                      ? 25.4
-                                              : 304.8;
-  lowering.units.rad_per_unit = match.text("angle") == "ANGRAD" ? 1 : kDegree;
+  lowering.units = {*length_unit_mm(match.text("unit")), angle_unit_rad(match.text("angle")).value_or(kDegree)};
   lowering.unit_doubt.clear();
   const bool changed =
       before.mm_per_unit != lowering.units.mm_per_unit || before.rad_per_unit != lowering.units.rad_per_unit;

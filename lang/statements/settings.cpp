@@ -1,6 +1,7 @@
 // How the machine moves and what a touch yields: SNSET, FEDRAT, ACLRAT, FLY, PRCOMP.
 #include <fmt/format.h>
 
+#include "engine/math/units.hpp"
 #include "lang/statement.hpp"
 
 namespace abbe::lang {
@@ -24,8 +25,6 @@ void set_sensor_path(Lowering& lowering, const RawStatement&, const Match& match
                           "give how far it is, without a sign");
   lowering.emit(plan::SetMotion{setting, match.number("distance", 0)});
 }
-
-constexpr double kInch = 25.4;
 
 /// DEFALT, HIGH or LOW: the machine file gives one figure, which is its greatest and its usual one.
 void set_level(Lowering& lowering, MotionSetting setting, const MatchedValue& level) {
@@ -52,7 +51,7 @@ void set_speed(Lowering& lowering, const RawStatement&, const Match& match) {
                                                  : MotionSetting::scan_speed;
   if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
   if (!moves(lowering, match, "a speed")) return;
-  const double mm = unit == "MPM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
+  const double mm = unit == "MPM" ? 1000 : unit.starts_with("IP") ? kMmPerInch : 1;
   const double seconds = unit.ends_with("PM") ? 60 : 1;
   lowering.emit(plan::SetMotion{setting, match.number("value") * mm / seconds, unit == "PCENT"});
 }
@@ -64,7 +63,7 @@ void set_acceleration(Lowering& lowering, const RawStatement&, const Match& matc
   if (const MatchedValue* level = match.find("level")) return set_level(lowering, setting, *level);
   if (!moves(lowering, match, "an acceleration")) return;
   const std::string unit = match.text("unit");
-  const double mm = unit == "MPMM" ? 1000 : unit.starts_with("IP") ? kInch : 1;
+  const double mm = unit == "MPMM" ? 1000 : unit.starts_with("IP") ? kMmPerInch : 1;
   const double square_seconds = unit == "MPMM" || unit == "IPMM" ? 3600 : 1;
   lowering.emit(plan::SetMotion{setting, match.number("value") * mm / square_seconds, unit == "PCENT"});
 }
