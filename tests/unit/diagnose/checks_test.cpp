@@ -1,0 +1,271 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/diagnose/checks/clock.hpp"
+#include "engine/diagnose/checks/data_problems.hpp"
+#include "engine/diagnose/checks/logged_columns.hpp"
+#include "engine/diagnose/checks/normals.hpp"
+#include "engine/diagnose/checks/pairing.hpp"
+#include "engine/diagnose/checks/scale_readings.hpp"
+#include "engine/diagnose/checks/unlogged_styli.hpp"
+#include "engine/math/units.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// Three balls, six touches on each, with all that a controller can log; positions some um beside their targets.
+Recording of_three_balls() {
+  constexpr double kRadius_mm = 12.5, kTip_mm = 2;
+  const Vec3 centres[] = {{310, 220, -410}, {760, 340, -455}, {480, 610, -500}};
+  const Vec3 sides[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, unit({1, 1, 1})};
+  Recording r;
+  for (int ball = 0; ball < 3; ++ball)
+    for (int k = 0; k < 6; ++k) {
+      RecordingRow row;
+      const int i = static_cast<int>(r.rows.size());
+      row.feature = "BALL" + std::to_string(ball + 1);
+      row.touch = k + 1;
+      row.normal = sides[k];
+      row.target_mm = centres[ball] + (kRadius_mm + kTip_mm) * sides[k];
+      row.position_mm = *row.target_mm + 0.001 * std::sin(3.0 * i + 1) * Vec3{1, 0.7, -0.4};
+      row.reading_mm = row.position_mm + Vec3{-40.123, 65.25, 180.5};
+      row.travel = -sides[k];
+      row.sensor = "S1";
+      row.head_a_deg = 45, row.head_b_deg = -90;
+      row.time_s = 100 + 5.0 * i;
+      row.speed_mm_s = 5, row.accel_mm_s2 = 400;
+      row.temp_part_C = 20.4, row.temp_air_C = 21;
+      row.line = i + 2;
+      r.rows.push_back(row);
+    }
+  return r;
+}
+
+/// What somebody did to a file.
+using Damage = std::function<void(RecordingRow&)>;
+Recording damaged(const Damage& damage) {
+  Recording r = of_three_balls();
+  for (RecordingRow& row : r.rows) damage(row);
+  return r;
+}
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The message with which a file is refused; of no code where it is not.
+Diagnostic refusal(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const UserError& e) {
+    return e.diagnostics().front();
+  }
+  return {};
+}
+Diagnostic refusal(const Recording& r) {
+  const Machine machine = read_machine("coord3-mc16");
+  return refusal([&] { check_data(r, machine, "r.csv"); });
+}
+
+using Check = void (*)(Recording&, const std::string&, std::vector<Diagnostic>&);
+std::vector<Diagnostic> said_by(Check check, Recording& r) {
+  std::vector<Diagnostic> messages;
+  check(r, "r.csv", messages);
+  return messages;
+}
+
+}  // namespace
+
+TEST_CASE("a file without mistakes is as it was") {
+  Recording r = of_three_balls();
+  CHECK_NOTHROW(check_data(r, read_machine("coord3-mc16"), "r.csv"));
+  std::vector<Diagnostic> messages;
+  CHECK(without_copies(r, "r.csv", messages).rows.size() == r.rows.size());
+  for (const Check check :
+       {continue_past_midnight, count_from_first_touch, leave_out_partly_logged, leave_out_readings_without_phase,
+        leave_out_commanded_readings, leave_out_constant_travel, leave_out_astray})
+    check(r, "r.csv", messages);
+  doubt_temperatures(r, "r.csv", messages);
+  doubt_motion(r, "r.csv", messages);
+  CHECK(!styli_unlogged(r, "r.csv", messages));
+  CHECK(messages.empty());
+  const Recording before = of_three_balls();
+  CHECK(to_csv(r) == to_csv(before));
+}
+
+TEST_CASE("files that no physics explains are refused with what mends them") {
+  struct Mistake {
+    Damage made;
+    const char *told, *remedy;
+  };
+  const Mistake mistakes[] = {
+      {[](RecordingRow& row) { row.position_mm = row.position_mm / 1000; }, "recorded positions are in metres",
+       "multiply x, y, z by 1000"},
+      {[](RecordingRow& row) { row.position_mm = row.position_mm / kMmPerInch; }, "recorded positions are in inches",
+       "by 25.4"},
+      {[](RecordingRow& row) { row.target_mm = *row.target_mm / 1000, row.reading_mm.reset(); },
+       "the targets are in metres", "multiply tx, ty, tz by 1000"},
+      {[](RecordingRow& row) { row.position_mm.y /= 1000; }, "y of the recorded positions is in metres",
+       "multiply y by 1000"},
+      {[](RecordingRow& row) { row.position_mm.z = -400; }, "z of the recorded positions is the same in all rows",
+       "write the position of each touch"},
+      {[](RecordingRow& row) { std::swap(row.position_mm.x, row.position_mm.y); }, "axes of the recorded positions",
+       "x, y, z as they are now y, x, z"},
+      {[](RecordingRow& row) { row.position_mm.z = -row.position_mm.z; }, "the sign of z is turned round",
+       "correct the sign"},
+      {[](RecordingRow& row) { row.normal->x = -row.normal->x; }, "the sign of nx is turned round", "correct the sign"},
+      {[](RecordingRow& row) {
+         row.normal = Vec3{row.normal->y, row.normal->z, row.normal->x};
+       },
+       "axes of the normals are swapped", "nx, ny, nz as they are now nz, nx, ny"},
+      {[](RecordingRow& row) { row.head_a_deg = kPi / 4, row.head_b_deg = -kPi / 2; }, "head are in radians",
+       "57.29578"},
+      {[](RecordingRow& row) { row.reading_mm = 1000.0 * *row.reading_mm; }, "scale readings are in micrometres",
+       "by 0.001"},
+      {[](RecordingRow& row) { row.reading_mm->y /= 1000; }, "enc_y is in metres", "multiply enc_y by 1000"},
+      {[](RecordingRow& row) { row.reading_mm->x = -row.reading_mm->x; }, "the sign of enc_x", "correct the sign"},
+      {[](RecordingRow& row) { std::swap(row.reading_mm->x, row.reading_mm->z); }, "axes of the scale readings",
+       "enc_z, enc_y, enc_x"},
+  };
+  for (const Mistake& m : mistakes) {
+    CAPTURE(m.told);
+    const Diagnostic d = refusal(damaged(m.made));
+    CHECK(d.code == Code::E0701);
+    CHECK(holds(d.message, "r.csv"));
+    CHECK(holds(d.message, m.told));
+    CHECK(holds(d.help, m.remedy));
+  }
+}
+
+TEST_CASE("copies of a row count once, and one touch has one value") {
+  Recording r = of_three_balls();
+  r.rows.push_back(r.rows[4]);
+  std::vector<Diagnostic> messages;
+  CHECK(without_copies(r, "r.csv", messages).rows.size() == r.rows.size() - 1);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].code == Code::W0702);
+  r.rows.back().position_mm.x += 0.01;
+  CHECK(refusal([&] { without_copies(r, "r.csv", messages); }).code == Code::E0713);
+  r.rows.back().run = 2;  // a repeat
+  CHECK(without_copies(r, "r.csv", messages).rows.size() == r.rows.size());
+}
+
+TEST_CASE("clocks of the day count from the first touch, and on past midnight") {
+  constexpr double kNoon_s = 43200, kDay_s = 86400;
+  Recording late = damaged([](RecordingRow& row) { *row.time_s += kNoon_s; });
+  const auto note = said_by(count_from_first_touch, late);
+  REQUIRE(note.size() == 1);
+  CHECK(note[0].code == Code::N0721);
+  CHECK(*late.rows.front().time_s == 0);
+  CHECK(*late.rows.back().time_s == doctest::Approx(85));
+
+  Recording night = damaged([](RecordingRow& row) { *row.time_s = std::fmod(*row.time_s + kDay_s - 150, kDay_s); });
+  const auto fall = said_by(continue_past_midnight, night);
+  REQUIRE(fall.size() == 1);
+  CHECK(fall[0].code == Code::N0727);
+  for (std::size_t i = 1; i < night.rows.size(); ++i)
+    CHECK(*night.rows[i].time_s - *night.rows[i - 1].time_s == doctest::Approx(5));
+}
+
+TEST_CASE("columns with gaps or of another unit are told") {
+  Recording gaps = of_three_balls();
+  gaps.rows[3].temp_part_C.reset();
+  const auto left_out = said_by(leave_out_partly_logged, gaps);
+  REQUIRE(left_out.size() == 1);
+  CHECK(left_out[0].code == Code::W0722);
+  CHECK(holds(left_out[0].message, "temp_part_C is empty in 1 of 18 rows"));
+  for (const RecordingRow& row : gaps.rows) CHECK((!row.temp_part_C && row.temp_air_C));
+
+  std::vector<Diagnostic> messages;
+  doubt_temperatures(damaged([](RecordingRow& row) { row.temp_part_C = 68.7; }), "r.csv", messages);
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].code == Code::W0724);
+  CHECK(holds(messages[0].help, "68.7 F are 20.4 C"));
+
+  messages.clear();
+  doubt_motion(damaged([](RecordingRow& row) {
+                 row.speed_mm_s = 300, row.accel_mm_s2 = 0.4;
+                 *row.time_s *= 1000;
+               }),
+               "r.csv", messages);
+  REQUIRE(messages.size() == 3);
+  for (const Diagnostic& d : messages) CHECK(d.code == Code::W0728);
+  CHECK(holds(messages[0].help, "300 mm/min are 5 mm/s"));
+  CHECK(holds(messages[1].help, "0.4 m/s2 are 400 mm/s2"));
+  CHECK(holds(messages[2].help, "5000 ms are 5 s"));
+}
+
+TEST_CASE("scale readings that are not those of the touches are not used") {
+  Recording commanded = damaged([](RecordingRow& row) { row.reading_mm = *row.target_mm + Vec3{-40, 65, 180}; });
+  const auto told = said_by(leave_out_commanded_readings, commanded);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].code == Code::W0729);
+  CHECK(!commanded.rows.front().reading_mm);
+
+  Recording coarse = damaged([](RecordingRow& row) {
+    for (int axis = 0; axis < 3; ++axis) (*row.reading_mm)[axis] = 0.01 * std::round(100 * (*row.reading_mm)[axis]);
+  });
+  CHECK(reading_step_mm(coarse) == doctest::Approx(0.01));
+  const auto steps = said_by(leave_out_readings_without_phase, coarse);
+  REQUIRE(steps.size() == 1);
+  CHECK(steps[0].code == Code::W0731);
+  CHECK(holds(steps[0].message, "steps of 10 um"));
+
+  Recording still = damaged([](RecordingRow& row) { row.reading_mm->y = 12.3456; });
+  CHECK(holds(said_by(leave_out_readings_without_phase, still).at(0).message, "enc_y is the same in all rows"));
+  CHECK(readings_agree(of_three_balls(), Places::targets));
+  CHECK(!readings_agree(still, Places::targets, 1));
+}
+
+TEST_CASE("directions of travel that cannot be are left out or refused") {
+  Recording one_way = damaged([](RecordingRow& row) { row.travel = Vec3{0, 0, -1}; });
+  const auto told = said_by(leave_out_constant_travel, one_way);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].code == Code::W0732);
+  CHECK(!one_way.rows.front().travel);
+
+  const Recording swapped = damaged([](RecordingRow& row) {
+    row.travel = Vec3{row.travel->y, row.travel->x, row.travel->z};
+  });
+  std::vector<const RecordingRow*> rows;
+  for (const RecordingRow& row : swapped.rows) rows.push_back(&row);
+  const Mat3 as_placed;
+  const Diagnostic d = refusal([&] { check_normals(rows, as_placed, "r.csv"); });
+  CHECK(d.code == Code::E0701);
+  CHECK(holds(d.help, "ax, ay, az as they are now ay, ax, az"));
+}
+
+TEST_CASE("rows far from their targets are left out where they are few") {
+  Recording r = of_three_balls();
+  r.rows[7].position_mm.x += 500;
+  const auto told = said_by(leave_out_astray, r);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].code == Code::W0712);
+  CHECK(holds(told[0].message, "touch 2 of 'BALL2' (line 9)"));
+  CHECK(r.rows.size() == 17);
+
+  Recording many = of_three_balls();
+  for (std::size_t i = 0; i < 4; ++i) many.rows[4 * i].position_mm.y -= 150.0 * double(i + 1);
+  std::vector<Diagnostic> messages;
+  CHECK(refusal([&] { leave_out_astray(many, "r.csv", messages); }).code == Code::E0711);
+}
+
+TEST_CASE("surfaces that no one stylus reaches need to say which touched them") {
+  const auto unlogged = [](RecordingRow& row) { row.sensor.reset(), row.head_a_deg.reset(), row.head_b_deg.reset(); };
+  std::vector<Diagnostic> messages;
+  CHECK(!styli_unlogged(damaged(unlogged), "r.csv", messages));  // from above, one reaches all
+  CHECK(styli_unlogged(damaged([&](RecordingRow& row) {
+                         unlogged(row);
+                         if (row.touch == 6) row.normal = Vec3{0, 0, -1};
+                       }),
+                       "r.csv", messages));
+  REQUIRE(messages.size() == 1);
+  CHECK(messages[0].code == Code::W0725);
+  CHECK(least_along_the_best({{0, 0, 1}}) == doctest::Approx(1));
+  CHECK(least_along_the_best({{1, 0, 0}, {-1, 0, 0}}) == doctest::Approx(0));
+}
