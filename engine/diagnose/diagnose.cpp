@@ -235,6 +235,18 @@ void tell_machine(const Case& c, const SearchResult& result, const std::string& 
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
 }
 
+/// The machine beside what was found, as one of those that the recording fits better: rougher ones, or such with an uneven
+/// error function.
+BaselineSummary machine_beside(const Case& c, const EvidenceSearch& first, const SearchResult& result, bool known) {
+  const bool nothing = result.findings.empty() && !result.other;
+  const bool uneven = nothing && first.uneven();
+  LinearModel m = with_free(likelier_ensemble(c, c.model), signatures_of(c, result));
+  if (uneven) m = with_random(m, *first.uneven());
+  BaselineSummary out = summary(c, c.rough || uneven ? estimate(m) : result.hyper, known);
+  out.rougher = c.rough, out.uneven = uneven;
+  return out;
+}
+
 /// `out`: what has been said of the recording so far.
 std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional<Surfaces> surfaces, Diagnosis out) {
   const Recording& recording = given.recording;
@@ -283,7 +295,7 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   SearchResult result = search(c, first);
   put_judged_members_first(c, result);
   drop_impossible_members(c, result);
-  out.baseline = summary(c, result.hyper, known);
+  out.baseline = machine_beside(c, first, result, known);
   out.p_value = result.p_value;
   out.other_methods = other_methods(c, result.first);
   at("touches that the model has not seen");

@@ -139,7 +139,9 @@ struct NextMeasurement {
 
 struct BaselineSummary {
   bool known = false;
-  double geometry_scale = 1;
+  bool rougher = false;       ///< the recording fits machines better whose errors are rougher than harmonics
+  bool uneven = false;        ///< or of which an error function, a guide or a rail is more uneven than the rest
+  double geometry_scale = 1;  ///< of such machines
   double noise_um = 0;
   double stated_noise_um = 0;  ///< the same of the machine file, with the rounding of positions
   bool noisier = false;        ///< by so much more that it is worth telling, and no effect says why

@@ -151,7 +151,7 @@ std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
 
 Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variants) const {
   const Eigen::Index scales = precision_.cols(), asked = static_cast<Eigen::Index>(functions_ + variants.size());
-  Verdicts out{{}, Matrix(scales, asked), {}, Matrix(scales, asked)};
+  Verdicts out{{}, Matrix(scales, asked), {}, Matrix(scales, asked), Matrix(scales, asked)};
   Vector z = y.of.z, rest = y.of.rest;
   if (y.added) z += y.times * y.added->z, rest += y.times * y.added->rest;
   out.squares = ((z.asDiagonal() * precision_).transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
@@ -185,6 +185,7 @@ Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variant
       Eigen::Index best = 0;
       out.with(j, column) = logs.col(j).maxCoeff(&best);
       out.squares_with(j, column) = left(best, j);
+      out.size_with(j, column) = b.sizes[static_cast<std::size_t>(best)].factor;
       for (Eigen::Index s = 0; s < sizes; ++s) logs(s, j) -= out.with(j, column);
     }
     logs = logs.exp();

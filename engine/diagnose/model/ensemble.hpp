@@ -48,6 +48,7 @@ class Ensemble {
     Matrix with;          ///< a column for each error function, then for each variant that was asked for
     Vector squares;       ///< what is left of the sum of squares alone
     Matrix squares_with;  ///< likewise, with each of them at its best size
+    Matrix size_with;     ///< that size
   };
   /// What the family sees of a recording.
   struct Seen {

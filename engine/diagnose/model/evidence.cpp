@@ -36,6 +36,13 @@ Vector log_sums_exp(const Matrix& logs) {
   return (top + sum.log()).transpose();
 }
 
+/// Recordings as they are, without another added.
+std::vector<Ensemble::Sum> sums_of(const std::vector<Ensemble::Seen>& seen) {
+  std::vector<Ensemble::Sum> out;
+  for (const Ensemble::Seen& s : seen) out.push_back({s});
+  return out;
+}
+
 /// Whether more simulated recordings could carry a p-value over the level. Downwards that is further: the few
 /// largest of some hundred tell little of how the tail goes on.
 bool is_near(double p, double level) {
@@ -55,7 +62,10 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.variants);
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
-  if (!plan) evidence_ = judge(seen(model_.y), &alone_, &with_);
+  if (plan) return;
+  const std::vector<Ensemble::Seen> recording = seen(model_.y);
+  evidence_ = judge(recording, &alone_, &with_);
+  uneven_ = uneven_of(weigh(sums_of(recording), {}));
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
@@ -109,6 +119,24 @@ EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& 
   return out;
 }
 
+std::optional<Matrix> EvidenceSearch::uneven_of(const Weighed& w) const {
+  constexpr double kLikely = 0.5;
+  double belief = 0;
+  const double prior = std::log(kPriorUneven / double(std::max<std::size_t>(functions_, 1)));
+  std::size_t function = 0;
+  double most = -std::numeric_limits<double>::infinity(), size = 1;
+  for (const Ensemble::Verdicts& v : w.verdicts)
+    for (std::size_t k = 0; k < functions_; ++k) {
+      const Vector with = v.with.col(static_cast<Eigen::Index>(k));
+      const double log = log_sum_exp(with);
+      belief += std::exp(prior + log - w.log_null);
+      if (log <= most) continue;
+      most = log, function = k;
+      size = v.size_with(static_cast<Eigen::Index>(index_of_largest(with)), static_cast<Eigen::Index>(k));
+    }
+  return belief > kLikely ? std::optional<Matrix>(size * model_.uneven[function]) : std::nullopt;
+}
+
 double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<double>& by_own_variant) const {
   std::vector<double> variants;
   for (std::size_t k = 0; k < x.variants.size(); ++k)
@@ -127,9 +155,7 @@ double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& of, const s
 Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const {
   std::vector<int> variants(log_weight_.size());
   std::iota(variants.begin(), variants.end(), 0);
-  std::vector<Ensemble::Sum> whole;
-  for (const Ensemble::Seen& seen : y) whole.push_back({seen});
-  Weighed weighed = weigh(whole, variants);
+  Weighed weighed = weigh(sums_of(y), variants);
   Evidence out;
   out.log_null = weighed.log_null;
   out.variant_log_bayes = std::move(weighed.log_bayes);

@@ -279,6 +279,14 @@ LinearModel compact(const LinearModel& m) {
 
 LinearModel rougher(const LinearModel& m) { return with_ensemble(m, m.rough); }
 
+LinearModel with_random(const LinearModel& m, const Matrix& columns) {
+  LinearModel out = m;
+  out.random.resize(m.random.rows(), m.random.cols() + columns.cols());
+  out.random << m.random, columns;
+  out.random_group.insert(out.random_group.end(), static_cast<std::size_t>(columns.cols()), 1);
+  return out;
+}
+
 Vector beside_free(const LinearModel& m, const Vector& displacement) {
   const Vector weight = m.noise_um.cwiseInverse();
   const Matrix free = independent(weight.asDiagonal() * m.free);

@@ -89,6 +89,9 @@ LinearModel compact(const LinearModel&);
 /// The model whose group 0 of Z is the other ensemble.
 LinearModel rougher(const LinearModel&);
 
+/// The model with these columns, um per standard deviation, beside its ensemble, at the size that they have.
+LinearModel with_random(const LinearModel&, const Matrix& columns);
+
 /// The columns of all of them, which have so many rows, one after the other.
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
 

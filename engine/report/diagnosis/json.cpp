@@ -102,9 +102,14 @@ Json next(const NextMeasurement& n) {
 Json baseline(const BaselineSummary& b) {
   Json sensors = Json::object();
   for (const auto& [name, noise] : b.noise_by_sensor) sensors[name] = number(noise);
-  return {{"mode", b.known ? "known" : "fresh"},  {"geometry_scale", number(b.geometry_scale)},
-          {"noise_um", number(b.noise_um)},       {"noise_by_sensor_um", sensors},
-          {"correlation", number(b.correlation)}, {"outliers", b.outliers}};
+  return {{"mode", b.known ? "known" : "fresh"},
+          {"geometry_scale", number(b.geometry_scale)},
+          {"rougher", b.rougher},
+          {"uneven", b.uneven},
+          {"noise_um", number(b.noise_um)},
+          {"noise_by_sensor_um", sensors},
+          {"correlation", number(b.correlation)},
+          {"outliers", b.outliers}};
 }
 
 Json other_methods(const OtherMethods& r) {

@@ -250,10 +250,12 @@ std::vector<std::string> diagnosis_sentences(const Diagnosis& d) {
 std::string baseline_in_words(const Diagnosis& d) {
   if (!d.values.empty()) return "";
   const BaselineSummary& b = d.baseline;
+  const std::string shape = std::string(b.rougher ? ", rougher than harmonics" : "") +
+      (b.uneven ? ", in part more uneven than the rest" : "");
   std::string out =
-      fmt::format("baseline: {:.2f} times {}, noise {:.2f} um ({:.2f} in the machine file)", b.geometry_scale,
+      fmt::format("baseline: {:.2f} times {}{}, noise {:.2f} um ({:.2f} in the machine file)", b.geometry_scale,
                   b.known ? "what is uncertain of the known machine" : "the machine's errors of its specification",
-                  b.noise_um, b.stated_noise_um);
+                  shape, b.noise_um, b.stated_noise_um);
   if (b.correlation > 0) out += fmt::format(", neighbours correlated by {:.2f}", b.correlation);
   if (!b.outliers.empty())
     out += fmt::format("; {} {} left out: {}", b.outliers.size(), b.outliers.size() == 1 ? "touch" : "touches",

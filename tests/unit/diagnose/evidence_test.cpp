@@ -146,7 +146,15 @@ TEST_CASE("one error function more uneven than the others is no mismatch") {
   h.noise = Vector::Ones(1);
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] > 10);
   m.uneven = {function};
-  CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[1] < 2);
+  const EvidenceSearch search(m, h, all);
+  CHECK(search.evidence().log_bayes[1] < 2);
+  REQUIRE(search.uneven());
+  // Without it, it counts as noise.
+  CHECK(estimate(m).noise(0) > 1.3);
+  CHECK(estimate(with_random(m, *search.uneven())).noise(0) == doctest::Approx(1).epsilon(0.15));
+  LinearModel even = noise_only(n, 21);
+  even.uneven = m.uneven;
+  CHECK(!EvidenceSearch(even, h, all).uneven());
   // Where it cannot do what is seen, the mismatch stays.
   m.y += wave + 0.8 * all.variants[0].signature.col(0);
   CHECK(EvidenceSearch(m, h, all).evidence().log_bayes[0] > 10);

@@ -35,6 +35,9 @@ TEST_CASE("a recording that agrees says with which machine") {
   CHECK(says(first_sentence(d), "225 touches are what a machine of this specification reports"));
   d.baseline.geometry_scale = 3.8;
   CHECK(says(first_sentence(d), "geometric errors are 3.8 times those of its specification, or rougher: a difference"));
+  CHECK(says(diagnosis_text(d), "baseline: 3.80 times the machine's errors of its specification, noise"));
+  d.baseline.rougher = d.baseline.uneven = true;
+  CHECK(says(diagnosis_text(d), "specification, rougher than harmonics, in part more uneven than the rest, noise"));
   d.baseline.known = true;
   CHECK(says(first_sentence(d), "what this machine reports as its file knows it"));
 }
