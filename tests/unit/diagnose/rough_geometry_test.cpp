@@ -14,32 +14,32 @@ using namespace abbe::diagnose;
 
 namespace {
 
-constexpr int kTouches = 120;
+constexpr int kOnGuide = 120;
 
 /// Touches of one face along the whole travel of x.
 RecordedTouches along_x(const Machine& machine) {
   RecordedTouches t;
-  for (int i = 0; i < kTouches; ++i) {
+  for (int i = 0; i < kOnGuide; ++i) {
     RecordedTouch touch;
-    touch.scene.reading = {machine[Axis::x].travel_mm * i / (kTouches - 1), 300, -300};
+    touch.scene.reading = {machine[Axis::x].travel_mm * i / (kOnGuide - 1), 300, -300};
     touch.scene.normal = {1, 0, 0};
     t.touches.push_back(touch);
   }
   return t;
 }
 
-double at(int touch) { return -1 + 2.0 * touch / (kTouches - 1); }
+double at(int touch) { return -1 + 2.0 * touch / (kOnGuide - 1); }
 
 /// A bend, and a ripple that no sum of the harmonics follows.
 Vector bend() {
-  Vector v(kTouches);
-  for (int i = 0; i < kTouches; ++i) v(i) = at(i) * at(i);
+  Vector v(kOnGuide);
+  for (int i = 0; i < kOnGuide; ++i) v(i) = at(i) * at(i);
   return v.array() - v.mean();
 }
 Vector ripple(const Machine& machine) {
-  Matrix harmonics(kTouches, basis_size(machine.harmonics));
-  Vector v(kTouches);
-  for (int i = 0; i < kTouches; ++i) {
+  Matrix harmonics(kOnGuide, basis_size(machine.harmonics));
+  Vector v(kOnGuide);
+  for (int i = 0; i < kOnGuide; ++i) {
     const double u = at(i);
     harmonics(i, 0) = 1, harmonics(i, 1) = u, harmonics(i, 2) = u * u;
     for (int n = 1; n <= machine.harmonics; ++n)
@@ -73,7 +73,7 @@ TEST_CASE("a bad guide may have several bad error functions, at their full size"
   const std::vector<Matrix> uneven = uneven_functions(t, machine);
   constexpr int kGuides = 3, kRails = 2 * 3;
   REQUIRE(uneven.size() == kComponents + kGuides + kRails);
-  Matrix sum = Matrix::Zero(kTouches, kTouches);
+  Matrix sum = Matrix::Zero(kOnGuide, kOnGuide);
   for (std::size_t c = 0; c < kComponents; ++c)
     if (axis_of(static_cast<Component>(c)) == Axis::x) sum += uneven[c] * uneven[c].transpose();
   const Matrix& guide = uneven[kComponents];
@@ -95,9 +95,9 @@ OnRail on_wavy_rail(const Machine& machine, double bearing_base_mm) {
   std::vector<double> shifted, tilted;
   for (const double length : {50.0, 350.0})
     for (const int faces : {0, 1, 2})
-      for (int i = 0; i < kTouches; ++i) {
+      for (int i = 0; i < kOnGuide; ++i) {
         RecordedTouch touch;
-        const double x = travel * i / (kTouches - 1);
+        const double x = travel * i / (kOnGuide - 1);
         touch.scene.reading = {x, 300, -300};
         touch.scene.normal[faces] = 1;
         touch.scene.stylus.tip_from_mount_mm = {0, 0, -length};
