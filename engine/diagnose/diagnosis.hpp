@@ -180,8 +180,8 @@ struct JudgedValue {
 /// Geometric errors of so many times those of the specification are told: such a machine may still pass an acceptance
 /// test, but nobody should take it for one of its specification.
 inline constexpr double kLargeErrors = 2;
-/// From so many times on it is one that nobody should pass. Of 400 recordings without a mismatch, half of them of machines
-/// with errors up to twice their specification's size, rougher or noisier, none asked for more than 3.5.
+/// From so many times on it is one that nobody should pass. Of 1600 recordings without a mismatch, half of them of machines
+/// with errors up to twice their specification's size, rougher or noisier, none asked for more than 2.4.
 inline constexpr double kOutOfSpecification = 4;
 
 /// Adequacy below which the names are doubted.
