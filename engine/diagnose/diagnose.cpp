@@ -308,7 +308,8 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
   tell_machine(c, result, file, out);
-  const bool large = out.baseline.geometry_scale >= kLargeErrors;
+  // What rougher errors would explain may be that as well: here errors are large that are so as harmonics.
+  const bool large = result.hyper.scale >= kLargeErrors;
   if (c.styli_unlogged && (is_mismatch(out) || large)) return without_styli(std::move(out), of_the_file);
   at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
