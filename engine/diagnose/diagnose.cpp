@@ -239,11 +239,11 @@ void tell_machine(const Case& c, const SearchResult& result, const std::string& 
 /// error function.
 BaselineSummary machine_beside(const Case& c, const EvidenceSearch& first, const SearchResult& result, bool known) {
   const bool nothing = result.findings.empty() && !result.other;
-  const bool uneven = nothing && first.uneven();
+  const std::optional<Matrix> uneven = nothing ? first.uneven() : std::nullopt;
   LinearModel m = with_free(likelier_ensemble(c, c.model), signatures_of(c, result));
-  if (uneven) m = with_random(m, *first.uneven());
+  if (uneven) m = with_random(m, *uneven);
   BaselineSummary out = summary(c, c.rough || uneven ? estimate(m) : result.hyper, known);
-  out.rougher = c.rough, out.uneven = uneven;
+  out.rougher = c.rough, out.uneven = uneven.has_value();
   return out;
 }
 

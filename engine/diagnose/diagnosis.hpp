@@ -181,7 +181,8 @@ struct JudgedValue {
 /// test, but nobody should take it for one of its specification.
 inline constexpr double kLargeErrors = 2;
 /// From so many times on it is one that nobody should pass. Of 1600 recordings without a mismatch, half of them of machines
-/// with errors up to twice their specification's size, rougher or noisier, none asked for more than 2.4.
+/// with errors up to twice their specification's size, rougher or noisier, 55 ask for twice the
+/// harmonics or more, and none of these for more than 2.4 times the errors that fit it better.
 inline constexpr double kOutOfSpecification = 4;
 
 /// Adequacy below which the names are doubted.

@@ -62,10 +62,7 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.variants);
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
-  if (plan) return;
-  const std::vector<Ensemble::Seen> recording = seen(model_.y);
-  evidence_ = judge(recording, &alone_, &with_);
-  uneven_ = uneven_of(weigh(sums_of(recording), {}));
+  if (!plan) evidence_ = judge(seen(model_.y), &alone_, &with_);
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
@@ -119,8 +116,10 @@ EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& 
   return out;
 }
 
-std::optional<Matrix> EvidenceSearch::uneven_of(const Weighed& w) const {
+std::optional<Matrix> EvidenceSearch::uneven() const {
   constexpr double kLikely = 0.5;
+  const std::vector<Ensemble::Seen> recording = seen(model_.y);
+  const Weighed w = weigh(sums_of(recording), {});
   double belief = 0;
   const double prior = std::log(kPriorUneven / double(std::max<std::size_t>(functions_, 1)));
   std::size_t function = 0;

@@ -64,7 +64,7 @@ class EvidenceSearch {
   double rough() const { return rough_; }
   /// The columns, um at the scale 1, of the error functions that are more uneven than the others, as the recording without
   /// any explanation has them; nothing where it is not more likely than not that there are any.
-  const std::optional<Matrix>& uneven() const { return uneven_; }
+  std::optional<Matrix> uneven() const;
 
   /// Evidence of simulated recordings without mismatch: as many as usual; fewer once enough of them are as extreme
   /// as `observed` to know that it is nothing rare (Besag & Clifford, Biometrika 78, 1991); and up to six times as
@@ -122,7 +122,6 @@ class EvidenceSearch {
   /// Of the variants of an explanation, averaged over them.
   double log_bayes_of(const Explanation&, const std::vector<double>& by_own_variant) const;
   Evidence judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const;
-  std::optional<Matrix> uneven_of(const Weighed&) const;
   const Ensemble& likely() const { return ensembles_[with_.ensemble]; }
 
   LinearModel model_;
@@ -134,7 +133,6 @@ class EvidenceSearch {
   Evidence evidence_;
   Baseline alone_, with_;
   double rough_ = 0;
-  std::optional<Matrix> uneven_;
 };
 
 /// Share of simulated values at or above the observed one, with (k + 1) / (n + 1); far out in the tail as the next
