@@ -116,7 +116,8 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
   std::vector<char> left_out(c.masked.size(), 1);
   for (const int row : c.rows) left_out[row] = 0;
   beside.model = with_free(without_rows(c.baseline.model, left_out), signatures_of(c, result));
-  return write_known_state(posterior(beside, result.hyper), result.hyper);
+  const Hyperparameters hyper = c.rough ? estimate(rougher(beside.model)) : result.hyper;
+  return write_known_state(posterior(beside, hyper, c.rough ? Errors::rough : Errors::harmonic), hyper);
 }
 
 /// An effect that could be judged but would not show at any size is hidden by what is unknown of the part.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -178,6 +179,14 @@ void group_noise(const RecordedTouches& t, const Machine& machine, Baseline& out
   }
 }
 
+/// A factor of the same covariance that has no more columns than rows.
+Matrix no_wider(const Matrix& factor) {
+  if (factor.cols() <= factor.rows()) return factor;
+  const Eigen::HouseholderQR<Matrix> qr(factor.transpose());
+  const Matrix triangle = qr.matrixQR().topRows(factor.rows()).triangularView<Eigen::Upper>();
+  return triangle.transpose();
+}
+
 /// The number of the point of a surface that each touch aims at, wherever the part stood.
 std::vector<int> surface_points(const RecordedTouches& t) {
   constexpr double kSame_mm = 2e-3;
@@ -225,15 +234,19 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   m.free = free.joined();
   m.random = random.joined();
   if (!options.known) {
-    m.rough = rough_geometry(t, machine);
+    RoughGeometry rough = rough_geometry(t, machine);
+    m.rough = std::move(rough.um);
+    out.rough_factor = std::move(rough.harmonics);
     m.uneven = uneven_functions(t, machine);
   } else {
     m.scale_spread = 0.3;  // an earlier recording has found the scale
     // what that left open may be wrong by some tens of per cent, not by a multiple: that is another machine
     m.largest_scale = 2;
-    const Matrix rough = rough_geometry_left(t, machine);
-    m.rough.resize(n, geometry.cols() + rough.cols());
-    m.rough << geometry, rough;
+    const RoughGeometry rough = rough_geometry_left(t, machine);
+    m.rough.resize(n, geometry.cols() + rough.um.cols());
+    m.rough << geometry, rough.um;
+    out.rough_factor.resize(known.factor.rows(), m.rough.cols());
+    out.rough_factor << known.factor, rough.harmonics;
     m.uneven = uneven_functions_left(t, machine);
   }
   m.y.resize(n);
@@ -249,8 +262,9 @@ Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const Bas
   return out;
 }
 
-KnownGeometry posterior(const Baseline& b, const Hyperparameters& h) {
-  const LinearModel& m = b.model;
+KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, Errors errors) {
+  const LinearModel m = errors == Errors::rough ? rougher(b.model) : b.model;
+  const Matrix& factor = errors == Errors::rough ? b.rough_factor : b.factor;
   const Projection project(m, h);
   const Matrix z = project(m.random);
   Matrix precision = z.transpose() * z;
@@ -259,10 +273,10 @@ KnownGeometry posterior(const Baseline& b, const Hyperparameters& h) {
   const Eigen::LLT<Matrix> llt(precision);
   const Vector mean = llt.solve(z.transpose() * project(m.y));
   const Matrix covariance = llt.solve(Matrix::Identity(precision.rows(), precision.cols()));
-  const Eigen::Index size = b.factor.cols();
+  const Eigen::Index size = factor.cols();
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.topLeftCorner(size, size));
   const Matrix root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  return {b.mean + b.factor * mean.head(size), b.factor * root};
+  return {b.mean + factor * mean.head(size), no_wider(factor * root)};
 }
 
 }  // namespace abbe::diagnose

@@ -98,19 +98,23 @@ class RailWaves {
   Vector amplitudes_, home_;
 };
 
+/// The sums of harmonics that come nearest to functions over the travel: basis x functions.
+Matrix nearest_harmonics(const Machine& machine, const Functions& functions) {
+  constexpr int kPoints = 201;
+  Matrix rows(kPoints, functions.count()), basis(kPoints, basis_size(machine.harmonics));
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = -1 + 2.0 * i / (kPoints - 1);
+    rows.row(i) = functions.at(u);
+    basis.row(i) = harmonics(machine, u);
+  }
+  return basis.colPivHouseholderQr().solve(rows);
+}
+
 /// What of functions is no sum of harmonics.
 class BeyondHarmonics {
  public:
   BeyondHarmonics(const Machine& machine, std::span<const double> lengths)
-      : machine_(machine), functions_(lengths, 0, kFineKnots) {
-    constexpr int kPoints = 201;
-    Matrix rows(kPoints, functions_.count()), basis(kPoints, basis_size(machine.harmonics));
-    for (int i = 0; i < kPoints; ++i) {
-      const double u = -1 + 2.0 * i / (kPoints - 1);
-      rows.row(i) = functions_.at(u);
-      basis.row(i) = harmonics(machine, u);
-    }
-    followed_ = basis.colPivHouseholderQr().solve(rows);
+      : machine_(machine), functions_(lengths, 0, kFineKnots), followed_(nearest_harmonics(machine, functions_)) {
     home_ = row(-1);
   }
   int count() const { return functions_.count(); }
@@ -124,10 +128,16 @@ class BeyondHarmonics {
   Vector home_;
 };
 
+/// Of an error function whose functions have coefficients of 1, mm or rad.
+double size_of(const Machine& machine, int component) {
+  constexpr double kMmPerM = 1e-3;
+  const MachineAxis& a = machine[axis_of(static_cast<Component>(component))];
+  return machine.components[component].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
+}
+
 /// The columns of each of the 18 error functions.
 template <class F>
 std::vector<Matrix> error_functions(const RecordedTouches& t, const Machine& machine, const F& functions) {
-  constexpr double kMmPerM = 1e-3;
   std::vector<Matrix> out(kComponents, Matrix::Zero(static_cast<Eigen::Index>(t.touches.size()), functions.count()));
   for (std::size_t i = 0; i < t.touches.size(); ++i) {
     const TouchScene& s = t.touches[i].scene;
@@ -137,7 +147,7 @@ std::vector<Matrix> error_functions(const RecordedTouches& t, const Machine& mac
       for (int c = 0; c < kComponents; ++c) {
         if (axis_of(static_cast<Component>(c)) != static_cast<Axis>(axis)) continue;
         AxisErrors unit;
-        unit.value[c] = machine.components[c].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
+        unit.value[c] = size_of(machine, c);
         const double um =
             kUmPerMm * dot(s.normal, geometric_error(machine, unit, s.reading, s.stylus.tip_from_mount_mm));
         out[c].row(static_cast<Eigen::Index>(i)) = um * f;
@@ -184,6 +194,14 @@ std::vector<Matrix> left_open(const RecordedTouches& t, const Machine& machine, 
   return out;
 }
 
+/// What these functions are as harmonics, in columns like those of all error functions side by side.
+Matrix as_harmonics(const Machine& machine, const Matrix& nearest) {
+  Matrix out = Matrix::Zero(kComponents * nearest.rows(), kComponents * nearest.cols());
+  for (int c = 0; c < kComponents; ++c)
+    out.block(c * nearest.rows(), c * nearest.cols(), nearest.rows(), nearest.cols()) = size_of(machine, c) * nearest;
+  return out;
+}
+
 /// Each function by itself, and all functions of an axis together.
 std::vector<Matrix> functions_and_guides(const std::vector<Matrix>& functions) {
   std::vector<Matrix> out;
@@ -199,9 +217,11 @@ std::vector<Matrix> functions_and_guides(const std::vector<Matrix>& functions) {
 
 }  // namespace
 
-Matrix rough_geometry(const RecordedTouches& t, const Machine& machine) {
+RoughGeometry rough_geometry(const RecordedTouches& t, const Machine& machine) {
   constexpr double kLine = 2;
-  return side_by_side(error_functions(t, machine, Functions(kLengths, kLine)));
+  const Functions functions(kLengths, kLine);
+  return {side_by_side(error_functions(t, machine, functions)),
+          as_harmonics(machine, nearest_harmonics(machine, functions))};
 }
 
 std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& machine) {
@@ -210,8 +230,11 @@ std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& ma
   return out;
 }
 
-Matrix rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
-  return side_by_side(left_open(t, machine, kLengths));
+RoughGeometry rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
+  const Functions functions(kLengths, 0);
+  Matrix nearest(basis_size(machine.harmonics), functions.count() + kFineKnots);
+  nearest << kNotFollowed * nearest_harmonics(machine, functions), Matrix::Zero(nearest.rows(), kFineKnots);
+  return {side_by_side(left_open(t, machine, kLengths)), as_harmonics(machine, nearest)};
 }
 
 std::vector<Matrix> uneven_functions_left(const RecordedTouches& t, const Machine& machine) {

@@ -12,8 +12,14 @@
 
 namespace abbe::diagnose {
 
-/// Rows x columns, um per standard deviation. The straight lines of scale and squareness are larger than waviness.
-Matrix rough_geometry(const RecordedTouches&, const Machine&);
+struct RoughGeometry {
+  Matrix um;  ///< rows x columns, per standard deviation
+  /// of the harmonics that come nearest to each column: coefficients x columns; mm, rad
+  Matrix harmonics;
+};
+
+/// The straight lines of scale and squareness are larger than waviness.
+RoughGeometry rough_geometry(const RecordedTouches&, const Machine&);
 
 /// Each error function by itself, of short length only and without a line, in the order of the components; then all
 /// those of each axis together; then, for each axis, its straightnesses and its angles by themselves as a wavy rail makes
@@ -23,7 +29,7 @@ std::vector<Matrix> uneven_functions(const RecordedTouches&, const Machine&);
 
 /// The same of a machine that an earlier recording has told, by sums of harmonics: what these cannot follow,
 /// and a fifth of the size of every other shape.
-Matrix rough_geometry_left(const RecordedTouches&, const Machine&);
+RoughGeometry rough_geometry_left(const RecordedTouches&, const Machine&);
 std::vector<Matrix> uneven_functions_left(const RecordedTouches&, const Machine&);
 
 }  // namespace abbe::diagnose

@@ -41,7 +41,19 @@ TEST_CASE("what is left of the geometry is that of touches whose neighbours have
   const Matrix covariance =
       b.factor * (prior - gain * m.random * prior).topLeftCorner(kCoefficients, kCoefficients) * b.factor.transpose();
 
-  const KnownGeometry known = posterior(b, h);
-  CHECK((known.mean - mean).cwiseAbs().maxCoeff() < 1e-9);
-  CHECK((known.factor * known.factor.transpose() - covariance).cwiseAbs().maxCoeff() < 1e-9);
+  const auto is_it = [&](const KnownGeometry& known) {
+    CHECK((known.mean - mean).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK((known.factor * known.factor.transpose() - covariance).cwiseAbs().maxCoeff() < 1e-9);
+    CHECK(known.factor.cols() == kCoefficients);
+  };
+  is_it(posterior(b, h));
+
+  // Rougher errors are told by what they are as harmonics, of which there are fewer: here each is made of two halves.
+  const double half = std::sqrt(0.5);
+  m.rough.resize(kTouches, 2 * kCoefficients);
+  m.rough << half * m.random.leftCols(kCoefficients), half * m.random.leftCols(kCoefficients);
+  b.rough_factor.resize(kCoefficients, 2 * kCoefficients);
+  b.rough_factor << half * b.factor, half * b.factor;
+  m.random.leftCols(kCoefficients).setConstant(99);  // of no account then
+  is_it(posterior(b, h, Errors::rough));
 }

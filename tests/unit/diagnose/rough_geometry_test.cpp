@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/diagnose/baseline/baseline.hpp"
 #include "engine/diagnose/model/evidence.hpp"
 #include "engine/machine/geometry.hpp"
 
@@ -64,7 +65,23 @@ TEST_CASE("of a machine that is known, what its harmonics could not follow is op
   // a fifth of the size, 4 % of the variance
   CHECK(variance_of(left, bend()) / variance_of(whole, bend()) == doctest::Approx(0.04).epsilon(0.1));
   CHECK(variance_of(left, ripple(machine)) / variance_of(whole, ripple(machine)) > 0.9);
-  CHECK(variance_of(rough_geometry_left(t, machine), bend()) < 0.05 * variance_of(rough_geometry(t, machine), bend()));
+  CHECK(variance_of(rough_geometry_left(t, machine).um, bend()) <
+        0.05 * variance_of(rough_geometry(t, machine).um, bend()));
+}
+
+TEST_CASE("what rough functions are as harmonics does what they do, but for what no harmonics follow") {
+  const Machine machine = read_machine("coord3-mc16");
+  const RecordedTouches t = along_x(machine);
+  const int size = kComponents * basis_size(machine.harmonics);
+  const KnownGeometry sampled{Vector::Zero(size), Matrix::Identity(size, size)};
+  for (const bool is_known : {false, true}) {
+    CAPTURE(is_known);
+    const Baseline b = baseline_of(t, machine, {.known = is_known ? &sampled : nullptr, .sampled = &sampled});
+    const Matrix followed = b.geometry_um * b.rough_factor;
+    REQUIRE(followed.cols() == b.model.rough.cols());
+    CHECK(variance_of(followed, ripple(machine)) < 1e-6 * variance_of(b.model.rough, ripple(machine)));
+    CHECK(variance_of(followed, bend()) == doctest::Approx(variance_of(b.model.rough, bend())).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("a bad guide may have several bad error functions, at their full size") {
