@@ -215,6 +215,22 @@ TEST_CASE("a probe that does not come home from the touch before is seen by its 
         }) == "OTHER direction, of the touch before");
 }
 
+TEST_CASE("a machine that leaves a feature too early, or swings when it comes to one, is seen by the way there") {
+  RecordedTouches t = scattered(400);
+  for (std::size_t i = 0; i < t.touches.size(); ++i) t.touches[i].scene.feature = static_cast<int>(i) / 8 % 6;
+  const auto number = [](const TouchScene& s) { return static_cast<std::size_t>((s.time_s - 60 * s.visit) / 10); };
+  const auto way = [&](std::size_t from) {
+    return from + 1 < t.touches.size() ? unit(t.touches[from + 1].scene.point - t.touches[from].scene.point) : Vec3{};
+  };
+  CHECK(likeliest(t, [&](const TouchScene& s) {
+          return number(s) % 8 == 7 && (number(s) + 1) % 100 != 0 ? s.acceleration_mm_s2 / 100 * way(number(s))
+                                                                  : Vec3{};
+        }) == "OTHER feature, first and last touches");
+  CHECK(likeliest(t, [&](const TouchScene& s) {
+          return number(s) % 8 == 0 && number(s) % 100 != 0 ? -3.0 * way(number(s) - 1) : Vec3{};
+        }) == "OTHER feature, first and last touches");
+}
+
 TEST_CASE("many runs make no more variants than few") {
   RecordedTouches t = scattered(400);
   for (std::size_t i = 0; i < t.touches.size(); ++i)

@@ -116,6 +116,14 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     part_above_20(row) = s.temperature.part - 20;
     for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - 20;
   }
+  arriving.resize(rows.size()), leaving.resize(rows.size());
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const TouchScene &from = t.touches[rows[i - 1]].scene, &to = t.touches[rows[i]].scene;
+    const Vec3 way = to.point - from.point;
+    if (rows[i - 1] + 1 == rows[i] && from.run == to.run && from.setup == to.setup && from.feature != to.feature &&
+        norm(way) > 0)
+      leaving[i - 1] = arriving[i] = way / norm(way);
+  }
   onto_unit(touch), onto_unit(settled), onto_unit(clamped), onto_unit(place);
   for (Points& r : reading) onto_unit(r);
   one_round = on_one_round(place, normal);

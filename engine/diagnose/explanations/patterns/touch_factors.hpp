@@ -25,7 +25,10 @@ struct TouchFactors {
   Directions travel, travel_on_probe;
   Directions skid;             ///< what of the travel is along the surface, on the probe
   Directions before_on_probe;  ///< normal of the touch before, in the same visit of the head; zero where there is none
-  bool oblique = false;        ///< some approaches are not along the normal
+  /// Of the first touch on a feature the way from the one before, of the last that to the next, of length 1; zero for all
+  /// others, and where the part was put down anew.
+  Directions arriving, leaving;
+  bool oblique = false;  ///< some approaches are not along the normal
 
   // Groups.
   std::vector<int> orientation, sensor, feature, setup, run;
