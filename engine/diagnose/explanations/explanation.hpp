@@ -69,6 +69,7 @@ struct Variant {
   /// anything
   std::vector<Size> sizes;
   bool joined = false;  ///< columns are combinations of the original ones: no parameter can be read from them
+  std::string told;  ///< of a pattern: what sets this variant apart from the others of its shape; "": nothing to tell
 };
 
 /// Whether two variants of one effect are one fault: they differ at most in values that have others between them. A size

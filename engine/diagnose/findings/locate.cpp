@@ -232,8 +232,8 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
   u.low_um = std::max(0.0, u.amplitude_um - kNormal95 * u.amplitude_u_um);
   u.high_um = u.amplitude_um + kNormal95 * u.amplitude_u_um;
-  u.sentence = fmt::format("A pattern over {} ({}) of {} um rms is in the recording", u.factor, u.shape,
-                           two_digits(u.amplitude_um));
+  u.sentence = fmt::format("A pattern over {} ({}{}) of {} um rms is in the recording", u.factor, u.shape,
+                           variant.told.empty() ? "" : ", with " + variant.told, two_digits(u.amplitude_um));
   const CredibleSet name = credible_set(c.explanations, f.evidence, true);
   const bool several_sizes = result.nearest && result.nearest->sizes;
   const bool as_good = !several_sizes && kAsWell * name.probability >= f.probability;

@@ -150,7 +150,7 @@ TEST_CASE("patterns over two factors are seen where they lie") {
 TEST_CASE("what no two factors tell is found over more of them") {
   const RecordedTouches t = scattered(300);
   CHECK(likeliest(t, [](const TouchScene& s) {
-          return Vec3{3 * std::sin(s.time_s / 40), 0, 0};
+          return Vec3{3 * std::sin(s.time_s / 40 * (1 + s.time_s / 6000)), 0, 0};  // of no one period
         }) == "OTHER time, from touch to touch");
   CHECK(likeliest(t, [](const TouchScene& s) {  // swarf on one side of a tip, until it falls off
           const double around = s.visit * s.visit;
@@ -213,6 +213,38 @@ TEST_CASE("a probe that does not come home from the touch before is seen by its 
               ? Vec3{}
               : 1.5 * (t.touches[here - 1].scene.normal - Vec3{0, 0, 1} * t.touches[here - 1].scene.normal.z);
         }) == "OTHER direction, of the touch before");
+}
+
+TEST_CASE("what swings quicker than a room is seen, and its period is told") {
+  RecordedTouches t = scattered(300);
+  constexpr double kPeriod_s = 83;
+  const auto swing = [](const TouchScene& s) {
+    return std::sin(2 * kPi * s.time_s / kPeriod_s + 1) * Vec3{1, -0.7, 0.8};
+  };
+  CHECK(likeliest(t, swing) == "OTHER time, quick cycles");
+
+  std::vector<int> rows(t.touches.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  Vector seen(t.touches.size());
+  for (const int i : rows) seen(i) = dot(t.touches[i].scene.normal, swing(t.touches[i].scene));
+  const auto nearest = [&] {
+    const Explanations all = explanations_without_readings(t, rows);
+    const Variant* best = nullptr;
+    double left = seen.squaredNorm();
+    for (const Variant& v : all.variants) {
+      if (v.told.empty()) continue;
+      const double here =
+          (seen - v.signature * v.signature.completeOrthogonalDecomposition().solve(seen)).squaredNorm();
+      if (here < left) left = here, best = &v;
+    }
+    return best ? best->told : "";
+  };
+  const double touches = kPeriod_s / (t.touches.back().scene.time_s - t.touches.front().scene.time_s) * 300;
+  CHECK(std::abs(std::stod(nearest().substr(12)) - touches) <
+        0.2);  // "a period of 5.9 touches": nobody has logged a time
+  t.known |= static_cast<unsigned>(Covariate::time);
+  CHECK(std::abs(std::stod(nearest().substr(12)) - kPeriod_s) < 1.5);
+  CHECK(nearest().ends_with(" s"));
 }
 
 TEST_CASE("a machine that leaves a feature too early, or swings when it comes to one, is seen by the way there") {

@@ -24,6 +24,14 @@ void Family::append(std::string shape, const std::vector<Matrix>& variants, doub
   out_.list.push_back(std::move(e));
 }
 
+void Family::add(std::string shape, const std::vector<Told>& variants) {
+  std::vector<Matrix> columns;
+  for (const Told& v : variants) columns.push_back(v.columns);
+  append(std::move(shape), columns);
+  const std::vector<int>& added = out_.list.back().variants;
+  for (std::size_t k = 0; k < added.size(); ++k) out_.variants[added[k]].told = variants[k].what;
+}
+
 }  // namespace patterns
 
 void add_pattern(Explanations& all, Factor factor, std::string shape, const Matrix& columns) {

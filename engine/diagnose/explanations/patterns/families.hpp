@@ -21,6 +21,12 @@ class Family {
   /// One explanation with these variants: columns of um.
   void add(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants); }
   void add(std::string shape, const Matrix& columns) { append(std::move(shape), {columns}); }
+  /// The same, each with what is told of it.
+  struct Told {
+    std::string what;
+    Matrix columns;
+  };
+  void add(std::string shape, const std::vector<Told>&);
   /// Any function of several factors, quick ones too: it stands for more kinds of physics than the others, and is
   /// believed kOfAny times as much.
   void add_any(std::string shape, const std::vector<Matrix>& variants) { append(std::move(shape), variants, kOfAny); }

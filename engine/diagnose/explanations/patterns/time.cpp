@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
@@ -43,6 +46,27 @@ std::vector<Matrix> turning(const TouchFactors& f) {
       wave.row(static_cast<Eigen::Index>(i)) << std::cos(phase), std::sin(phase);
     }
     out.push_back(along(wave, turned));
+  }
+  return out;
+}
+
+/// Everything swings in any direction, quicker than a room does (thermal.cycle): compressors, pumps, drums next door. The
+/// shortest period is that of four touches. Two of them with seven tenths of a cycle between them over the recording see
+/// what is halfway.
+std::vector<Family::Told> quick_cycles(const TouchFactors& f) {
+  constexpr double kOfARoom_s = 120, kOfARoom = 14.5, kSlow_s = 600, kTouches = 4, kApart = 0.7;
+  std::vector<Family::Told> out;
+  const double least = std::max(std::min(kOfARoom, f.duration_s / kOfARoom_s), f.duration_s / kSlow_s),
+               most = double(f.time.size()) / kTouches;
+  for (double cycles = least; cycles <= most; cycles += kApart) {
+    Matrix wave(f.time.size(), 2);
+    for (std::size_t i = 0; i < f.time.size(); ++i) {
+      const double phase = 2 * kPi * cycles * f.time[i][0];
+      wave.row(static_cast<Eigen::Index>(i)) << std::cos(phase), std::sin(phase);
+    }
+    const std::string period = f.timed ? fmt::format("{:.0f} s", f.duration_s / cycles)
+                                       : fmt::format("{:.1f} touches", double(f.time.size()) / cycles);
+    out.push_back({"a period of " + period, along(wave, f.normal)});
   }
   return out;
 }
@@ -100,6 +124,7 @@ void over_time(const TouchFactors& f, Family& family) {
   family.add("stretching", stretching(f));
   family.add("leaning", leaning(f));
   family.add("turning to and fro", turning(f));
+  if (const auto cycles = quick_cycles(f); !cycles.empty()) family.add("quick cycles", cycles);
   family.add("size along the sequence", sizes_along_the_sequence(f));
   family.add_any("from touch to touch", from_touch_to_touch(f));
   if (!f.one_round) family.add_any("over place and direction", over_place_and_direction(f));

@@ -84,11 +84,13 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
   std::vector<double> accelerations;
   std::map<std::array<int, 3>, double> begun;
   for (Vector& v : scale_above_20) v.resize(part_above_20.size());
-  const double first_s = t.touches.front().scene.time_s, last_s = t.touches.back().scene.time_s;
+  const double first_s = t.touches.front().scene.time_s;
+  timed = (t.known & static_cast<unsigned>(Covariate::time)) != 0;
+  duration_s = std::max(1.0, t.touches.back().scene.time_s - first_s);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TouchScene& s = t.touches[rows[i]].scene;
     const auto on_probe = [&](const Vec3& v) { return transpose(s.stylus.R_WR) * v; };
-    time.push_back({(s.time_s - first_s) / std::max(1.0, last_s - first_s)});
+    time.push_back({(s.time_s - first_s) / duration_s});
     touch.push_back({double(i)});
     settled.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, s.visit}, s.time_s).first->second});
     clamped.push_back({s.time_s - begun.emplace(std::array{s.run, s.setup, -1}, s.time_s).first->second});

@@ -12,6 +12,8 @@ struct TouchFactors {
 
   // Of [0, 1] from the first to the last.
   Points time;
+  double duration_s = 1;    ///< of it
+  bool timed = false;       ///< whether a clock has told it
   Points touch;             ///< its number in the sequence
   Points settled, clamped;  ///< time since the head, or the part, was moved to where it is
   Points reading[3];
