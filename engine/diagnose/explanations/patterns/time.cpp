@@ -51,14 +51,12 @@ std::vector<Matrix> turning(const TouchFactors& f) {
 }
 
 /// Everything swings in any direction, quicker than a room does (thermal.cycle): compressors, pumps, drums next door. The
-/// shortest period is that of four touches. Two of them with seven tenths of a cycle between them over the recording see
-/// what is halfway.
+/// shortest period is that of four touches; over the recording neighbours are seven tenths of a cycle apart, and what is
+/// halfway shows in both.
 std::vector<Family::Told> quick_cycles(const TouchFactors& f) {
-  constexpr double kOfARoom_s = 120, kOfARoom = 14.5, kSlow_s = 600, kTouches = 4, kApart = 0.7;
+  constexpr double kOfARoom_s = 120, kTouches = 4, kApart = 0.7;
   std::vector<Family::Told> out;
-  const double least = std::max(std::min(kOfARoom, f.duration_s / kOfARoom_s), f.duration_s / kSlow_s),
-               most = double(f.time.size()) / kTouches;
-  for (double cycles = least; cycles <= most; cycles += kApart) {
+  for (double cycles = f.duration_s / kOfARoom_s; cycles <= double(f.time.size()) / kTouches; cycles += kApart) {
     Matrix wave(f.time.size(), 2);
     for (std::size_t i = 0; i < f.time.size(); ++i) {
       const double phase = 2 * kPi * cycles * f.time[i][0];
