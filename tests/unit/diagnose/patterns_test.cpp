@@ -257,10 +257,10 @@ TEST_CASE("a machine that leaves a feature too early, or swings when it comes to
   CHECK(likeliest(t, [&](const TouchScene& s) {
           return number(s) % 8 == 7 && (number(s) + 1) % 100 != 0 ? s.acceleration_mm_s2 / 100 * way(number(s))
                                                                   : Vec3{};
-        }) == "OTHER feature, first and last touches");
+        }) == "OTHER time, first and last touches");
   CHECK(likeliest(t, [&](const TouchScene& s) {
           return number(s) % 8 == 0 && number(s) % 100 != 0 ? -3.0 * way(number(s) - 1) : Vec3{};
-        }) == "OTHER feature, first and last touches");
+        }) == "OTHER time, first and last touches");
 }
 
 TEST_CASE("many runs make no more variants than few") {

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "engine/diagnose/explanations/patterns/families.hpp"
 
 namespace abbe::diagnose::patterns {
@@ -43,30 +41,6 @@ std::vector<Matrix> lobes_of_the_part(const TouchFactors& f) {
   return out;
 }
 
-/// Whether there are ways between features, and most touches are not at the end of one.
-bool ways_are_few(const TouchFactors& f) {
-  constexpr std::ptrdiff_t kFew = 4;
-  const auto at_end = [&](const Vec3& way) { return norm(way) > 0; };
-  const std::ptrdiff_t ends = std::count_if(f.arriving.begin(), f.arriving.end(), at_end);
-  return ends >= kFew && 3 * ends <= static_cast<std::ptrdiff_t>(f.arriving.size());
-}
-
-/// The first touch after the way to a feature, or the last before the way to the next: off along that way, at all speeds
-/// alike or not, in any direction, or in size. Controllers wait too little, and what was moved fast goes on swinging.
-std::vector<Matrix> at_the_ends_of_ways(const TouchFactors& f) {
-  std::vector<Matrix> out;
-  for (const Directions& way : {f.arriving, f.leaving}) {
-    Matrix along_it = Matrix::Zero(static_cast<Eigen::Index>(way.size()), 1), at_it = along_it;
-    for (std::size_t i = 0; i < way.size(); ++i) {
-      along_it(static_cast<Eigen::Index>(i)) = dot(way[i], f.normal[i]);
-      at_it(static_cast<Eigen::Index>(i)) = norm(way[i]);
-    }
-    out.insert(out.end(), {along_it, along(at_it, f.normal), at_it});
-    if (several(f.dynamics)) out.push_back(by_group(along_it, f.dynamics));
-  }
-  return out;
-}
-
 }  // namespace
 
 void over_feature(const TouchFactors& f, Family& family) {
@@ -79,7 +53,6 @@ void over_feature(const TouchFactors& f, Family& family) {
   family.add("form", by_group(smooth(as_points(f.normal), 0.9, 8), f.feature));
   family.add("one spot", one_spot(f));
   family.add("one of them in time", one_in_time(f));
-  if (ways_are_few(f)) family.add("first and last touches", at_the_ends_of_ways(f));
 }
 
 }  // namespace abbe::diagnose::patterns

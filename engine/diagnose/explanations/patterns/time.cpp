@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
 
@@ -69,6 +71,34 @@ std::vector<Family::Told> quick_cycles(const TouchFactors& f) {
   return out;
 }
 
+/// Whether there are ways between features, and most touches are not at the end of one.
+bool ways_are_few(const TouchFactors& f) {
+  constexpr std::ptrdiff_t kFew = 4;
+  const auto at_end = [&](const Vec3& way) { return norm(way) > 0; };
+  const std::ptrdiff_t ends = std::count_if(f.arriving.begin(), f.arriving.end(), at_end);
+  return ends >= kFew && 3 * ends <= static_cast<std::ptrdiff_t>(f.arriving.size());
+}
+
+/// The first touch after the way to a feature, or the last before the way to the next: off along that way, at all speeds
+/// alike or not, in any direction, or in size. Controllers wait too little, and what was moved fast goes on swinging.
+std::vector<Family::Told> at_the_ends_of_ways(const TouchFactors& f) {
+  std::vector<Family::Told> out;
+  const std::pair<const Directions&, std::string> ends[] = {{f.arriving, "the first on each feature off"},
+                                                            {f.leaving, "the last on each feature off"}};
+  for (const auto& [way, which] : ends) {
+    Matrix along_it = Matrix::Zero(static_cast<Eigen::Index>(way.size()), 1), at_it = along_it;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      along_it(static_cast<Eigen::Index>(i)) = dot(way[i], f.normal[i]);
+      at_it(static_cast<Eigen::Index>(i)) = norm(way[i]);
+    }
+    out.push_back({which + " along the way between features", along_it});
+    out.push_back({which + " in one direction", along(at_it, f.normal)});
+    out.push_back({which + " in size", at_it});
+    if (several(f.dynamics)) out.push_back({out[out.size() - 3].what + ", by speed", by_group(along_it, f.dynamics)});
+  }
+  return out;
+}
+
 /// The probe moves on the head, in every direction or along one of its axes.
 std::vector<Matrix> on_the_probe(const TouchFactors& f) {
   const Matrix course = rugged(f.time, 0.2, 24);
@@ -123,6 +153,7 @@ void over_time(const TouchFactors& f, Family& family) {
   family.add("leaning", leaning(f));
   family.add("turning to and fro", turning(f));
   if (const auto cycles = quick_cycles(f); !cycles.empty()) family.add("quick cycles", cycles);
+  if (ways_are_few(f)) family.add("first and last touches", at_the_ends_of_ways(f));
   family.add("size along the sequence", sizes_along_the_sequence(f));
   family.add_any("from touch to touch", from_touch_to_touch(f));
   if (!f.one_round) family.add_any("over place and direction", over_place_and_direction(f));
