@@ -42,11 +42,10 @@ struct BaselineOptions {
 
 struct Baseline {
   LinearModel model;
-  Matrix geometry_um;  ///< rows x coefficients: um per unit coefficient
-  Matrix factor;       ///< covariance of the coefficients = factor factor', before its scale is estimated
-  Vector mean;         ///< of the coefficients
-  Matrix
-      rough_factor;  ///< of the coefficients of the harmonics nearest to rougher errors: of the columns of model.rough
+  Matrix geometry_um;   ///< rows x coefficients: um per unit coefficient
+  Matrix factor;        ///< covariance of the coefficients = factor factor', before its scale is estimated
+  Vector mean;          ///< of the coefficients
+  Matrix rough_factor;  ///< the harmonics nearest to each column of model.rough: coefficients x columns
   Surfaces surfaces = Surfaces::calibrated;
   std::optional<LengthError> beyond;     ///< a length that is worse than the specification allows
   std::vector<std::string> noise_names;  ///< of the groups of rows with a common noise
@@ -62,8 +61,8 @@ inline constexpr int kEnsemble = 800;
 
 /// Of the two ensembles of a baseline.
 enum class Errors { harmonic, rough };
-/// Mean and covariance of the coefficients given the recording: what a later diagnosis may start from. Of rougher errors those of
-/// the harmonics that come nearest to them: harmonics that were fitted to them would have bent between the touches.
+/// Mean and covariance of the coefficients given the recording: what a later diagnosis may start from. Of rougher errors
+/// those of the harmonics that come nearest to them: harmonics that were fitted to them would bend between the touches.
 KnownGeometry posterior(const Baseline&, const Hyperparameters&, Errors = Errors::harmonic);
 
 }  // namespace abbe::diagnose
