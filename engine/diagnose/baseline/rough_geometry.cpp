@@ -232,7 +232,7 @@ std::vector<Matrix> uneven_functions(const RecordedTouches& t, const Machine& ma
 
 RoughGeometry rough_geometry_left(const RecordedTouches& t, const Machine& machine) {
   const Functions functions(kLengths, 0);
-  Matrix nearest(basis_size(machine.harmonics), functions.count() + kFineKnots);
+  Matrix nearest(basis_size(machine.harmonics), functions.count() + kFineKnots);  // of the columns of left_open
   nearest << kNotFollowed * nearest_harmonics(machine, functions), Matrix::Zero(nearest.rows(), kFineKnots);
   return {side_by_side(left_open(t, machine, kLengths)), as_harmonics(machine, nearest)};
 }

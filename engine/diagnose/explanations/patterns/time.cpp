@@ -32,6 +32,16 @@ std::vector<Matrix> leaning(const TouchFactors& f) {
   return out;
 }
 
+/// So many cycles from the first touch to the last, of any phase.
+Matrix wave(const Points& time, double cycles) {
+  Matrix out(time.size(), 2);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const double phase = 2 * kPi * cycles * time[i][0];
+    out.row(static_cast<Eigen::Index>(i)) << std::cos(phase), std::sin(phase);
+  }
+  return out;
+}
+
 /// The part turns about its middle, back and forth at one frequency.
 std::vector<Matrix> turning(const TouchFactors& f) {
   constexpr int kMostHalfCycles = 24;
@@ -41,14 +51,8 @@ std::vector<Matrix> turning(const TouchFactors& f) {
   for (std::size_t i = 0; i < f.place.size(); ++i)
     turned.push_back(cross(Vec3{f.place[i][0], f.place[i][1], f.place[i][2]} - middle, f.normal[i]));
   std::vector<Matrix> out;
-  for (int half_cycles = 1; half_cycles <= kMostHalfCycles; ++half_cycles) {
-    Matrix wave(f.time.size(), 2);
-    for (std::size_t i = 0; i < f.time.size(); ++i) {
-      const double phase = kPi * half_cycles * f.time[i][0];
-      wave.row(static_cast<Eigen::Index>(i)) << std::cos(phase), std::sin(phase);
-    }
-    out.push_back(along(wave, turned));
-  }
+  for (int half_cycles = 1; half_cycles <= kMostHalfCycles; ++half_cycles)
+    out.push_back(along(wave(f.time, 0.5 * half_cycles), turned));
   return out;
 }
 
@@ -59,14 +63,9 @@ std::vector<Family::Told> quick_cycles(const TouchFactors& f) {
   constexpr double kOfARoom_s = 120, kTouches = 4, kApart = 0.7;
   std::vector<Family::Told> out;
   for (double cycles = f.duration_s / kOfARoom_s; cycles <= double(f.time.size()) / kTouches; cycles += kApart) {
-    Matrix wave(f.time.size(), 2);
-    for (std::size_t i = 0; i < f.time.size(); ++i) {
-      const double phase = 2 * kPi * cycles * f.time[i][0];
-      wave.row(static_cast<Eigen::Index>(i)) << std::cos(phase), std::sin(phase);
-    }
     const std::string period = f.timed ? fmt::format("{:.0f} s", f.duration_s / cycles)
                                        : fmt::format("{:.1f} touches", double(f.time.size()) / cycles);
-    out.push_back({"a period of " + period, along(wave, f.normal)});
+    out.push_back({"a period of " + period, along(wave(f.time, cycles), f.normal)});
   }
   return out;
 }
@@ -91,10 +90,11 @@ std::vector<Family::Told> at_the_ends_of_ways(const TouchFactors& f) {
       along_it(static_cast<Eigen::Index>(i)) = dot(way[i], f.normal[i]);
       at_it(static_cast<Eigen::Index>(i)) = norm(way[i]);
     }
-    out.push_back({which + " along the way between features", along_it});
+    const std::string along_way = which + " along the way between features";
+    out.push_back({along_way, along_it});
+    if (several(f.dynamics)) out.push_back({along_way + ", by speed and acceleration", by_group(along_it, f.dynamics)});
     out.push_back({which + " in one direction", along(at_it, f.normal)});
     out.push_back({which + " in size", at_it});
-    if (several(f.dynamics)) out.push_back({out[out.size() - 3].what + ", by speed", by_group(along_it, f.dynamics)});
   }
   return out;
 }
