@@ -123,15 +123,19 @@ Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& sc
 
 double rms(const Vector& v) { return std::sqrt(v.squaredNorm() / double(v.size())); }
 
-/// Mean residual along what was found, in the fifth of the touches where that is largest.
-double bias(const Vector& residual, const Vector& predicted) {
+/// How large what is predicted must be to be in the fifth of the touches where it is largest.
+double largest_fifth(const Vector& predicted) {
   std::vector<double> size;
   for (const double p : predicted) size.push_back(std::abs(p));
   std::sort(size.begin(), size.end());
-  const double limit = size[size.size() * 4 / 5];
+  return size[size.size() * 4 / 5];
+}
+
+/// Mean residual along what is predicted, of the touches of which it is not 0.
+double bias(const Vector& residual, const Vector& predicted) {
   double sum = 0, n = 0;
   for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    if (std::abs(predicted(i)) < limit || predicted(i) == 0) continue;
+    if (predicted(i) == 0) continue;
     sum += residual(i) * (predicted(i) > 0 ? 1 : -1);
     n += 1;
   }
@@ -191,14 +195,23 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   }
   Vector after = Vector::Zero(machine.y.size());
   LinearModel without = c.model;  // what was found, as the other groups show it
+  // Where it acts. Each group asks the others alone: chosen among the predictions of all groups, the touches would be
+  // those of the group of which the others expect too much.
+  Vector most = Vector::Zero(machine.y.size());
   std::size_t at = 0;
   for (const int g : groups) {
     const Vector predicted = expected(machine, result.hyper, scheme, g, columns[at++]);
     LinearModel improved = machine;
     improved.y -= predicted;
     after += beyond_prediction(improved, result.hyper, of_group(scheme, g));
-    for (std::size_t k = 0; k < scheme.group.size(); ++k)
-      if (scheme.group[k] == g) without.y(static_cast<Eigen::Index>(k)) -= predicted(static_cast<Eigen::Index>(k));
+    const Vector shows = beside_free(machine, predicted);
+    const double limit = largest_fifth(shows);
+    for (std::size_t k = 0; k < scheme.group.size(); ++k) {
+      if (scheme.group[k] != g) continue;
+      const auto row = static_cast<Eigen::Index>(k);
+      without.y(row) -= predicted(row);
+      if (std::abs(shows(row)) >= limit) most(row) = shows(row);
+    }
   }
   Improvement i;
   i.scheme = scheme.name;
@@ -206,8 +219,8 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   i.se = standard_error(gain, scheme);
   i.rms_before_um = rms(before);
   i.rms_after_um = rms(after);
-  i.bias_before_um = bias(before, before - after);
-  i.bias_after_um = bias(after, before - after);
+  i.bias_before_um = bias(before, most);
+  i.bias_after_um = bias(after, most);
   const auto chi2_per_dof = [&](const LinearModel& m) {
     return leave_one_out(m, result.hyper).squaredNorm() / double(m.y.size());
   };
