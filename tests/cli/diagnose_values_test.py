@@ -135,6 +135,11 @@ class Values(harness.Case):
         said = self.diagnosis(self.write("stray.csv", "\n".join(text[:-1] + [",".join(fields)]) + "\n"))
         self.assertEqual(said["verdict"], "unexplained")
         self.assertIn("d2", said["location"][0]["where"]["program"])
+        # One value of several is 60 um off, and is known as its z says, or better by what it has in common with others.
+        size, stray = said["unexplained"]["amplitude_um"], max(abs(v["z"]) for v in said["values"])
+        self.assertAlmostEqual(size["value"], 60 / len(said["values"]) ** 0.5, delta=3 * size["u"])
+        self.assertLess(size["u"], 1.1 * size["value"] / stray)
+        self.assertGreater(size["u"], 0.2 * size["value"] / stray)
 
     def test_an_uncertain_reference_explains_a_deviation(self):
         values = self.recorded("--with", "probe.tip_radius:amplitude_um=15").read_text()

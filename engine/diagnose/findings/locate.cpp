@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <utility>
 
 #include "engine/diagnose/words.hpp"
 #include "engine/math/normal.hpp"
@@ -217,6 +218,17 @@ std::string listed(const Explanations& all, const std::vector<int>& set) {
 
 }  // namespace
 
+Unexplained pattern_of_size(Factor factor, std::string shape, double rms_um, double energy) {
+  Unexplained out;
+  out.factor = std::string(name(factor));
+  out.shape = std::move(shape);
+  out.amplitude_um = rms_um;
+  out.amplitude_u_um = rms_um / std::sqrt(std::max(1.0, energy));
+  out.low_um = std::max(0.0, rms_um - kNormal95 * out.amplitude_u_um);
+  out.high_um = rms_um + kNormal95 * out.amplitude_u_um;
+  return out;
+}
+
 Unexplained describe_unexplained(const Case& c, const SearchResult& result, const std::string& predicts_as_well) {
   const Finding& f = *result.other;
   const LinearModel rest = with_free(c.model, signatures_of(c, result.findings));
@@ -224,14 +236,8 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   const Explanation& e = c.explanations.list[f.explanation];
   const Variant& variant = c.explanations.variants[f.variant];
   const Pattern pattern = pattern_of(search, variant, f.variant);
-  Unexplained u;
-  u.factor = std::string(abbe::diagnose::name(e.factor));
-  u.shape = e.shape;
-  u.amplitude_um = std::sqrt(beside_free(rest, pattern.values).squaredNorm() / double(pattern.values.size()));
-  // The relative uncertainty of an amplitude is one over its signal-to-noise.
-  u.amplitude_u_um = u.amplitude_um / std::sqrt(std::max(1.0, pattern.energy));
-  u.low_um = std::max(0.0, u.amplitude_um - kNormal95 * u.amplitude_u_um);
-  u.high_um = u.amplitude_um + kNormal95 * u.amplitude_u_um;
+  const double rms = std::sqrt(beside_free(rest, pattern.values).squaredNorm() / double(pattern.values.size()));
+  Unexplained u = pattern_of_size(e.factor, e.shape, rms, pattern.energy);
   u.sentence = fmt::format("A pattern over {} ({}{}) of {} um rms is in the recording", u.factor, u.shape,
                            variant.told.empty() ? "" : ", with " + variant.told, two_digits(u.amplitude_um));
   const CredibleSet name = credible_set(c.explanations, f.evidence, true);

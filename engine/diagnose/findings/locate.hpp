@@ -10,6 +10,9 @@ namespace abbe::diagnose {
 Factor shown_in(const Case&, const Explanation&);
 /// Of what the search has found; nothing without.
 std::vector<Location> locate(const Case&, const EvidenceSearch& first, const SearchResult&);
+/// A pattern of this size, um rms, that gains half this `energy` in log likelihood: the relative uncertainty of its amplitude
+/// is one over its signal-to-noise, the root of the energy.
+Unexplained pattern_of_size(Factor, std::string shape, double rms_um, double energy);
 /// `predicts_as_well`: an effect that predicts the touches left out as well as the pattern does; "" when none does.
 Unexplained describe_unexplained(const Case&, const SearchResult&, const std::string& predicts_as_well);
 

@@ -13,6 +13,7 @@
 
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/values/value_estimate.hpp"
@@ -154,20 +155,14 @@ std::vector<DiagnosedParameter> parameters_of(const ValueCase& c, const Closer& 
 
 void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Diagnosis& out) {
   const Explanation& e = closer.explanation(f);
-  const Vector all = closer.variant(f).signature * sizes_of(closer.search, f.variant, c.deviation).mean,
+  const Vector sizes = sizes_of(closer.search, f.variant, c.deviation).mean, all = closer.variant(f).signature * sizes,
                pattern = all(of_figures(c.ensemble.values));
-  const double rms = std::sqrt(pattern.squaredNorm() / double(pattern.size())),
-               u = rms / std::sqrt(2.0 * double(pattern.size()));
-  out.unexplained = Unexplained{
-      std::string(name(Factor::feature)),  // where it is located; of values no more is known
-      e.shape,
-      rms,
-      u,
-      std::max(0.0, rms - kNormal95 * u),
-      rms + kNormal95 * u,
-      e.shape == "single values"
-          ? "No effect of the catalogue explains it: single values stray (the table says which)."
-          : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified."};
+  // located in the values themselves: no more is known of them
+  out.unexplained = pattern_of_size(Factor::feature, e.shape, std::sqrt(pattern.squaredNorm() / double(pattern.size())),
+                                    closer.search.information(f.variant, c.deviation).u.dot(sizes));
+  out.unexplained->sentence = e.shape == "single values"
+      ? "No effect of the catalogue explains it: single values stray (the table says which)."
+      : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified.";
   out.otherwise =
       "Values hold too little to tell an effect on all lengths from a machine out of its specification: measure calibrated lengths along each axis, or give the touches themselves, with x, y, z of each.";
   out.verdict = Verdict::unexplained;
@@ -231,9 +226,7 @@ void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f
     const Vector rest = c.deviation(kept);
     const Evidence evidence = search.evidence(rest);
     gain.push_back(complete - evidence.log_bayes[0]);
-    const auto best =
-        static_cast<int>(std::max_element(evidence.variant_log_bayes.begin(), evidence.variant_log_bayes.end()) -
-                         evidence.variant_log_bayes.begin());
+    const int best = best_variant(search.explanations(), 0, evidence);
     const int variant = variants[best];
     const Vector all = closer.search.predicted(variant, sizes_of(search, best, rest).mean);
     for (std::size_t k = 0; k < group.size(); ++k)

@@ -13,7 +13,7 @@ using namespace abbe::diagnose;
 
 namespace {
 
-constexpr int kSetups = 3, kInSetup = 16, kTouches = kSetups * kInSetup;
+constexpr int kSetups = 3, kInSetup = 16, kAllTouches = kSetups * kInSetup;
 
 /// A recording on the bench that has 1.2 of one shape in it: the first explanation, whose only size is 1. The second
 /// one has another shape. Both carry names of the catalogue, which nothing asks for their physics.
@@ -24,19 +24,19 @@ struct Found {
 
   explicit Found(std::uint32_t seed = 13) {
     LinearModel& m = c.model;
-    m.free = Matrix::Ones(kTouches, 1);
-    m.random = Matrix(kTouches, 1);
+    m.free = Matrix::Ones(kAllTouches, 1);
+    m.random = Matrix(kAllTouches, 1);
     m.random_group = {0};
-    m.noise_um = Vector::Constant(kTouches, 0.5);
-    m.noise_group.assign(kTouches, 0);
-    m.follows.assign(kTouches, 0);
-    m.y = Vector(kTouches);
-    recording.rows.resize(kTouches);
+    m.noise_um = Vector::Constant(kAllTouches, 0.5);
+    m.noise_group.assign(kAllTouches, 0);
+    m.follows.assign(kAllTouches, 0);
+    m.y = Vector(kAllTouches);
+    recording.rows.resize(kAllTouches);
     c.recording = &recording;
-    c.touches.touches.resize(kTouches);
+    c.touches.touches.resize(kAllTouches);
     c.explanations.variants.resize(2);
-    for (Variant& v : c.explanations.variants) v.signature = Matrix(kTouches, 1), v.sizes = {{1, 0}};
-    for (int i = 0; i < kTouches; ++i) {
+    for (Variant& v : c.explanations.variants) v.signature = Matrix(kAllTouches, 1), v.sizes = {{1, 0}};
+    for (int i = 0; i < kAllTouches; ++i) {
       recording.rows[i].touch = i + 1;
       c.touches.touches[i].row = i;
       c.touches.touches[i].scene.setup = 1 + i / kInSetup;
@@ -99,7 +99,7 @@ double log_density_of(const LinearModel& m, const std::vector<Eigen::Index>& row
 
 std::vector<Eigen::Index> touches_outside(int setup) {
   std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < kTouches; ++i)
+  for (Eigen::Index i = 0; i < kAllTouches; ++i)
     if (i / kInSetup != setup) rows.push_back(i);
   return rows;
 }
@@ -138,8 +138,8 @@ TEST_CASE("residuals before hold what was found, those after the noise") {
   CHECK(i.rms_before_um == doctest::Approx(std::hypot(1.2, 0.5)).epsilon(0.25));
   CHECK(i.rms_after_um == doctest::Approx(0.5).epsilon(0.4));
   CHECK(i.chi2_per_dof_after < i.chi2_per_dof_before / 3);
-  REQUIRE(out.residuals.size() == kTouches);
-  for (int k = 0; k < kTouches; ++k) {
+  REQUIRE(out.residuals.size() == kAllTouches);
+  for (int k = 0; k < kAllTouches; ++k) {
     CHECK(out.residuals[k].touch == k + 1);
     const double removed = out.residuals[k].before_um - out.residuals[k].after_um;
     CHECK(removed == doctest::Approx(1.2 * found.c.explanations.variants[0].signature(k)).epsilon(0.3));
@@ -161,7 +161,7 @@ TEST_CASE("what is left out is the hardest that leaves others to learn from") {
   Found found;
   Diagnosis out;
   const auto scheme_with = [&](auto change) {
-    for (int i = 0; i < kTouches; ++i) change(i, found.c.touches.touches[i].scene);
+    for (int i = 0; i < kAllTouches; ++i) change(i, found.c.touches.touches[i].scene);
     return found.shown(out).scheme;
   };
   CHECK(scheme_with([](int i, TouchScene& s) { s.run = 1 + i / kInSetup; }) == "leave-one-setup-out");
@@ -179,6 +179,6 @@ TEST_CASE("where nothing was found only residuals are shown") {
   show_improvement(found.c, found.result, out);
   CHECK(!out.improvement);
   CHECK(!out.runner_up);
-  REQUIRE(out.residuals.size() == kTouches);
+  REQUIRE(out.residuals.size() == kAllTouches);
   for (const auto& r : out.residuals) CHECK(r.before_um == r.after_um);
 }

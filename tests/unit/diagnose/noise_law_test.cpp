@@ -9,13 +9,13 @@ using namespace abbe::diagnose;
 
 namespace {
 
-constexpr std::uint32_t kStream = stream_of("test.noise_law");
+constexpr std::uint32_t kNoiseLawStream = stream_of("test.noise_law");
 
 /// Of 200 recordings of this noise, those of which a normal law is believed with one half or more.
 int taken_for_normal(const NoiseLaw& law, Eigen::Index touches) {
   int count = 0;
   for (int k = 0; k < 200; ++k)
-    count += NoiseLaw(3.0 * law.simulated(touches, 1, kStream, k)).belief_in_normal() >= 0.5;
+    count += NoiseLaw(3.0 * law.simulated(touches, 1, kNoiseLawStream, k)).belief_in_normal() >= 0.5;
   return count;
 }
 
@@ -31,9 +31,9 @@ TEST_CASE("noise with tails is known by them, whatever its scale") {
 TEST_CASE("numbers of a noise law have unit variance, and those of a t are no gross outliers") {
   constexpr int kMany = 200000;
   const auto variance = [](const Vector& v) { return v.squaredNorm() / kMany; };
-  CHECK(variance(NoiseLaw().simulated(kMany, 7, kStream, 0)) == doctest::Approx(1).epsilon(0.02));
-  CHECK(variance(NoiseLaw::student_t(10).simulated(kMany, 7, kStream, 0)) == doctest::Approx(1).epsilon(0.02));
-  const Vector v = NoiseLaw::student_t(4).simulated(kMany, 7, kStream, 0);
+  CHECK(variance(NoiseLaw().simulated(kMany, 7, kNoiseLawStream, 0)) == doctest::Approx(1).epsilon(0.02));
+  CHECK(variance(NoiseLaw::student_t(10).simulated(kMany, 7, kNoiseLawStream, 0)) == doctest::Approx(1).epsilon(0.02));
+  const Vector v = NoiseLaw::student_t(4).simulated(kMany, 7, kNoiseLawStream, 0);
   // cutting them off at 4.2 takes 8 % of the variance away
   CHECK(variance(v) == doctest::Approx(0.92).epsilon(0.02));
   CHECK(std::abs(v.mean()) < 0.01);

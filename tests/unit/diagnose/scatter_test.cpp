@@ -12,15 +12,15 @@ using namespace abbe::diagnose;
 
 namespace {
 
-constexpr std::uint32_t kStream = stream_of("test.scatter");
-constexpr Eigen::Index kTouches = 400;
+constexpr std::uint32_t kScatterStream = stream_of("test.scatter");
+constexpr Eigen::Index kScattered = 400;
 
 /// The first half scatters by this ratio more than the second.
 Excess excess_of(double ratio, int replicate) {
-  Vector share = Vector::Zero(kTouches), r = NoiseLaw().simulated(kTouches, 3, kStream, replicate);
-  share.head(kTouches / 2).setOnes();
-  r.head(kTouches / 2) *= ratio;
-  return excess_along({r, 1, 1, Matrix::Identity(kTouches, kTouches)}, share);
+  Vector share = Vector::Zero(kScattered), r = NoiseLaw().simulated(kScattered, 3, kScatterStream, replicate);
+  share.head(kScattered / 2).setOnes();
+  r.head(kScattered / 2) *= ratio;
+  return excess_along({r, 1, 1, Matrix::Identity(kScattered, kScattered)}, share);
 }
 
 }  // namespace
@@ -57,9 +57,9 @@ TEST_CASE("the chances of unequal scatter and of outliers are those of their law
 }
 
 TEST_CASE("a sum of squares varies more where tails are heavy or residuals have much in common") {
-  const Vector all = Vector::Ones(kTouches);
-  const Matrix apart = Matrix::Identity(kTouches, kTouches), one = Matrix::Ones(kTouches, kTouches);
+  const Vector all = Vector::Ones(kScattered);
+  const Matrix apart = Matrix::Identity(kScattered, kScattered), one = Matrix::Ones(kScattered, kScattered);
   CHECK(inflation(1, apart, all) == doctest::Approx(1));
   CHECK(inflation(2.5, apart, all) == doctest::Approx(2.5));
-  CHECK(inflation(1, one, all) == doctest::Approx(double(kTouches)));
+  CHECK(inflation(1, one, all) == doctest::Approx(double(kScattered)));
 }

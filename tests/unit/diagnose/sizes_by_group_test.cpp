@@ -11,7 +11,7 @@ using namespace abbe::diagnose;
 
 namespace {
 
-double normal(std::uint32_t address) {
+double normal_at(std::uint32_t address) {
   return normal_quantile(uniform_pair({11, address, stream_of("sizes_by_group_test"), 0, 0, 0}).a);
 }
 
@@ -34,12 +34,12 @@ LinearModel recorded(double first, double second, double third, std::uint32_t nu
   m.free = Matrix::Ones(kRows, 1);
   m.random = Matrix(kRows, 2);
   m.y = Vector(kRows);
-  const double a = normal(1000 * number), b = normal(1000 * number + 1);
+  const double a = normal_at(1000 * number), b = normal_at(1000 * number + 1);
   for (int i = 0; i < kRows; ++i) {
     m.random.row(i) << i / double(kRows), std::cos(i / 30.0);
     const double size = 3 * i < kRows ? first : 3 * i < 2 * kRows ? second : third;
     m.y(i) = 7 + a * m.random(i, 0) + b * m.random(i, 1) + size * swing()(i) +
-        0.5 * normal(1000 * number + 2 + static_cast<std::uint32_t>(i));
+        0.5 * normal_at(1000 * number + 2 + static_cast<std::uint32_t>(i));
   }
   m.random_group = {0, 0};
   m.noise_um = Vector::Constant(kRows, 0.5);
