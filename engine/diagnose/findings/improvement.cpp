@@ -123,12 +123,14 @@ Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& sc
 
 double rms(const Vector& v) { return std::sqrt(v.squaredNorm() / double(v.size())); }
 
-/// How large what is predicted must be to be in the fifth of the touches where it is largest.
+/// How large what is predicted must be to be in the fifth of the touches where it is largest; all that are as large but
+/// for rounding are.
 double largest_fifth(const Vector& predicted) {
+  constexpr double kAsLarge = 1 - 1e-9;
   std::vector<double> size;
   for (const double p : predicted) size.push_back(std::abs(p));
   std::sort(size.begin(), size.end());
-  return size[size.size() * 4 / 5];
+  return kAsLarge * size[size.size() * 4 / 5];
 }
 
 /// Mean residual along what is predicted, of the touches of which it is not 0.

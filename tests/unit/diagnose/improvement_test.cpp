@@ -175,6 +175,17 @@ TEST_CASE("nothing of the effect stays where it acts") {
   CHECK(std::abs(sum / 100 - 0.0093) < 0.002);
 }
 
+TEST_CASE("of an effect that is as large everywhere, rounding does not choose the touches of its bias") {
+  Found found;
+  Diagnosis out;
+  const Improvement exact = found.shown(out);
+  Matrix& shape = found.c.explanations.variants[0].signature;
+  for (int i = 0; i < kAllTouches; ++i) shape(i) *= 1 + 1e-12 * i;
+  const Improvement rounded = found.shown(out);
+  CHECK(std::abs(rounded.bias_before_um - exact.bias_before_um) < 1e-9);
+  CHECK(std::abs(rounded.bias_after_um - exact.bias_after_um) < 1e-9);
+}
+
 TEST_CASE("what is left out is the hardest that leaves others to learn from") {
   Found found;
   Diagnosis out;
