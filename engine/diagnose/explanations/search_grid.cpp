@@ -10,7 +10,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kMoments = 32, kFrequencies = 28, kPlaces = 9;
+constexpr int kMoments = 32, kPlaces = 9;
 
 double duration(const RecordedTouches& t) {
   return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
@@ -28,11 +28,12 @@ std::vector<double> moments(const RecordedTouches& t) {
   return list;
 }
 
-/// Equally spaced frequencies from a quarter of a cycle up: the spectral resolution is one cycle per recording.
+/// Equally spaced frequencies from half a cycle up: the spectral resolution is one cycle per recording.
 /// None shorter than the effect has them: what repeats after a few touches would fit one of those.
 std::vector<double> periods(const EffectParameter& p, const RecordedTouches& t) {
   std::vector<double> list;
-  for (int k = 1; k <= kFrequencies && duration(t) / (0.5 * k) >= p.low; ++k) list.push_back(duration(t) / (0.5 * k));
+  const double shortest = std::max(p.low, quickest_of_a_room_s(duration(t)));
+  for (int k = 1; duration(t) / (0.5 * k) >= shortest; ++k) list.push_back(duration(t) / (0.5 * k));
   return list;
 }
 
@@ -89,6 +90,11 @@ std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches&
 }
 
 }  // namespace
+
+double quickest_of_a_room_s(double duration_s) {
+  constexpr double kUsually_s = 600, kCycles = 14, kOfARoom_s = 120;
+  return std::max(kOfARoom_s, std::min(kUsually_s, duration_s / kCycles));
+}
 
 Search search_of(const EffectParameter& p, const RecordedTouches& t) {
   using Kind = Search::Kind;

@@ -27,4 +27,9 @@ std::vector<Cell> cells_of(const Search&);
 
 Search search_of(const EffectParameter&, const RecordedTouches&);
 
+/// The shortest period that is sought as that of a room's control, in a recording of this duration: ten minutes, as few
+/// controls switch more often; in a short recording a fourteenth of it, but not below two minutes, which no frame follows.
+/// What swings quicker is a pattern (patterns/time.cpp).
+double quickest_of_a_room_s(double duration_s);
+
 }  // namespace abbe::diagnose

@@ -253,6 +253,14 @@ TEST_CASE("what swings quicker than a room is seen, and its period is told") {
   const std::string timed = told_of_nearest(t, swing);
   CHECK(timed.ends_with(" s"));
   CHECK(std::abs(period_in(timed) - kPeriod_s) < 1.5);
+
+  for (RecordedTouch& touch : t.touches) touch.scene.time_s *= 4;  // of hours: quicker than ten minutes
+  constexpr double kCompressor_s = 400;
+  const auto compressor = [](const TouchScene& s) {
+    return std::sin(2 * kPi * s.time_s / kCompressor_s + 1) * Vec3{1, -0.7, 0.8};
+  };
+  CHECK(likeliest(t, compressor) == "OTHER time, quick cycles");
+  CHECK(std::abs(period_in(told_of_nearest(t, compressor)) - kCompressor_s) < 6);
 }
 
 TEST_CASE("a machine that leaves a feature too early, or swings when it comes to one, is seen by the way there") {

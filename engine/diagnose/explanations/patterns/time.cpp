@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/diagnose/explanations/patterns/families.hpp"
+#include "engine/diagnose/explanations/search_grid.hpp"
 
 namespace abbe::diagnose::patterns {
 
@@ -60,9 +61,10 @@ std::vector<Matrix> turning(const TouchFactors& f) {
 /// shortest period is that of four touches; over the recording neighbours are seven tenths of a cycle apart, and what is
 /// halfway shows in both.
 std::vector<Family::Told> quick_cycles(const TouchFactors& f) {
-  constexpr double kOfARoom_s = 120, kTouches = 4, kApart = 0.7;
+  constexpr double kTouches = 4, kApart = 0.7;
   std::vector<Family::Told> out;
-  for (double cycles = f.duration_s / kOfARoom_s; cycles <= double(f.time.size()) / kTouches; cycles += kApart) {
+  for (double cycles = f.duration_s / quickest_of_a_room_s(f.duration_s); cycles <= double(f.time.size()) / kTouches;
+       cycles += kApart) {
     const std::string period = f.timed ? fmt::format("{:.0f} s", f.duration_s / cycles)
                                        : fmt::format("{:.1f} touches", double(f.time.size()) / cycles);
     out.push_back({"a period of " + period, along(wave(f.time, cycles), f.normal)});
