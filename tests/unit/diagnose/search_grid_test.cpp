@@ -9,33 +9,39 @@
 using namespace abbe;
 using namespace abbe::diagnose;
 
+namespace {
+
+/// The parameter of an effect that is sought in this way.
+const EffectParameter& parameter_sought(const char* effect, Sought how) {
+  const auto& all = find_effect(effect)->parameters;
+  const auto found = std::find_if(all.begin(), all.end(), [how](const EffectParameter& p) { return p.sought == how; });
+  REQUIRE(found != all.end());
+  return *found;
+}
+
+}  // namespace
+
 TEST_CASE("no wave of a part is longer than two parts as large as what was touched") {
-  const Effect& form = *find_effect("part.form");
-  const auto wavelength = std::find_if(form.parameters.begin(), form.parameters.end(),
-                                       [](const EffectParameter& p) { return p.sought == Sought::wavelength; });
-  REQUIRE(wavelength != form.parameters.end());
+  const EffectParameter& wavelength = parameter_sought("part.form", Sought::wavelength);
   const auto tried = [&](double extent_mm) {
     RecordedTouches t;
     t.touches.resize(2);
     t.touches[1].scene.on_part = {0, extent_mm, 1};
-    return search_of(*wavelength, t).values;
+    return search_of(wavelength, t).values;
   };
   CHECK(tried(20) == std::vector<double>{50});  // the shortest is always tried
   CHECK(tried(50) == std::vector<double>{50, 70, 100});
-  CHECK(tried(300).size() == wavelength->tried.size());
+  CHECK(tried(300).size() == wavelength.tried.size());
 }
 
 TEST_CASE(
     "a room's control is sought down to ten minutes, in a short recording less, each cycle of a recording twice") {
-  const Effect& cycle = *find_effect("thermal.cycle");
-  const auto period = std::find_if(cycle.parameters.begin(), cycle.parameters.end(),
-                                   [](const EffectParameter& p) { return p.sought == Sought::period; });
-  REQUIRE(period != cycle.parameters.end());
+  const EffectParameter& period = parameter_sought("thermal.cycle", Sought::period);
   const auto tried = [&](double duration_s) {
     RecordedTouches t;
     t.touches.resize(2);
     t.touches[1].scene.time_s = duration_s;
-    return search_of(*period, t).values;
+    return search_of(period, t).values;
   };
   const double day = 24 * 3600;
   for (const auto& [duration_s, quickest_s] :
