@@ -3,7 +3,7 @@
 from portable import np
 from scene import BALL
 
-from .base import Change, Effect
+from .base import Change, Effect, unit
 
 UNKNOWN = {}
 
@@ -21,201 +21,206 @@ def half_size(scene):
     return float(np.abs(scene.part_point[:, :2]).max())
 
 
-def draw_corners(scene, rng):
-    return {"amplitude_um": 1.0, "right_at": float(rng.uniform(0.8, 1.2))}
-
-
-def change_corners(scene, p):
-    """The software was told that the form is unknown, and does not trust the vectors of the program alone: of the
-    touches of a ball it draws a line through the neighbours before and after, and leans the vector of the touch between
-    towards the right angle with this line. The tip radius is then corrected a little aslant, with the square of how far
-    the line misses the tangent; the first and the last touch of a ball have but one neighbour and are right. The tip
-    radius has taken the mean, or nearly. Amplitude of the largest tip, if the line ran straight into the surface."""
-    inner = np.flatnonzero((scene.block[1:-1] == scene.block[:-2]) & (scene.block[1:-1] == scene.block[2:])) + 1
-    line = scene.target[inner + 1] - scene.target[inner - 1]
-    line /= np.maximum(np.linalg.norm(line, axis=1, keepdims=True), 1e-9)
-    aslant = np.zeros(scene.size)
-    aslant[inner] = np.sum(line * scene.normal[inner], 1) ** 2 * scene.tip_radius[inner] / scene.tip_radius.max()
-    return Change(along=p["amplitude_um"] * (aslant - p["right_at"] * aslant.mean()))
-
-
-def draw_bar(scene, rng):
-    low, size = scene.target.min(0), np.ptp(scene.target, axis=0)
-    place = low + rng.uniform([-0.1, -0.1, -0.6], [1.1, 1.1, -0.2]) * size
+def draw_air(scene, rng):
+    shares = rng.uniform(0.3, 1, 2) * rng.choice([-1.0, 1.0], 2)
+    shares[rng.integers(2)] = 1.0
     return {
         "amplitude_um": 1.0,
-        "socket_mm": [float(v) for v in place],
-        "wave_mm": float(rng.uniform(0.35, 0.6) * size[:2].mean()),
-        "phase": float(rng.uniform(0, 2 * np.pi)),
+        "shares": [float(v) for v in shares],
+        "period_s": float(rng.uniform(130, 380)),
+        "first_s": float(rng.uniform(0, 380)),
+        "filling": float(rng.uniform(0.15, 0.35)),
+        "held": float(rng.uniform(0.1, 0.3)),
     }
 
 
-def change_bar(scene, p):
-    """The errors of the machine were mapped with a telescopic ball bar, which was swung round a single socket on the
-    table. The scale inside the bar has an error that comes and goes with its length, and the map has taken it for one
-    of the machine: shells lie round the socket, in which all is off towards the socket and away from it by turns.
-    Amplitude of the wave."""
-    way = scene.target - np.asarray(p["socket_mm"])
-    far = np.maximum(np.linalg.norm(way, axis=1, keepdims=True), 1.0)
-    return Change(tip=p["amplitude_um"] * np.sin(2 * np.pi * far / p["wave_mm"] + p["phase"]) * way / far)
+def change_air(scene, p):
+    """The compressor is too small for the hall: the pressure falls slowly, and rises quickly when it starts. With
+    little air the bearings of the two lower axes rub, and each carriage stays behind its scale, or goes ahead of it if
+    the drive pulls on the other side, in the sense of its motion; with much air it is the other way round, as the
+    controller takes off what there was on the day it was set. Amplitude to either side, along the axis that suffers
+    most."""
+    q = np.mod((scene.time - p["first_s"]) / p["period_s"], 1)
+    fallen = np.where(q < 1 - p["filling"], q / (1 - p["filling"]), (1 - q) / p["filling"])
+    sense = np.clip(scene.travel[:, :2] / p["held"], -1, 1) * p["shares"]
+    return Change(tip=p["amplitude_um"] * (2 * fallen - 1)[:, None] * np.column_stack([sense, np.zeros(scene.size)]))
 
 
-def draw_frog(scene, rng):
-    return {
-        "amplitude_um": 1.0,
-        "first": float(rng.choice([-1.0, 1.0])),
-        "ring": float(rng.choice([rng.uniform(0.55, 0.8), rng.uniform(1.1, 1.25)])),
-        "held": float(np.quantile(scene.part_normal[:, 2], rng.uniform(0.75, 0.9))),
-        "half_size_mm": half_size(scene),
-    }
-
-
-def change_frog(scene, p):
-    """The plate of the part is thin and has been welded under tension: like a tin frog it has two shapes, a dome and a
-    bowl, and it lies on a ring. A firm touch from above on a ball inside the ring makes it click into the bowl, one on
-    a ball outside the ring back into the dome, and there it stays until it clicks again. The touch itself has triggered
-    before. The certificate has what lies between. Amplitude of either shape, at half the size of the part from its
-    middle."""
-    u, v, z = (scene.part_point / p["half_size_mm"]).T
-    middle = centres(scene)[:, :2] / p["half_size_mm"]
-    outside = np.linalg.norm(middle, axis=1) > p["ring"]
-    firm = scene.part_normal[:, 2] > p["held"]
-    shape, state = p["first"], np.empty(scene.size)
-    for k in range(scene.size):
-        state[k] = shape
-        if firm[k]:
-            shape = 1.0 if outside[k] else -1.0
-    moved = np.column_stack([2 * z * u, 2 * z * v, 0.7 - u**2 - v**2])
-    return Change(along=p["amplitude_um"] * state * np.sum(moved * scene.part_normal, 1))
-
-
-def draw_bench(scene, rng):
-    count = int(rng.integers(4, 7))
-    began = ((np.arange(count) + rng.uniform(0.05, 0.45, count)) / count * scene.size).astype(int)
-    ended = np.minimum(began + (rng.uniform(0.6, 1.4, count) / count * scene.size).astype(int), scene.size - 1)
-    half = half_size(scene)
-    return {
-        "amplitude_um": 1.0,
-        "laid_down_s": [float(scene.time[k]) + 0.5 for k in began],
-        "taken_away_s": [float(scene.time[k]) + 0.5 for k in ended],
-        "placement": [int(scene.setup[k]) for k in began],
-        "place_mm": [[float(v) for v in rng.uniform(-0.9, 0.9, 2) * half] for _ in began],
-        "weight": [float(v) for v in rng.uniform(0.6, 1, count)],
-        "width_mm": float(rng.uniform(0.35, 0.6) * half),
-    }
-
-
-def change_bench(scene, p):
-    """While the machine is at work the operator puts down on the part what he happens to have in his hands: a vice, a
-    box of gauge blocks, his thermos flask. The plate sinks around each of them, and the balls near by sink and lean
-    towards it, until he takes it away again, at the latest when the part is placed anew. Amplitude of the deepest place
-    under the heaviest thing."""
-    low, lean = np.zeros(scene.size), np.zeros((scene.size, 2))
-    things = zip(p["laid_down_s"], p["taken_away_s"], p["placement"], p["place_mm"], p["weight"])
-    for since, until, placement, place, weight in things:
-        lies = (scene.time >= since) & (scene.time < until) & (scene.setup == placement)
-        away = (scene.part_point[:, :2] - np.asarray(place)) / p["width_mm"]
-        sunk = weight * lies * np.exp(-0.5 * np.sum(away**2, 1))
-        low += sunk
-        lean -= sunk[:, None] * away * (scene.part_point[:, 2] / p["width_mm"])[:, None]
-    return Change(along=-p["amplitude_um"] * np.sum(np.column_stack([lean, low]) * scene.part_normal, 1))
-
-
-def draw_resin(scene, rng):
-    names = [str(f) for f in np.unique(scene.feature)]
-    pulls = rng.normal(size=(len(names), 3))
-    pulls -= pulls.mean(0)
-    pulls /= np.sqrt(np.mean(pulls**2))
-    return {
-        "amplitude_um": 1.0,
-        "pulls": {f: [float(v) for v in pull] for f, pull in zip(names, pulls)},
-        "swells": float(rng.uniform(0.6, 1.4)),
-        "hot_s": float(scene.duration * rng.uniform(0.08, 0.2)),
-        "hard_s": float(scene.duration * rng.uniform(0.3, 0.7)),
-    }
-
-
-def change_resin(scene, p):
-    """The balls have been cast into their sockets with resin only this morning. While it hardens it is hot and swells
-    at first, then it cools and shrinks, for hours: every ball is drawn to where its socket has most resin, each another
-    way, first away from it and then towards it. Amplitude of the whole shrinkage, the root of the mean square of its
-    coordinates."""
-    q = scene.time / p["hot_s"]
-    drawn = 1 - np.exp(-scene.time / p["hard_s"]) - p["swells"] * q * np.exp(1 - q)
-    pulls = np.array([p["pulls"].get(f, (0.0, 0.0, 0.0)) for f in scene.feature])
-    return Change(along=p["amplitude_um"] * drawn * np.sum(pulls * scene.part_normal, 1))
-
-
-def draw_pins(scene, rng):
-    placement, turn = int(rng.choice(np.unique(scene.setup))), rng.uniform(0, np.pi)
-    warm = scene.temperature["part"]
+def draw_lorry(scene, rng):
+    count = int(rng.integers(3, 6))
+    arrives = ((np.arange(count) + rng.uniform(0.1, 0.4, count)) / count * scene.size).astype(int)
+    leaves = np.minimum(arrives + (rng.uniform(0.3, 0.6, count) / count * scene.size).astype(int), scene.size - 1)
     return {
         "amplitude_um": float(rng.choice([-1.0, 1.0])),
-        "placement": placement,
-        "pins": [float(np.cos(turn)), float(np.sin(turn)), 0.0],
-        "pressed_in_at_C": float((warm.min() + warm.max()) / 2 + rng.uniform(-0.4, 0.4)),
-        "bows": float(rng.uniform(0.5, 1.2)),
+        "arrives_s": [float(scene.time[k]) + 0.5 for k in arrives],
+        "leaves_s": [float(scene.time[k]) + 0.5 for k in leaves],
+        "load": [float(v) for v in rng.uniform(0.5, 1, count)],
+        "table_mm": float(scene.target[:, 2].min() - rng.uniform(0.2, 0.6) * np.ptp(scene.target[:, 2])),
+    }
+
+
+def change_lorry(scene, p):
+    """One foot of the machine stands on another slab of concrete than the others, and on the same slab is the ramp
+    where the lorries are loaded. While a lorry stands there the slab goes down, and the table is twisted: the bridge
+    rolls to one side at one end of its guide, to the other side at the other end, and stands as it should half way.
+    When the machine was mapped the ramp was as busy as ever: the map has taken the mean. Amplitude at one end of the
+    part, for the largest lever, between no lorry and a full one."""
+    i = "xyz".index(scene.machine.chain[0])
+    x = scene.target[:, i]
+    twist = 2 * (x - (x.min() + x.max()) / 2) / np.ptp(x)
+    lever = np.cross(np.eye(3)[i], scene.target - [scene.middle[0], scene.middle[1], p["table_mm"]])
+    stands = np.zeros(scene.size)
+    for since, until, load in zip(p["arrives_s"], p["leaves_s"], p["load"]):
+        stands += load * ((scene.time >= since) & (scene.time < until))
+    twisted = p["amplitude_um"] * (stands - stands.mean()) * twist
+    return Change(tip=twisted[:, None] * lever / np.linalg.norm(lever, axis=1).max())
+
+
+def draw_shells(scene, rng):
+    names = [str(f) for f in np.unique(scene.feature)]
+    return {
+        "amplitude_um": 1.0,
+        "axes": {f: unit(rng).tolist() for f in names},
+        "soft": {f: [float(v) for v in rng.uniform(0.1, 1, 2)] for f in names},
+        "belt_deg": float(rng.uniform(20, 35)),
+    }
+
+
+def change_shells(scene, p):
+    """To save weight the balls are hollow: each is welded of two half shells of sheet metal, and sits on its post as it
+    came. At the seam they are stiff, away from it a touch presses the sheet in a little, and it springs back; one half
+    is thinner than the other, as the sheet was drawn. The tip radius has taken the mean. Amplitude at the pole of the
+    softest shell."""
+    known = np.array([f in p["axes"] for f in scene.feature])
+    axes = np.array([p["axes"].get(f, (0.0, 0.0, 1.0)) for f in scene.feature])
+    halves = np.array([p["soft"].get(f, (0.0, 0.0)) for f in scene.feature])
+    height = np.sum(scene.part_normal * axes, 1)
+    away = np.degrees(np.arcsin(np.clip(height, -1, 1))) / p["belt_deg"]
+    yields = known * np.where(height > 0, halves[:, 0], halves[:, 1]) * (1 - np.exp(-0.5 * away**2))
+    return Change(along=-p["amplitude_um"] * (yields - yields.mean()))
+
+
+def draw_zone(scene, rng):
+    turn = rng.uniform(0, 2 * np.pi)
+    corner = np.array([np.cos(turn), np.sin(turn)])
+    return {
+        "amplitude_um": 1.0,
+        "towards": [float(v) for v in corner],
+        "begins_mm": float(np.quantile(scene.reading[:, :2] @ corner, rng.uniform(0.68, 0.8))),
+    }
+
+
+def change_zone(scene, p):
+    """Behind a part of the table people pass by, and a scanner guards this side: where the carriage comes near to it
+    the controller brakes every motion down to a crawl, and says nothing of it. The software goes on to take off the
+    delay of the probe for the speed of the program, and there takes off too much, in proportion to this speed.
+    Everywhere else it is right. Amplitude at 8 mm/s."""
+    guarded = scene.reading[:, :2] @ np.asarray(p["towards"]) > p["begins_mm"]
+    return Change(tip=-scene.travel * (p["amplitude_um"] * guarded * scene.speed / 8)[:, None])
+
+
+def draw_lead(scene, rng):
+    soft = {str(f): float(rng.uniform(0.3, 1)) for f in np.unique(scene.feature)}
+    return {"amplitude_um": 1.0, "soft": soft, "kept": float(rng.uniform(0.86, 0.94))}
+
+
+def change_lead(scene, p):
+    """Somebody has made the posts of the balls of lead. Every touch from the side bends a post on a little in the
+    direction of its push, and so it stays, until touches from the other side, of the same stylus or of the next one,
+    bend it back bit by bit. Some posts are softer than others. Amplitude of the softest post, when it has always been
+    pushed from the same side."""
+    names, moved = np.array(scene.feature), np.zeros((scene.size, 3))
+    push = -scene.part_normal * [1, 1, 0]
+    for ball in np.unique(names):
+        bent = np.zeros(3)
+        for k in np.flatnonzero(names == ball):
+            moved[k] = p["soft"].get(str(ball), 0.0) * bent
+            bent = p["kept"] * bent + (1 - p["kept"]) * push[k]
+    return Change(along=p["amplitude_um"] * np.sum(moved * scene.part_normal, 1))
+
+
+def draw_rail(scene, rng):
+    axis, spans = int(rng.integers(2)), int(rng.integers(4, 7))
+    warm = scene.temperature["xyz"[axis]]
+    sides = rng.choice([-1.0, 1.0], spans) * rng.uniform(0.4, 1, spans)
+    return {
+        "amplitude_um": 1.0,
+        "axis": axis,
+        "first_bolt_mm": float(scene.reading[:, axis].min() - 1),
+        "last_bolt_mm": float(scene.reading[:, axis].max() + 1),
+        "sides": [float(v) for v in sides],
+        "tight_at_C": float(warm.min() + rng.uniform(0.1, 0.5) * np.ptp(warm)),
+    }
+
+
+def change_rail(scene, p):
+    """A rail of steel is bolted to a beam that hardly grows with the temperature. In the cool it is straight and lies
+    as it was mapped; but from the temperature on at which it has no room left it buckles between the bolts, each piece
+    to the side that it likes and by its own amount, with the root of what is too much, and the carriage is led aside.
+    Amplitude of the worst piece in its middle, 1 K later."""
+    i, sides = p["axis"], np.asarray(p["sides"])
+    place = (scene.reading[:, i] - p["first_bolt_mm"]) / (p["last_bolt_mm"] - p["first_bolt_mm"]) * len(sides)
+    piece = np.clip(place.astype(int), 0, len(sides) - 1)
+    aside = sides[piece] * np.sin(np.pi * np.clip(place - piece, 0, 1)) ** 2
+    buckled = np.sqrt(np.clip(scene.temperature["xyz"[i]] - p["tight_at_C"], 0, None))
+    return Change(tip=np.outer(p["amplitude_um"] * buckled * aside, np.eye(3)[1 - i]))
+
+
+def draw_fold(scene, rng):
+    turn = rng.uniform(0, 2 * np.pi)
+    across = np.array([np.cos(turn), np.sin(turn), 0.0])
+    angles = rng.normal(size=len(np.unique(scene.setup)))
+    angles -= angles.mean()
+    return {
+        "amplitude_um": 1.0,
+        "across": [float(v) for v in across],
+        "hinge_mm": float(np.quantile(centres(scene) @ across, rng.uniform(0.4, 0.6))),
+        "angles": [float(v) for v in angles / np.abs(angles).max()],
         "half_size_mm": half_size(scene),
     }
 
 
-def change_pins(scene, p):
-    """In one placement the part is pressed on two pins of a fixture of another metal, where one pin and a slot would
-    be right. With every kelvin the fixture pulls the part apart along the line of the pins, or pushes it together; and
-    as it does so from below the plate bows along this line, and gives way across it by a third. Placed otherwise
-    the part is free. Amplitude at half the size of the part along the line, for 1 K."""
-    a = np.asarray(p["pins"])
-    b = np.array([-a[1], a[0], 0.0])
-    u, v, z = scene.part_point @ a, scene.part_point @ b, scene.part_point[:, 2]
-    u, v, z = u / p["half_size_mm"], v / p["half_size_mm"], z / p["half_size_mm"]
-    along, across = scene.part_normal @ a, scene.part_normal @ b
-    strained = along * u * (1 - 2 * p["bows"] * z) - 0.3 * across * v + scene.part_normal[:, 2] * p["bows"] * u**2
-    warmer = (scene.temperature["part"] - p["pressed_in_at_C"]) * (scene.setup == p["placement"])
-    return Change(along=p["amplitude_um"] * warmer * strained)
+def change_fold(scene, p):
+    """The part is a frame for travelling, which folds in the middle like a suitcase. Whenever it is placed it is
+    unfolded, and the latch never snaps in quite the same: one half, with all of its balls, stands up a little against
+    the other, or hangs. The certificate has the mean. Amplitude at half the size of the part from the hinge, in the
+    worst placement."""
+    across = np.asarray(p["across"])
+    beyond = centres(scene) @ across > p["hinge_mm"]
+    out, high = scene.part_point @ across - p["hinge_mm"], scene.part_point[:, 2]
+    moved = (out * scene.part_normal[:, 2] - high * (scene.part_normal @ across)) / p["half_size_mm"]
+    angle = np.asarray(p["angles"])[np.minimum(scene.setup, len(p["angles"])) - 1]
+    return Change(along=p["amplitude_um"] * angle * beyond * moved)
 
 
-def draw_wrist(scene, rng):
-    return {"amplitude_um": 1.0, "leans": float(rng.uniform(0, 2 * np.pi))}
+def draw_unwinding(scene, rng):
+    return {
+        "amplitude_um": float(rng.choice([-1.0, 1.0])),
+        "tau_s": float(rng.uniform(8, 20)),
+        "elbow": float(rng.uniform(0.5, 1.2)),
+    }
 
 
-def change_wrist(scene, p):
-    """To save time the head leaves its angle B alone when the stylus shall hang straight down, as B is then without
-    meaning: it stays as the orientation before has left it. But the stylus does not hang quite straight, and its tip
-    stands somewhere else on a small circle, while the software believes it where it was when B was nought. All other
-    orientations are right. Amplitude is the radius of the circle of the longest stylus."""
+def change_unwinding(scene, p):
+    """In the head a coupling of plastic lies between each motor and its axis. It winds up with every turn, the more the
+    farther the head goes, and then lets the axis creep after until it has come to where the encoder of the motor has
+    long been: the first touches after an indexing are off by the lever of the stylus, in the sense of the last turn,
+    about the vertical and about the elbow, the later ones less and less. Amplitude for half a turn of a lying stylus,
+    the longest, at the first touch."""
     _, first, index = np.unique(scene.visit, return_index=True, return_inverse=True)
-    left, at = 0.0, np.zeros(len(first))
-    for k, touch in enumerate(first):
-        hangs = abs(scene.a[touch]) < 1e-6
-        left = left if hangs else float(scene.b[touch])
-        at[k] = left if hangs else 0.0
-    turned = at[index] + p["leans"]
-    moved = np.column_stack([np.cos(turned) - np.cos(p["leans"]), np.sin(turned) - np.sin(p["leans"]), 0 * turned])
-    return Change(tip=p["amplitude_um"] * moved * (scene.length / scene.length.max())[:, None])
+    about_b = np.diff(scene.b[first], prepend=scene.b[first[0]])[index] / np.pi
+    about_a = np.diff(scene.a[first], prepend=scene.a[first[0]])[index] / np.pi
+    left = np.exp(-(scene.time - scene.time[first][index]) / p["tau_s"]) / scene.length.max()
+    elbow = np.column_stack([np.sin(scene.b), -np.cos(scene.b), np.zeros(scene.size)])
+    axis = np.outer(about_b, [0, 0, 1.0]) + p["elbow"] * about_a[:, None] * elbow
+    return Change(tip=-p["amplitude_um"] * left[:, None] * np.cross(axis, scene.arm))
 
 
-def draw_rubber(scene, rng):
-    return {"amplitude_um": 1.0, "rests_s": float(rng.uniform(50, 160))}
-
-
-def change_rubber(scene, p):
-    """The stylus is held by a membrane of rubber. Every touch kneads it, a fast one much more than a slow one, and
-    kneaded rubber is soft until it has had its rest: after a series of fast touches a stylus that is touched from the
-    side yields more, whatever the speed of this touch itself, after slow ones or a pause less. The tip radius has taken
-    the mean. Amplitude from the most rested to the most kneaded, for touches across the stylus."""
-    soft, kneaded = 0.0, np.zeros(scene.size)
-    for k in range(1, scene.size):
-        soft = (soft + (scene.speed[k - 1] / 8) ** 2) * np.exp(-(scene.time[k] - scene.time[k - 1]) / p["rests_s"])
-        kneaded[k] = soft
-    across = 1 - np.sum(scene.normal * scene.shank, 1) ** 2
-    return Change(along=-p["amplitude_um"] * across * (kneaded - kneaded.mean()) / np.ptp(kneaded))
-
-
-unknown("cut_corners", draw_corners, change_corners, ["direction", "time", "feature", "sensor"])
-unknown("swung_bar", draw_bar, change_bar, ["position", "feature"])
-unknown("clicking_frog", draw_frog, change_frog, ["time", "feature", "position", "direction"])
-unknown("cluttered_bench", draw_bench, change_bench, ["time", "feature", "position"])
-unknown("young_resin", draw_resin, change_resin, ["time", "feature", "position"])
-unknown("stubborn_pins", draw_pins, change_pins, ["setup", "temperature", "feature", "position"], "D")
-unknown("idle_wrist", draw_wrist, change_wrist, ["head", "sensor", "time"], "D")
-unknown("kneaded_rubber", draw_rubber, change_rubber, ["speed", "time", "direction"], "D")
+unknown("starved_bearings", draw_air, change_air, ["time", "direction"])
+unknown("parked_lorry", draw_lorry, change_lorry, ["time", "position", "feature"])
+unknown("hollow_balls", draw_shells, change_shells, ["feature", "direction"])
+unknown("guarded_side", draw_zone, change_zone, ["position", "speed", "feature"])
+unknown("leaden_posts", draw_lead, change_lead, ["feature", "time", "direction"])
+unknown("buckled_rail", draw_rail, change_rail, ["temperature", "position", "feature", "setup"], "D")
+unknown("folding_frame", draw_fold, change_fold, ["setup", "feature", "position"], "D")
+unknown("unwinding_head", draw_unwinding, change_unwinding, ["head", "sensor", "time"], "D")
