@@ -8,44 +8,12 @@
 #include <set>
 
 #include "engine/diagnose/model/evidence.hpp"
-#include "engine/lanes/random.hpp"
+#include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;
 using namespace abbe::diagnose;
 
 namespace {
-
-/// Touches scattered over a volume, their normals in all directions; after each `visit` of them the head is
-/// indexed to another of three orientations.
-RecordedTouches scattered(int count, int visit = 15) {
-  RecordedTouches t;
-  for (int i = 0; i < count; ++i) {
-    const auto u = [&](std::uint32_t which) {
-      return uniform_pair({3, static_cast<std::uint32_t>(i), stream_of("patterns_test"), which, 0, 0}).a;
-    };
-    RecordedTouch touch;
-    touch.row = i;
-    TouchScene& s = touch.scene;
-    s.point = s.reading = {500 * u(0), 400 * u(1), 300 * u(2)};
-    const double z = 2 * u(3) - 1, around = 2 * kPi * u(4), r = std::sqrt(1 - z * z);
-    s.normal = {r * std::cos(around), r * std::sin(around), z};
-    s.visit = i / visit;
-    s.time_s = 10 * i + 60 * s.visit;
-    s.stylus.head_b_rad = s.visit % 3;
-    s.stylus.to_head = Vec3{std::sin(2 * kPi / 3 * (s.visit % 3)), 0, std::cos(2 * kPi / 3 * (s.visit % 3))};
-    s.stylus.length_mm = 100;
-    s.stylus.ordinal = 1 + s.visit / 3 % 2;
-    s.acceleration_mm_s2 = u(6) < 0.5 ? 200 : 400;
-    s.temperature.part = 20 + std::round(u(7) * 4) / 4;
-    s.feature = i % 5;
-    s.speed_mm_s = u(5) < 0.5 ? 3 : 8;
-    s.travel = unit(Vec3{0.3, 0.3, 0.1} - s.normal);
-    s.normal_on_part = s.normal;
-    s.setup = i / 100;
-    t.touches.push_back(touch);
-  }
-  return t;
-}
 
 /// The likeliest pattern for a displacement, um, in noise of 1 um.
 std::string likeliest(const RecordedTouches& t, const std::function<Vec3(const TouchScene&)>& displacement_um) {

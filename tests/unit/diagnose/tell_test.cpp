@@ -1,0 +1,158 @@
+// What was found is told with what is believed of it, and gets into the machine file where it may.
+#include "engine/diagnose/findings/tell.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/diagnose/findings/doubt.hpp"
+#include "tests/unit/diagnose/scattered.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// A recording whose tip is so much larger than assumed, found; `out`: what predicts touches left out better.
+struct Told : Planted {
+  Diagnosis out;
+
+  explicit Told(double radius_um = 1.2) : Planted(1) {
+    plant("probe.tip_radius", {radius_um, 0});
+    find({"probe.tip_radius"});
+    out.improvement = Improvement{"leave-one-setup-out", 20, 4};
+  }
+  const DiagnosedEffect& tell() {
+    tell_findings(c, result, out);
+    REQUIRE(out.effects.size() == 1);
+    return out.effects[0];
+  }
+  bool says(std::string_view text) const { return out.effects.at(0).sentence.find(text) != std::string::npos; }
+};
+
+double amplitude(const Diagnosis& d) { return d.model_effects.at(0).parameters.at("amplitude_um").value; }
+
+}  // namespace
+
+TEST_CASE("a name that nothing speaks against is believed, and goes into the machine file") {
+  Told t;
+  const DiagnosedEffect& e = t.tell();
+  CHECK(e.members == std::vector<std::string>{"probe.tip_radius"});
+  CHECK(e.probability > kTold);
+  CHECK(e.sentence.starts_with("It is explained by tip radius other than assumed: amplitude "));
+  REQUIRE(t.out.model_effects.size() == 1);
+  CHECK(t.out.model_effects[0].name == "probe.tip_radius");
+  CHECK(amplitude(t.out) == e.parameters[0].value);
+  CHECK(t.out.superseded.empty());
+}
+
+TEST_CASE("a doubted name is believed by half at most") {
+  const auto doubted = [](auto change) {
+    Told t;
+    change(t);
+    return t.tell().probability == kDoubted;
+  };
+  CHECK_FALSE(doubted([](Told&) {}));
+  CHECK(doubted([](Told& t) { t.out.improvement.reset(); }));
+  CHECK(doubted([](Told& t) { t.out.improvement->se = 21; }));
+  CHECK(doubted([](Told& t) { t.result.adequacy = kInadequate / 2; }));
+  CHECK(doubted([](Told& t) { t.result.other.emplace(); }));
+  CHECK(doubted([](Told& t) { t.out.baseline.geometry_scale = kLargeErrors; }));
+  CHECK_FALSE(doubted([](Told& t) { t.out.baseline.geometry_scale = kLargeErrors, t.out.baseline.known = true; }));
+  CHECK(doubted([](Told& t) { t.c.explanations.list[0].missing = 1; }));
+  CHECK(doubted([](Told& t) { t.c.step_um = 5; }));  // rounding makes as much, with this machine's quiet probe
+}
+
+TEST_CASE("what the machine file has already is told beside it, or as gone") {
+  Told more, gone, none;
+  const EffectSetting half{"probe.tip_radius", {{"amplitude_um", {0.6, 0.05, ""}}}};
+  more.machine.effects = {{"probe.cosine_error", {}}, half};
+  more.tell();
+  CHECK(more.says("That is beside what the machine file has of it."));
+  CHECK(more.out.superseded == std::vector<std::size_t>{1});
+  CHECK(amplitude(more.out) == doctest::Approx(0.6 + more.out.effects[0].parameters[0].value));
+
+  gone.machine.effects = {half};
+  gone.machine.effects[0].parameters["amplitude_um"].value = -gone.tell().parameters[0].value;
+  none.machine.effects = gone.machine.effects;
+  none.tell();
+  CHECK(none.says("The machine file has the opposite: it is not there any more."));
+  CHECK(none.out.model_effects.empty());
+  CHECK(none.out.superseded == std::vector<std::size_t>{0});
+}
+
+TEST_CASE("what no machine file may carry is not in it") {
+  Told large(2000);
+  large.tell();
+  CHECK(large.says("No such effect has such a size"));
+  CHECK(large.out.model_effects.empty());
+  CHECK_FALSE(large.out.effects[0].parameters[0].plausible);
+
+  Told rounded;
+  rounded.c.step_um = 5;
+  rounded.tell();
+  CHECK(rounded.says("record the digits that the machine has"));
+  CHECK(rounded.out.model_effects.empty());
+}
+
+TEST_CASE("a change between runs in one placement takes for granted that the part lay still") {
+  for (const bool same_setup : {true, false}) {
+    Planted p(2);
+    for (int i = 0; i < p.count(); ++i) {
+      p.scene(i).run = i < 60 ? 1 : 2, p.scene(i).setup = same_setup ? 1 : p.scene(i).run;
+      p.c.model.y(i) += i < 60 ? 0 : 1.5;
+    }
+    p.find({"probe.tip_radius"});
+    Diagnosis out;
+    out.improvement = Improvement{"leave-one-setup-out", 20, 4};
+    tell_findings(p.c, p.result, out);
+    REQUIRE(out.effects.size() == 1);
+    CHECK(out.effects[0].change[0].from == 2);
+    CHECK((out.effects[0].sentence.find("give them different setups") != std::string::npos) == same_setup);
+  }
+}
+
+TEST_CASE("scatter is told with its place where nothing else was, and counts in the p-value") {
+  Planted p(3);
+  NoiseFinding noise{find_effect("noise.vibration"),
+                     1e-6,
+                     {{.name = "sd_um", .unit = "um", .value = 1, .u = 0.1}},
+                     "Touches along y scatter."};
+  noise.factor = Factor::direction, noise.where = {{"normal", "along y"}};
+  Diagnosis sure, unsure, beside;
+  tell_noise(p.c, {noise}, sure);
+  REQUIRE(sure.effects.size() == 1);
+  CHECK(sure.effects[0].probability > kTold);
+  CHECK(sure.effects[0].sentence == "Touches along y scatter.");
+  CHECK(sure.location.at(0).factor == "direction");
+  CHECK(sure.p_value == 1e-6);
+  CHECK(sure.model_effects.at(0).name == "noise.vibration");
+
+  noise.certain = false;
+  tell_noise(p.c, {noise}, unsure);
+  CHECK(unsure.effects.at(0).probability == kDoubted);
+  CHECK(unsure.effects[0].sentence.find("Repeats of the same touches would tell") != std::string::npos);
+
+  beside.p_value = 1e-9;
+  beside.effects.emplace_back();
+  tell_noise(p.c, {noise}, beside);
+  CHECK(beside.location.empty());
+  CHECK(beside.p_value == 1e-9);
+}
+
+TEST_CASE("the verdict is the worst of what was found") {
+  Planted p(4);
+  p.plant("probe.tip_radius", {1.2, 0});
+  p.find({"probe.tip_radius", "machine.scale"});
+  Diagnosis d;
+  p.result.findings[0].set = {0};
+  CHECK(verdict_of(p.c, p.result, d) == Verdict::named);
+  p.result.findings[0].set = {0, 1};
+  CHECK(verdict_of(p.c, p.result, d) == Verdict::one_of);
+  p.c.explanations.list[0].missing = 1;
+  CHECK(verdict_of(p.c, p.result, d) == Verdict::cannot_judge);
+  p.result.other.emplace();
+  CHECK(verdict_of(p.c, p.result, d) == Verdict::unexplained);
+  p.result.other.reset(), p.result.findings.clear();
+  CHECK(verdict_of(p.c, p.result, d) == Verdict::no_mismatch);
+  d.effects.emplace_back();  // scatter
+  CHECK(verdict_of(p.c, p.result, d) == Verdict::named);
+}
