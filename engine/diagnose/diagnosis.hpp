@@ -77,8 +77,8 @@ struct DiagnosedEffect {
 };
 
 struct Location {
-  std::string factor;  ///< "time", "position", ...
-  std::vector<std::pair<std::string, std::string>> where;
+  std::string factor;                                      ///< "time", "position", ...
+  std::vector<std::pair<std::string, std::string>> where;  ///< factor or coordinate, and its values; none: everywhere
   double share = 0;  ///< of what the best explanation of any factor describes that the best one of this factor does
   double p = 1;      ///< that so much appears by chance, the whole search considered
 };

@@ -68,22 +68,22 @@ bool varies(const Case& c, Factor factor) {
   return true;
 }
 
-/// Where a pattern is strongest, in words of its factor.
+/// Where a pattern is strongest, in words of its factor: at touches that have at least half of the most that any has.
 std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor factor, const Vector& pattern) {
-  std::vector<std::pair<double, int>> order;
-  for (Eigen::Index i = 0; i < pattern.size(); ++i) order.emplace_back(-std::abs(pattern(i)), static_cast<int>(i));
-  std::stable_sort(order.begin(), order.end());
-  order.resize(std::max<std::size_t>(1, order.size() / 10));
+  constexpr double kStrong = 0.5;
+  Eigen::Index strongest = 0;
+  const double strong = kStrong * pattern.cwiseAbs().maxCoeff(&strongest);
   const auto scene = [&](int k) -> const TouchScene& { return c.touches.touches[c.rows[k]].scene; };
-  /// Between which values the strongest tenth lies, unless that is nearly everywhere.
+  /// Between which values these touches lie, unless that is nearly everywhere.
   using Places = std::vector<std::pair<std::string, std::string>>;
   const auto add_range = [&](Places& out, const char* name, auto value, const char* unit) {
     constexpr double kNearlyEverywhere = 2.0 / 3;
     double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
-    for (const auto& [weight, k] : order) low = std::min(low, value(scene(k))), high = std::max(high, value(scene(k)));
-    for (std::size_t k = 0; k < c.rows.size(); ++k)
-      first = std::min(first, value(scene(static_cast<int>(k)))),
-      last = std::max(last, value(scene(static_cast<int>(k))));
+    for (Eigen::Index i = 0; i < pattern.size(); ++i) {
+      const double at = value(scene(static_cast<int>(i)));
+      first = std::min(first, at), last = std::max(last, at);
+      if (std::abs(pattern(i)) >= strong) low = std::min(low, at), high = std::max(high, at);
+    }
     if (high - low >= kNearlyEverywhere * (last - first)) return;
     const std::string from = fmt::format("{:.0f}", low), to = fmt::format("{:.0f}", high);
     out.emplace_back(name, (from == to ? from : from + " to " + to) + unit);
@@ -119,7 +119,7 @@ std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor fac
           out, "z", [](const TouchScene& s) { return s.point.z; }, " mm");
       break;
     case Factor::direction: {
-      const Vec3 n = scene(order.front().second).normal;
+      const Vec3 n = scene(static_cast<int>(strongest)).normal;
       return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
     }
     case Factor::head:
