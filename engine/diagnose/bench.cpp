@@ -29,7 +29,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   constexpr int kLeastTouches = 12;
   if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
     throw UserError(diagnostic(
-        Code::E0705, fmt::format("{}: {} touches are too few to judge a machine by", file, c.touches.touches.size()),
+        Code::E0705, fmt::format("{}: too few touches to judge a machine by: {}", file, c.touches.touches.size()),
         fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
   if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
   if (!options.design_only) doubt_hollow_balls(recording, c.touches, file, out.messages);
