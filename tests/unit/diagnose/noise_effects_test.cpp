@@ -138,7 +138,7 @@ TEST_CASE("rounded readings are told unless the machine file has them") {
 
 namespace {
 
-/// 1 um outwards at each of these touches of the first feature: masked, as the baseline leaves them.
+/// These touches, all of feature C, are so far outwards: masked, as the baseline leaves them.
 void strike(Planted& p, const std::vector<int>& touches, double um) {
   p.c.baseline.model = p.c.model;
   p.c.masked.assign(p.c.rows.size(), 0);
