@@ -83,16 +83,15 @@ std::vector<Variant> settings(const Effect& effect, const std::vector<Search>& s
   std::vector<Variant> list(1);
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
     const bool linear = effect.parameters[p].linear, varied = !linear && search[p].kind == Search::Kind::tried;
-    const std::vector<double> values = linear ? std::vector{0.0}
-        : varied                              ? search[p].values
-                                              : std::vector{search[p].values[0]};
-    const std::vector<Cell> cells = varied ? cells_of(search[p]) : std::vector<Cell>{{values[0], values[0]}};
+    const double fixed = linear ? 0 : search[p].fixed;
+    const std::vector<TriedValue> values =
+        varied ? search[p].tried : std::vector<TriedValue>{{fixed, {fixed, fixed}, 1}};
     std::vector<Variant> longer;
     for (const Variant& prefix : list) {
-      for (std::size_t k = 0; k < values.size(); ++k) {
+      for (const TriedValue& at : values) {
         longer.push_back(prefix);
-        longer.back().theta.push_back(values[k]);
-        longer.back().cells.push_back(cells[k]);
+        longer.back().theta.push_back(at.value);
+        longer.back().cells.push_back(at.cell);
       }
     }
     list = std::move(longer);
@@ -298,11 +297,7 @@ bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
 
 std::vector<Search> searches(const Effect& effect, const RecordedTouches& t, double least_period_um = 0) {
   std::vector<Search> list;
-  for (const EffectParameter& p : effect.parameters) {
-    list.push_back(search_of(p, t));
-    if (p.sought == Sought::signal_period)
-      std::erase_if(list.back().values, [&](double period_um) { return period_um < least_period_um; });
-  }
+  for (const EffectParameter& p : effect.parameters) list.push_back(search_of(p, t, least_period_um));
   return list;
 }
 

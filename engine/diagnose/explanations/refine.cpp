@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/explanations/search_grid.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -66,35 +68,21 @@ std::vector<int> cells_to_divide(const Explanations& all, const Explanation& e, 
   return list;
 }
 
-/// What one value of a parameter stands for, and the value.
-struct Part {
-  Cell cell;
-  double value = 0;
-};
-
 /// A cell in thirds.
-std::vector<Part> thirds(const Cell& cell) {
-  std::vector<Part> out;
+std::vector<TriedValue> thirds(const Cell& cell) {
+  std::vector<TriedValue> out;
   const double step = (cell.high - cell.low) / kParts;
   for (int k = 0; k < kParts; ++k)
-    out.push_back({{cell.low + k * step, cell.low + (k + 1) * step}, cell.low + (k + 0.5) * step});
+    out.push_back({cell.low + (k + 0.5) * step, {cell.low + k * step, cell.low + (k + 1) * step}, 1.0 / kParts});
   return out;
 }
 
-/// A stretch of time in parts with the same number of gaps between touches: only in which gap a moment lies
-/// can be told, and a pause is one.
-std::vector<Part> thirds_of_touches(const Cell& cell, const RecordedTouches& t) {
+std::vector<TriedValue> thirds_of_touches(const Cell& cell, const RecordedTouches& t) {
   std::vector<double> ends{cell.low};
   for (const RecordedTouch& touch : t.touches)
     if (touch.scene.time_s > ends.back() && touch.scene.time_s < cell.high) ends.push_back(touch.scene.time_s);
   ends.push_back(cell.high);
-  const std::size_t gaps = ends.size() - 1, parts = std::min<std::size_t>(kParts, gaps);
-  std::vector<Part> out;
-  for (std::size_t k = 0; k < parts; ++k) {
-    const std::size_t first = k * gaps / parts, last = (k + 1) * gaps / parts, middle = (first + last - 1) / 2;
-    out.push_back({{ends[first], ends[last]}, (ends[middle] + ends[middle + 1]) / 2});
-  }
-  return out;
+  return moments_between(ends, kParts);
 }
 
 /// A stretch of runs in thirds; else what stands for one run, or for none, as it is. No parameters yet.
@@ -131,16 +119,16 @@ std::vector<Variant> parts_of(const Variant& whole, const Effect& effect, const 
   std::vector<Variant> list = thirds_of_runs(whole, changes);
   for (std::size_t p = 0; p < whole.theta.size(); ++p) {
     const Cell& cell = whole.cells[p];
-    const std::vector<Part> parts = cell.high <= cell.low ? std::vector<Part>{{cell, whole.theta[p]}}
-        : effect.parameters[p].sought == Sought::moment   ? thirds_of_touches(cell, t)
-                                                          : thirds(cell);
+    const std::vector<TriedValue> parts = cell.high <= cell.low ? std::vector<TriedValue>{{whole.theta[p], cell, 1}}
+        : effect.parameters[p].sought == Sought::moment         ? thirds_of_touches(cell, t)
+                                                                : thirds(cell);
     std::vector<Variant> longer;
     for (const Variant& prefix : list) {
-      for (const Part& at : parts) {
+      for (const TriedValue& at : parts) {
         Variant part = prefix;
         part.cells.push_back(at.cell);
         part.theta.push_back(at.value);
-        part.weight /= double(parts.size());
+        part.weight *= at.share;
         longer.push_back(std::move(part));
       }
     }

@@ -16,16 +16,12 @@ double duration(const RecordedTouches& t) {
   return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
 }
 
-/// Moments between touches, evenly over the sequence: a step cannot be placed better than between two touches.
-std::vector<double> moments(const RecordedTouches& t) {
-  std::vector<double> list;
-  const int n = static_cast<int>(t.touches.size());
-  const int count = std::min(kMoments, n - 1);
-  for (int k = 1; k <= count; ++k) {
-    const int i = std::clamp(static_cast<int>(std::lround(double(k) * n / (count + 1))), 1, n - 1);
-    list.push_back((t.touches[i - 1].scene.time_s + t.touches[i].scene.time_s) / 2);
-  }
-  return list;
+/// From the first touch to the last.
+Search moments(const RecordedTouches& t) {
+  std::vector<double> times;
+  for (const RecordedTouch& touch : t.touches)
+    if (times.empty() || touch.scene.time_s > times.back()) times.push_back(touch.scene.time_s);
+  return {.kind = Search::Kind::tried, .tried = moments_between(times, kMoments), .between = true};
 }
 
 /// Equally spaced frequencies from half a cycle up: the spectral resolution is one cycle per recording.
@@ -89,6 +85,30 @@ std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches&
   return list;
 }
 
+Search each_for_itself(const std::vector<double>& values) {
+  Search out{.kind = Search::Kind::tried};
+  for (const double v : values) out.tried.push_back({v, {v, v}, 1 / double(values.size())});
+  return out;
+}
+
+/// Each stands for those up to halfway to its neighbours, and as far beyond the ends; one alone for itself.
+Search with_those_between(const std::vector<double>& values) {
+  Search out = each_for_itself(values);
+  out.between = true;
+  if (values.size() < 2) return out;
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t last = sorted.size() - 1;
+  const auto half_above = [&](std::size_t k) { return (sorted[k + 1] - sorted[k]) / 2; };
+  for (TriedValue& v : out.tried) {
+    const auto k = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), v.value) - sorted.begin());
+    const double below = k > 0 ? half_above(k - 1) : half_above(0),
+                 above = k < last ? half_above(k) : half_above(last - 1);
+    v.cell = {v.value - below, v.value + above};
+  }
+  return out;
+}
+
 }  // namespace
 
 double quickest_of_a_room_s(double duration_s) {
@@ -96,45 +116,41 @@ double quickest_of_a_room_s(double duration_s) {
   return std::max(kOfARoom_s, std::min(kUsually_s, duration_s / kCycles));
 }
 
-Search search_of(const EffectParameter& p, const RecordedTouches& t) {
-  using Kind = Search::Kind;
-  switch (p.sought) {
-    case Sought::listed:
-    case Sought::signal_period: return {Kind::tried, listed(p)};
-    case Sought::around_listed: return {Kind::tried, listed(p), true};
-    case Sought::wavelength: return {Kind::tried, wavelengths(p, t), true};
-    case Sought::moment: return {Kind::tried, moments(t), true};
-    case Sought::period: return {Kind::tried, periods(p, t), true};
-    case Sought::time_constant: return {Kind::tried, time_constants(t), true};
-    case Sought::reading: return {Kind::tried, places(t), true};
-    case Sought::phase: return {Kind::phase, {0, 90}};
-    case Sought::direction: return {Kind::direction, {0, 1, 2}};
-    case Sought::stylus: return {Kind::tried, ordinals(t.styli.size())};
-    case Sought::setup: return {Kind::tried, setups(t)};
-    case Sought::tip: return {Kind::tried, ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0)};
-    case Sought::not_at_all: break;
+std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::size_t parts) {
+  const std::size_t gaps = ends_s.empty() ? 0 : ends_s.size() - 1, count = std::min(parts, gaps);
+  std::vector<TriedValue> list;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t first = k * gaps / count, last = (k + 1) * gaps / count, middle = (first + last - 1) / 2;
+    list.push_back({(ends_s[middle] + ends_s[middle + 1]) / 2,
+                    {ends_s[first], ends_s[last]},
+                    double(last - first) / double(gaps)});
   }
-  if (!p.choices.empty()) return {Kind::tried, codes(p)};
-  return {Kind::fixed, {p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))}};
+  return list;
 }
 
-std::vector<Cell> cells_of(const Search& search) {
-  std::vector<Cell> cells;
-  if (!search.between || search.values.size() < 2) {
-    for (const double v : search.values) cells.push_back({v, v});
-    return cells;
+Search search_of(const EffectParameter& p, const RecordedTouches& t, double least_period_um) {
+  switch (p.sought) {
+    case Sought::listed: return each_for_itself(listed(p));
+    case Sought::signal_period: {
+      std::vector<double> periods_um = listed(p);
+      std::erase_if(periods_um, [&](double period_um) { return period_um < least_period_um; });
+      return each_for_itself(periods_um);
+    }
+    case Sought::around_listed: return with_those_between(listed(p));
+    case Sought::wavelength: return with_those_between(wavelengths(p, t));
+    case Sought::moment: return moments(t);
+    case Sought::period: return with_those_between(periods(p, t));
+    case Sought::time_constant: return with_those_between(time_constants(t));
+    case Sought::reading: return with_those_between(places(t));
+    case Sought::phase: return {.kind = Search::Kind::phase};
+    case Sought::direction: return {.kind = Search::Kind::direction};
+    case Sought::stylus: return each_for_itself(ordinals(t.styli.size()));
+    case Sought::setup: return each_for_itself(setups(t));
+    case Sought::tip: return each_for_itself(ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0));
+    case Sought::not_at_all: break;
   }
-  std::vector<double> sorted = search.values;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t last = sorted.size() - 1;
-  const auto half_above = [&](std::size_t k) { return (sorted[k + 1] - sorted[k]) / 2; };
-  for (const double v : search.values) {
-    const auto k = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), v) - sorted.begin());
-    const double below = k > 0 ? half_above(k - 1) : half_above(0),
-                 above = k < last ? half_above(k) : half_above(last - 1);
-    cells.push_back({v - below, v + above});
-  }
-  return cells;
+  if (!p.choices.empty()) return each_for_itself(codes(p));
+  return {.fixed = p.standard != 0 ? p.standard : std::clamp(0.0, p.low, std::max(p.low, p.high))};
 }
 
 }  // namespace abbe::diagnose

@@ -8,24 +8,35 @@
 
 namespace abbe::diagnose {
 
+/// A value of a parameter, the values that it stands for, and how much of the belief in all of them is theirs.
+struct TriedValue {
+  double value = 0;
+  Cell cell;
+  double share = 1;
+};
+
 /// How a parameter enters the search.
 struct Search {
   enum class Kind {
     fixed,      ///< one value
-    tried,      ///< each of `values` is a variant
+    tried,      ///< one after the other
     direction,  ///< the three axes together span every direction: one column for each
     phase,      ///< 0 and 90 degrees together span every phase
   };
   Kind kind = Kind::fixed;
-  std::vector<double> values;
+  double fixed = 0;                    ///< the one value
+  std::vector<TriedValue> tried = {};  ///< each is a variant
   /// of `tried`: values between these are possible too, and sought where the recording asks for them
   bool between = false;
 };
 
-/// What each value of a list stands for: up to halfway to its neighbours, and as far beyond the ends.
-std::vector<Cell> cells_of(const Search&);
+/// No period of a scale is tried that is shorter than the least.
+Search search_of(const EffectParameter&, const RecordedTouches&, double least_period_um = 0);
 
-Search search_of(const EffectParameter&, const RecordedTouches&);
+/// A stretch of time in parts with as many gaps between touches (or one more), each with the middle of its middle gap for
+/// a value: only in which gap a moment lies can be told, and a pause is one. `ends_s` are the ends of the gaps, ascending;
+/// of fewer gaps than parts, each is one.
+std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::size_t parts);
 
 /// The shortest period that is sought as that of a room's control, in a recording of this duration: ten minutes, as few
 /// controls switch more often; in a short recording a fourteenth of it, but not below two minutes, which no frame follows.

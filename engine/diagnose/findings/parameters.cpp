@@ -212,7 +212,7 @@ class Estimator {
     if (!matters(p)) return;
     const double value = likeliest.variant.theta[p];
     const bool standard = value == parameter.standard;
-    if (search_[p].between && !(standard && search_[p].values.size() < 2)) {
+    if (search_[p].between && !(standard && search_[p].tried.size() < 2)) {
       const std::vector<MixtureTerm> mixture = searched(p);
       // A size goes with a period or a time constant: told are those that fit together.
       const bool place = parameter.sought == Sought::moment || parameter.sought == Sought::reading;
@@ -223,7 +223,7 @@ class Estimator {
                      .unit = "",
                      .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
     else if (!standard ||
-             (search_[p].values.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
+             (search_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
       out.push_back(told(parameter, {value, 0}));
       out.back().called = called(parameter, static_cast<int>(value));
     }
@@ -234,9 +234,9 @@ class Estimator {
     constexpr double kNothing_um = 1e-6;
     const Variant& likeliest = variants_[likeliest_].variant;
     Variant at = likeliest;
-    if (search_[p].values.size() < 2) return true;
-    return std::any_of(search_[p].values.begin(), search_[p].values.end(), [&](double value) {
-      at.theta[p] = value;
+    if (search_[p].tried.size() < 2) return true;
+    return std::any_of(search_[p].tried.begin(), search_[p].tried.end(), [&](const TriedValue& other_value) {
+      at.theta[p] = other_value.value;
       const Matrix other = variant_like(at, *explanation_.effect, touches_, rows_).signature;
       return other.cols() != likeliest.signature.cols() ||
           (other - likeliest.signature).cwiseAbs().maxCoeff() > kNothing_um;

@@ -71,6 +71,24 @@ TEST_CASE("intervals hold the truth in 95 of 100 recordings") {
   CHECK(radius <= 198);
 }
 
+TEST_CASE("a moment in a pause is any of it, wherever in the grid the pause lies") {
+  int told = 0;
+  for (int first = 40; first < 80; ++first) {
+    Planted p(first);
+    if (std::min(std::abs(p.scene(first - 1).normal.x), std::abs(p.scene(first).normal.x)) < 0.4) continue;
+    for (int i = first; i < p.count(); ++i) p.scene(i).time_s += 1000;
+    const double before = p.scene(first - 1).time_s, after = p.scene(first).time_s;
+    p.plant("part.shift", {20, (before + after) / 2, 0, 0, 0});
+    p.find({"part.shift"});
+    const FoundSize size = estimate_size(p.c, p.result, 0);
+    const DiagnosedParameter& moment = parameter(size, "t0_s");
+    CHECK(std::abs(moment.value - (before + after) / 2) < 1);
+    CHECK(moment.u == doctest::Approx((after - before) / std::sqrt(12.0)).epsilon(0.01));
+    ++told;
+  }
+  CHECK(told >= 10);
+}
+
 TEST_CASE("a moment is any between the two touches beside it, and its run is told where there are several") {
   Planted p(2);
   const double before = p.scene(69).time_s, after = p.scene(70).time_s;
