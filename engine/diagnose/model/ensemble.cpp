@@ -17,11 +17,6 @@ constexpr double kPriorShape = 2, kPriorSquares = 2;
 /// Sizes above what is typical lose belief as a normal in the logarithm of this spread.
 constexpr double kLogImplausible = 1.6;
 
-Hyperparameters at_scale_one(Hyperparameters h) {
-  h.scale = 1;
-  return h;
-}
-
 /// Evenly in their logarithm: from the stated to the estimated scale, and a little beyond both. No machine
 /// that passed its acceptance test has errors many times those of its specification: whatever asks for them
 /// is a mismatch.
@@ -51,18 +46,17 @@ std::vector<Size> sizes_of(double information) {
 }
 
 Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double log_prior)
-    : rotated_(model, at_scale_one(h)), scales_(scales_between(h.scale, model.largest_scale)) {
-  shape_ = kPriorShape + 0.5 * double(rotated_.rank() + rotated_.rest_dof());
-  precision_.resize(rotated_.rank(), static_cast<Eigen::Index>(scales_.size()));
-  const double density = log_density(model, at_scale_one(h));
+    : basis_(model, h), scales_(scales_between(h.scale, model.largest_scale)) {
+  shape_ = kPriorShape + 0.5 * double(basis_.rank() + basis_.rest_dof());
+  precision_.resize(basis_.rank(), static_cast<Eigen::Index>(scales_.size()));
   log_scale_.resize(precision_.cols());
   std::vector<double> prior;
   for (const double g : scales_) prior.push_back(-0.5 * std::pow(std::log(g) / model.scale_spread, 2));
   for (std::size_t j = 0; j < prior.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     precision_.col(column) = precision(scales_[j]);
-    log_scale_(column) =
-        log_prior + density + prior[j] - log_sum_exp(prior) + 0.5 * precision_.col(column).array().log().sum();
+    log_scale_(column) = log_prior + basis_.log_density() + prior[j] - log_sum_exp(prior) +
+        0.5 * precision_.col(column).array().log().sum();
   }
 }
 
@@ -91,14 +85,14 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::
   constexpr Eigen::Index kTogether = 512;
   Eigen::Index first = coordinates_.cols(), columns = first;
   for (const Matrix* m : signatures) columns += m->cols();
-  coordinates_.conservativeResize(rotated_.rank(), columns);
-  projected_.conservativeResize(rotated_.rows(), columns);
+  coordinates_.conservativeResize(basis_.rank(), columns);
+  projected_.conservativeResize(basis_.rows(), columns);
   for (std::size_t begin = 0, end = 0; begin < signatures.size(); begin = end) {
     Eigen::Index count = 0;
     while (end < signatures.size() && count < kTogether) count += signatures[end++]->cols();
     const Matrix together =
-        rotated_.project_patterns(side_by_side(rotated_.rows(), std::span(signatures).subspan(begin, end - begin)));
-    coordinates_.middleCols(first, count) = rotated_.coordinates(together);
+        basis_.project_patterns(side_by_side(basis_.rows(), std::span(signatures).subspan(begin, end - begin)));
+    coordinates_.middleCols(first, count) = basis_.coordinates(together);
     projected_.middleCols(first, count) = together;
     for (std::size_t k = begin; k < end; ++k) {
       variants_.push_back(prepared(first, signatures[k]->cols(), variants ? &(*variants)[k] : nullptr));
@@ -137,7 +131,7 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
 }
 
 std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
-  const Matrix y = rotated_.project(recordings), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+  const Matrix y = basis_.project(recordings), z = basis_.coordinates(y), rest = basis_.remainder(y, z);
   const Eigen::Index scales = precision_.cols();
   Matrix weighted(z.rows(), z.cols() * scales);
   for (Eigen::Index r = 0; r < z.cols(); ++r)
@@ -214,10 +208,10 @@ Level Ensemble::level(const Vector& log_belief, const Vector& squares) const {
 
 Vector Ensemble::simulated(const Level& level, const NoiseLaw& law, std::uint64_t seed, int replicate) const {
   constexpr std::uint32_t machines = stream_of("diagnose.bootstrap"), touches = stream_of("diagnose.noise");
-  const Vector u = standard_normal(rotated_.rank(), seed, machines, replicate);
-  const Vector noise = std::sqrt(level.s2) * law.simulated(rotated_.rows(), seed, touches, replicate);
-  const Vector z = (level.g2 * rotated_.lambda().array()).sqrt() * u.array();
-  return rotated_.recording(z + rotated_.coordinates(noise), rotated_.off_model(noise));
+  const Vector u = standard_normal(basis_.rank() + basis_.kept_rank(), seed, machines, replicate);
+  const Vector z = (level.g2 * basis_.lambda().array()).sqrt() * u.head(basis_.rank()).array();
+  return basis_.recording(z, std::sqrt(level.s2) * u.tail(basis_.kept_rank()),
+                          std::sqrt(level.s2) * law.simulated(basis_.rows(), seed, touches, replicate));
 }
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
@@ -229,7 +223,7 @@ Matrix Ensemble::between(const Level& level, int a, int b) const {
 
 Vector Ensemble::with_data(const Level& level, int variant, const Vector& recording) const {
   const Prepared& b = of(variant);
-  const Vector y = rotated_.project(recording), z = rotated_.coordinates(y), rest = rotated_.remainder(y, z);
+  const Vector y = basis_.project(recording), z = basis_.coordinates(y), rest = basis_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
       projected_.middleCols(b.first, b.count).transpose() * rest / level.s2;
 }

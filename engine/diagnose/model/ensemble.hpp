@@ -1,7 +1,7 @@
 // One family of baselines: an ensemble of machines whose errors are scaled by g, and what every variant of
 // columns gains on it.
 //
-// With V_g the covariance of the recording and P_g its inverse with X projected out, a variant with signature H
+// With V_g the covariance of the recording (ensemble_basis.hpp) and P_g its inverse with X projected out, a variant with signature H
 // whose coefficients are drawn at size s has, with a common factor on all variances integrated out (inverse
 // gamma prior), the marginal likelihood
 //
@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/ensemble_basis.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 
 namespace abbe::diagnose {
@@ -95,12 +96,12 @@ class Ensemble {
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);
   Prepared prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
   const Prepared& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
-  Vector precision(double g) const { return (g * g * rotated_.lambda().array() + 1).inverse(); }
-  Vector precision(const Level& l) const { return (l.g2 * rotated_.lambda().array() + l.s2).inverse(); }
+  Vector precision(double g) const { return (g * g * basis_.lambda().array() + 1).inverse(); }
+  Vector precision(const Level& l) const { return (l.g2 * basis_.lambda().array() + l.s2).inverse(); }
   /// What the model adds to the precision that noise alone would have: h' P h = a' (this) a + h' h / s^2, a = U' h.
   Vector beside_noise(const Level& l) const { return precision(l).array() - 1 / l.s2; }
 
-  Rotated rotated_;
+  EnsembleBasis basis_;
   double shape_ = 0;            ///< a + n / 2
   std::vector<double> scales_;  ///< g
   Matrix precision_;            ///< 1 / (g^2 lambda + 1), one column for each scale

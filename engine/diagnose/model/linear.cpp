@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/ids.hpp"
@@ -128,14 +129,6 @@ double maximise(const Likelihood& likelihood, Hyperparameters& h, double first_s
   return best;
 }
 
-/// Columns of Z that are of group 0, or those that are not.
-std::vector<Eigen::Index> columns_of_group(const LinearModel& m, bool scaled) {
-  std::vector<Eigen::Index> out;
-  for (Eigen::Index k = 0; k < m.random.cols(); ++k)
-    if ((m.random_group[k] == 0) == scaled) out.push_back(k);
-  return out;
-}
-
 /// The model with other columns in group 0.
 LinearModel with_ensemble(const LinearModel& m, const Matrix& ensemble) {
   const std::vector<Eigen::Index> others = columns_of_group(m, false);
@@ -155,6 +148,28 @@ Matrix scaled(const LinearModel& m, const Hyperparameters& h) {
 }
 
 }  // namespace
+
+std::vector<Eigen::Index> columns_of_group(const LinearModel& m, bool scaled) {
+  std::vector<Eigen::Index> out;
+  for (Eigen::Index k = 0; k < m.random.cols(); ++k)
+    if ((m.random_group[k] == 0) == scaled) out.push_back(k);
+  return out;
+}
+
+std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
+  // From the eigenvectors of the smaller of Z'Z and Z Z'.
+  constexpr double kNegligible = 1e-6;
+  if (z.cols() == 0) return {z, Vector()};
+  const bool wide = z.cols() > z.rows();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
+  const Vector& values = solver.eigenvalues();
+  Eigen::Index first = 0;
+  while (first < values.size() && values(first) <= kNegligible) ++first;
+  const Eigen::Index rank = values.size() - first;
+  const Vector lambda = values.tail(rank);
+  const Matrix vectors = solver.eigenvectors().rightCols(rank);
+  return {wide ? vectors : Matrix(z * vectors * lambda.cwiseSqrt().cwiseInverse().asDiagonal()), lambda};
+}
 
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const> list) {
   Eigen::Index columns = 0;
@@ -396,26 +411,8 @@ Matrix inner(const Precision::Seen& a, const Precision::Seen& b) {
 }
 
 Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(project(m.y)) {
-  const Matrix z = project(scaled(m, h));
-  // The eigenvectors of Z Z' from those of the smaller of Z'Z and Z Z'.
-  constexpr double kNegligible = 1e-6;
-  const bool wide = z.cols() > z.rows();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
-  const Vector& values = solver.eigenvalues();
-  Eigen::Index first = 0;
-  while (first < values.size() && values(first) <= kNegligible) ++first;
-  const Eigen::Index rank = values.size() - first;
-  lambda_ = values.tail(rank);
-  if (wide)
-    basis_ = solver.eigenvectors().rightCols(rank);
-  else
-    basis_ = z * solver.eigenvectors().rightCols(rank) * lambda_.cwiseSqrt().cwiseInverse().asDiagonal();
-  rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank);
-}
-
-Vector Rotated::off_model(const Vector& white) const {
-  const Vector free = white - project_.free() * (project_.free().transpose() * white);
-  return free - basis_ * (basis_.transpose() * free);
+  std::tie(basis_, lambda_) = principal_axes(project(scaled(m, h)));
+  rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank());
 }
 
 Vector Rotated::noise_part() const {

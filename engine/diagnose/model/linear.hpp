@@ -83,6 +83,12 @@ Matrix precision(const LinearModel&, const Hyperparameters&);
 /// Squares of the correlations of these residuals, by pair of rows, when the model is right.
 Matrix squared_correlation(const LinearModel&, const Hyperparameters&);
 
+/// Columns of Z that are of group 0, whose scale is estimated, or those that are not.
+std::vector<Eigen::Index> columns_of_group(const LinearModel&, bool scaled);
+
+/// Orthonormal U and lambda > 0 with Z Z' = U diag(lambda) U', but for what is negligible beside a noise of 1.
+std::pair<Matrix, Vector> principal_axes(const Matrix& z);
+
 /// The same model without the combinations of group 0 of Z, and of the other ensemble, that stay far below the noise.
 LinearModel compact(const LinearModel&);
 
@@ -158,7 +164,7 @@ class Precision {
 /// a'P b.
 Matrix inner(const Precision::Seen& a, const Precision::Seen& b);
 
-/// A model in the basis in which its ensemble is diagonal.
+/// A model in the basis in which all that is random in it is diagonal, noise apart, at the scale that it has.
 class Rotated {
  public:
   Rotated(const LinearModel&, const Hyperparameters&);
@@ -169,19 +175,12 @@ class Rotated {
   const Vector& lambda() const { return lambda_; }
   /// Columns of the recording's rows, whitened and free of X.
   Matrix project(const Matrix& columns) const { return project_(columns); }
-  Matrix project_patterns(const Matrix& columns) const { return project_.of_patterns(columns); }
   /// U' of projected columns.
   Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
   /// What of projected columns the ensemble cannot do.
   Matrix remainder(const Matrix& projected, const Matrix& coordinates) const {
     return projected - basis_ * coordinates;
   }
-  /// A recording, um, that has these coordinates, and this outside of them.
-  Vector recording(const Vector& coordinates, const Vector& rest) const {
-    return project_.unwhitened(basis_ * coordinates + rest);
-  }
-  /// What of a whitened row vector neither X nor the ensemble reaches.
-  Vector off_model(const Vector& white) const;
   const Vector& y() const { return y_; }  ///< projected
   Vector z() const { return basis_.transpose() * y_; }
   /// What of the projected rows is noise, as far as they tell.

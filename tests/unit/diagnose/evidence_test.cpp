@@ -51,19 +51,18 @@ Explanations two(int rows) {
 
 }  // namespace
 
-TEST_CASE("the Bayes factor is that of the definition") {
-  // L(g, s) = integral over the common factor v of N(y; 0, v V) times its inverse gamma prior (shape 2, scale
-  // 2), done numerically here.
-  const int n = 60;
-  LinearModel m = noise_only(n, 1);
-  const Explanations all = two(n);
-  m.y += 0.7 * all.variants[0].signature.col(0);
-  Hyperparameters h;
-  h.noise = Vector::Ones(1);
-  const EvidenceSearch search(m, h, all);
+namespace {
+
+/// The Bayes factor of a variant of one column. L(g, s) = integral over the common factor v of N(y; 0, v V) times its
+/// inverse gamma prior (shape 2, scale 2), done numerically here.
+double log_bayes_by_definition(const LinearModel& m, const Variant& variant, const std::vector<Size>& sizes,
+                               double low_scale, double high_scale) {
+  const Eigen::Index n = m.y.size();
+  Matrix kept = Matrix::Identity(n, n) + 1e7 * m.free * m.free.transpose(), scaled = Matrix::Zero(n, n);
+  for (Eigen::Index k = 0; k < m.random.cols(); ++k)
+    (m.random_group[k] == 0 ? scaled : kept) += m.random.col(k) * m.random.col(k).transpose();
   const auto log_likelihood = [&](double g, double size) {
-    Matrix v = Matrix::Identity(n, n) + g * g * m.random * m.random.transpose() + 1e7 * m.free * m.free.transpose();
-    v += size * size * all.variants[0].signature * all.variants[0].signature.transpose();
+    const Matrix v = kept + g * g * scaled + size * size * variant.signature * variant.signature.transpose();
     const Eigen::LLT<Matrix> llt(v);
     const Matrix l = llt.matrixL();
     const double half_log_determinant = l.diagonal().array().log().sum(), squares = m.y.dot(llt.solve(m.y));
@@ -71,18 +70,37 @@ TEST_CASE("the Bayes factor is that of the definition") {
     for (double log_v = -4; log_v < 4; log_v += 0.01) {
       const double f = std::exp(log_v);
       // dv = v d(log v)
-      logs.push_back(-half_log_determinant - 0.5 * (n - 1) * log_v - 0.5 * squares / f - 2 * log_v - 2 / f);
+      logs.push_back(-half_log_determinant - 0.5 * double(n - 1) * log_v - 0.5 * squares / f - 2 * log_v - 2 / f);
     }
     return log_sum_exp(logs);
   };
   std::vector<double> alone, with;
   for (int k = 0; k < 7; ++k) {
-    const double g = std::pow(1.25, (k - 3) / 3.0), prior = -0.5 * std::pow(std::log(g) / m.scale_spread, 2);
+    const double g = low_scale * std::pow(high_scale / low_scale, k / 6.0),
+                 prior = -0.5 * std::pow(std::log(g) / m.scale_spread, 2);
     alone.push_back(prior + log_likelihood(g, 0));
-    for (const Size& s : search.sizes(0)) with.push_back(prior + s.log_prior + log_likelihood(g, s.factor));
+    for (const Size& s : sizes) with.push_back(prior + s.log_prior + log_likelihood(g, s.factor));
   }
-  CHECK(search.evidence().log_bayes[0] == doctest::Approx(log_sum_exp(with) - log_sum_exp(alone)).epsilon(1e-3));
-  CHECK(search.evidence().log_bayes[0] > search.evidence().log_bayes[1] + 3);
+  return log_sum_exp(with) - log_sum_exp(alone);
+}
+
+}  // namespace
+
+TEST_CASE("the Bayes factor is that of the definition, where columns keep their scale too") {
+  const int n = 60;
+  for (const bool some_keep_theirs : {false, true}) {
+    LinearModel m = noise_only(n, 1);
+    const Explanations all = two(n);
+    m.y += 0.7 * all.variants[0].signature.col(0);
+    if (some_keep_theirs) m = with_random(m, 0.3 * all.variants[0].signature + 2 * all.variants[1].signature);
+    Hyperparameters h;
+    h.noise = Vector::Ones(1);
+    h.scale = 2;
+    const EvidenceSearch search(m, h, all);
+    CHECK(search.evidence().log_bayes[0] ==
+          doctest::Approx(log_bayes_by_definition(m, all.variants[0], search.sizes(0), 1 / 1.25, 2.5)).epsilon(1e-4));
+    if (!some_keep_theirs) CHECK(search.evidence().log_bayes[0] > search.evidence().log_bayes[1] + 3);
+  }
 }
 
 TEST_CASE("what shows less than the noise even at thirty times what is typical explains nothing") {

@@ -200,15 +200,6 @@ TEST_CASE("densities under two noises compare as by the dense formula") {
   CHECK(rotated(correlated) - rotated(white) == doctest::Approx(dense(correlated) - dense(white)).epsilon(1e-9));
 }
 
-TEST_CASE("a recording made of its coordinates has them") {
-  const LinearModel m = model_of(50, 1, 1, 0.5, 12);
-  Hyperparameters h;
-  h.noise = Vector::Constant(1, 0.8), h.correlation = 0.6;
-  const Rotated r(m, h);
-  const Vector rest = r.remainder(r.y(), r.z());
-  CHECK((r.project(r.recording(r.z(), rest)) - r.y()).norm() < 1e-9 * r.y().norm());
-}
-
 TEST_CASE("scale, noise and correlation are found again") {
   // 2 sd of the estimates: 1/sqrt(2 * 12) of the scale, 1/sqrt(2 * 400) of the noise.
   const Hyperparameters h = estimate(model_of(400, 2, 1.4, 0, 3));
@@ -241,21 +232,6 @@ TEST_CASE("a row with an unknown of its own is alone") {
   std::vector<char> expected(80, 0);
   expected[7] = 1;
   CHECK(alone(m) == expected);
-}
-
-TEST_CASE("what an unknown does whatever its unit is nothing") {
-  LinearModel m = model_of(80, 1, 1, 0, 9);
-  m.free.col(0) *= 1e9;
-  m.free.col(2) *= 1e-9;
-  Hyperparameters h;
-  h.noise = Vector::Ones(1);
-  const Matrix a = random_matrix(80, 1, 901),
-               column = 3e-9 * m.free.col(0) + m.free.col(1) - 1e9 * m.free.col(2) + 1e-5 * a;
-  const Rotated r(m, h);
-  CHECK(r.project_patterns(column).isZero(0));
-  CHECK(r.project_patterns(m.free).isZero(0));
-  CHECK((r.project_patterns(a) - r.project(a)).isZero(0));
-  CHECK(r.project(a).norm() > 0.9 * a.norm() / 0.5);
 }
 
 TEST_CASE("a recording of a part that lies far from its targets is the same recording") {
