@@ -58,7 +58,7 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (!known && c.baseline.surfaces == Surfaces::calibrated && !options.design_only)
     out.beyond = c.baseline.beyond = beyond_specification(c.touches, without_placement(c.baseline.model), machine);
   if (out.beyond) hold_to_specification(c.baseline.model);
-  add_doubts(effects, c.touches, c.baseline);
+  add_uncertainties(effects, c.touches, c.baseline);
   if (part) calibrate(*part, c.touches, c.baseline);
   return c;
 }

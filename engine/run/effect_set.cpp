@@ -11,6 +11,7 @@
 #include "engine/lanes/random.hpp"
 #include "engine/lanes/weighted_sum.hpp"
 #include "engine/machine/effect_names.hpp"
+#include "engine/math/normal.hpp"
 
 namespace abbe {
 
@@ -233,8 +234,8 @@ Vec3 EffectSet::estimate(const RecordedTouch& touch) const {
   return d;
 }
 
-std::vector<EffectSet::Doubt> EffectSet::doubts() const {
-  std::vector<Doubt> list;
+std::vector<EffectSet::Uncertainty> EffectSet::uncertainties() const {
+  std::vector<Uncertainty> list;
   for (int e = 0; e < size(); ++e) {
     const Active& a = active_[e];
     for (std::size_t p = 0; p < a.u.size(); ++p)
@@ -244,15 +245,30 @@ std::vector<EffectSet::Doubt> EffectSet::doubts() const {
   return list;
 }
 
-Vec3 EffectSet::one_sd(const Doubt& doubt, const RecordedTouch& touch) const {
-  const Active& a = active_[doubt.effect];
+Vec3 EffectSet::one_sd(const Uncertainty& of, const RecordedTouch& touch) const {
+  const Active& a = active_[of.effect];
   const TouchScene scene = scene_for(*a.effect, touch);
   std::vector<double> value = a.value;
   double draws[kMostNumbers] = {};
   const Vec3 estimate = a.effect->displace(scene, value.data(), draws);
-  if (doubt.parameter >= 0) value[doubt.parameter] += a.u[doubt.parameter];
-  if (doubt.draw >= 0) draws[doubt.draw] = 1;
-  return a.effect->displace(scene, value.data(), draws) - estimate;
+  if (of.parameter >= 0) value[of.parameter] += a.u[of.parameter];
+  if (of.draw < 0 || a.effect->linear_in_draws) {
+    if (of.draw >= 0) draws[of.draw] = 1;
+    return a.effect->displace(scene, value.data(), draws) - estimate;
+  }
+  constexpr int kQuantiles = 100;
+  Vec3 sum, squares;
+  for (int k = 0; k < kQuantiles; ++k) {
+    draws[of.draw] = normal_quantile((k + 0.5) / kQuantiles);
+    const Vec3 d = a.effect->displace(scene, value.data(), draws);
+    sum += d;
+    for (int i = 0; i < 3; ++i) squares[i] += d[i] * d[i];
+  }
+  Vec3 sd;
+  for (int i = 0; i < 3; ++i)
+    sd[i] = std::copysign(std::sqrt(std::max(0.0, squares[i] / kQuantiles - std::pow(sum[i] / kQuantiles, 2))),
+                          a.effect->displace(scene, value.data(), draws)[i]);
+  return sd;
 }
 
 EffectSet::LaneParameters EffectSet::draw(std::uint64_t seed, const std::vector<std::uint32_t>& machines) const {

@@ -70,13 +70,13 @@ class EffectSet {
   /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation
   /// of each of its unknowns.
   Vec3 estimate(const RecordedTouch&) const;
-  struct Doubt {
+  struct Uncertainty {
     int effect = 0;
     int parameter = -1, draw = -1;     ///< an uncertain parameter, or a number drawn at random
     DrawsPer per = DrawsPer::machine;  ///< how often it is drawn anew
   };
-  std::vector<Doubt> doubts() const;
-  Vec3 one_sd(const Doubt&, const RecordedTouch&) const;
+  std::vector<Uncertainty> uncertainties() const;
+  Vec3 one_sd(const Uncertainty&, const RecordedTouch&) const;
 
  private:
   /// One term of a linear effect: its displacement at these parameters times a weight by machine.

@@ -20,17 +20,19 @@ void remove_estimates(const EffectSet& effects, RecordedTouches& t) {
   for (RecordedTouch& touch : t.touches) touch.residual_mm -= dot(touch.scene.normal, effects.estimate(touch));
 }
 
-void add_doubts(const EffectSet& effects, const RecordedTouches& t, Baseline& baseline) {
+void add_uncertainties(const EffectSet& effects, const RecordedTouches& t, Baseline& baseline) {
   LinearModel& m = baseline.model;
-  for (const EffectSet::Doubt& doubt : effects.doubts()) {
+  for (const EffectSet::Uncertainty& of : effects.uncertainties()) {
+    // Outliers are found one by one (outliers.hpp): they make no other touch less certain.
+    if (of.draw >= 0 && effects.effect(of.effect).name == "noise.outliers") continue;
     Vector column(m.y.size());
     for (Eigen::Index i = 0; i < column.size(); ++i) {
       const RecordedTouch& touch = t.touches[i];
-      column(i) = kUmPerMm * dot(touch.scene.normal, effects.one_sd(doubt, touch));
+      column(i) = kUmPerMm * dot(touch.scene.normal, effects.one_sd(of, touch));
     }
-    if (doubt.per == DrawsPer::touch) {
+    if (of.per == DrawsPer::touch) {
       m.noise_um = (m.noise_um.array().square() + column.array().square()).sqrt();
-    } else if (doubt.per == DrawsPer::visit) {
+    } else if (of.per == DrawsPer::visit) {
       std::map<int, Vector> visits;
       for (Eigen::Index i = 0; i < column.size(); ++i)
         visits.try_emplace(t.touches[i].scene.visit, Vector::Zero(column.size())).first->second(i) = column(i);

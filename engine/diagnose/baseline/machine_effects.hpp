@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 /// Takes the best estimates from the residuals.
 void remove_estimates(const EffectSet&, RecordedTouches&);
 /// Adds what is uncertain of the effects: columns that keep their scale, and noise for what is drawn at every touch.
-void add_doubts(const EffectSet&, const RecordedTouches&, Baseline&);
+void add_uncertainties(const EffectSet&, const RecordedTouches&, Baseline&);
 /// Adds the standard uncertainty of rounded positions to the noise, unless the machine file has it there already.
 void add_rounding(const Machine&, double rounding_um, LinearModel&);
 

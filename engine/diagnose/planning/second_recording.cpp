@@ -119,7 +119,7 @@ Baseline baseline_of(const Case& c, const Longer& longer) {
                               .threads = c.options.threads,
                               .sampled = &geometry});
   if (c.baseline.beyond) hold_to_specification(out.model);
-  add_doubts(EffectSet(longer.machine.effects, EffectUse::left_in, longer.machine.name), longer.touches, out);
+  add_uncertainties(EffectSet(longer.machine.effects, EffectUse::left_in, longer.machine.name), longer.touches, out);
   if (c.options.workpiece)
     calibrate(recorded_part(*c.options.workpiece, longer.recording, longer.touches, ""), longer.touches, out);
   if (c.rounding_um > 0) add_rounding(longer.machine, c.rounding_um, out.model);
