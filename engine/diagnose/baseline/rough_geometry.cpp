@@ -36,11 +36,12 @@ double covariance(double a, double b, std::span<const double> lengths, double li
 /// The functions of u in [-1, 1] that the harmonics of the specification are made of.
 Vector harmonics(const Machine& machine, double u) {
   const int size = basis_size(machine.harmonics);
+  const double reading_mm = machine[Axis::x].direction * (1 + u) / 2 * machine[Axis::x].travel_mm;
   Vector out(size);
   for (int k = 0; k < size; ++k) {
     GeometryCoefficients unit(static_cast<std::size_t>(kComponents * size), 0.0);
     unit[k] = 1;
-    out(k) = error_at(machine, unit, static_cast<Component>(0), (1 + u) / 2 * machine[Axis::x].travel_mm);
+    out(k) = error_at(machine, unit, static_cast<Component>(0), reading_mm);
   }
   return out;
 }
