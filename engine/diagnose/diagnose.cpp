@@ -230,7 +230,7 @@ void tell_machine(const Case& c, const SearchResult& result, const std::string& 
     out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model, out.baseline.noise_um), file));
   const bool of_noise = std::any_of(out.effects.begin(), out.effects.end(),
                                     [](const DiagnosedEffect& e) { return e.members.front().starts_with("noise."); });
-  out.baseline.noisier = !of_noise && scatters_more(out.baseline, out.touches);
+  out.baseline.noisier = !of_noise && scatters_more(out.baseline, static_cast<int>(c.rows.size()));
   if (out.baseline.noisier) out.messages.push_back(more_scatter(out.baseline, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
   if (out.beyond_known) out.messages.push_back(another_machine(*out.beyond_known, file));
@@ -243,7 +243,7 @@ BaselineSummary machine_beside(const Case& c, const EvidenceSearch& first, const
   const std::optional<Matrix> uneven = nothing ? first.uneven() : std::nullopt;
   LinearModel m = with_free(likelier_ensemble(c, c.model), signatures_of(c, result));
   if (uneven) m = with_random(m, *uneven);
-  BaselineSummary out = summary(c, c.rough || uneven ? estimate(m) : result.hyper, known);
+  BaselineSummary out = summary(c, uneven ? estimate(m) : result.hyper_of_likelier, known);
   out.rougher = c.rough, out.uneven = uneven.has_value();
   return out;
 }

@@ -25,15 +25,15 @@ struct Scheme {
   std::vector<int> group;  ///< by row of the model
 };
 
-std::map<int, double> touches_of(const Scheme& s) {
+std::map<int, double> count_by_group(const std::vector<int>& group) {
   std::map<int, double> count;
-  for (const int g : s.group) count[g] += 1;
+  for (const int g : group) count[g] += 1;
   return count;
 }
 
 /// Whether its groups can be predicted from one another: at least three, none of which is most of the recording.
 bool comparable(const Scheme& s) {
-  const std::map<int, double> count = touches_of(s);
+  const std::map<int, double> count = count_by_group(s.group);
   const auto largest =
       std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   return count.size() >= 3 && 2 * largest->second <= double(s.group.size());
@@ -150,16 +150,6 @@ double sum(const std::vector<double>& v) {
   return s;
 }
 
-/// Standard error of the sum over groups, of which the larger ones gain more: the ratio estimator of gain per
-/// touch (Cochran 1977, 6.3).
-double standard_error(const std::vector<double>& gain, const Scheme& scheme) {
-  const double n = double(gain.size()), per_touch = sum(gain) / double(scheme.group.size());
-  double square = 0;
-  std::size_t k = 0;
-  for (const auto& [group, touches] : touches_of(scheme)) square += std::pow(gain[k++] - per_touch * touches, 2);
-  return n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
-}
-
 void tell_residuals(const Case& c, const Vector& before, const Vector& after, Diagnosis& out) {
   for (std::size_t k = 0; k < c.rows.size(); ++k) {
     const RecordedTouch& t = c.touches.touches[c.rows[k]];
@@ -172,14 +162,23 @@ void tell_residuals(const Case& c, const Vector& before, const Vector& after, Di
 
 }  // namespace
 
+double standard_error_of_sum(const std::vector<double>& gain, const std::vector<int>& group) {
+  const double n = double(gain.size()), per_row = sum(gain) / double(group.size());
+  double square = 0;
+  std::size_t k = 0;
+  for (const auto& [g, size] : count_by_group(group)) square += std::pow(gain[k++] - per_row * size, 2);
+  return n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
+}
+
 void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out) {
   const Scheme scheme = scheme_of(c);
   const std::set<int> groups(scheme.group.begin(), scheme.group.end());
   const LinearModel machine = likelier_ensemble(c, c.model);
+  const Hyperparameters& hyper = result.hyper_of_likelier;
   // Before and after by one machine, as it is beside what was found: one that takes the mismatch for its own
   // errors predicts worse than none.
   Vector before = Vector::Zero(machine.y.size());
-  for (const int g : groups) before += beyond_prediction(machine, result.hyper, of_group(scheme, g));
+  for (const int g : groups) before += beyond_prediction(machine, hyper, of_group(scheme, g));
   std::vector<int> named;
   std::vector<int> variants;
   for (const Finding& f : result.findings) named.push_back(f.explanation), variants.push_back(f.variant);
@@ -196,16 +195,16 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
       gain[g] += h.gain[g] + (k == 0 ? h.null[g] - baseline[g] : 0), append(columns[g], h.columns[g]);
   }
   Vector after = Vector::Zero(machine.y.size());
-  LinearModel without = c.model;  // what was found, as the other groups show it
+  LinearModel without = machine;  // what was found, as the other groups show it
   // Where it acts. Each group asks the others alone: chosen among the predictions of all groups, the touches would be
   // those of the group of which the others expect too much.
   Vector most = Vector::Zero(machine.y.size());
   std::size_t at = 0;
   for (const int g : groups) {
-    const Vector predicted = expected(machine, result.hyper, scheme, g, columns[at++]);
+    const Vector predicted = expected(machine, hyper, scheme, g, columns[at++]);
     LinearModel improved = machine;
     improved.y -= predicted;
-    after += beyond_prediction(improved, result.hyper, of_group(scheme, g));
+    after += beyond_prediction(improved, hyper, of_group(scheme, g));
     const Vector shows = beside_free(machine, predicted);
     const double limit = largest_fifth(shows);
     for (std::size_t k = 0; k < scheme.group.size(); ++k) {
@@ -218,15 +217,15 @@ void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out)
   Improvement i;
   i.scheme = scheme.name;
   i.log_score_gain = sum(gain);
-  i.se = standard_error(gain, scheme);
+  i.se = standard_error_of_sum(gain, scheme.group);
   i.rms_before_um = rms(before);
   i.rms_after_um = rms(after);
   i.bias_before_um = bias(before, most);
   i.bias_after_um = bias(after, most);
   const auto chi2_per_dof = [&](const LinearModel& m) {
-    return leave_one_out(m, result.hyper).squaredNorm() / double(m.y.size());
+    return leave_one_out(m, hyper).squaredNorm() / double(m.y.size());
   };
-  i.chi2_per_dof_before = chi2_per_dof(c.model);
+  i.chi2_per_dof_before = chi2_per_dof(machine);
   i.chi2_per_dof_after = chi2_per_dof(without);
   out.improvement = i;
   tell_residuals(c, before, after, out);

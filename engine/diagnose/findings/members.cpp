@@ -46,7 +46,7 @@ void fill_up(const Case& c, Finding& f, const std::vector<int>& struck) {
   std::vector<std::pair<double, int>> others;
   double held = weight_of_all(c, f), all = held;
   for (int k = 0; k < static_cast<int>(c.explanations.list.size()); ++k) {
-    if (!c.explanations.list[k].effect || in(f.set, k) || in(struck, k)) continue;
+    if (!c.explanations.list[k].effect || in(f.set, k) || in(struck, k) || !says_something(f.evidence, k)) continue;
     others.emplace_back(-weight(c, f, k), k);
     all += weight(c, f, k);
   }

@@ -204,11 +204,8 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
     sum += std::abs(off), outwards += off, log_sum += std::log(std::abs(off)), limit += own;
   }
   const auto n = static_cast<double>(out.size());
-  const double all = static_cast<double>(c.masked.size()), share = n / all,
-               by_noise = all * 2 * normal_below(-kOutlier);
-  const auto known = in_file(c, "noise.outliers", "share");
-  const double expected = by_noise + (known ? all * (known->value + 2 * known->u) : 0);
-  const double p = poisson_tail(n, expected);
+  const double all = static_cast<double>(c.masked.size()), share = n / all;
+  const double p = poisson_tail(n, expected_outliers(c));
   if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
   constexpr double kLogSpread = 0.7;  // of the effect
   const double median = std::copysign(std::exp(log_sum / n), outwards);
@@ -238,6 +235,12 @@ void doubt_what_goes_on(double correlation, NoiseFinding& f) {
 }
 
 }  // namespace
+
+double expected_outliers(const Case& c) {
+  const auto in_machine = in_file(c, "noise.outliers", "share");
+  const double share = 2 * normal_below(-kOutlier) + (in_machine ? in_machine->value + 2 * in_machine->u : 0);
+  return static_cast<double>(c.masked.size()) * share;
+}
 
 std::vector<NoiseFinding> judge_noise(const Case& c, const SearchResult& result) {
   constexpr int kOfTouches = 2;  // resolution and outliers are told by touches themselves, the others by scatter

@@ -16,4 +16,8 @@ struct NoiseFinding {
 };
 std::vector<NoiseFinding> judge_noise(const Case&, const SearchResult&);
 
+/// So many touches lie beyond the limit of gross outliers by normal noise and, at most but for two standard uncertainties,
+/// by what the machine file has of them.
+double expected_outliers(const Case&);
+
 }  // namespace abbe::diagnose

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/base/ids.hpp"
 #include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
 
@@ -67,6 +68,7 @@ Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
   Named out{finding_of(fine, evidence, true), finding_of(fine, evidence, false)};
   out.name.best = out.pattern.best = best_variants(c.explanations, evidence);
   const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(fine.variants[b].weight); };
+  ABBE_CHECK(out.name.explanation >= 0);  // the catalogue has effects that need nothing
   const std::vector<int>& variants = fine.list[out.name.explanation].variants;
   double best = -std::numeric_limits<double>::infinity();
   for (const int b : variants) best = std::max(best, belief(b));
@@ -267,12 +269,21 @@ void add_what_names_leave(const Case& c, SearchResult& result) {
   drop_names_beside_a_pattern(c, result);
 }
 
+/// What machine and noise are beside all that was found.
+void fit_beside_findings(const Case& c, SearchResult& result) {
+  const bool nothing = result.findings.empty() && !result.other;
+  const auto beside = [&](const LinearModel& m) { return estimate(with_free(m, signatures_of(c, result))); };
+  result.hyper = nothing ? c.hyper : beside(c.model);
+  result.hyper_of_likelier = c.rough ? beside(likelier_ensemble(c, c.model)) : result.hyper;
+}
+
 /// How the size of each name differs between the touches.
 void compare_sizes(const Case& c, SearchResult& result) {
   const std::vector<const Matrix*> found = signatures_of(c, result);
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     Finding& f = result.findings[k];
-    if (!c.explanations.list[f.explanation].effect->only_spread) f.sizes = size_difference(c, found, k, result.hyper);
+    if (!c.explanations.list[f.explanation].effect->only_spread)
+      f.sizes = size_difference(c, found, k, result.hyper_of_likelier);
   }
 }
 
@@ -300,7 +311,7 @@ void drop_name_of_several_sizes(Case& c, EvidenceSearch& first, SearchResult& re
   other.evidence = result.first;
   other.best = best_variants(c.explanations, result.first);
   result.other = std::move(other);
-  result.hyper = estimate(with_free(c.model, signatures_of(c, result)));
+  fit_beside_findings(c, result);
 }
 
 /// A finding that later ones have taken over altogether is none: beside them nothing speaks for it.
@@ -320,20 +331,22 @@ bool same_fault(const Case& c, const Finding& a, const Finding& b) {
   return a.explanation == b.explanation && alike(variant(a), variant(b));
 }
 
-/// Names every finding again, given all others. Two rounds may have named one fault twice: then one name is enough.
+/// Names every finding again, given all others as they are by then. Two rounds may have named one fault twice: then one
+/// name is enough.
 void name_again(Case& c, SearchResult& result) {
-  const std::vector<Finding> before = std::exchange(result.findings, {});
+  std::vector<Finding>& all = result.findings;
   bool two_patterns = false;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    auto [f, pattern] = renamed(c, before, k, result.other);
-    const bool known = std::any_of(result.findings.begin(), result.findings.end(),
+  for (std::size_t k = 0; k < all.size();) {
+    auto [f, pattern] = renamed(c, all, k, result.other);
+    const bool known = std::any_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(k),
                                    [&](const Finding& other) { return same_fault(c, other, f); });
-    if (pattern && result.other)
-      two_patterns = true;
-    else if (pattern)
-      result.other = std::move(f);
-    else if (!known)
-      result.findings.push_back(std::move(f));
+    if (!pattern && !known) {
+      all[k++] = std::move(f);
+      continue;
+    }
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+    if (pattern && result.other) two_patterns = true;
+    if (pattern && !result.other) result.other = std::move(f);
   }
   if (two_patterns)
     result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
@@ -369,18 +382,21 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   if (several && !result.findings.empty() && others(c, result.findings, in_rounds))
     result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
   add_what_names_leave(c, result);
-  result.hyper =
-      result.findings.empty() && !result.other ? c.hyper : estimate(with_free(c.model, signatures_of(c, result)));
+  fit_beside_findings(c, result);
   compare_sizes(c, result);
   drop_name_of_several_sizes(c, first, result);
   return result;
 }
 
+bool says_something(const Evidence& evidence, int explanation) {
+  constexpr double kSaysNothing = 0.4;  // nats
+  return evidence.log_bayes[explanation] >= kSaysNothing;
+}
+
 CredibleSet credible_set(const Explanations& all, const Evidence& evidence, bool catalogue) {
-  constexpr double kSaysNothing = 0.4;  // nats: what is free already does as much
   const std::vector<double> p = probabilities(all, evidence);
   std::vector<int> order = likeliest_first(all, p, catalogue);
-  std::erase_if(order, [&](int k) { return k != order.front() && evidence.log_bayes[k] < kSaysNothing; });
+  std::erase_if(order, [&](int k) { return k != order.front() && !says_something(evidence, k); });
   double total = 0;
   for (const int k : order) total += p[k];
   CredibleSet out;

@@ -12,6 +12,9 @@ namespace abbe::diagnose {
 /// The likeliest variant of an explanation, given the data and what was believed of it before.
 int best_variant(const Explanations&, int explanation, const Evidence&);
 
+/// Whether data speak for an explanation by more than what is free already does.
+bool says_something(const Evidence&, int explanation);
+
 /// The smallest set of effects, or of patterns, that holds kCredible of the belief in its own kind.
 struct CredibleSet {
   int explanation = -1;    ///< the likeliest; none where there are none of this kind
@@ -43,6 +46,8 @@ struct SearchResult {
   std::vector<Evidence> null;      ///< simulated, before any finding
   /// of the recording beside all that was found: a mismatch passes for noise and for larger errors
   Hyperparameters hyper;
+  /// likewise, of the ensemble that the recording fits better (likelier_ensemble)
+  Hyperparameters hyper_of_likelier;
 };
 
 /// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.

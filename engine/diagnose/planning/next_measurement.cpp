@@ -292,7 +292,7 @@ std::vector<NextMeasurement> best_changes(const Case& c, const Hyperparameters& 
 
 std::vector<NextMeasurement> next_measurements(const Case& c, const SearchResult* result,
                                                const std::vector<Detectable>& detectable) {
-  if (result) return best_changes(c, result->hyper, question_of(*result), kShown);
+  if (result) return best_changes(c, result->hyper_of_likelier, question_of(*result), kShown);
   std::vector<NextMeasurement> out;
   for (const Question& question : questions_of(c, detectable, kShown))
     for (NextMeasurement& best : best_changes(c, c.hyper, question, 1)) {

@@ -9,6 +9,7 @@
 #include <map>
 #include <string_view>
 
+#include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/math/normal.hpp"
@@ -161,8 +162,8 @@ bool add_unequal(const Case& c, const ScatterDesign& design, std::vector<Detecta
 }
 
 void add_outliers(const Case& c, const ScatterDesign& design, std::vector<Detectable>& out) {
-  const double touches = double(c.masked.size()), expected = touches * 2 * normal_below(-kOutlier);
-  double count = 2;
+  const double touches = double(c.masked.size()), expected = expected_outliers(c);
+  double count = std::max(2.0, std::ceil(expected));
   while (count < touches && poisson_tail(count, expected) > kNoiseAlarm) ++count;
   // Of so many in the mean, that many or more are there in 80 % of recordings.
   const double mean = least(10 * count, [&](double m) { return poisson_tail(count, m) >= 0.8; });

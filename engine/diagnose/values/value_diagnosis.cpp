@@ -13,6 +13,7 @@
 
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/quantile.hpp"
@@ -232,11 +233,8 @@ void show_improvement(const ValueCase& c, const Closer& closer, const Finding& f
     for (std::size_t k = 0; k < group.size(); ++k)
       if (group[k] == g) predicted(static_cast<Eigen::Index>(k)) = all(static_cast<Eigen::Index>(k));
   }
-  const double n = double(gain.size());
   i.log_score_gain = std::accumulate(gain.begin(), gain.end(), 0.0);
-  double square = 0;
-  for (const double g : gain) square += std::pow(g - i.log_score_gain / n, 2);
-  i.se = n > 1 ? std::sqrt(n * square / (n - 1)) : 0;
+  i.se = standard_error_of_sum(gain, group);
   const std::vector<Eigen::Index> told = of_figures(c.ensemble.values);
   const Vector before = (c.deviation - c.judges.mean)(told), after = before - predicted(told);
   const double of_told = double(told.size()), values = double(c.deviation.size());

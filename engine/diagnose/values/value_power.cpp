@@ -19,7 +19,7 @@ struct Form {
   double information = 0;
 };
 
-/// Of the forms that show at all, by what the values tell of them, the one in the middle; of two, the one that shows less.
+/// Of the forms that show at all, by what the values tell of them, the one in the middle; of an even number the better one.
 std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
   constexpr double kNone = 1e-12;
   std::vector<Form> forms;
@@ -29,7 +29,7 @@ std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
     if (information > kNone) forms.push_back({b, at, information});
   }
   if (forms.empty()) return std::nullopt;
-  const auto middle = forms.begin() + static_cast<std::ptrdiff_t>((forms.size() - 1) / 2);
+  const auto middle = forms.begin() + static_cast<std::ptrdiff_t>(forms.size() / 2);
   std::nth_element(forms.begin(), middle, forms.end(),
                    [](const Form& a, const Form& b) { return a.information < b.information; });
   return *middle;

@@ -59,7 +59,7 @@ struct Found {
     }
     // A mismatch passes for noise: the recording alone asks for more of it than beside what was found.
     c.hyper.noise = Vector::Constant(1, 2.2);
-    result.hyper.noise = Vector::Constant(1, 1.0);
+    result.hyper.noise = result.hyper_of_likelier.noise = Vector::Constant(1, 1.0);
     Finding f;
     f.explanation = 0;
     f.variant = 0;

@@ -77,7 +77,7 @@ struct Planted {
       m.random(i, 0) = s.normal.x * s.point.x / 500;
       m.y(i) = 3 * s.normal.x - 2 * s.normal.y + 0.8 * m.random(i, 0) + kNoise_um * normal(i, 0);
     }
-    c.hyper.noise = result.hyper.noise = Vector::Ones(1);
+    c.hyper.noise = result.hyper.noise = result.hyper_of_likelier.noise = Vector::Ones(1);
   }
 
   /// A standard normal number of this recording.
