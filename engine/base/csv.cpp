@@ -102,10 +102,10 @@ CsvTable read_csv(const SourceFile& file) {
       table.header = std::move(fields);
       check_header(file, table.header, sink);
     } else if (fields.size() != table.header.size()) {
-      sink.add(diagnostic_at(
-          file, fields.front().span, Code::E0523,
-          fmt::format("this line has {} values, the header {} columns", fields.size(), table.header.size()),
-          "every line holds one value, or nothing, for each column"));
+      sink.add(diagnostic_at(file, fields.front().span, Code::E0523,
+                             fmt::format("this line has {} value{}, the header {} columns", fields.size(),
+                                         fields.size() == 1 ? "" : "s", table.header.size()),
+                             "every line holds one value, or nothing, for each column"));
     } else {
       table.rows.push_back({number, std::move(fields)});
     }

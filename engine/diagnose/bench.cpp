@@ -30,15 +30,10 @@ Case on_the_bench(const Recording& recording, const Machine& machine, const Diag
   if (static_cast<int>(c.touches.touches.size()) < kLeastTouches)
     throw UserError(diagnostic(
         Code::E0705, fmt::format("{}: too few touches to judge a machine by: {}", file, c.touches.touches.size()),
-        fmt::format("at least {} are needed beyond the six unknowns of each placement", kLeastTouches)));
+        fmt::format("at least {} are needed: each placement of the part has six unknowns of its own", kLeastTouches)));
   if (!options.design_only) check_pairing(recording, c.touches, file, out.messages);
   if (!options.design_only) doubt_hollow_balls(recording, c.touches, file, out.messages);
   if (!options.design_only && !surfaces) check_tips(c.touches, file);
-  constexpr int kMostTouches = 4000;  // ten minutes, and 4 GB
-  if (static_cast<int>(c.touches.touches.size()) > kMostTouches)
-    throw UserError(diagnostic(
-        Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, c.touches.touches.size()),
-        fmt::format("at most {}: leave out repeats, or diagnose a part of the runs at a time", kMostTouches)));
   const EffectSet effects(machine.effects, EffectUse::left_in, machine.name);
   remove_estimates(effects, c.touches);
   std::optional<RecordedPart> part;

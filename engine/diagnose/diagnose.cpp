@@ -71,6 +71,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
                 const std::string& file, std::vector<Diagnostic>& messages) {
   Recording once = without_copies(recorded, file, messages);
   check_data(once, machine, file);
+  leave_out_targets(once, file, messages);
   doubt_temperatures(once, file, messages);
   doubt_motion(once, file, messages);
   leave_out_partly_logged(once, file, messages);
@@ -82,6 +83,14 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   Recording placed = put_on_targets(once, most_out_mm(once, machine, options), file, messages);
   leave_out_astray(placed, file, messages);
   return placed;
+}
+
+void refuse_too_many(const Recording& r, const std::string& file) {
+  constexpr std::size_t kMostTouches = 4000;  // ten minutes, and 4 GB
+  if (r.rows.size() > kMostTouches)
+    throw UserError(diagnostic(
+        Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, r.rows.size()),
+        fmt::format("at most {}: leave out repeats, or diagnose a part of the runs at a time", kMostTouches)));
 }
 
 BaselineSummary summary(const Case& c, const Hyperparameters& hyper, bool known) {
@@ -344,6 +353,7 @@ std::vector<Diagnostic> recording_problems(const Recording& recorded, const Mach
 Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
                              const std::string& file) {
   Diagnosis out;
+  refuse_too_many(recorded, file);
   if (options.design_only) out.judged = Judged::plan;
   const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
   out.touches = static_cast<int>(recording.rows.size());

@@ -83,8 +83,10 @@ struct Put {
     const std::optional<double> v = number(field, described(read));
     draft.vectors[read.place][static_cast<std::size_t>(read.axis)] = v;
     if (v) return "";
-    return described(read).unit_vector ? "a number, with a decimal point"
-                                       : "a number in mm, with a decimal point and no unit";
+    const RecordingColumn& column = described(read);
+    return column.unit_vector
+        ? "a number, with a decimal point"
+        : fmt::format("a number in mm from {:g} to {:g}, with a decimal point and no unit", column.low, column.high);
   }
 };
 
@@ -202,6 +204,7 @@ Recording read_recording(const SourceFile& file, Positions positions) {
   if (sink.has_errors()) throw UserError(sink.list());
   for (const CsvRow& row : table.rows) {
     Draft draft;
+    bool understood = true;
     for (std::size_t k = 0; k < columns.size(); ++k) {
       const CsvField& field = row.fields[k];
       const RecordingColumn& column = described(columns[k]);
@@ -209,12 +212,13 @@ Recording read_recording(const SourceFile& file, Positions positions) {
       if (field.text.empty() && !required) continue;
       const std::string holds = std::visit(Put{field, columns[k], draft}, column.member);
       if (holds.empty()) continue;
+      understood = false;
       sink.add(
           diagnostic_at(file, field.span, Code::E0530,
                         fmt::format("'{}' is no value for the column '{}'", field.text, table.header[k].text),
                         fmt::format("it holds {}{}", holds, required ? "" : ", or nothing where it is not known")));
     }
-    complete_vectors(file, row, positions, draft, sink);
+    if (understood) complete_vectors(file, row, positions, draft, sink);
     draft.row.line = row.line;
     recording.rows.push_back(std::move(draft.row));
     if (sink.list().size() >= kMostCsvMessages) break;

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
+
+#include "engine/recording/copies.hpp"
 
 namespace abbe {
 
@@ -89,23 +90,13 @@ bool same_rows(const Recording& before, const Recording& next) {
       before.rows.end();
 }
 
-/// Whether nearly all touches of the shorter recording stand in the longer one to the last digit, under whatever setup
-/// and run. Positions in coarse steps repeat by themselves, and so do targets in their place.
+/// Whether nearly all touches of the shorter recording stand in the longer one, under whatever setup and run.
 bool same_positions(const Recording& before, const Recording& next) {
-  constexpr double kCoarse_mm = 1.5e-3, kNearlyAll = 0.9;
-  if (common_step_mm(before) > kCoarse_mm) return false;
-  const bool fewer = next.rows.size() < before.rows.size();
-  const auto position = [](const RecordingRow& row) {
-    const Vec3& p = row.position_mm;
-    return std::tuple(row.feature, row.touch, p.x, p.y, p.z);
-  };
-  std::set<std::tuple<std::string, int, double, double, double>> known;
-  for (const RecordingRow& row : (fewer ? before : next).rows)
-    if (row.target_mm != row.position_mm) known.insert(position(row));
-  const std::vector<RecordingRow>& rows = (fewer ? next : before).rows;
-  const auto again =
-      std::count_if(rows.begin(), rows.end(), [&](const RecordingRow& row) { return known.contains(position(row)); });
-  return double(again) >= kNearlyAll * double(rows.size());
+  std::vector<const RecordingRow*> rows;
+  std::vector<int> file;
+  for (const RecordingRow& row : before.rows) rows.push_back(&row), file.push_back(0);
+  for (const RecordingRow& row : next.rows) rows.push_back(&row), file.push_back(1);
+  return copied_group(rows, file).has_value();
 }
 
 /// A file given twice is no repeat: nothing was measured again.

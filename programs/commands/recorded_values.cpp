@@ -93,13 +93,13 @@ bool is_result(const std::string& file) { return file.ends_with(".dmo") || file.
 bool are_values(const std::vector<SourceFile>& files) {
   for (const SourceFile& file : files)
     if (!is_result(file.name())) refuse_other_kind(file, FileKind::table);
-  const auto count = std::count_if(files.begin(), files.end(),
+  const auto values = std::find_if(files.begin(), files.end(),
                                    [](const SourceFile& f) { return is_result(f.name()) || is_value_recording(f); });
-  if (count > 0 && files.size() > 1)
-    throw UserError(diagnostic(
-        Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), files.front().name()),
-        "put the values of one machine into one file; the columns 'program' and 'run' keep them apart"));
-  return count > 0;
+  if (values != files.end() && files.size() > 1)
+    throw UserError(
+        diagnostic(Code::E0554, fmt::format("{} files were given and '{}' holds values", files.size(), values->name()),
+                   "put the values of one machine into one file; the columns 'program' and 'run' keep them apart"));
+  return values != files.end();
 }
 
 std::string recorded_machine(const std::string& named, const std::vector<std::string>& recordings) {
@@ -126,6 +126,10 @@ RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::
       throw UserError(
           diagnostic_at(recording_.source, row.span, Code::E0555, "which program evaluated this value is not said",
                         "give --program P.dmi, or a column 'program' with its path as seen from this file"));
+    if (const std::string path = (folder / row.program).string();
+        !row.program.empty() && !std::filesystem::is_regular_file(path))
+      throw UserError(diagnostic_at(recording_.source, row.span, Code::E0601, fmt::format("cannot read '{}'", path),
+                                    "the column 'program' names the measurement program as seen from this file"));
     names_.push_back(row.program);
     programs_.push_back(usable_program(row.program.empty() ? *program : (folder / row.program).string()));
     const std::vector<Diagnostic>& told = programs_.back().messages;

@@ -388,6 +388,33 @@ class Mistakes(Input):
         self.refused("E0713", "diagnose", self.recording, copy)
         self.refused("E0713", "diagnose", self.write("other.csv", "\n".join(other) + "\n"), self.recording, copy)
 
+    def test_a_run_that_was_copied_is_no_repeat(self):
+        lines = self.recording.read_text().splitlines()
+        header = next(k for k, line in enumerate(lines) if not line.startswith("#"))
+        run = lines[header].split(",").index("run")
+        def as_run(line, number):
+            fields = line.split(",")
+            return ",".join(fields[:run] + [str(number)] + fields[run + 1:])
+        whole = self.write("runs.csv", "\n".join(lines + [as_run(line, 2) for line in lines[header + 1:]]) + "\n")
+        self.assertIn("run 2 of setup 1 holds the same touches as run 1 of setup 1", self.refused("E0713", "diagnose", whole))
+
+    def test_rows_without_a_target_are_named(self):
+        some = self.changed(self.recording, lambda row: row | {c: "" for c in TARGET} if row["feature"] == "BORE2" else row)
+        none = self.changed(self.recording, lambda row: self.without(row, *TARGET), "none.csv")
+        self.assertIn("of 'BORE2' has no target", self.refused("E0543", "diagnose", some))
+        self.assertIn("touch 1 of 'PLA' has no target", self.refused("E0543", "diagnose", none))
+
+    def test_targets_in_the_place_of_some_positions_are_left_out(self):
+        in_order = self.folder / "in_order.csv"
+        self.abbe("record", PROGRAM, "-o", in_order)
+        other = lambda row: row | {a: row["t" + a] for a in "xyz"} if int(row["touch"]) % 3 == 0 else row
+        left_out = lambda row: None if int(row["touch"]) % 3 == 0 else row
+        said, without = self.said(self.changed(in_order, other)), self.said(self.changed(in_order, left_out, "fewer.csv"))
+        self.assertEqual((self.codes(said), said["verdict"]), (["W0717"], "no_mismatch"))
+        self.assertEqual((said["touches"], said["p_value"]), (without["touches"], without["p_value"]))
+        rounded = lambda row: row | {a: f"{float(row[a]):.2f}" for a in "xyz"} | {"t" + a: f"{float(row['t' + a]):.2f}" for a in "xyz"}
+        self.assertNotIn("W0717", self.codes(self.said(self.changed(in_order, rounded, "rounded.csv"))))   # by chance
+
     def test_tables_of_another_kind(self):
         text = self.recording.read_text()
         self.assertIn("semicolons", self.refused("E0531", "diagnose", self.write("bad.csv", text.replace(",", ";"))))
@@ -405,6 +432,18 @@ class Mistakes(Input):
         self.assertIn("W0714", self.abbe("diagnose", self.recording, repeat, "--design-only").stderr)
         self.abbe("machine", "init", "mine.json")
         self.assertIn("W0715", self.abbe("diagnose", self.recording, "--known", "mine.json", "--design-only").stderr)
+
+
+    def test_a_number_beyond_its_range_is_told_as_such(self):
+        far = self.changed(self.recording, lambda row: row | {"x": "1e11"} if row["touch"] == "3" else row)
+        said = self.refused("E0530", "diagnose", far)
+        self.assertIn("a number in mm from -", said)
+        self.assertNotIn("E0528", said)
+
+    def test_the_file_that_holds_values_is_named(self):
+        values = self.write("values.csv", "program,characteristic,value\np.dmi,T1,1.0\n")
+        self.assertIn("'values.csv' holds values", self.refused("E0554", "diagnose", self.recording, values).replace(str(self.folder) + "/", ""))
+        self.assertIn("values.csv:2", self.refused("E0601", "diagnose", values))   # no program of that name
 
 
 class Values(Input):

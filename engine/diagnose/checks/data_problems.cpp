@@ -15,7 +15,9 @@
 #include "engine/diagnose/checks/scale_readings.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
+#include "engine/recording/copies.hpp"
 #include "engine/recording/units.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
 
@@ -197,6 +199,31 @@ void check_head(const Recording& r, const std::string& file) {
     refuse(file, "the angles of the head are in radians", "multiply head_A_deg and head_B_deg by 57.29578");
 }
 
+/// Whole runs, or placements, that stand in the file twice.
+void refuse_copied_runs(const Recording& r, const std::string& file) {
+  constexpr std::size_t kFewest = 10;  // a few touches may come out alike by chance
+  std::map<std::pair<int, int>, int> number;
+  std::vector<std::pair<int, int>> setup_and_run;
+  std::vector<const RecordingRow*> rows;
+  std::vector<int> group;
+  for (const RecordingRow& row : r.rows) {
+    const auto [at, fresh] = number.emplace(std::pair(row.setup, row.run), static_cast<int>(number.size()));
+    if (fresh) setup_and_run.push_back(at->first);
+    rows.push_back(&row), group.push_back(at->second);
+  }
+  const std::optional<Copied> copied = copied_group(rows, group, kFewest);
+  if (!copied) return;
+  const auto called = [&](int k) {
+    return fmt::format("run {} of setup {}", setup_and_run[static_cast<std::size_t>(k)].second,
+                       setup_and_run[static_cast<std::size_t>(k)].first);
+  };
+  throw UserError(diagnostic(
+      Code::E0713,
+      fmt::format("{}: {} holds the same touches as {}, to the last digit of their positions: rows were copied", file,
+                  called(copied->later), called(copied->earlier)),
+      "keep each run once; a repeat has other values"));
+}
+
 }  // namespace
 
 Recording without_copies(const Recording& recorded, const std::string& file, std::vector<Diagnostic>& messages) {
@@ -225,13 +252,12 @@ Recording without_copies(const Recording& recorded, const std::string& file, std
         diagnostic(Code::W0702,
                    fmt::format("{}: {} rows stand there twice, the first is {}; they count once", file, copies, first),
                    "remove one of each pair"));
+  refuse_copied_runs(out, file);
   return out;
 }
 
 void check_data(const Recording& r, const Machine& machine, const std::string& file) {
-  const bool complete =
-      std::all_of(r.rows.begin(), r.rows.end(), [](const RecordingRow& row) { return row.target_mm && row.normal; });
-  if (!complete) return;  // recorded_touches() says what is missing
+  require_targets(r, file);
   check_one_value(r, file);
   check_units(r, machine, file);
   check_unit_of_each(r, file);

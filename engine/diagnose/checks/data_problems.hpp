@@ -11,9 +11,9 @@
 
 namespace abbe::diagnose {
 
-/// A recording without its exact copies of rows. Throws UserError: one touch with two values.
+/// A recording without its exact copies of rows. Throws UserError: one touch with two values, a copied run (E0713).
 Recording without_copies(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
-/// Throws UserError: another unit or other axes.
+/// Throws UserError: a touch without target or normal (E0543), another unit or other axes.
 void check_data(const Recording&, const Machine&, const std::string& file);
 
 }  // namespace abbe::diagnose

@@ -68,11 +68,12 @@ void doubt_temperatures(const Recording& recording, const std::string& file, std
 void doubt_motion(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kSlow_mm_s = 0.02, kFast_mm_s = 100, kSecondsPerMinute = 60;
   constexpr double kWeak_mm_s2 = 1, kHard_mm_s2 = 5e4;
-  constexpr double kLong_s = 300;  // from touch to touch
+  constexpr double kLong_s = 300, kShort_s = 1e-3, kPause_s = 7 * 86400;  // from touch to touch
+  const std::string kNotLogged = "no touch is made standing still: if it was not logged there, leave the field empty";
   const auto doubt = [&](std::optional<double> RecordingRow::*column, std::string_view name, double low, double high,
                          auto help) {
     const auto odd = std::find_if(recording.rows.begin(), recording.rows.end(), [&](const RecordingRow& row) {
-      return row.*column && *(row.*column) > 0 && (*(row.*column) < low || *(row.*column) > high);
+      return row.*column && (*(row.*column) < low || *(row.*column) > high);
     });
     if (odd == recording.rows.end()) return;
     const double value = *((*odd).*column);
@@ -81,11 +82,13 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
         help(value)));
   };
   doubt(&RecordingRow::speed_mm_s, "speed_mm_s", kSlow_mm_s, kFast_mm_s, [&](double value) {
+    if (value == 0) return kNotLogged;
     return value > kFast_mm_s
         ? fmt::format("if these are mm/min, convert them: {:g} mm/min are {:g} mm/s", value, value / kSecondsPerMinute)
         : fmt::format("if these are m/s, convert them: {:g} m/s are {:g} mm/s", value, 1e3 * value);
   });
   doubt(&RecordingRow::accel_mm_s2, "accel_mm_s2", kWeak_mm_s2, kHard_mm_s2, [&](double value) {
+    if (value == 0) return kNotLogged;
     return value > kHard_mm_s2
         ? fmt::format("if these are um/s2, convert them: {:g} um/s2 are {:g} mm/s2", value, 1e-3 * value)
         : fmt::format("if these are m/s2, convert them: {:g} m/s2 are {:g} mm/s2", value, 1e3 * value);
@@ -96,12 +99,21 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
   std::sort(times.begin(), times.end());
   for (std::size_t i = 1; i < times.size(); ++i) between.push_back(times[i] - times[i - 1]);
   if (between.empty()) return;
-  const double usual = median(std::move(between));
-  if (usual < kLong_s) return;
-  messages.push_back(diagnostic(
-      Code::W0728,
-      fmt::format("{}: by time_s, half of the touches come {:g} s or more after the one before", file, usual),
-      fmt::format("if these are milliseconds, convert them: {:g} ms are {:g} s", usual, 1e-3 * usual)));
+  const double longest = *std::max_element(between.begin(), between.end()), usual = median(std::move(between));
+  if (usual >= kLong_s)
+    messages.push_back(diagnostic(
+        Code::W0728,
+        fmt::format("{}: by time_s, half of the touches come {:g} s or more after the one before", file, usual),
+        fmt::format("if these are milliseconds, convert them: {:g} ms are {:g} s", usual, 1e-3 * usual)));
+  else if (usual > 0 && usual < kShort_s)
+    messages.push_back(diagnostic(
+        Code::W0728,
+        fmt::format("{}: by time_s, half of the touches come {:g} s or less after the one before", file, usual),
+        fmt::format("if these are days, convert them: {:g} days are {:g} s", usual, 86400 * usual)));
+  if (longest >= kPause_s && usual < kLong_s)
+    messages.push_back(diagnostic(
+        Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / 86400),
+        "if some rows have the time of another clock, write the seconds since one start into all"));
 }
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

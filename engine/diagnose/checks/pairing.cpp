@@ -4,10 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
 #include "engine/diagnose/baseline/most_agree.hpp"
+#include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/quantile.hpp"
 #include "engine/recording/units.hpp"
 #include "engine/run/recorded/part.hpp"
 
@@ -112,6 +115,28 @@ void check_tips(const RecordedTouches& t, const std::string& file) {
                         file, t.features[of.first], std::abs(out), out > 0 ? "out" : "in", name),
             "check the compensation of that feature, INNER or OUTER, and whether its targets are tip centres; where it is really so, say '# surfaces: unknown'"));
   }
+}
+
+void leave_out_targets(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  constexpr std::size_t kFew = 3;  // those that make the coordinates of a part are their targets by definition
+  constexpr double kByChance = 1e-6;
+  const auto is_target = [](const RecordingRow& row) { return row.position_mm == *row.target_mm; };
+  std::vector<double> off_mm;
+  for (const RecordingRow& row : recording.rows)
+    if (!is_target(row)) off_mm.push_back(std::abs(dot(row.position_mm - *row.target_mm, *row.normal)));
+  const std::size_t all = recording.rows.size(), targets = all - off_mm.size();
+  if (targets <= kFew || off_mm.empty()) return;
+  constexpr double kMiddleOfNormal = 0.6745;
+  const double sd_mm = median(std::move(off_mm)) / kMiddleOfNormal, step_mm = common_step_mm(recording);
+  const double rounded = sd_mm > 0 ? std::min(1.0, step_mm / (std::sqrt(2 * kPi) * sd_mm)) : 1;
+  if (poisson_tail(double(targets), double(all) * rounded) > kByChance) return;
+  const auto first = std::find_if(recording.rows.begin(), recording.rows.end(), is_target);
+  messages.push_back(diagnostic(
+      Code::W0717,
+      fmt::format("{}: {} of {} touches are exactly their targets, the first is touch {} of '{}' (line {}): left out",
+                  file, targets, all, first->touch, first->feature, first->line),
+      "a real machine differs in the last digits: check that measured positions were recorded there, and not targets"));
+  std::erase_if(recording.rows, is_target);
 }
 
 void leave_out_astray(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

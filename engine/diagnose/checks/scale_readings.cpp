@@ -168,6 +168,20 @@ std::optional<std::string> strays(const std::vector<Travel>& travels) {
                      astray, travels.size());
 }
 
+/// The first travel on which the scales went elsewhere than the tip by far, as one decimal too few makes them. However the
+/// coordinates of a part are turned, they go as far.
+std::optional<std::string> far_off(const Recording& r) {
+  constexpr double kFar_mm = 10, kShare = 0.5;
+  for (const auto& [from, to] : in_one_mounting(r)) {
+    const double tip = norm(to->position_mm - from->position_mm), scales = norm(*to->reading_mm - *from->reading_mm);
+    if (!goes_where_sent(*from, *to) || std::abs(scales - tip) < kFar_mm + kShare * tip) continue;
+    return fmt::format(
+        "from touch {} of '{}' (line {}) to touch {} of '{}' (line {}) the scales go {:.1f} mm, the tip {:.1f} mm",
+        from->touch, from->feature, from->line, to->touch, to->feature, to->line, scales, tip);
+  }
+  return std::nullopt;
+}
+
 /// What is wrong with the readings, where they do not tell at which phase of its signal a scale was.
 std::optional<std::string> no_phase(const Recording& r) {
   constexpr double kApart_mm = 0.1, kUsualPeriod_um = 20, kSteps = 8;
@@ -182,7 +196,7 @@ std::optional<std::string> no_phase(const Recording& r) {
       return fmt::format("enc_{} is written in steps of {:g} um, and a scale has a signal period of some {:g} um",
                          "xyz"[axis], kUmPerMm * step, kUsualPeriod_um);
   }
-  return std::nullopt;
+  return far_off(r);
 }
 
 }  // namespace

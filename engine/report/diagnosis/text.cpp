@@ -143,6 +143,11 @@ std::string third_sentence(const Diagnosis& d) {
       : gains && closer ? "it predicts better, though not beyond doubt"
       : closer          ? "it cannot be told whether it predicts better"
                         : "it does not predict better";
+  const auto shown = [](double um) { return fmt::format("{:.2f}", um); };
+  if (gains && shown(i.rms_before_um) == shown(i.rms_after_um) && shown(i.bias_before_um) == shown(i.bias_after_um))
+    return fmt::format(
+        "Of {} that the model had not seen it says better how far they stray{}, and moves none: rms of what is left {:.2f} um.",
+        d.values.empty() ? "touches" : "values", clear ? "" : ", though not beyond doubt", i.rms_after_um);
   return fmt::format(
       "On {} that the model had not seen {}: rms of what is left {:.2f} to {:.2f} um, bias where it acts {:.2f} to {:.2f} um.",
       d.values.empty() ? "touches" : "values", says, i.rms_before_um, i.rms_after_um, i.bias_before_um,

@@ -36,6 +36,7 @@ std::vector<int> order_of(const Recording& recording) {
 Vec3 placement(const Recording& recording, const Machine& machine, const std::vector<Vec3>& reading,
                RecordedTouches& out, const std::string& file) {
   Vec3 shift;
+  double beyond_mm = 0;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const int k = static_cast<int>(axis);
     const double end = machine[axis].direction * machine[axis].travel_mm;
@@ -43,13 +44,15 @@ Vec3 placement(const Recording& recording, const Machine& machine, const std::ve
         std::minmax_element(reading.begin(), reading.end(), [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; });
     if ((*low)[k] >= std::min(0.0, end) && (*high)[k] <= std::max(0.0, end)) continue;
     shift[k] = end / 2 - ((*low)[k] + (*high)[k]) / 2;
+    beyond_mm = std::max({beyond_mm, std::min(0.0, end) - (*low)[k], (*high)[k] - std::max(0.0, end)});
   }
   if (shift == Vec3{} || recording.rows.empty()) return shift;
   out.messages.push_back(diagnostic(
       Code::W0542,
-      fmt::format("{}: the touches lie outside the travel of machine '{}'; they are taken as made in the middle of it, "
-                  "{:.0f}, {:.0f}, {:.0f} mm from where they stand",
-                  file, machine.name, shift.x, shift.y, shift.z),
+      fmt::format(
+          "{}: the touches reach {:.3g} mm beyond the travel of machine '{}'; they are taken as made in the middle "
+          "of it, {:.1f}, {:.1f}, {:.1f} mm from where they stand",
+          file, beyond_mm, machine.name, shift.x + 0.0, shift.y + 0.0, shift.z + 0.0),
       "errors of the machine depend on the place: record machine coordinates, or name the right machine"));
   return shift;
 }
@@ -110,14 +113,6 @@ void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& tou
   }
 }
 
-void require_target(const RecordingRow& row, const std::string& file) {
-  if (row.target_mm && row.normal) return;
-  throw UserError(diagnostic(Code::E0543,
-                             fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature,
-                                         row.target_mm ? "normal" : "target"),
-                             "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
-}
-
 void find_curved(RecordedTouches& out) {
   CurvedFeatures curved;
   for (const RecordedTouch& t : out.touches)
@@ -133,10 +128,20 @@ TouchScene scene_for(const Effect& effect, const RecordedTouch& touch) {
   return scene;
 }
 
+void require_targets(const Recording& recording, const std::string& file) {
+  for (const RecordingRow& row : recording.rows) {
+    if (row.target_mm && row.normal) continue;
+    throw UserError(diagnostic(Code::E0543,
+                               fmt::format("{}:{}: touch {} of '{}' has no {}", file, row.line, row.touch, row.feature,
+                                           row.target_mm ? "normal" : "target"),
+                               "give the columns tx, ty, tz, nx, ny, nz, or the measurement program with --program"));
+  }
+}
+
 RecordedTouches recorded_touches(const Recording& recording, const Machine& machine, const std::string& file) {
   ABBE_CHECK(!recording.rows.empty());
   RecordedTouches out;
-  for (const RecordingRow& row : recording.rows) require_target(row, file);
+  require_targets(recording, file);
   RecordedStyli styli(machine, file);
   std::vector<Vec3> readings;
   std::vector<const Sensor*> sensor_of;

@@ -43,6 +43,9 @@ struct RecordedTouches {
   std::vector<Diagnostic> messages;
 };
 
+/// Throws UserError (E0543), with the first touch that has no target or no normal.
+void require_targets(const Recording&, const std::string& file);
+
 /// The touches of a recording on a machine. Throws UserError: a row without target or normal, a sensor that
 /// the machine does not know.
 RecordedTouches recorded_touches(const Recording&, const Machine&, const std::string& file);
