@@ -121,6 +121,10 @@ class Columns(harness.Case):
             self.assertIn(why, said["messages"][0]["message"])
             self.assertEqual((said["verdict"], said["p_value"]), ("no_mismatch", without["p_value"]), why)
             self.assertIn({"effect": "machine.scale_interpolation", "missing": list(readings)}, said["cannot_judge"])
+        for wrong in ("-43660.1", "-1e7"):   # of one touch: a decimal point that was lost
+            said = self.diagnosis(self.changed(whole, lambda row: row | {"enc_z": wrong} if row["feature"] == "P2_13" else row))
+            self.assertEqual((self.codes(said), said["p_value"]), (["W0731"], without["p_value"]))
+            self.assertIn("of 'P2_13'", said["messages"][0]["message"])
 
     def test_readings_of_few_digits_and_of_an_axis_at_rest_are_used(self):
         short = self.record("--seed", 4, program=harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi")
@@ -153,6 +157,17 @@ class Columns(harness.Case):
             self.assertEqual(len(told), 1, column)
             self.assertIn(column, told[0]["message"])
             self.assertIn(words, told[0]["help"])
+        for change, words in (({"speed_mm_s": "0"}, "leave the field empty"), ({"accel_mm_s2": "0"}, "leave the field empty")):
+            told = [m for m in self.diagnosis(self.changed(whole, lambda row: row | change))["messages"] if m["code"] == "W0728"]
+            self.assertIn(words, told[0]["help"])
+
+    def test_a_row_of_another_clock_is_told_and_takes_no_longer(self):
+        whole = self.record("--seed", 4)
+        for changed, words in ((lambda row: {"time_s": "1e9"} if row["feature"] == "P2_13" else {}, "days pass between two touches"),
+                               (lambda row: {"time_s": f"{float(row['time_s']) / 86400:.12f}"}, "s or less after the one before")):
+            said = self.diagnosis(self.changed(whole, lambda row: row | changed(row)))
+            self.assertIn("W0728", self.codes(said))
+            self.assertIn(words, " ".join(m["message"] for m in said["messages"]))
 
     def test_directions_that_are_the_same_in_all_rows_are_not_used(self):
         whole = self.record("--seed", 4)
@@ -161,11 +176,11 @@ class Columns(harness.Case):
 
     def test_errors_far_beyond_the_specification_are_told(self):
         """A step that a larger geometry would explain as well: nobody should take the machine for one in order."""
-        said = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x"))
+        said = self.diagnosis(self.record("--seed", 0, "--with", "machine.step:t0_s=80,amplitude_um=4,direction=x"))
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertGreater(said["baseline"]["geometry_scale"], 2)
         self.assertIn("W0723", self.codes(said))
-        scattered = self.diagnosis(self.record("--with", "machine.step:t0_s=80,amplitude_um=6,direction=x", "--with", "noise.unequal:ratio=5,group=1"))
+        scattered = self.diagnosis(self.record("--seed", 0, "--with", "machine.step:t0_s=80,amplitude_um=6,direction=x", "--with", "noise.unequal:ratio=5,group=1"))
         self.assertEqual([e["members"] for e in scattered["effects"]], [["noise.unequal"]])
         self.assertIn("W0723", self.codes(scattered))
 

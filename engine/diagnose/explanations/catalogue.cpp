@@ -41,7 +41,6 @@ TouchScene with_surrogates(TouchScene scene, const RecordedTouches& t) {
   const double room = varies(Covariate::air_temperature) ? scene.temperature.air : kNobodyNoted_C;
   const double scales = varies(Covariate::scale_temperature) ? (x + y + z) / 3 : room;
   const double part = varies(Covariate::part_temperature) ? scene.temperature.part : room;
-  if (unknown(Covariate::air_temperature)) scene.temperature.air = kNobodyNoted_C;
   if (unknown(Covariate::part_temperature)) scene.temperature.part = scales;
   if (unknown(Covariate::scale_temperature)) x = y = z = part;
   if (unknown(Covariate::load)) scene.load_kg = 100;

@@ -112,8 +112,8 @@ Search with_those_between(const std::vector<double>& values) {
 }  // namespace
 
 double quickest_of_a_room_s(double duration_s) {
-  constexpr double kUsually_s = 600, kCycles = 14, kOfARoom_s = 120;
-  return std::max(kOfARoom_s, std::min(kUsually_s, duration_s / kCycles));
+  constexpr double kUsually_s = 600, kOfARoom_s = 120, kFewCycles = 14, kManyCycles = 500;
+  return std::max({kOfARoom_s, std::min(kUsually_s, duration_s / kFewCycles), duration_s / kManyCycles});
 }
 
 std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::size_t parts) {

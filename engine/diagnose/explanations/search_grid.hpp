@@ -39,7 +39,8 @@ Search search_of(const EffectParameter&, const RecordedTouches&, double least_pe
 std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::size_t parts);
 
 /// The shortest period that is sought as that of a room's control, in a recording of this duration: ten minutes, as few
-/// controls switch more often; in a short recording a fourteenth of it, but not below two minutes, which no frame follows.
+/// controls switch more often; in a short recording a fourteenth of it, but not below two minutes, which no frame follows;
+/// of more than three days and a half, in which there would be too many to try, one of 500 cycles.
 /// What swings quicker is a pattern (patterns/time.cpp).
 double quickest_of_a_room_s(double duration_s);
 

@@ -131,6 +131,11 @@ class Estimator {
     const auto belief = [&](int b) { return evidence.variant_log_bayes[b] + std::log(at(b).weight); };
     const int likeliest =
         *std::max_element(variants.begin(), variants.end(), [&](int a, int b) { return belief(a) < belief(b); });
+    // Of its values those that fit best are told: a cell that was not divided is believed more than one of three parts of
+    // a likelier one.
+    int best = likeliest;
+    for (const int b : variants)
+      if (alike(at(b), at(likeliest)) && evidence.variant_log_bayes[b] > evidence.variant_log_bayes[best]) best = b;
     std::vector<double> logs;  // told is the likeliest fault, over the values of what has a value between any two
     for (const int b : variants)
       logs.push_back(alike(at(b), at(likeliest)) ? belief(b) : -std::numeric_limits<double>::infinity());
@@ -138,7 +143,7 @@ class Estimator {
     for (std::size_t k = 0; k < variants.size(); ++k) {
       const double weight = std::exp(logs[k] - total);
       if (weight < 1e-4) continue;
-      if (variants[k] == likeliest) likeliest_ = variants_.size();
+      if (variants[k] == best) likeliest_ = variants_.size();
       variants_.push_back({weight, at(variants[k]), {}, search.information(variants[k])});
     }
     for (Candidate& v : variants_) v.estimate.emplace(*explanation_.effect, v.variant, v.info);

@@ -2,6 +2,7 @@
 // before leave unexplained.
 #include "engine/diagnose/findings/search.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -382,10 +383,30 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   if (several && !result.findings.empty() && others(c, result.findings, in_rounds))
     result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 1).p;
   add_what_names_leave(c, result);
+  put_largest_first(c, result.findings);
   fit_beside_findings(c, result);
   compare_sizes(c, result);
   drop_name_of_several_sizes(c, first, result);
   return result;
+}
+
+void put_largest_first(const Case& c, std::vector<Finding>& findings) {
+  if (findings.size() < 2) return;
+  const LinearModel all = with_free(c.model, signatures_of(c, findings));
+  const Vector weight = c.model.noise_um.cwiseInverse();
+  const Matrix columns = weight.asDiagonal() * all.free;
+  const Vector size = columns.completeOrthogonalDecomposition().solve(weight.cwiseProduct(c.model.y));
+  std::vector<std::pair<double, std::size_t>> order;
+  Eigen::Index first = c.model.free.cols();
+  for (std::size_t k = 0; k < findings.size(); ++k) {
+    const Matrix& signature = c.explanations.variants[findings[k].variant].signature;
+    const Vector displacement = signature * size.segment(first, signature.cols());
+    order.emplace_back(-beside_free(c.model, displacement).norm(), k);
+    first += signature.cols();
+  }
+  std::sort(order.begin(), order.end());
+  const std::vector<Finding> found = std::exchange(findings, {});
+  for (const auto& [minus_um, k] : order) findings.push_back(found[k]);
 }
 
 bool says_something(const Evidence& evidence, int explanation) {

@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kSpacings_mm[] = {20, 25, 40, 50, 100}, kNodes_mm[] = {0, 5, 10, 12.5, 25, 37.5};
+constexpr double kSpacings_mm[] = {20, 25, 30, 40, 50, 60, 75, 80, 100, 200}, kNodes_mm[] = {0, 5, 10, 12.5, 25, 37.5};
 
 constexpr EffectParameter kMapScallopsParameters[] = {
     {.name = "amplitude_um",

@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kSignalPeriods_um[] = {4, 8, 10, 16, 20, 32, 40, 50, 100, 128, 200};
+constexpr double kSignalPeriods_um[] = {2, 4, 5, 8, 10, 16, 20, 32, 40, 50, 64, 100, 128, 200};
 
 constexpr EffectParameter kScaleInterpolationParameters[] = {
     {.name = "amplitude_um",

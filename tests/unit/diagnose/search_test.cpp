@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/effects/effect.hpp"
+#include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;
 using namespace abbe::diagnose;
@@ -59,4 +60,26 @@ TEST_CASE("a set of names ends where it holds 92 % of what the names have") {
   CHECK(beside.set == std::vector<int>{1});
   CHECK(beside.probability == doctest::Approx(0.465));
   CHECK(found({0.1, 0.2}, 0.7, false).set == std::vector<int>{2});
+}
+
+TEST_CASE("what displaces most is first") {
+  Planted p(4);
+  p.plant("probe.tip_radius", {0.4, 0});
+  p.plant("machine.squareness", {45, 0});
+  const std::vector<std::string> names{"probe.tip_radius", "machine.squareness"};
+  p.c.explanations = named_explanations(p.c.touches, p.c.rows, names);
+  const Evidence evidence = EvidenceSearch(p.c.model, p.c.hyper, p.c.explanations).evidence();
+  std::vector<Finding> findings;
+  for (int k = 0; k < 2; ++k) {
+    REQUIRE(p.c.explanations.list[k].name == names[k]);
+    Finding f;
+    f.explanation = k;
+    f.variant = best_variant(p.c.explanations, k, evidence);
+    findings.push_back(f);
+  }
+  put_largest_first(p.c, findings);
+  CHECK(findings[0].explanation == 1);
+  CHECK(findings[1].explanation == 0);
+  put_largest_first(p.c, findings);
+  CHECK(findings[0].explanation == 1);
 }
