@@ -29,6 +29,18 @@ std::vector<double> scales_between(double estimated, double largest) {
   return out;
 }
 
+/// a' b, by stretches of the columns of a: a product copies what it multiplies, and what is larger than 32 MB the C library
+/// asks of the system each time, and gives back.
+Matrix transposed_times(const Matrix& a, const Matrix& b) {
+  constexpr Eigen::Index kTogether = 1024;
+  Matrix out(a.cols(), b.cols());
+  for (Eigen::Index first = 0; first < a.cols(); first += kTogether) {
+    const Eigen::Index count = std::min(kTogether, a.cols() - first);
+    out.middleRows(first, count).noalias() = a.middleCols(first, count).transpose() * b;
+  }
+  return out;
+}
+
 /// What one error function may have more than its share: as much again, or twice.
 const std::vector<Size> kLarger = {{1, std::log(0.5)}, {2, std::log(0.5)}};
 
@@ -136,7 +148,7 @@ std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
   Matrix weighted(z.rows(), z.cols() * scales);
   for (Eigen::Index r = 0; r < z.cols(); ++r)
     weighted.middleCols(r * scales, scales) = z.col(r).asDiagonal() * precision_;
-  const Matrix within = coordinates_.transpose() * weighted, beside = projected_.transpose() * rest;
+  const Matrix within = transposed_times(coordinates_, weighted), beside = transposed_times(projected_, rest);
   std::vector<Seen> out;
   for (Eigen::Index r = 0; r < z.cols(); ++r)
     out.push_back({z.col(r), rest.col(r), within.middleCols(r * scales, scales).colwise() + beside.col(r)});
@@ -230,8 +242,8 @@ Vector Ensemble::with_data(const Level& level, int variant, const Vector& record
 
 Matrix Ensemble::against_all(const Level& level, const std::vector<Eigen::Index>& columns) const {
   const Matrix weighted = beside_noise(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
-  return coordinates_.transpose() * weighted +
-      projected_.transpose() * Matrix(projected_(Eigen::all, columns)) / level.s2;
+  return transposed_times(coordinates_, weighted) +
+      transposed_times(projected_, Matrix(projected_(Eigen::all, columns))) / level.s2;
 }
 
 }  // namespace abbe::diagnose

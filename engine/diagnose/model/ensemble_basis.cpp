@@ -12,16 +12,20 @@ EnsembleBasis::EnsembleBasis(const LinearModel& m, const Hyperparameters& h) : p
   log_density_ = abbe::diagnose::log_density(m, h) - 0.5 * kept_.variance.array().log1p().sum();
 }
 
-Matrix EnsembleBasis::Kept::whitened(const Matrix& projected) const {
+Matrix EnsembleBasis::Kept::whitened(Matrix projected) const {
   if (variance.size() == 0) return projected;
   const Vector less = 1 - (1 + variance.array()).rsqrt();
-  return projected - axes * (less.asDiagonal() * (axes.transpose() * projected));
+  const Matrix taken = less.asDiagonal() * (axes.transpose() * projected);
+  projected.noalias() -= axes * taken;
+  return projected;
 }
 
-Matrix EnsembleBasis::Kept::unwhitened(const Matrix& white) const {
+Matrix EnsembleBasis::Kept::unwhitened(Matrix white) const {
   if (variance.size() == 0) return white;
   const Vector more = (1 + variance.array()).sqrt() - 1;
-  return white + axes * (more.asDiagonal() * (axes.transpose() * white));
+  const Matrix added = more.asDiagonal() * (axes.transpose() * white);
+  white.noalias() += axes * added;
+  return white;
 }
 
 Vector EnsembleBasis::recording(const Vector& coordinates, const Vector& kept, const Vector& noise) const {

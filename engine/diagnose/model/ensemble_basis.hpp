@@ -48,8 +48,8 @@ class EnsembleBasis {
     Matrix axes;
     Vector variance;
 
-    Matrix whitened(const Matrix& projected) const;
-    Matrix unwhitened(const Matrix& white) const;
+    Matrix whitened(Matrix projected) const;
+    Matrix unwhitened(Matrix white) const;
   };
 
   Projection project_;

@@ -342,14 +342,16 @@ Projection::Projection(const LinearModel& m, const Hyperparameters& h)
 
 Matrix Projection::operator()(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);
-  w -= q_ * (q_.transpose() * w);
+  const Matrix taken = q_.transpose() * w;
+  w.noalias() -= q_ * taken;
   return w;
 }
 
 Matrix Projection::of_patterns(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);
   const Vector length = w.colwise().norm();
-  w -= q_ * (q_.transpose() * w);
+  const Matrix taken = q_.transpose() * w;
+  w.noalias() -= q_ * taken;
   for (Eigen::Index k = 0; k < w.cols(); ++k)
     if (w.col(k).norm() < kNothingLeft * length(k)) w.col(k).setZero();
   return w;
