@@ -45,7 +45,8 @@ std::string much_like_it(const Effect& effect) {
 std::string whose_clock(const Case& c, const Effect& effect) {
   const auto time = static_cast<unsigned>(Covariate::time);
   if ((effect.needs & time) == 0 || (c.touches.known & time) != 0) return "";
-  return " The recording has no time_s: seconds are those of a machine that moves as its file says; log time_s.";
+  return fmt::format(" The recording has no time_s: seconds are those of a touch every {:g} seconds; log time_s.",
+                     kUsualInterval_s);
 }
 
 bool may_be_rounding(const Case& c, const std::optional<double>& largest_um) {

@@ -74,9 +74,8 @@ int label_index(std::vector<std::string>& labels, const std::string& label) {
 
 /// What the scene has of time, motion and temperatures; what was not logged stays at its usual value.
 void fill_covariates(const RecordingRow& row, const Machine& machine, int ordinal, TouchScene& scene) {
-  constexpr double kTypicalInterval_s = 5;
   const MotionSettings usual = default_motion(machine);
-  scene.time_s = row.time_s.value_or(kTypicalInterval_s * ordinal);
+  scene.time_s = row.time_s.value_or(kUsualInterval_s * ordinal);
   scene.speed_mm_s = row.speed_mm_s.value_or(usual.measuring_mm_s);
   scene.acceleration_mm_s2 = row.accel_mm_s2.value_or(usual.measuring_mm_s2);
   scene.travel = row.travel.value_or(-scene.normal);

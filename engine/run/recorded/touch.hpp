@@ -21,6 +21,9 @@
 
 namespace abbe {
 
+/// From touch to touch, where no time was logged.
+inline constexpr double kUsualInterval_s = 5;
+
 struct RecordedTouch {
   TouchScene scene;                 ///< its readings are those at the target: free of the touch's own errors and noise
   double residual_mm = 0;           ///< n . (recorded - target): positive when the surface seems too far out

@@ -166,7 +166,7 @@ TEST_CASE("a log that cannot be read says where (E0425)") {
     CHECK(has(fault(std::string("time_s,temp_part_C\n0,20\n10,") + text + "\n"), "is not a number"));
     CHECK(has(fault(std::string("time_s,temp_part_C\n") + text + ",20\n10,21\n"), "is not a number"));
   }
-  CHECK(has(fault("time_s,temp_part_C\n0\n"), "has 1 values, the header 2 columns"));
+  CHECK(has(fault("time_s,temp_part_C\n0\n"), "has 1 value, the header 2 columns"));
   CHECK(has(fault("time_s,temp_part_C\n5,20\n5,21\n"), "ascend in time"));
   CHECK(has(fault("time_s,time_s\n5,20\n"), "for the second time"));
   CHECK(has(fault("time_s,temp_part_C\n"), "has no rows"));
