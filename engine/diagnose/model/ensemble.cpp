@@ -219,10 +219,11 @@ Level Ensemble::level(const Vector& log_belief, const Vector& squares) const {
 }
 
 Vector Ensemble::simulated(const Level& level, const NoiseLaw& law, std::uint64_t seed, int replicate) const {
-  constexpr std::uint32_t machines = stream_of("diagnose.bootstrap"), touches = stream_of("diagnose.noise");
-  const Vector u = standard_normal(basis_.rank() + basis_.kept_rank(), seed, machines, replicate);
-  const Vector z = (level.g2 * basis_.lambda().array()).sqrt() * u.head(basis_.rank()).array();
-  return basis_.recording(z, std::sqrt(level.s2) * u.tail(basis_.kept_rank()),
+  constexpr std::uint32_t machines = stream_of("diagnose.bootstrap"), kept = stream_of("diagnose.kept"),
+                          touches = stream_of("diagnose.noise");
+  const Vector u = standard_normal(basis_.rank(), seed, machines, replicate);
+  const Vector z = (level.g2 * basis_.lambda().array()).sqrt() * u.array();
+  return basis_.recording(z, std::sqrt(level.s2) * standard_normal(basis_.kept_count(), seed, kept, replicate),
                           std::sqrt(level.s2) * law.simulated(basis_.rows(), seed, touches, replicate));
 }
 

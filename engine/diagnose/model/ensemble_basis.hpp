@@ -36,8 +36,9 @@ class EnsembleBasis {
     return projected - basis_ * coordinates;
   }
 
-  /// How many standard normal numbers the columns that keep their scale take in a recording.
-  int kept_rank() const { return static_cast<int>(kept_.variance.size()); }
+  /// How many columns keep their scale: so many standard normal numbers they take in a recording, in their order, because
+  /// axes of equal variance may turn with the last digit.
+  int kept_count() const { return static_cast<int>(kept_columns_.cols()); }
   /// A recording, um, free of X, to which the ensemble contributes these coordinates, the columns that keep their scale
   /// these numbers, and noise this: one number for each row, in units of its standard deviation.
   Vector recording(const Vector& coordinates, const Vector& kept, const Vector& noise) const;
@@ -53,6 +54,7 @@ class EnsembleBasis {
   };
 
   Projection project_;
+  Matrix kept_columns_;  ///< F
   Kept kept_;
   Matrix basis_;  ///< U
   Vector lambda_;

@@ -168,7 +168,13 @@ std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
   const Eigen::Index rank = values.size() - first;
   const Vector lambda = values.tail(rank);
   const Matrix vectors = solver.eigenvectors().rightCols(rank);
-  return {wide ? vectors : Matrix(z * vectors * lambda.cwiseSqrt().cwiseInverse().asDiagonal()), lambda};
+  Matrix axes = wide ? vectors : Matrix(z * vectors * lambda.cwiseSqrt().cwiseInverse().asDiagonal());
+  for (Eigen::Index k = 0; k < rank; ++k) {
+    Eigen::Index largest = 0;
+    axes.col(k).cwiseAbs().maxCoeff(&largest);
+    if (axes(largest, k) < 0) axes.col(k) *= -1;
+  }
+  return {axes, lambda};
 }
 
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const> list) {

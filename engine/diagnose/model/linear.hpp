@@ -86,7 +86,8 @@ Matrix squared_correlation(const LinearModel&, const Hyperparameters&);
 /// Columns of Z that are of group 0, whose scale is estimated, or those that are not.
 std::vector<Eigen::Index> columns_of_group(const LinearModel&, bool scaled);
 
-/// Orthonormal U and lambda > 0 with Z Z' = U diag(lambda) U', but for what is negligible beside a noise of 1.
+/// Orthonormal U and lambda > 0 with Z Z' = U diag(lambda) U', but for what is negligible beside a noise of 1. An axis is positive
+/// where it is largest: else the last digit would decide.
 std::pair<Matrix, Vector> principal_axes(const Matrix& z);
 
 /// The same model without the combinations of group 0 of Z, and of the other ensemble, that stay far below the noise.
