@@ -141,6 +141,13 @@ class Values(harness.Case):
         self.assertLess(size["u"], 1.1 * size["value"] / stray)
         self.assertGreater(size["u"], 0.2 * size["value"] / stray)
 
+    def test_what_moves_no_value_predicts_none_better(self):
+        """Its gain is in how far values stray: before and after were the same figures."""
+        text = self.abbe("diagnose", harness.ROOT / "examples/studies/table3/table3.csv", "--machine", harness.ROOT / "examples/iso10360/portal-2009.json").stdout
+        self.assertIn("single values stray", text)
+        self.assertIn("it says better how far they stray, and moves none: rms of what is left", text)
+        self.assertNotIn("predicts better", text)
+
     def test_an_uncertain_reference_explains_a_deviation(self):
         values = self.recorded("--with", "probe.tip_radius:amplitude_um=15").read_text()
         def with_U(U):

@@ -68,7 +68,7 @@ void doubt_temperatures(const Recording& recording, const std::string& file, std
 void doubt_motion(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kSlow_mm_s = 0.02, kFast_mm_s = 100, kSecondsPerMinute = 60;
   constexpr double kWeak_mm_s2 = 1, kHard_mm_s2 = 5e4;
-  constexpr double kLong_s = 300, kShort_s = 1e-3, kPause_s = 7 * 86400;  // from touch to touch
+  constexpr double kDay_s = 86400, kLong_s = 300, kShort_s = 1e-3, kPause_s = 7 * kDay_s;  // from touch to touch
   const std::string kNotLogged = "no touch is made standing still: if it was not logged there, leave the field empty";
   const auto doubt = [&](std::optional<double> RecordingRow::*column, std::string_view name, double low, double high,
                          auto help) {
@@ -109,10 +109,10 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
     messages.push_back(diagnostic(
         Code::W0728,
         fmt::format("{}: by time_s, half of the touches come {:g} s or less after the one before", file, usual),
-        fmt::format("if these are days, convert them: {:g} days are {:g} s", usual, 86400 * usual)));
+        fmt::format("if these are days, convert them: {:g} days are {:g} s", usual, kDay_s * usual)));
   if (longest >= kPause_s && usual < kLong_s)
     messages.push_back(diagnostic(
-        Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / 86400),
+        Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / kDay_s),
         "if some rows have the time of another clock, write the seconds since one start into all"));
 }
 

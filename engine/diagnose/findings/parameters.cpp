@@ -142,7 +142,7 @@ class Estimator {
     const double total = log_sum_exp(logs);
     for (std::size_t k = 0; k < variants.size(); ++k) {
       const double weight = std::exp(logs[k] - total);
-      if (weight < 1e-4) continue;
+      if (weight < 1e-4 && variants[k] != best) continue;
       if (variants[k] == best) likeliest_ = variants_.size();
       variants_.push_back({weight, at(variants[k]), {}, search.information(variants[k])});
     }
