@@ -4,14 +4,9 @@
 #include "engine/diagnose/baseline/baseline.hpp"
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/levels.hpp"
 
 namespace abbe::diagnose {
-
-/// False alarms that a diagnosis allows itself.
-inline constexpr double kAlarm = 0.01;
-/// Probability that a set of names must reach. Names come whole, so that sets have more than they must: enough to hold
-/// the truth in 95 of 100 recordings (docs/evidence.md).
-inline constexpr double kCredible = 0.92;
 
 struct Case {
   const Recording* recording = nullptr;

@@ -66,8 +66,6 @@ bool likelier(const Finding& name, const Finding& pattern, double times);
 /// From the probabilities that chance leaves as much as either: whether the pattern leaves no more than chance
 /// does, and clearly less than the name. One that leaves as much only mirrors it, and says nothing against it.
 bool leaves_less(double pattern_adequacy, double name_adequacy);
-/// Up to so many times less likely, what was not chosen is told beside what was.
-inline constexpr double kAsWell = 3;
 
 /// The signatures of findings; of all that was found, a pattern without a name too.
 std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>&);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/levels.hpp"
 #include "engine/lanes/random.hpp"
 
 namespace abbe::diagnose {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr int kForAlarm = 100, kTogether = EvidenceSearch::kTogether, kWithShift = 12;
 static_assert(kForAlarm % kTogether == 0);
-constexpr double kLevel = 0.01;  // of alarms of machines in order
 
 /// The value that a share of a law exceeds whose upper fifth is exponential.
 double exceeded_by(double share, std::vector<double> values) {
@@ -40,11 +40,10 @@ Power::Power(const EvidenceSearch& of, std::uint64_t seed, int threads) : search
       if (at < kWithShift) in_order_[at] = std::move(seen[k]);
     }
   });
-  alarm_ = exceeded_by(kLevel, std::move(statistics));
+  alarm_ = exceeded_by(kAlarm, std::move(statistics));
 }
 
 double Power::detected_from(const Matrix& shift, int explanation, double share, double most) const {
-  constexpr double kPower = 0.84;  // standard deviations: 80 %
   constexpr double kLeast = 0.5;
   constexpr int kHalvings = 7;
   const bool drawn = shift.cols() > 1;

@@ -26,6 +26,8 @@ namespace {
 /// An effect that would have to move a touch by more than this to be seen does, for these touches, nothing.
 constexpr double kNothing_um = 1e4;
 constexpr double kNever = std::numeric_limits<double>::infinity();
+/// Signal-to-noise: what is larger is not told by evidence but seen by eye.
+constexpr double kSeenByEye = 100;
 
 /// One form of an effect: a column of a variant.
 struct Form {
@@ -117,17 +119,16 @@ class Design {
 
   /// The signal-to-noise from which on a form is seen.
   double detected_from(const Form& f, std::size_t explanation, const Shift& shift) const {
-    constexpr double kMost = 100;
     const Variant& variant = all_.variants[f.variant];
     const Vector& information = diagonal_[f.variant];
     if (variant.joined)  // no other explanation makes all that may be drawn
       return power_.detected_from(variant.signature / std::sqrt(information.sum()), static_cast<int>(explanation), 1,
-                                  kMost);
+                                  kSeenByEye);
     std::vector<double> belief;
     for (std::size_t j = 0; j < all_.list.size(); ++j) belief.push_back(log_belief(j, shift, kDetects));
     return power_.detected_from(variant.signature.col(f.column) / std::sqrt(information(f.column)),
                                 static_cast<int>(explanation), std::exp(belief[explanation] - log_sum_exp(belief)),
-                                kMost);
+                                kSeenByEye);
   }
 
   /// The size that is told: of the column that shows most.
@@ -212,8 +213,7 @@ class Design {
   /// Whether the set of names would be this one alone, and it be preferred to patterns without a name, with a
   /// power of 80 %.
   bool named(std::size_t truth, const Shift& shift, double snr) const {
-    constexpr double kPower = 0.84;
-    const double own = log_belief(truth, shift, snr), over_patterns = std::log(3.0);
+    const double own = log_belief(truth, shift, snr), over_patterns = std::log(kAsWell);
     double against = 0;
     for (std::size_t j = 0; j < all_.list.size(); ++j) {
       if (j == truth) continue;
@@ -227,10 +227,9 @@ class Design {
   }
 
   double named_from(std::size_t truth, const Shift& shift) const {
-    constexpr double kMost = 100;  // what is larger is not told by evidence but seen by eye
     constexpr int kHalvings = 7;
-    if (!named(truth, shift, kMost)) return kNever;
-    double low = kDetects, high = kMost;
+    if (!named(truth, shift, kSeenByEye)) return kNever;
+    double low = kDetects, high = kSeenByEye;
     if (named(truth, shift, low)) return low;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = std::sqrt(low * high);
@@ -252,13 +251,13 @@ class Design {
 
   std::vector<std::string> likeliest(const std::vector<double>& belief, std::size_t besides) const {
     constexpr double kWorthNaming = 0.03;
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kToName = 4;
     std::vector<std::size_t> order;
     for (std::size_t j = 0; j < belief.size(); ++j)
       if (j != besides && belief[j] > kWorthNaming) order.push_back(j);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return belief[a] > belief[b]; });
     std::vector<std::string> out;
-    for (std::size_t i = 0; i < std::min(kMost, order.size()); ++i) out.push_back(all_.list[order[i]].name);
+    for (std::size_t i = 0; i < std::min(kToName, order.size()); ++i) out.push_back(all_.list[order[i]].name);
     return out;
   }
 

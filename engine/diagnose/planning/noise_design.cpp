@@ -18,7 +18,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr double kPower = 0.84;  // standard deviations: 80 % of recordings show that much
 constexpr double kAtNoSize = std::numeric_limits<double>::infinity();
 
 /// The least number above 0 at which something that stays true becomes true; kAtNoSize: nowhere up to `most`.
