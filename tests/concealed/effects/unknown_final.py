@@ -21,206 +21,239 @@ def half_size(scene):
     return float(np.abs(scene.part_point[:, :2]).max())
 
 
-def draw_air(scene, rng):
-    shares = rng.uniform(0.3, 1, 2) * rng.choice([-1.0, 1.0], 2)
-    shares[rng.integers(2)] = 1.0
+def draw_insert(scene, rng):
+    half = half_size(scene)
+    turn, out = rng.uniform(0, 2 * np.pi), rng.uniform(0.3, 0.8) * half
+    begins = np.arange(int(0.25 * scene.size), int(0.6 * scene.size))
+    soon = np.minimum(begins + 40, scene.size - 1)
+    busy = np.flatnonzero(scene.time[soon] - scene.time[begins] < 700)  # no long pause soon after it
+    busy = busy if len(busy) else np.arange(len(begins))
     return {
         "amplitude_um": 1.0,
-        "shares": [float(v) for v in shares],
-        "period_s": float(rng.uniform(130, 380)),
-        "first_s": float(rng.uniform(0, 380)),
-        "filling": float(rng.uniform(0.15, 0.35)),
-        "held": float(rng.uniform(0.1, 0.3)),
+        "place_mm": [float(np.cos(turn) * out), float(np.sin(turn) * out)],
+        "width_mm": float(rng.uniform(0.2, 0.3) * half),
+        "spreads_mm2_per_s": float(rng.uniform(0.5, 0.9)),
+        "cools_s": float(rng.uniform(1200, 2500)),
+        "shrunk_in_s": float(rng.choice(scene.time[begins[busy]])) + 0.5,
     }
 
 
-def change_air(scene, p):
-    """The compressor is too small for the hall: the pressure falls slowly, and rises quickly when it starts. With
-    little air the bearings of the two lower axes rub, and each carriage stays behind its scale, or goes ahead of it if
-    the drive pulls on the other side, in the sense of its motion; with much air it is the other way round, as the
-    controller takes off what there was on the day it was set. Amplitude to either side, along the axis that suffers
-    most."""
-    q = np.mod((scene.time - p["first_s"]) / p["period_s"], 1)
-    fallen = np.where(q < 1 - p["filling"], q / (1 - p["filling"]), (1 - q) / p["filling"])
-    sense = np.clip(scene.travel[:, :2] / p["held"], -1, 1) * p["shares"]
-    return Change(tip=p["amplitude_um"] * (2 * fallen - 1)[:, None] * np.column_stack([sense, np.zeros(scene.size)]))
+def change_insert(scene, p):
+    """The plate of the part is of stone. In the course of the run somebody finds that an insert of steel is
+    loose in it, and shrinks it in again, red-hot. The heat spreads in the plate as it does in a sheet, and is
+    lost to the air bit by bit: the balls are pushed away from the insert, in the hot spot in proportion to
+    their distance, outside of it with one over the distance. Amplitude at the edge of the hot spot, when the
+    insert has just been put in."""
+    away = centres(scene)[:, :2] - np.asarray(p["place_mm"])
+    far = np.maximum(np.linalg.norm(away, axis=1), 1.0)
+    since = np.maximum(scene.time - p["shrunk_in_s"], 0)
+    spot = p["width_mm"] ** 2 + 4 * p["spreads_mm2_per_s"] * since
+    heat = (scene.time >= p["shrunk_in_s"]) * np.exp(-since / p["cools_s"])
+    pushed = heat * p["width_mm"] / far * (1 - np.exp(-(far**2) / spot)) / 0.638
+    return Change(along=p["amplitude_um"] * pushed * np.sum(away * scene.part_normal[:, :2], 1) / far)
 
 
-def draw_lorry(scene, rng):
-    count = int(rng.integers(3, 6))
-    arrives = ((np.arange(count) + rng.uniform(0.1, 0.4, count)) / count * scene.size).astype(int)
-    leaves = np.minimum(arrives + (rng.uniform(0.3, 0.6, count) / count * scene.size).astype(int), scene.size - 1)
+def draw_bed(scene, rng):
+    i = "xyz".index(scene.machine.chain[0])
     return {
-        "amplitude_um": float(rng.choice([-1.0, 1.0])),
-        "arrives_s": [float(scene.time[k]) + 0.5 for k in arrives],
-        "leaves_s": [float(scene.time[k]) + 0.5 for k in leaves],
-        "load": [float(v) for v in rng.uniform(0.5, 1, count)],
+        "amplitude_um": 1.0,
+        "width_mm": float(rng.uniform(0.1, 0.2) * np.ptp(scene.reading[:, i])),
+        "recovers_s": float(rng.uniform(200, 500)),
         "table_mm": float(scene.target[:, 2].min() - rng.uniform(0.2, 0.6) * np.ptp(scene.target[:, 2])),
     }
 
 
-def change_lorry(scene, p):
-    """One foot of the machine stands on another slab of concrete than the others, and on the same slab is the ramp
-    where the lorries are loaded. While a lorry stands there the slab goes down, and the table is twisted: the bridge
-    rolls to one side at one end of its guide, to the other side at the other end, and stands as it should half way.
-    When the machine was mapped the ramp was as busy as ever: the map has taken the mean. Amplitude at one end of the
-    part, for the largest lever, between no lorry and a full one."""
+def change_bed(scene, p):
+    """The bed of the machine is cast of stone and resin, with too much resin: where the bridge stands it
+    sinks in, by and by, and when the bridge has gone the hollow fills again within minutes. The bridge rides
+    down into the hollows that it has left a short while ago, and nods at their slopes; the first ones are
+    left from the part before, which was measured by the same program. Amplitude of the deepest hollow."""
     i = "xyz".index(scene.machine.chain[0])
-    x = scene.target[:, i]
-    twist = 2 * (x - (x.min() + x.max()) / 2) / np.ptp(x)
-    lever = np.cross(np.eye(3)[i], scene.target - [scene.middle[0], scene.middle[1], p["table_mm"]])
-    stands = np.zeros(scene.size)
-    for since, until, load in zip(p["arrives_s"], p["leaves_s"], p["load"]):
-        stands += load * ((scene.time >= since) & (scene.time < until))
-    twisted = p["amplitude_um"] * (stands - stands.mean()) * twist
-    return Change(tip=twisted[:, None] * lever / np.linalg.norm(lever, axis=1).max())
+    x, t, n = scene.reading[:, i], scene.time, scene.size
+    stood = np.minimum(np.diff(t, append=t[-1] + 5), 20.0)
+    stood, was, when = np.tile(stood, 2), np.tile(x, 2), np.hstack([t - t[-1] - 60, t])
+    low, slope = np.zeros(n), np.zeros(n)
+    for k in range(n):
+        q = (x[k] - was[: n + k]) / p["width_mm"]
+        left = stood[: n + k] * np.exp(-0.5 * q**2 - (t[k] - when[: n + k]) / p["recovers_s"])
+        low[k], slope[k] = np.sum(left), np.sum(-left * q) / p["width_mm"]
+    moved = np.zeros((scene.size, 3))
+    moved[:, 2] = low
+    moved[:, i] = -slope * (scene.target[:, 2] - p["table_mm"])
+    return Change(tip=p["amplitude_um"] * moved / low.max())
 
 
-def draw_shells(scene, rng):
-    names = [str(f) for f in np.unique(scene.feature)]
+def draw_field(scene, rng):
+    low, size = scene.target.min(0), np.ptp(scene.target, axis=0)
+    side = int(rng.integers(2))
+    place = low + rng.uniform([0, 0, -0.3], [1, 1, 0.6]) * size
+    place[side] = low[side] + rng.choice([rng.uniform(-0.3, -0.1), rng.uniform(1.1, 1.3)]) * size[side]
     return {
         "amplitude_um": 1.0,
-        "axes": {f: unit(rng).tolist() for f in names},
-        "soft": {f: [float(v) for v in rng.uniform(0.1, 1, 2)] for f in names},
-        "belt_deg": float(rng.uniform(20, 35)),
+        "place_mm": [float(v) for v in place],
+        "coil": unit(rng).tolist(),
+        "size_mm": float(rng.uniform(0.1, 0.2) * size[:2].mean()),
     }
 
 
-def change_shells(scene, p):
-    """To save weight the balls are hollow: each is welded of two half shells of sheet metal, and sits on its post as it
-    came. At the seam they are stiff, away from it a touch presses the sheet in a little, and it springs back; one half
-    is thinner than the other, as the sheet was drawn. The tip radius has taken the mean. Amplitude at the pole of the
-    softest shell."""
-    known = np.array([f in p["axes"] for f in scene.feature])
-    axes = np.array([p["axes"].get(f, (0.0, 0.0, 1.0)) for f in scene.feature])
-    halves = np.array([p["soft"].get(f, (0.0, 0.0)) for f in scene.feature])
-    height = np.sum(scene.part_normal * axes, 1)
-    away = np.degrees(np.arcsin(np.clip(height, -1, 1))) / p["belt_deg"]
-    yields = known * np.where(height > 0, halves[:, 0], halves[:, 1]) * (1 - np.exp(-0.5 * away**2))
-    return Change(along=-p["amplitude_um"] * (yields - yields.mean()))
+def change_field(scene, p):
+    """Somebody has put a transformer beside the part. Its stray field hums in the coil of the probe, which
+    lies round the stylus: the more of the field goes along the stylus, the less of a push is missing to the
+    threshold, and the probe triggers early, from whichever side it touches. The field is that of a dipole,
+    and soon gone with the distance. The tip radius has taken the mean. Amplitude from no field to the
+    strongest."""
+    way = scene.target - np.asarray(p["place_mm"])
+    far = np.sqrt(np.sum(way**2, 1, keepdims=True) + p["size_mm"] ** 2)
+    coil = np.asarray(p["coil"])
+    field = (3 * way * (way @ coil)[:, None] / far**2 - coil) / far**3
+    hum = np.abs(np.sum(field * scene.shank, 1))
+    return Change(along=p["amplitude_um"] * (hum - hum.mean()) / hum.max())
 
 
-def draw_zone(scene, rng):
-    turn = rng.uniform(0, 2 * np.pi)
-    corner = np.array([np.cos(turn), np.sin(turn)])
+def draw_wire(scene, rng):
+    middle, half = centres(scene)[:, :2], half_size(scene)
+    goes = np.flatnonzero((np.diff(scene.block) > 0) & (np.diff(scene.setup) == 0))
+    goes = goes[np.linalg.norm(middle[goes + 1] - middle[goes], axis=1) > 1]
+    k = int(rng.choice(goes))
+    way = middle[k + 1] - middle[k]
+    turn = np.arctan2(way[1], way[0]) + np.pi / 2 + rng.uniform(-0.6, 0.6)
+    place = middle[k] + rng.uniform(0.3, 0.7) * way
     return {
         "amplitude_um": 1.0,
-        "towards": [float(v) for v in corner],
-        "begins_mm": float(np.quantile(scene.reading[:, :2] @ corner, rng.uniform(0.68, 0.8))),
+        "place_mm": [float(v) for v in place],
+        "along": [float(np.cos(turn)), float(np.sin(turn))],
+        "reach_mm": float(rng.uniform(0.5, 0.9) * half),
     }
 
 
-def change_zone(scene, p):
-    """Behind a part of the table people pass by, and a scanner guards this side: where the carriage comes near to it
-    the controller brakes every motion down to a crawl, and says nothing of it. The software goes on to take off the
-    delay of the probe for the speed of the program, and there takes off too much, in proportion to this speed.
-    Everywhere else it is right. Amplitude at 8 mm/s."""
-    guarded = scene.reading[:, :2] @ np.asarray(p["towards"]) > p["begins_mm"]
-    return Change(tip=-scene.travel * (p["amplitude_um"] * guarded * scene.speed / 8)[:, None])
+def change_wire(scene, p):
+    """The wire of the thermometer is taped on the part, and stands up in a loop. A stylus that comes across
+    it on its way from ball to ball is caught and pulled back a little in its thread, and then stays as it
+    leans, however the head turns, until it comes across the wire again, from this side or from the other.
+    Each module leans by itself. Amplitude of the tip, pulled straight across."""
+    along = np.asarray(p["along"])
+    across = np.array([-along[1], along[0]])
+    place = centres(scene)[:, :2] - np.asarray(p["place_mm"])
+    u, v = place @ along, place @ across
+    leans, moved = {}, np.zeros((scene.size, 3))
+    for k in range(scene.size):
+        tip = str(scene.length[k])
+        if k and scene.setup[k] == scene.setup[k - 1] and v[k] * v[k - 1] < 0:
+            where = u[k - 1] + (u[k] - u[k - 1]) * v[k - 1] / (v[k - 1] - v[k])
+            if abs(where) < p["reach_mm"]:
+                pull = -np.sign(v[k]) * np.sum(scene.turn[k][:, :2] * across, 1)
+                pull = pull - scene.shank[k] * np.sum(pull * scene.shank[k])
+                leans[tip] = np.sum(scene.head[k] * pull[:, None], 0)
+        if tip in leans:
+            moved[k] = np.sum(scene.head[k] * leans[tip], 1) * scene.length[k] / scene.length.max()
+    return Change(tip=p["amplitude_um"] * moved)
 
 
-def draw_lead(scene, rng):
-    soft = {str(f): float(rng.uniform(0.3, 1)) for f in np.unique(scene.feature)}
-    return {"amplitude_um": 1.0, "soft": soft, "kept": float(rng.uniform(0.86, 0.94))}
-
-
-def change_lead(scene, p):
-    """Somebody has made the posts of the balls of lead. Every touch from the side bends a post on a little in the
-    direction of its push, and so it stays, until touches from the other side, of the same stylus or of the next one,
-    bend it back bit by bit. Some posts are softer than others. Amplitude of the softest post, when it has always been
-    pushed from the same side."""
-    names, moved = np.array(scene.feature), np.zeros((scene.size, 3))
-    push = -scene.part_normal * [1, 1, 0]
-    for ball in np.unique(names):
-        bent = np.zeros(3)
-        for k in np.flatnonzero(names == ball):
-            moved[k] = p["soft"].get(str(ball), 0.0) * bent
-            bent = p["kept"] * bent + (1 - p["kept"]) * push[k]
-    return Change(along=p["amplitude_um"] * np.sum(moved * scene.part_normal, 1))
-
-
-def draw_rail(scene, rng):
-    axis, spans = int(rng.integers(2)), int(rng.integers(4, 7))
-    warm = scene.temperature["xyz"[axis]]
-    sides = rng.choice([-1.0, 1.0], spans) * rng.uniform(0.4, 1, spans)
+def draw_lattice(scene, rng):
+    mesh = rng.uniform(0.18, 0.3, 3) * np.ptp(scene.reading, axis=0)
+    steep = rng.normal(size=(3, 3))
+    steep /= np.sqrt(np.mean(np.sum(steep**2, 1)))
     return {
         "amplitude_um": 1.0,
-        "axis": axis,
-        "first_bolt_mm": float(scene.reading[:, axis].min() - 1),
-        "last_bolt_mm": float(scene.reading[:, axis].max() + 1),
-        "sides": [float(v) for v in sides],
-        "tight_at_C": float(warm.min() + rng.uniform(0.1, 0.5) * np.ptp(warm)),
+        "mesh_mm": [float(v) for v in mesh],
+        "first_mm": [float(v) for v in scene.reading.min(0) - rng.uniform(0, 1, 3) * mesh],
+        "steep": [[float(v) for v in row] for row in steep],
     }
 
 
-def change_rail(scene, p):
-    """A rail of steel is bolted to a beam that hardly grows with the temperature. In the cool it is straight and lies
-    as it was mapped; but from the temperature on at which it has no room left it buckles between the bolts, each piece
-    to the side that it likes and by its own amount, with the root of what is too much, and the carriage is led aside.
-    Amplitude of the worst piece in its middle, 1 K later."""
-    i, sides = p["axis"], np.asarray(p["sides"])
-    place = (scene.reading[:, i] - p["first_bolt_mm"]) / (p["last_bolt_mm"] - p["first_bolt_mm"]) * len(sides)
-    piece = np.clip(place.astype(int), 0, len(sides) - 1)
-    aside = sides[piece] * np.sin(np.pi * np.clip(place - piece, 0, 1)) ** 2
-    buckled = np.sqrt(np.clip(scene.temperature["xyz"[i]] - p["tight_at_C"], 0, None))
-    return Change(tip=np.outer(p["amplitude_um"] * buckled * aside, np.eye(3)[1 - i]))
+def change_lattice(scene, p):
+    """The errors of the machine are kept as vectors at the nodes of a lattice in its volume. Since the last
+    update of the controller these are not interpolated any more: each point takes the vector of the nearest
+    node, and lacks what the errors change from there. At a node all is right; half way to the next one along
+    x, y or z it is off the most, one way on this side and the other way on that side. Amplitude there, the
+    root of the mean square for the three ways."""
+    cells = (scene.reading - np.asarray(p["first_mm"])) / np.asarray(p["mesh_mm"])
+    beside = 2 * (cells - np.round(cells))
+    return Change(tip=p["amplitude_um"] * np.sum(beside[:, :, None] * np.asarray(p["steep"]), 1))
 
 
-def draw_fold(scene, rng):
-    turn = rng.uniform(0, 2 * np.pi)
-    across = np.array([np.cos(turn), np.sin(turn), 0.0])
-    angles = rng.normal(size=len(np.unique(scene.setup)))
-    angles -= angles.mean()
+def draw_battens(scene, rng):
+    count = len(np.unique(scene.setup))
+    first = rng.uniform(0, np.pi)
     return {
         "amplitude_um": 1.0,
-        "across": [float(v) for v in across],
-        "hinge_mm": float(np.quantile(centres(scene) @ across, rng.uniform(0.4, 0.6))),
-        "angles": [float(v) for v in angles / np.abs(angles).max()],
+        "turns": [float(first + np.pi * (k + rng.uniform(-0.2, 0.2)) / count) for k in range(count)],
+        "one": [float(v) for v in rng.uniform(-1, -0.15, count)],
+        "other": [float(v) for v in rng.uniform(0.15, 1, count)],
         "half_size_mm": half_size(scene),
     }
 
 
-def change_fold(scene, p):
-    """The part is a frame for travelling, which folds in the middle like a suitcase. Whenever it is placed it is
-    unfolded, and the latch never snaps in quite the same: one half, with all of its balls, stands up a little against
-    the other, or hangs. The certificate has the mean. Amplitude at half the size of the part from the hinge, in the
-    worst placement."""
-    across = np.asarray(p["across"])
-    beyond = centres(scene) @ across > p["hinge_mm"]
-    out, high = scene.part_point @ across - p["hinge_mm"], scene.part_point[:, 2]
-    moved = (out * scene.part_normal[:, 2] - high * (scene.part_normal @ across)) / p["half_size_mm"]
-    angle = np.asarray(p["angles"])[np.minimum(scene.setup, len(p["angles"])) - 1]
-    return Change(along=p["amplitude_um"] * angle * beyond * moved)
+def change_battens(scene, p):
+    """The part has no feet: it is laid on two battens of wood, and whoever lays it puts them where he likes,
+    along or across, near together or far apart. Under its own weight it sags between them and hangs over
+    beyond, as a beam does, in each placement along another line; the certificate has it as if it weighed
+    nothing. Amplitude is that of the worst placement, from its lowest place to its highest."""
+    index = np.minimum(scene.setup, len(p["turns"])) - 1
+    turns, one, other = (np.asarray(p[k])[index] for k in ("turns", "one", "other"))
+    cos, sin = np.cos(turns), np.sin(turns)
+    u = (scene.part_point[:, 0] * cos + scene.part_point[:, 1] * sin) / p["half_size_mm"]
+    z, end = scene.part_point[:, 2] / p["half_size_mm"], 1.1
+    here, there = 2 * end * other / (other - one), -2 * end * one / (other - one)
+
+    def sunk(q):
+        past, beyond = np.clip(q - one, 0, None), np.clip(q - other, 0, None)
+        return (q + end) ** 4 / 24 - here * past**3 / 6 - there * beyond**3 / 6
+
+    lean = (sunk(other) - sunk(one)) / (other - one)
+    low = sunk(u) - sunk(one) - lean * (u - one)
+    past, beyond = np.clip(u - one, 0, None), np.clip(u - other, 0, None)
+    slope = (u + end) ** 3 / 6 - here * past**2 / 2 - there * beyond**2 / 2 - lean
+    worst = max(np.ptp(low[scene.setup == k]) for k in np.unique(scene.setup))
+    normal = scene.part_normal
+    moved = z * slope * (normal[:, 0] * cos + normal[:, 1] * sin) - low * normal[:, 2]
+    return Change(along=p["amplitude_um"] * moved / worst)
 
 
-def draw_unwinding(scene, rng):
+def draw_elbow(scene, rng):
+    return {"amplitude_um": 1.0, "right_at": float(rng.uniform(0.8, 1.2))}
+
+
+def change_elbow(scene, p):
+    """The motor that holds the elbow of the head is limp. A tip that strikes across it turns the elbow back
+    until the probe has triggered, the faster the farther, and with the square of the lever that the push has
+    about the elbow; pushes along the axis of the elbow or through it find it stiff. The tip radius has taken
+    the mean, or nearly. Amplitude at the longest lever, at 8 mm/s."""
+    elbow = np.column_stack([-np.sin(scene.b), np.cos(scene.b), np.zeros(scene.size)])
+    lever = np.sum(np.cross(scene.arm, -scene.normal) * elbow, 1) / scene.length.max()
+    gives = lever**2 * scene.speed / 8
+    return Change(along=-p["amplitude_um"] * (gives - p["right_at"] * gives.mean()))
+
+
+def draw_posts(scene, rng):
+    names = [str(f) for f in np.unique(scene.feature)]
+    warm = scene.temperature["part"]
+    grows = rng.choice([-0.5, 0.0, 0.6, 1.0], len(names)) * rng.uniform(0.7, 1, len(names))
+    grows[rng.choice(len(names), 2, replace=False)] = (-0.5, 1.0)
     return {
-        "amplitude_um": float(rng.choice([-1.0, 1.0])),
-        "tau_s": float(rng.uniform(8, 20)),
-        "elbow": float(rng.uniform(0.5, 1.2)),
+        "amplitude_um": 1.0,
+        "grows": {f: float(v) for f, v in zip(names, grows)},
+        "mended_at_C": float(warm.min() + rng.uniform(0.0, 0.5) * np.ptp(warm)),
+        "foot_mm": float(centres(scene)[:, 2].min() - rng.uniform(0.2, 0.5) * np.ptp(centres(scene)[:, 2])),
     }
 
 
-def change_unwinding(scene, p):
-    """In the head a coupling of plastic lies between each motor and its axis. It winds up with every turn, the more the
-    farther the head goes, and then lets the axis creep after until it has come to where the encoder of the motor has
-    long been: the first touches after an indexing are off by the lever of the stylus, in the sense of the last turn,
-    about the vertical and about the elbow, the later ones less and less. Amplitude for half a turn of a lying stylus,
-    the longest, at the first touch."""
-    _, first, index = np.unique(scene.visit, return_index=True, return_inverse=True)
-    about_b = np.diff(scene.b[first], prepend=scene.b[first[0]])[index] / np.pi
-    about_a = np.diff(scene.a[first], prepend=scene.a[first[0]])[index] / np.pi
-    left = np.exp(-(scene.time - scene.time[first][index]) / p["tau_s"]) / scene.length.max()
-    elbow = np.column_stack([np.sin(scene.b), -np.cos(scene.b), np.zeros(scene.size)])
-    axis = np.outer(about_b, [0, 0, 1.0]) + p["elbow"] * about_a[:, None] * elbow
-    return Change(tip=-p["amplitude_um"] * left[:, None] * np.cross(axis, scene.arm))
+def change_posts(scene, p):
+    """Some of the posts of the balls have been broken, and were mended with what lay about: brass, plastic,
+    invar. With every kelvin such a post grows by more than the others, or by less, by its height: its ball
+    rises or sinks on the part, and only that. Amplitude at the top of the tallest post, if it is of plastic,
+    for 1 K."""
+    height = centres(scene)[:, 2] - p["foot_mm"]
+    grows = np.array([p["grows"].get(f, 0.0) for f in scene.feature]) * height / height.max()
+    warmer = scene.temperature["part"] - p["mended_at_C"]
+    return Change(along=p["amplitude_um"] * grows * warmer * scene.part_normal[:, 2])
 
 
-unknown("starved_bearings", draw_air, change_air, ["time", "direction"])
-unknown("parked_lorry", draw_lorry, change_lorry, ["time", "position", "feature"])
-unknown("hollow_balls", draw_shells, change_shells, ["feature", "direction"])
-unknown("guarded_side", draw_zone, change_zone, ["position", "speed", "feature"])
-unknown("leaden_posts", draw_lead, change_lead, ["feature", "time", "direction"])
-unknown("buckled_rail", draw_rail, change_rail, ["temperature", "position", "feature", "setup"], "D")
-unknown("folding_frame", draw_fold, change_fold, ["setup", "feature", "position"], "D")
-unknown("unwinding_head", draw_unwinding, change_unwinding, ["head", "sensor", "time"], "D")
+unknown("hot_insert", draw_insert, change_insert, ["time", "feature", "position"])
+unknown("creeping_bed", draw_bed, change_bed, ["time", "position", "feature"])
+unknown("stray_field", draw_field, change_field, ["position", "head", "sensor", "feature"])
+unknown("snagged_wire", draw_wire, change_wire, ["time", "position", "feature", "sensor", "head"])
+unknown("coarse_lattice", draw_lattice, change_lattice, ["position", "feature"])
+unknown("careless_battens", draw_battens, change_battens, ["setup", "feature", "position"], "D")
+unknown("limp_elbow", draw_elbow, change_elbow, ["head", "direction", "speed", "sensor"], "D")
+unknown("mended_posts", draw_posts, change_posts, ["temperature", "feature", "setup"], "D")
