@@ -1,6 +1,5 @@
 #include "engine/diagnose/values/value_search.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "engine/diagnose/findings/search.hpp"
@@ -20,7 +19,16 @@ ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations exp
       covariance_(covariance),
       root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
   if (free.cols() > 0) free_ = independent(root_.triangularView<Eigen::Lower>().solve(free));
-  for (const Variant& b : explanations_.variants) white_.push_back(whitened(b.signature));
+  for (const Variant& b : explanations_.variants) {
+    white_.push_back(whitened(b.signature));
+    told_.push_back(told_of(white_.back()));
+  }
+}
+
+ValueSearch::Told ValueSearch::told_of(const Matrix& white) {
+  Told out{white.transpose() * white, {}};
+  for (const double s : kSizes) out.by.emplace_back(Matrix::Identity(out.g.rows(), out.g.cols()) + s * s * out.g);
+  return out;
 }
 
 void ValueSearch::linearise(int variant, NearSizes near) {
@@ -28,6 +36,7 @@ void ValueSearch::linearise(int variant, NearSizes near) {
   const Matrix root = Eigen::LLT<Matrix>(near.covariance).matrixL();
   explanations_.variants[b].signature = near.slopes;
   white_[b] = root.triangularView<Eigen::Lower>().solve(near.slopes);
+  told_[b] = told_of(white_[b]);
   near_.insert_or_assign(variant, Near{std::move(near), root});
 }
 
@@ -55,21 +64,19 @@ Matrix ValueSearch::whitened(const Matrix& columns) const {
 Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
 
 Information ValueSearch::information(int variant, const Vector& deviation) const {
-  const Matrix& h = white(variant);
-  return {h.transpose() * h, h.transpose() * from_offset(variant, deviation, white(deviation)).first};
+  return {told_[variant].g, white(variant).transpose() * from_offset(variant, deviation, white(deviation)).first};
 }
 
 Evidence ValueSearch::evidence(const Vector& deviation) const {
   const Vector white_deviation = white(deviation);
   Evidence out;
   for (std::size_t b = 0; b < white_.size(); ++b) {
-    const Matrix& h = white_[b];
     const auto [w, log_offset] = from_offset(static_cast<int>(b), deviation, white_deviation);
-    const Matrix g = h.transpose() * h;
-    const Vector u = h.transpose() * w;
+    const Vector u = white_[b].transpose() * w;
     std::vector<double> sizes;
-    for (const double s : kSizes) {
-      const Eigen::LLT<Matrix> llt(Matrix::Identity(g.rows(), g.cols()) + s * s * g);
+    for (std::size_t i = 0; i < std::size(kSizes); ++i) {
+      const Eigen::LLT<Matrix>& llt = told_[b].by[i];
+      const double s = kSizes[i];
       const Vector v = llt.matrixL().solve(u);
       sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() -
                       std::log(double(std::size(kSizes))));
