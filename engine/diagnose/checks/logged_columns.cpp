@@ -14,6 +14,7 @@
 #include "engine/diagnose/quantile.hpp"
 #include "engine/recording/columns.hpp"
 #include "engine/recording/recording.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
 
@@ -56,6 +57,15 @@ void doubt(std::optional<double> RecordingRow::*column, const std::string& name,
   }
 }
 
+/// What would make the usual interval of so short a one.
+std::string help_of_slow_clock(double interval) {
+  constexpr std::pair<std::string_view, double> kUnits_s[] = {{"minutes", 60}, {"hours", 3600}, {"days", 86400}};
+  const auto off = [&](double unit) { return std::abs(std::log(interval * unit / kUsualInterval_s)); };
+  const auto [name, unit] = *std::min_element(std::begin(kUnits_s), std::end(kUnits_s),
+                                              [&](auto a, auto b) { return off(a.second) < off(b.second); });
+  return fmt::format("if these are {}, convert them: {:.3g} {} are {:.3g} s", name, interval, name, unit * interval);
+}
+
 }  // namespace
 
 void doubt_temperatures(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
@@ -68,7 +78,7 @@ void doubt_temperatures(const Recording& recording, const std::string& file, std
 void doubt_motion(const Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kSlow_mm_s = 0.02, kFast_mm_s = 100, kSecondsPerMinute = 60;
   constexpr double kWeak_mm_s2 = 1, kHard_mm_s2 = 5e4;
-  constexpr double kDay_s = 86400, kLong_s = 300, kShort_s = 1e-3, kPause_s = 7 * kDay_s;  // from touch to touch
+  constexpr double kDay_s = 86400, kLong_s = 300, kShort_s = 0.25, kPause_s = 7 * kDay_s;  // from touch to touch
   const std::string kNotLogged = "no touch is made standing still: if it was not logged there, leave the field empty";
   const auto doubt = [&](std::optional<double> RecordingRow::*column, std::string_view name, double low, double high,
                          auto help) {
@@ -109,7 +119,7 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
     messages.push_back(diagnostic(
         Code::W0728,
         fmt::format("{}: by time_s, half of the touches come {:g} s or less after the one before", file, usual),
-        fmt::format("if these are days, convert them: {:g} days are {:g} s", usual, kDay_s * usual)));
+        help_of_slow_clock(usual)));
   if (longest >= kPause_s && usual < kLong_s)
     messages.push_back(diagnostic(
         Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / kDay_s),

@@ -198,6 +198,16 @@ TEST_CASE("columns with gaps or of another unit are told") {
   CHECK(holds(messages[0].help, "300 mm/min are 5 mm/s"));
   CHECK(holds(messages[1].help, "0.4 m/s2 are 400 mm/s2"));
   CHECK(holds(messages[2].help, "5000 ms are 5 s"));
+
+  for (const auto& [unit_s, help] : {std::pair{60.0, "0.0833 minutes are 5 s"},
+                                     {3600.0, "0.00139 hours are 5 s"},
+                                     {86400.0, "5.79e-05 days are 5 s"}}) {
+    messages.clear();
+    doubt_motion(damaged([&](RecordingRow& row) { *row.time_s /= unit_s; }), "r.csv", messages);
+    REQUIRE(messages.size() == 1);
+    CHECK(messages[0].code == Code::W0728);
+    CHECK(holds(messages[0].help, help));
+  }
 }
 
 TEST_CASE("scale readings that are not those of the touches are not used") {
