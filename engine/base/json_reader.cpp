@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/numbers.hpp"
+
 namespace abbe {
 
 namespace {
@@ -22,6 +24,11 @@ std::string_view word_for(Kind kind) {
     case Kind::object: return "an object { ... }";
   }
   return "";
+}
+
+std::string help_for(Kind wanted, const JsonNode& found) {
+  const bool quoted = wanted == Kind::number && found.kind == Kind::text && finite_number(found.text);
+  return quoted ? fmt::format("write {} without the quotes", found.text) : "";
 }
 
 }  // namespace
@@ -41,7 +48,8 @@ bool JsonObject::check(const JsonNode& node, std::string_view key, Kind kind) {
   if (node.kind == kind) return true;
   reader_->report(
       node.span, Code::E0405,
-      fmt::format("\"{}\" must be {}, but {} stands here", path_to(key), word_for(kind), word_for(node.kind)));
+      fmt::format("\"{}\" must be {}, but {} stands here", path_to(key), word_for(kind), word_for(node.kind)),
+      help_for(kind, node));
   return false;
 }
 

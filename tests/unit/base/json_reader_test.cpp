@@ -85,6 +85,7 @@ TEST_CASE("unknown keys are found at any depth, and beside other faults") {
 
 TEST_CASE("what is wrong with a value is said at the value") {
   check_one(reading("{\"a\": \"5\"}", [](JsonObject o) { o.number("a"); }), Code::E0405, {1, 7});
+  CHECK(reading("{\"a\": \"5\"}", [](JsonObject o) { o.number("a"); }).at(0).help == "write 5 without the quotes");
   check_one(reading("{\"a\": -5}", [](JsonObject o) { o.number("a", kPositive); }), Code::E0406, {1, 7});
   check_one(reading("{\"a\": 0}", [](JsonObject o) { o.number_or("a", 1, kPositive); }), Code::E0406, {1, 7});
   check_one(reading("{\"a\": 1.5}", [](JsonObject o) { o.integer_or("a", 1, 0, 9); }), Code::E0406, {1, 7});
