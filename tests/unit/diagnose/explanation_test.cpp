@@ -1,0 +1,44 @@
+#include "engine/diagnose/explanations/explanation.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+TEST_CASE("groups of parameters share belief alike, and what is new in a later run has a tenth") {
+  std::vector<Variant> variants(8);
+  // Variants 0 to 3 belong to something else.
+  variants[4].group = "gain";
+  variants[5].group = "offset";
+  variants[6].group = "offset";
+  variants[7].group = "offset", variants[7].change.from = 2;
+  Explanation e;
+  e.variants = {4, 5, 6};
+  share_belief(e, variants);
+  CHECK(variants[4].weight == doctest::Approx(0.5));
+  CHECK(variants[5].weight == doctest::Approx(0.25));
+  CHECK(variants[6].weight == doctest::Approx(0.25));
+  CHECK(variants[0].weight == 1);
+
+  e.variants = {4, 5, 7};
+  share_belief(e, variants);
+  CHECK(variants[4].weight == doctest::Approx(0.9 * 2 / 3));
+  CHECK(variants[5].weight == doctest::Approx(0.9 / 3));
+  CHECK(variants[7].weight == doctest::Approx(0.1));
+}
+
+TEST_CASE("what is gone counts half of what is new") {
+  std::vector<Variant> variants(3);
+  variants[0].change.from = 2;
+  variants[1].change.until = 2;
+  Explanation e;
+  e.variants = {0, 1};
+  share_belief(e, variants);  // nothing that is in all runs: both hold all
+  CHECK(variants[0].weight == doctest::Approx(2.0 / 3));
+  CHECK(variants[1].weight == doctest::Approx(1.0 / 3));
+  e.variants = {0, 1, 2};
+  share_belief(e, variants);
+  CHECK(variants[0].weight == doctest::Approx(0.1 * 2 / 3));
+  CHECK(variants[1].weight == doctest::Approx(0.1 / 3));
+  CHECK(variants[2].weight == doctest::Approx(0.9));
+}

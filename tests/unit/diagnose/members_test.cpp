@@ -1,0 +1,97 @@
+#include "engine/diagnose/findings/members.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "engine/effects/effect.hpp"
+#include "tests/unit/diagnose/scattered.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// Of a set that holds 0.9 of all belief, in these shares; `unlogged`: which of them need what was not logged.
+struct OfASet {
+  Case c;
+  SearchResult result;
+
+  OfASet(const std::vector<double>& shares, const std::vector<int>& unlogged) {
+    Finding f;
+    for (const double share : shares) {
+      const int k = static_cast<int>(c.explanations.list.size());
+      Explanation e;
+      e.effect = find_effect("machine.scale");
+      e.prior = 1.0 / double(shares.size());
+      e.variants = {k};
+      c.explanations.list.push_back(e);
+      c.explanations.variants.emplace_back();
+      f.evidence.log_bayes.push_back(std::log(share) + 20);
+      f.set.push_back(k);
+      f.best.push_back(k);
+    }
+    for (const int k : unlogged) c.explanations.list[k].missing = 1;
+    f.explanation = f.variant = f.set.front();
+    f.probability = 0.9;
+    result.findings = {f};
+  }
+
+  Finding& finding() { return result.findings.front(); }
+};
+
+}  // namespace
+
+TEST_CASE("a member is believed by its share of the set") {
+  OfASet of({0.5, 0.3, 0.2}, {});
+  CHECK(belief_in_first(of.c, of.finding()) == doctest::Approx(0.45));
+  const auto members = [&] {
+    DiagnosedEffect told;
+    told.probability = 0.9;
+    of.finding().set = {0};  // by itself it has all
+    return members_of(of.c, of.result, 0, told);
+  }();
+  REQUIRE(members.size() == 1);
+  CHECK(members[0].probability == doctest::Approx(0.9));
+}
+
+TEST_CASE("a set is judged unless four fifths of it need what was not logged") {
+  CHECK(judged(OfASet({0.5, 0.3, 0.2}, {}).c, OfASet({0.5, 0.3, 0.2}, {}).finding()));
+  OfASet less({0.5, 0.29, 0.21}, {0, 1}), more({0.5, 0.31, 0.19}, {0, 1});
+  CHECK(judged(less.c, less.finding()));
+  CHECK(!judged(more.c, more.finding()));
+}
+
+TEST_CASE("what can be judged stands first, the likeliest in front") {
+  OfASet of({0.5, 0.3, 0.2}, {0});
+  put_judged_members_first(of.c, of.result);
+  CHECK(of.finding().set == std::vector<int>{1, 2, 0});
+  CHECK(of.finding().explanation == 1);
+  CHECK(of.finding().variant == 1);
+
+  OfASet hardly({0.9, 0.1}, {0});  // what cannot be judged is what it is
+  put_judged_members_first(hardly.c, hardly.result);
+  CHECK(hardly.finding().set == std::vector<int>{0, 1});
+}
+
+TEST_CASE("a member that would need an impossible size is struck out, and what was believed of it is gone") {
+  Planted p(4);
+  p.plant("probe.stylus_bending", {-3, 0});  // a force that pulls
+  p.c.explanations = named_explanations(p.c.touches, p.c.rows, {"probe.stylus_bending", "machine.squareness"});
+  p.c.machine = &p.machine;
+  Finding f;
+  f.evidence = EvidenceSearch(p.c.model, p.c.hyper, p.c.explanations).evidence();
+  f.evidence.log_bayes = {20 + std::log(0.6), 20 + std::log(0.4)};
+  f.explanation = 0;
+  f.set = {0, 1};
+  f.probability = 0.9;
+  for (const int k : f.set) f.best.push_back(best_variant(p.c.explanations, k, f.evidence));
+  f.variant = f.best[0];
+  p.result.findings = {f};
+  drop_impossible_members(p.c, p.result);
+  const Finding& left = p.result.findings.front();
+  CHECK(left.set == std::vector<int>{1});
+  CHECK(left.explanation == 1);
+  // 0.54 was believed of what is impossible, and 0.36 of this: 0.36 of the 0.46 that is left of all.
+  CHECK(left.probability == doctest::Approx(0.36 / 0.46));
+}
