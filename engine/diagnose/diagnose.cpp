@@ -27,6 +27,7 @@
 #include "engine/diagnose/findings/other_methods.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/findings/tell.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/diagnose/planning/advice.hpp"
 #include "engine/diagnose/planning/design.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"

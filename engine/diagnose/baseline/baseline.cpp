@@ -10,6 +10,7 @@
 #include <set>
 
 #include "engine/diagnose/baseline/rough_geometry.hpp"
+#include "engine/diagnose/model/projection.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/machine/screening.hpp"
 

@@ -16,6 +16,8 @@
 
 #include "engine/diagnose/baseline/sudden_change.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/model/prediction.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/diagnose/place.hpp"
 #include "engine/diagnose/quantile.hpp"
 

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "engine/diagnose/baseline/length_errors.hpp"
+#include "engine/diagnose/model/prediction.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 
 namespace abbe::diagnose {
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/model/prediction.hpp"
 
 namespace abbe::diagnose {
 

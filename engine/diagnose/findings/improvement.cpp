@@ -16,6 +16,10 @@
 #include <map>
 #include <set>
 
+#include "engine/diagnose/model/precision.hpp"
+#include "engine/diagnose/model/prediction.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
+
 namespace abbe::diagnose {
 
 namespace {

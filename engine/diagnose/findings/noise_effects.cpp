@@ -12,6 +12,8 @@
 
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/model/prediction.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/effects/noise/noise.hpp"
 #include "engine/math/normal.hpp"
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/model/precision.hpp"
+#include "engine/diagnose/model/rotated.hpp"
 #include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {

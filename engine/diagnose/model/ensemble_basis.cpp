@@ -5,6 +5,8 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/diagnose/model/rotated.hpp"
+
 namespace abbe::diagnose {
 
 namespace {

@@ -8,7 +8,7 @@
 //     U' y ~ N(0, g^2 lambda + 1),       y - U U' y ~ N(0, 1 - U U')
 #pragma once
 
-#include "engine/diagnose/model/linear.hpp"
+#include "engine/diagnose/model/projection.hpp"
 
 namespace abbe::diagnose {
 

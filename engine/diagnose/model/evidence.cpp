@@ -8,6 +8,7 @@
 
 #include "engine/base/ids.hpp"
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 
 namespace abbe::diagnose {
 

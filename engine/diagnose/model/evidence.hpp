@@ -14,6 +14,7 @@
 #include <span>
 
 #include "engine/diagnose/model/ensemble.hpp"
+#include "engine/diagnose/model/prediction.hpp"
 
 namespace abbe::diagnose {
 

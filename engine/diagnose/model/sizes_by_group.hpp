@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "engine/diagnose/model/linear.hpp"
+#include "engine/diagnose/model/precision.hpp"
 
 namespace abbe::diagnose {
 

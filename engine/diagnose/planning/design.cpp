@@ -38,7 +38,7 @@ struct Form {
 };
 
 /// What a variant makes of a shift: all that its evidence needs.
-struct Judged {
+struct VariantView {
   Matrix axes;
   Vector information;  ///< along them
   std::vector<Size> sizes;
@@ -53,16 +53,16 @@ class Design {
     for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b) {
       const Matrix g = search.between(b, b);
       const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
-      Judged judged{solver.eigenvectors(),
-                    solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)),
-                    search.sizes(b),
-                    search.first_column(b),
-                    {}};
+      VariantView view{solver.eigenvectors(),
+                       solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)),
+                       search.sizes(b),
+                       search.first_column(b),
+                       {}};
       const double log_weight = std::log(std::max(all_.variants[b].weight, 1e-300));
-      for (const Size& size : judged.sizes)
-        judged.log_belief.push_back(log_weight + size.log_prior -
-                                    0.5 * (1 + size.factor * size.factor * judged.information.array()).log().sum());
-      variants_.push_back(std::move(judged));
+      for (const Size& size : view.sizes)
+        view.log_belief.push_back(log_weight + size.log_prior -
+                                  0.5 * (1 + size.factor * size.factor * view.information.array()).log().sum());
+      variants_.push_back(std::move(view));
       diagonal_.push_back(g.diagonal());
     }
   }
@@ -182,7 +182,7 @@ class Design {
   Shift shift_of(const Vector& u) const {
     Shift out;
     std::vector<double> imitated;
-    for (const Judged& b : variants_) {
+    for (const VariantView& b : variants_) {
       const Eigen::ArrayXd squares = (b.axes.transpose() * u.segment(b.first, b.axes.rows())).array().square();
       imitated.push_back((squares / b.information.array()).sum());
       std::vector<double>& gain = out.gain.emplace_back();
@@ -271,7 +271,7 @@ class Design {
   const Explanations& all_;
   const EvidenceSearch& search_;
   const Power& power_;
-  std::vector<Judged> variants_;
+  std::vector<VariantView> variants_;
   std::vector<Vector> diagonal_;  ///< by variant: the information on each column
 };
 

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/planning/question.hpp"
 
 namespace abbe::diagnose {

@@ -12,6 +12,7 @@
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/model/rotated.hpp"
 #include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {

@@ -45,9 +45,9 @@ Matrix covariance_of(const Matrix& machines, const ValueBench& b) {
   return share * seen + (1 - share) * Matrix(by.asDiagonal() * b.covariance * by.asDiagonal());
 }
 
-class Estimator {
+class ValueEstimator {
  public:
-  explicit Estimator(const ValueBench& b)
+  explicit ValueEstimator(const ValueBench& b)
       : bench_(b),
         machines_(screened_machines(b.machine, b.options.seed, kMachines, b.options.threads)),
         without_(simulated_values(b.values, b.programs, b.machine, machines_, b.options)) {}
@@ -61,8 +61,8 @@ class Estimator {
   Matrix without_;  ///< machines x values: deviations without an effect
 };
 
-std::optional<BesideErrors> Estimator::estimate(const Effect& effect, const Variant& variant,
-                                                const Vector& start) const {
+std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const Variant& variant,
+                                                     const Vector& start) const {
   const ValueBench& b = bench_;
   const auto values_at = [&](const Vector& sizes) {
     return simulated_values(b.values, b.programs, with_effect(b.machine, effect, variant, sizes), machines_, b.options);
@@ -140,7 +140,7 @@ Machine with_effect(const Machine& machine, const Effect& effect, const Variant&
 }
 
 std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueBench& bench) {
-  const Estimator estimator(bench);
+  const ValueEstimator estimator(bench);
   std::map<int, Sizes> out;
   std::set<int> tried;
   while (tried.size() < kMost) {

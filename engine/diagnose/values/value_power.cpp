@@ -13,16 +13,16 @@ namespace abbe::diagnose {
 namespace {
 
 /// One form of an effect: of a variant, the column of which the values tell most.
-struct Form {
+struct ValueForm {
   int variant = 0;
   Eigen::Index column = 0;
   double information = 0;
 };
 
 /// Of the forms that show at all, by what the values tell of them, the one in the middle; of an even number the better one.
-std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
+std::optional<ValueForm> middle_form(const ValueSearch& s, const Explanation& e) {
   constexpr double kNone = 1e-12;
-  std::vector<Form> forms;
+  std::vector<ValueForm> forms;
   for (const int b : e.variants) {
     Eigen::Index at = 0;
     const double information = s.between(b, b).diagonal().maxCoeff(&at);
@@ -31,7 +31,7 @@ std::optional<Form> middle_form(const ValueSearch& s, const Explanation& e) {
   if (forms.empty()) return std::nullopt;
   const auto middle = forms.begin() + static_cast<std::ptrdiff_t>(forms.size() / 2);
   std::nth_element(forms.begin(), middle, forms.end(),
-                   [](const Form& a, const Form& b) { return a.information < b.information; });
+                   [](const ValueForm& a, const ValueForm& b) { return a.information < b.information; });
   return *middle;
 }
 
@@ -63,7 +63,7 @@ class Detection {
 
   /// In units of the column. Sought around the size that would show if it and a machine's errors added up; nothing where
   /// no possible one is so large.
-  std::optional<double> from(const Effect& effect, const Form& of) const {
+  std::optional<double> from(const Effect& effect, const ValueForm& of) const {
     constexpr double kLeast = 0.5, kFar = 16;
     constexpr int kHalvings = 6;
     const Variant& variant = search_.explanations().variants[of.variant];
@@ -104,7 +104,8 @@ class Detection {
 };
 
 /// With what it is confounded, and from which size on it is named.
-void tell_apart(const ValueSearch& s, int explanation, const Form& of, double size, double largest, Detectable& d) {
+void tell_apart(const ValueSearch& s, int explanation, const ValueForm& of, double size, double largest,
+                Detectable& d) {
   const Explanations& all = s.explanations();
   double least = 1;
   for (int j = 0; j < static_cast<int>(all.list.size()); ++j) {
@@ -127,7 +128,7 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
   const Detection detection(s, bench, alarm_of(std::move(in_order)));
   const Explanations& all = s.explanations();
   const int count = static_cast<int>(all.list.size());
-  std::vector<std::optional<Form>> form(all.list.size());
+  std::vector<std::optional<ValueForm>> form(all.list.size());
   std::vector<std::optional<double>> from(all.list.size());
   on_threads(count, bench.options.threads, [&](int k) {
     const Explanation& e = all.list[k];
@@ -140,7 +141,7 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
     const std::optional<double>& size = from[k];
     if (!size) continue;
     const Explanation& e = all.list[k];
-    const Form& of = *form[k];
+    const ValueForm& of = *form[k];
     const Variant& variant = all.variants[of.variant];
     const Column& column = variant.columns[of.column];
     const EffectParameter& p = e.effect->parameters[column.parameter];

@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "engine/diagnose/model/projection.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/math/normal.hpp"
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/lanes/random.hpp"
 
 using namespace abbe;

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;

@@ -1,0 +1,29 @@
+#include "engine/diagnose/model/precision.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace abbe::diagnose {
+
+Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(m.y) {
+  const Matrix z = project_(random_at_scale(m, h));
+  Matrix square = Matrix::Identity(z.cols(), z.cols());
+  square.selfadjointView<Eigen::Lower>().rankUpdate(z.transpose());
+  const Eigen::LLT<Matrix> llt(square);
+  reach_ = llt.matrixL().solve(z.transpose());
+}
+
+Precision::Seen Precision::seen(const Matrix& patterns) const { return with_taken(project_.of_patterns(patterns)); }
+
+Precision::Seen Precision::y() const { return with_taken(project_(y_)); }
+
+Precision::Seen Precision::with_taken(Matrix rows) const {
+  Seen out{std::move(rows), {}};
+  out.taken = reach_ * out.rows;
+  return out;
+}
+
+Matrix inner(const Precision::Seen& a, const Precision::Seen& b) {
+  return a.rows.transpose() * b.rows - a.taken.transpose() * b.taken;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,60 @@
+#include "engine/diagnose/model/rotated.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <tuple>
+
+namespace abbe::diagnose {
+
+std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
+  // From the eigenvectors of the smaller of Z'Z and Z Z'.
+  constexpr double kNegligible = 1e-6;
+  if (z.cols() == 0) return {z, Vector()};
+  const bool wide = z.cols() > z.rows();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
+  const Vector& values = solver.eigenvalues();
+  Eigen::Index first = 0;
+  while (first < values.size() && values(first) <= kNegligible) ++first;
+  const Eigen::Index rank = values.size() - first;
+  const Vector lambda = values.tail(rank);
+  const Matrix vectors = solver.eigenvectors().rightCols(rank);
+  Matrix axes = wide ? vectors : Matrix(z * vectors * lambda.cwiseSqrt().cwiseInverse().asDiagonal());
+  for (Eigen::Index k = 0; k < rank; ++k) {
+    Eigen::Index largest = 0;
+    axes.col(k).cwiseAbs().maxCoeff(&largest);
+    if (axes(largest, k) < 0) axes.col(k) *= -1;
+  }
+  return {axes, lambda};
+}
+
+Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(project(m.y)) {
+  std::tie(basis_, lambda_) = principal_axes(project(random_at_scale(m, h)));
+  rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank());
+}
+
+Vector Rotated::noise_part() const {
+  const Vector taken = lambda_.array() / (1 + lambda_.array());
+  return remainder(y_, Vector(taken.array() * z().array()));
+}
+
+Matrix Rotated::taken_of_touches() const {
+  Matrix taken(rows(), project_.free().cols() + rank());
+  taken << project_.free(), basis_ * (lambda_.array() / (1 + lambda_.array())).sqrt().matrix().asDiagonal();
+  return project_.of_touches(taken);
+}
+
+Vector Rotated::precision_diagonal() const {
+  return project_.noise_precision().first - taken_of_touches().rowwise().squaredNorm();
+}
+
+Matrix Rotated::precision() const {
+  const Matrix taken = taken_of_touches();
+  const auto [own, with_next] = project_.noise_precision();
+  Matrix out = -taken * taken.transpose();
+  out.diagonal() += own;
+  out.diagonal(1) += with_next;
+  out.diagonal(-1) += with_next;
+  return out;
+}
+
+}  // namespace abbe::diagnose

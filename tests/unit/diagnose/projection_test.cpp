@@ -1,0 +1,42 @@
+#include "engine/diagnose/model/projection.hpp"
+
+#include <doctest/doctest.h>
+#include <cmath>
+
+#include "engine/diagnose/model/rotated.hpp"
+#include "tests/unit/diagnose/random_model.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+TEST_CASE("densities under two noises compare as by the dense formula") {
+  LinearModel m = model_of(60, 1, 1, 0.5, 11);
+  m.follows[30] = 0;
+  const Eigen::Index n = m.y.size();
+  const auto dense = [&](const Hyperparameters& h) {
+    Matrix v = Matrix::Zero(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        if ((i < 30) == (j < 30))
+          v(i, j) = std::pow(0.5 * h.noise(0), 2) * std::pow(h.correlation, std::abs(double(i - j)));
+    v += h.scale * h.scale * m.random * m.random.transpose();
+    const Matrix inverse = v.inverse(), x = m.free, of_free = x.transpose() * inverse * x;
+    const double squares = m.y.dot(inverse * m.y) -
+        (x.transpose() * inverse * m.y).dot(of_free.inverse() * (x.transpose() * inverse * m.y));
+    return -0.5 *
+        (Eigen::FullPivLU<Matrix>(v).matrixLU().diagonal().array().abs().log().sum() + std::log(of_free.determinant()) +
+         squares);
+  };
+  const auto rotated = [&](const Hyperparameters& h) {
+    const Rotated r(m, h);
+    const Vector z = r.z(), variance = 1 + r.lambda().array();
+    return log_density(m, h) -
+        0.5 *
+        (variance.array().log().sum() + (z.array().square() / variance.array()).sum() +
+         r.remainder(r.y(), z).squaredNorm());
+  };
+  Hyperparameters correlated, white;
+  correlated.noise = Vector::Constant(1, 0.8), correlated.correlation = 0.45, correlated.scale = 1.2;
+  white.noise = Vector::Constant(1, 1.1);
+  CHECK(rotated(correlated) - rotated(white) == doctest::Approx(dense(correlated) - dense(white)).epsilon(1e-9));
+}
