@@ -1,8 +1,5 @@
 #include "engine/diagnose/baseline/baseline.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -58,9 +55,8 @@ KnownGeometry ensemble(const Machine& machine, std::uint64_t seed, int threads) 
   values.rowwise() -= out.mean.transpose();
   for (int c = 0; c < kComponents; ++c) {
     const Matrix part = values.middleCols(c * basis, basis);
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(part.transpose() * part / double(sample.size() - 1));
     out.factor.block(c * basis, c * basis, basis, basis) =
-        solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+        factor_of(part.transpose() * part / double(sample.size() - 1));
   }
   return out;
 }
@@ -180,14 +176,6 @@ void group_noise(const RecordedTouches& t, const Machine& machine, Baseline& out
   }
 }
 
-/// A factor of the same covariance that has no more columns than rows.
-Matrix no_wider(const Matrix& factor) {
-  if (factor.cols() <= factor.rows()) return factor;
-  const Eigen::HouseholderQR<Matrix> qr(factor.transpose());
-  const Matrix triangle = qr.matrixQR().topRows(factor.rows()).triangularView<Eigen::Upper>();
-  return triangle.transpose();
-}
-
 /// The number of the point of a surface that each touch aims at, wherever the part stood.
 std::vector<int> surface_points(const RecordedTouches& t) {
   constexpr double kSame_mm = 2e-3;
@@ -271,13 +259,10 @@ KnownGeometry posterior(const Baseline& b, const Hyperparameters& h, Errors erro
   Matrix precision = z.transpose() * z;
   for (Eigen::Index k = 0; k < precision.rows(); ++k)
     precision(k, k) += m.random_group[k] == 0 ? 1 / (h.scale * h.scale) : 1;
-  const Eigen::LLT<Matrix> llt(precision);
-  const Vector mean = llt.solve(z.transpose() * project(m.y));
-  const Matrix covariance = llt.solve(Matrix::Identity(precision.rows(), precision.cols()));
+  const Cholesky root(precision);
+  const Vector mean = root.solve(Vector(z.transpose() * project(m.y)));
   const Eigen::Index size = factor.cols();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance.topLeftCorner(size, size));
-  const Matrix root = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
-  return {b.mean + factor * mean.head(size), no_wider(factor * root)};
+  return {b.mean + factor * mean.head(size), no_wider(factor * factor_of(root.inverse().topLeftCorner(size, size)))};
 }
 
 }  // namespace abbe::diagnose

@@ -1,6 +1,5 @@
 #include "engine/diagnose/baseline/length_errors.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -26,12 +25,12 @@ double share(const LengthError& e) { return std::abs(e.error_mm) / e.mpe_mm; }
 Vector without_placement(const LinearModel& m) {
   constexpr int kMostSteps = 20;
   constexpr double kGross = 10, kFine_um = 1;
-  Vector left = m.y - m.free * m.free.colPivHouseholderQr().solve(m.y);
+  Vector left = m.y - m.free * least_squares(m.free, m.y);
   for (int step = 0; step < kMostSteps; ++step) {
     const Vector size = left.cwiseAbs();
     if (size.maxCoeff() <= kGross * median({size.begin(), size.end()})) break;
     const Vector weight = size.cwiseMax(kFine_um).cwiseInverse().cwiseSqrt();
-    left = m.y - m.free * (weight.asDiagonal() * m.free).colPivHouseholderQr().solve(weight.cwiseProduct(m.y));
+    left = m.y - m.free * least_squares(weight.asDiagonal() * m.free, Vector(weight.cwiseProduct(m.y)));
   }
   return left;
 }

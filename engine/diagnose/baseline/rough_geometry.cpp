@@ -1,7 +1,5 @@
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -54,7 +52,7 @@ class Functions {
     Matrix k(knots, knots);
     for (int i = 0; i < knots; ++i)
       for (int j = 0; j < knots; ++j) k(i, j) = covariance(knot(i), knot(j), lengths, line);
-    root_ = Eigen::SelfAdjointEigenSolver<Matrix>(k + 1e-9 * Matrix::Identity(knots, knots)).operatorInverseSqrt();
+    root_ = inverse_root(k + 1e-9 * Matrix::Identity(knots, knots));
     home_ = row(-1);
   }
   int count() const { return knots_; }
@@ -108,7 +106,7 @@ Matrix nearest_harmonics(const Machine& machine, const Functions& functions) {
     rows.row(i) = functions.at(u);
     basis.row(i) = harmonics(machine, u);
   }
-  return basis.colPivHouseholderQr().solve(rows);
+  return least_squares(basis, rows);
 }
 
 /// What of functions is no sum of harmonics.

@@ -1,8 +1,9 @@
 #include "engine/diagnose/baseline/round_surface.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/diagnose/model/decompositions.hpp"
 
 namespace abbe::diagnose {
 
@@ -16,10 +17,9 @@ std::optional<Vec3> axis_of(const std::vector<Vec3>& normals) {
     const Eigen::Vector3d v(n.x, n.y, n.z);
     moments += v * v.transpose() / double(normals.size());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments);
-  if (solver.eigenvalues()(0) > kSquare * kSquare || solver.eigenvalues()(1) < kSpread) return std::nullopt;
-  const Eigen::Vector3d a = solver.eigenvectors().col(0);
-  return Vec3{a(0), a(1), a(2)};
+  const auto [square, axes] = spectrum(moments);
+  if (square(0) > kSquare * kSquare || square(1) < kSpread) return std::nullopt;
+  return Vec3{axes(0, 0), axes(1, 0), axes(2, 0)};
 }
 
 Vec3 across(const Vec3& v, const std::optional<Vec3>& axis) { return axis ? v - dot(v, *axis) * *axis : v; }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,6 +11,7 @@
 #include "engine/diagnose/baseline/most_agree.hpp"
 #include "engine/diagnose/baseline/round_surface.hpp"
 #include "engine/diagnose/checks/normals.hpp"
+#include "engine/diagnose/model/decompositions.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
 
@@ -70,12 +70,11 @@ std::pair<Vec3, double> extent_of(const Rows& rows) {
 
 /// Of the motions that differ by what no normal sees the one that turns least: the shift of a ball that was not
 /// touched all around is also a shift with a turn about its middle.
-Motion turning_least(const Motion& motion, const Eigen::Matrix<double, kUnknowns, Eigen::Dynamic>& unseen) {
+Motion turning_least(const Motion& motion, const Matrix& unseen) {
   constexpr double kShift = 1e-3;  // of a turn: what nothing shows shifts nothing either
   if (unseen.cols() == 0) return motion;
   const Motion counts{{kShift, kShift, kShift, 1, 1, 1, 1}};
-  const Eigen::MatrixXd counted = counts.asDiagonal() * unseen;
-  return motion - unseen * counted.colPivHouseholderQr().solve(counts.cwiseProduct(motion));
+  return motion - unseen * least_squares(counts.asDiagonal() * unseen, Vector(counts.cwiseProduct(motion)));
 }
 
 /// The small motion that lessens the weighted sum of squares most: a shift, a turn about `middle` times
@@ -95,17 +94,16 @@ Motion step(const Rows& rows, bool tip, const Vec3& middle, double extent, const
     a += weight * s * s.transpose();
     b -= weight * r[i] * s;
   }
-  const Eigen::SelfAdjointEigenSolver<Square> solver(a);
+  const auto [seen, directions] = spectrum(a);
   Motion motion = Motion::Zero();
   int unseen = 0;  // the first so many, in rising order
   for (int k = 0; k < kUnknowns; ++k) {
-    const double seen = solver.eigenvalues()(k);
-    if (seen > kUnseen * solver.eigenvalues()(kUnknowns - 1))
-      motion += solver.eigenvectors().col(k).dot(b) / seen * solver.eigenvectors().col(k);
+    if (seen(k) > kUnseen * seen(kUnknowns - 1))
+      motion += directions.col(k).dot(b) / seen(k) * directions.col(k);
     else
       unseen = k + 1;
   }
-  return turning_least(motion, solver.eigenvectors().leftCols(unseen));
+  return turning_least(motion, directions.leftCols(unseen));
 }
 
 Back refined(const Rows& rows, Back back, bool tip) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +14,7 @@
 
 #include "engine/diagnose/checks/remedies.hpp"
 #include "engine/diagnose/checks/unlogged_styli.hpp"
+#include "engine/diagnose/model/decompositions.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/run/recorded/from_program.hpp"
 
@@ -30,17 +30,16 @@ std::optional<Vec3> middle_of_ball(const std::vector<Vec3>& points) {
   constexpr double kFlat = 1e-4;
   const auto n = static_cast<Eigen::Index>(points.size());
   const Vec3 mean = mean_of(points);
-  Eigen::MatrixX4d a(n, 4);  // 2 c . p + k = p . p
-  Eigen::VectorXd square(n);
+  Matrix a(n, 4);  // 2 c . p + k = p . p
+  Vector square(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vec3 p = points[i] - mean;
     a.row(i) << 2 * p.x, 2 * p.y, 2 * p.z, 1;
     square(i) = dot(p, p);
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixX4d> qr(a);
-  qr.setThreshold(kFlat);
-  if (n < 5 || qr.rank() < 4) return std::nullopt;
-  const Eigen::Vector4d found = qr.solve(square);
+  const Vector spread = spectrum(a.transpose() * a).values;
+  if (n < 5 || spread(0) < kFlat * kFlat * spread(3)) return std::nullopt;
+  const Vector found = least_squares(a, square);
   const Vec3 middle = mean + Vec3{found(0), found(1), found(2)};
   const double radius = norm(points.front() - middle);
   const bool on_it = std::all_of(points.begin(), points.end(),

@@ -1,6 +1,5 @@
 // From the registry of effects to explanations: no physics here, only the effects' own displacements on the
 // recorded scenes.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -406,12 +405,11 @@ void share_belief(const Explanation& e, std::vector<Variant>& variants) {
 
 Matrix compressed(const Matrix& m) {
   if (m.cols() == 0) return m;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(m.transpose() * m);
-  const Vector& values = solver.eigenvalues();
+  const auto [values, vectors] = spectrum(m.transpose() * m);
   const double least = 1e-6 * values(values.size() - 1);
   Eigen::Index first = 0;
   while (first < values.size() - 1 && values(first) < least) ++first;
-  return m * solver.eigenvectors().rightCols(values.size() - first);
+  return m * vectors.rightCols(values.size() - first);
 }
 
 Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows,

@@ -1,7 +1,5 @@
 #include "engine/diagnose/findings/empirical.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -174,11 +172,9 @@ Matrix shown(const Matrix& placement, const Matrix& columns) {
 Matrix weights_of(const Basis& basis, const Matrix& between, const Matrix& placement, const Matrix& pattern) {
   constexpr double kSeen = 0.1;
   const Matrix visible = shown(placement, basis.columns);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> courses(visible.transpose() * visible,
-                                                                 basis.columns.transpose() * basis.columns + between);
-  const Vector& share = courses.eigenvalues();
+  const auto [share, course] =
+      spectrum_beside(visible.transpose() * visible, basis.columns.transpose() * basis.columns + between);
   const Vector weight = (share.array() > kSeen).select(share.cwiseMax(kSeen).cwiseInverse(), 0);
-  const Matrix& course = courses.eigenvectors();
   return course * weight.asDiagonal() * (course.transpose() * (visible.transpose() * pattern));
 }
 
@@ -189,16 +185,14 @@ struct Fit {
 
 /// Ridge estimate; the prior size is the one of greatest evidence. Its covariance is what the data leave in what they see.
 Fit fitted(const Information& info) {
-  const Matrix one = Matrix::Identity(info.g.rows(), info.g.cols());
   double best = -std::numeric_limits<double>::infinity(), size = 1;
   for (const double s : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}) {
-    const Eigen::LLT<Matrix> llt(one + s * s * info.g);
-    const Vector v = llt.matrixL().solve(info.u);
-    const double log_bayes = 0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum();
+    const Cholesky root(s * s * info.g, 1);
+    const Vector v = root.whitened(info.u);
+    const double log_bayes = 0.5 * s * s * v.squaredNorm() - root.half_log_determinant();
     if (log_bayes > best) best = log_bayes, size = s;
   }
-  const Eigen::LLT<Matrix> llt(info.g + one / (size * size));
-  const Matrix inverse = llt.solve(one);
+  const Matrix inverse = Cholesky(info.g, 1 / (size * size)).inverse();
   return {inverse * info.u, inverse * info.g * inverse};
 }
 
@@ -208,7 +202,10 @@ Vector uncertainties(const Basis& basis, const Matrix& between, const Matrix& pa
   const Vector variance = (pattern * covariance).cwiseProduct(pattern).rowwise().sum().cwiseMax(0);
   const Matrix share = basis.columns.cwiseAbs2();
   const Vector all = share.transpose() * share.rowwise().sum();
-  return (Matrix(all.asDiagonal()) + between).llt().solve(share.transpose() * variance).cwiseMax(0).cwiseSqrt();
+  return Cholesky(Matrix(all.asDiagonal()) + between)
+      .solve(Vector(share.transpose() * variance))
+      .cwiseMax(0)
+      .cwiseSqrt();
 }
 
 EffectSetting setting_of(const Piece& piece) {

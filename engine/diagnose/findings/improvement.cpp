@@ -10,7 +10,6 @@
 // as they show it, without and with what was found.
 #include "engine/diagnose/findings/improvement.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -121,8 +120,7 @@ Vector expected(const LinearModel& m, const Hyperparameters& h, const Scheme& sc
                 const Matrix& columns) {
   const Precision precision(without_rows(m, of_group(scheme, group)), h);
   const Precision::Seen seen = precision.seen(columns(outside(scheme, group), Eigen::all));
-  const Matrix g = inner(seen, seen) + Matrix::Identity(columns.cols(), columns.cols());
-  return columns * Eigen::LLT<Matrix>(g).solve(inner(seen, precision.y()));
+  return columns * Cholesky(inner(seen, seen), 1).solve(inner(seen, precision.y()));
 }
 
 double rms(const Vector& v) { return std::sqrt(v.squaredNorm() / double(v.size())); }

@@ -5,7 +5,6 @@
 #include "engine/diagnose/findings/locate.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,8 +73,8 @@ DiagnosedParameter told(const EffectParameter& parameter, const Estimate& e) {
 /// The standard deviation of draws: what their likelihood says of it, beside what the machine file lets them do anyway.
 std::vector<MixtureTerm> spread_estimate(const Information& info, double unit) {
   constexpr double kLeast = 0.01, kMost = 100, kStep = 1.03;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(info.g);
-  const Vector d = solver.eigenvalues().cwiseMax(0), t = (solver.eigenvectors().transpose() * info.u).array().square();
+  const auto [values, axes] = spectrum(info.g);
+  const Vector d = values.cwiseMax(0), t = (axes.transpose() * info.u).array().square();
   std::vector<MixtureTerm> terms;
   std::vector<double> logs;
   for (double s = kLeast; s < kMost; s *= kStep) {
@@ -158,8 +156,7 @@ class Estimator {
     if (explanation_.effect->draws == 0) return largest(likeliest.estimate->shift_um());
     double spread = 0;
     for (const MixtureTerm& c : spread_estimate(likeliest.info, 1)) spread += c.weight * c.value;
-    const Matrix& g = likeliest.info.g;
-    const Eigen::LLT<Matrix> posterior(g + Matrix::Identity(g.rows(), g.cols()) / (spread * spread));
+    const Cholesky posterior(likeliest.info.g, 1 / (spread * spread));
     return largest(likeliest.variant.signature * posterior.solve(likeliest.info.u));
   }
 

@@ -2,7 +2,6 @@
 // before leave unexplained.
 #include "engine/diagnose/findings/search.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -397,7 +396,7 @@ void put_largest_first(const Case& c, std::vector<Finding>& findings) {
   const LinearModel all = with_free(c.model, signatures_of(c, findings));
   const Vector weight = c.model.noise_um.cwiseInverse();
   const Matrix columns = weight.asDiagonal() * all.free;
-  const Vector size = columns.completeOrthogonalDecomposition().solve(weight.cwiseProduct(c.model.y));
+  const Vector size = least_squares(columns, Vector(weight.cwiseProduct(c.model.y)));
   std::vector<std::pair<double, std::size_t>> order;
   Eigen::Index first = c.model.free.cols();
   for (std::size_t k = 0; k < findings.size(); ++k) {

@@ -1,8 +1,5 @@
 #include "engine/diagnose/findings/variant_estimate.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -23,8 +20,7 @@ double own_share(const Matrix& g, const std::vector<Eigen::Index>& columns, cons
   if (all.trace() * kWidest * kWidest < 1) return 0;  // nothing beside what it is believed to be before
   if (others.empty()) return 1;
   const Matrix cross = g(others, columns), theirs = g(others, others);
-  const Matrix wide = theirs + Matrix::Identity(theirs.rows(), theirs.cols()) / (kWidest * kWidest);
-  return (all - cross.transpose() * Eigen::LLT<Matrix>(wide).solve(cross)).trace() / all.trace();
+  return (all - cross.transpose() * Cholesky(theirs, 1 / (kWidest * kWidest)).solve(cross)).trace() / all.trace();
 }
 
 /// Columns that say something of their own: of parameters that do the same, those of the first, `later` after the others.
@@ -53,12 +49,11 @@ bool keep_told_directions(Matrix& motion, Matrix& covariance) {
     for (Eigen::Index f = 0; f < phases; ++f)
       of_directions += covariance.block(f * directions, f * directions, directions, directions);
     // Those that were taken out, or that no touch sees at all, have no variance.
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(of_directions);
-    const Vector& variance = solver.eigenvalues();
+    const auto [variance, axes] = spectrum(of_directions);
     const double largest = variance(directions - 1);
     Eigen::Index first = 0;
     while (first < directions - 1 && variance(first) <= kNone * largest) ++first;
-    const Vector worst = solver.eigenvectors().col(directions - 1);
+    const Vector worst = axes.col(directions - 1);
     const Matrix keep = Matrix::Identity(directions, directions) - worst * worst.transpose();
     if (first == directions - 1 || largest <= kFar * kFar * variance(first) ||
         std::sqrt(largest) <= kSmall * (keep * motion).norm())
@@ -97,13 +92,14 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Variant& variant, c
   if (!impossible.empty()) solve(info, impossible);
 }
 
+Vector VariantEstimate::shift_um() const { return variant_.signature * mean_; }
+
 void VariantEstimate::solve(const Information& info, const std::set<int>& later) {
   mean_.setZero(), covariance_.setZero();
   const std::vector<Eigen::Index> kept = telling(variant_, info.g, later);
-  const auto count = static_cast<Eigen::Index>(kept.size());
-  const Eigen::LLT<Matrix> llt(info.g(kept, kept) + Matrix::Identity(count, count) / (kWidest * kWidest));
-  mean_(kept) = Vector(llt.solve(Vector(info.u(kept))));
-  covariance_(kept, kept) = Matrix(llt.solve(Matrix::Identity(count, count)));
+  const Cholesky root(info.g(kept, kept), 1 / (kWidest * kWidest));
+  mean_(kept) = root.solve(Vector(info.u(kept)));
+  covariance_(kept, kept) = root.inverse();
 }
 
 std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) const {
@@ -125,10 +121,10 @@ std::optional<VariantEstimate::Motion> VariantEstimate::motion(int parameter) co
     for (Eigen::Index j = 0; j < m.size(); ++j)
       if (column[i] >= 0 && column[j] >= 0) out.covariance(i, j) = unit * unit * covariance_(column[i], column[j]);
   out.whole = keep_told_directions(m, out.covariance);
-  const Eigen::JacobiSVD<Matrix> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  out.size = svd.singularValues()(0);
-  out.along = svd.matrixU().col(0);
-  out.phase = svd.matrixV().col(0);
+  const auto [squares, axes] = spectrum(m * m.transpose());
+  out.size = std::sqrt(squares(directions_ - 1));
+  out.along = axes.col(directions_ - 1);
+  out.phase = (m.transpose() * out.along).normalized();
   Eigen::Index largest = 0;
   out.along.cwiseAbs().maxCoeff(&largest);
   const bool turn = phases_ > 1 ? out.along(largest) < 0 : out.phase(0) < 0;

@@ -42,7 +42,7 @@ class VariantEstimate {
   /// Of that parameter, deg; nothing where no phases are spanned.
   std::optional<Estimate> phase_deg(int parameter) const;
   /// What the coefficients do along the normal of every touch, um.
-  Vector shift_um() const { return variant_.signature * mean_; }
+  Vector shift_um() const;
 
  private:
   /// sigma u w' of the coefficients of one parameter, by direction and phase.

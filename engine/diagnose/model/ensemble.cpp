@@ -1,6 +1,5 @@
 #include "engine/diagnose/model/ensemble.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -128,9 +127,9 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
     Matrix g = a.transpose() * precision_.col(j).asDiagonal() * a + outside;
     if (tells_nothing) g.setZero();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
-    const Vector d = solver.eigenvalues().cwiseMax(0);
-    Axes axes{solver.eigenvectors().transpose(), Matrix(sizes, count)};
+    const Spectrum of_g = spectrum(g);
+    const Vector d = of_g.values.cwiseMax(0);
+    Axes axes{of_g.vectors.transpose(), Matrix(sizes, count)};
     for (Eigen::Index s = 0; s < sizes; ++s) {
       const auto& [factor, log_prior] = b.sizes[s];
       const double size = variant ? factor : factor * scales_[j], s2 = size * size;
@@ -226,6 +225,12 @@ Vector Ensemble::simulated(const Level& level, const NoiseLaw& law, std::uint64_
   return basis_.recording(z, std::sqrt(level.s2) * standard_normal(basis_.kept_count(), seed, kept, replicate),
                           std::sqrt(level.s2) * law.simulated(basis_.rows(), seed, touches, replicate));
 }
+
+Vector Ensemble::precision(double g) const { return (g * g * basis_.lambda().array() + 1).inverse(); }
+
+Vector Ensemble::precision(const Level& l) const { return (l.g2 * basis_.lambda().array() + l.s2).inverse(); }
+
+Vector Ensemble::beside_noise(const Level& l) const { return precision(l).array() - 1 / l.s2; }
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
   const Prepared &i = of(a), &j = of(b);

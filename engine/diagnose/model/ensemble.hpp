@@ -96,10 +96,10 @@ class Ensemble {
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);
   Prepared prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
   const Prepared& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
-  Vector precision(double g) const { return (g * g * basis_.lambda().array() + 1).inverse(); }
-  Vector precision(const Level& l) const { return (l.g2 * basis_.lambda().array() + l.s2).inverse(); }
+  Vector precision(double g) const;
+  Vector precision(const Level&) const;
   /// What the model adds to the precision that noise alone would have: h' P h = a' (this) a + h' h / s^2, a = U' h.
-  Vector beside_noise(const Level& l) const { return precision(l).array() - 1 / l.s2; }
+  Vector beside_noise(const Level&) const;
 
   EnsembleBasis basis_;
   double shape_ = 0;            ///< a + n / 2

@@ -52,6 +52,12 @@ Matrix EnsembleBasis::Kept::unwhitened(Matrix white) const {
   return white;
 }
 
+Matrix EnsembleBasis::coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
+
+Matrix EnsembleBasis::remainder(const Matrix& projected, const Matrix& coordinates) const {
+  return projected - basis_ * coordinates;
+}
+
 Vector EnsembleBasis::recording(const Vector& coordinates, const Vector& kept, const Vector& noise) const {
   Vector projected = noise - project_.free() * (project_.free().transpose() * noise);
   projected += kept_.unwhitened(basis_ * coordinates);

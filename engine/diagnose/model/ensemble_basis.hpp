@@ -30,11 +30,9 @@ class EnsembleBasis {
   /// The same of patterns, of any size: those that X can do but for the last digits are zero.
   Matrix project_patterns(const Matrix& columns) const { return kept_.whitened(project_.of_patterns(columns)); }
   /// U' of projected columns.
-  Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
+  Matrix coordinates(const Matrix& projected) const;
   /// What of projected columns the ensemble cannot do.
-  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const {
-    return projected - basis_ * coordinates;
-  }
+  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const;
 
   /// How many columns keep their scale: so many standard normal numbers they take in a recording, in their order, because
   /// axes of equal variance may turn with the last digit.

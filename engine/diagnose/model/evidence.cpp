@@ -1,6 +1,5 @@
 #include "engine/diagnose/model/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -248,10 +247,10 @@ LikeliestSize likeliest_size(const Information& info, const std::vector<Size>& s
   out.coefficients = Vector::Zero(info.u.size());
   for (const Size& size : sizes) {
     const double s2 = size.factor * size.factor;
-    const Eigen::LLT<Matrix> posterior(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / s2);
+    const Cholesky posterior(info.g, 1 / s2);
     Vector coefficients = posterior.solve(info.u);
     const double log_belief = size.log_prior + 0.5 * info.u.dot(coefficients) -
-        0.5 * double(info.g.rows()) * std::log(s2) - posterior.matrixLLT().diagonal().array().log().sum();
+        0.5 * double(info.g.rows()) * std::log(s2) - posterior.half_log_determinant();
     if (log_belief > out.log_belief) out = {size.factor, std::move(coefficients), log_belief};
   }
   return out;

@@ -1,12 +1,8 @@
 #include "engine/diagnose/model/linear.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 namespace abbe::diagnose {
 
 namespace {
-
-constexpr double kDependent = 1e-6;  // of the length of a column, whatever its unit: less is the rounding of targets
 
 /// The model with other columns in group 0.
 LinearModel with_ensemble(const LinearModel& m, const Matrix& ensemble) {
@@ -46,14 +42,6 @@ Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const> list) {
   return out;
 }
 
-Matrix independent(const Matrix& columns) {
-  // an unknown that these rows do not have is no column
-  const Vector length = columns.colwise().norm().cwiseMax(1e-300);
-  Eigen::ColPivHouseholderQR<Matrix> qr(columns * length.cwiseInverse().asDiagonal());
-  qr.setThreshold(kDependent);
-  return qr.householderQ() * Matrix::Identity(columns.rows(), qr.rank());
-}
-
 std::vector<char> alone(const LinearModel& m) {
   constexpr double kNothing = 1e-6;  // of a row that X leaves
   const Matrix x = independent(m.noise_um.cwiseInverse().asDiagonal() * m.free);
@@ -68,10 +56,10 @@ LinearModel compact(const LinearModel& m) {
   const auto kept = [&](const Matrix& z) -> Matrix {
     if (z.cols() == 0) return z;
     const Matrix white = weight.asDiagonal() * z;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(white.transpose() * white);
+    const auto [values, vectors] = spectrum(white.transpose() * white);
     Eigen::Index first = 0;
-    while (first < z.cols() && solver.eigenvalues()(first) < kNegligible) ++first;
-    return z * solver.eigenvectors().rightCols(z.cols() - first);
+    while (first < z.cols() && values(first) < kNegligible) ++first;
+    return z * vectors.rightCols(z.cols() - first);
   };
   LinearModel out = with_ensemble(m, kept(m.random(Eigen::all, columns_of_group(m, true))));
   out.rough = kept(m.rough);

@@ -7,16 +7,13 @@
 // of a group of Z, the factor on the noise of a group of rows, and phi.
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "engine/diagnose/model/decompositions.hpp"
 #include "engine/math/units.hpp"
 
 namespace abbe::diagnose {
-
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
 
 /// Of residuals in um.
 struct LinearModel {
@@ -67,9 +64,6 @@ LinearModel with_random(const LinearModel&, const Matrix& columns);
 
 /// The columns of all of them, which have so many rows, one after the other.
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
-
-/// Orthonormal columns that span the same space: touches of few directions leave parts of a placement open.
-Matrix independent(const Matrix& columns);
 
 /// What of this displacement of the rows, um, shows beside all that X can do.
 Vector beside_free(const LinearModel&, const Vector&);

@@ -1,15 +1,16 @@
 #include "engine/diagnose/model/precision.hpp"
 
-#include <Eigen/Cholesky>
-
 namespace abbe::diagnose {
 
 Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(m.y) {
   const Matrix z = project_(random_at_scale(m, h));
   Matrix square = Matrix::Identity(z.cols(), z.cols());
   square.selfadjointView<Eigen::Lower>().rankUpdate(z.transpose());
-  const Eigen::LLT<Matrix> llt(square);
-  reach_ = llt.matrixL().solve(z.transpose());
+  reach_ = Cholesky(std::move(square)).whitened(Matrix(z.transpose()));
+}
+
+Precision::Seen Precision::Seen::operator*(const Matrix& coefficients) const {
+  return {rows * coefficients, taken * coefficients};
 }
 
 Precision::Seen Precision::seen(const Matrix& patterns) const { return with_taken(project_.of_patterns(patterns)); }

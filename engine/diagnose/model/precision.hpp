@@ -15,7 +15,7 @@ class Precision {
   struct Seen {
     Matrix rows, taken;  ///< projected; and what of them the ensemble can do
 
-    Seen operator*(const Matrix& coefficients) const { return {rows * coefficients, taken * coefficients}; }
+    Seen operator*(const Matrix& coefficients) const;
   };
   Seen seen(const Matrix& patterns) const;
   Seen y() const;

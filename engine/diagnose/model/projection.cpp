@@ -1,6 +1,5 @@
 #include "engine/diagnose/model/projection.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -33,9 +32,8 @@ double log_density(const LinearModel& m, const Hyperparameters& h) {
   const Vector weight = weights(m, h);
   const auto neighbours = static_cast<double>(std::count(m.follows.begin(), m.follows.end(), 1));
   const Matrix x = whitened(independent(m.free), weight, h.correlation, m.follows);
-  const Eigen::LLT<Matrix> of_free(x.transpose() * x);
   return weight.array().log().sum() - 0.5 * neighbours * std::log(1 - h.correlation * h.correlation) -
-      of_free.matrixLLT().diagonal().array().log().sum();
+      Cholesky(x.transpose() * x).half_log_determinant();
 }
 
 Projection::Projection(const LinearModel& m, const Hyperparameters& h)

@@ -1,6 +1,5 @@
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,9 +58,9 @@ class Likelihood {
       m(free_ + k, free_ + k) += 1 / s2;
       log_scale += std::log(s2);
     }
-    const Eigen::LLT<Matrix> llt(m);
-    const Vector v = llt.matrixL().solve(b);
-    const double log_m = 2 * llt.matrixLLT().diagonal().array().log().sum();
+    const Cholesky root(m);
+    const Vector v = root.whitened(b);
+    const double log_m = 2 * root.half_log_determinant();
     double rows = 0;
     for (std::size_t i = 0; i < model_.follows.size(); ++i) rows += model_.follows[i] ? 1 : 0;
     const double log_phi = rows * std::log(1 - phi_ * phi_);

@@ -1,6 +1,5 @@
 #include "engine/diagnose/model/rotated.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <tuple>
 
@@ -11,13 +10,12 @@ std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
   constexpr double kNegligible = 1e-6;
   if (z.cols() == 0) return {z, Vector()};
   const bool wide = z.cols() > z.rows();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
-  const Vector& values = solver.eigenvalues();
+  const auto [values, all_vectors] = spectrum(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
   Eigen::Index first = 0;
   while (first < values.size() && values(first) <= kNegligible) ++first;
   const Eigen::Index rank = values.size() - first;
   const Vector lambda = values.tail(rank);
-  const Matrix vectors = solver.eigenvectors().rightCols(rank);
+  const Matrix vectors = all_vectors.rightCols(rank);
   Matrix axes = wide ? vectors : Matrix(z * vectors * lambda.cwiseSqrt().cwiseInverse().asDiagonal());
   for (Eigen::Index k = 0; k < rank; ++k) {
     Eigen::Index largest = 0;
@@ -31,6 +29,14 @@ Rotated::Rotated(const LinearModel& m, const Hyperparameters& h) : project_(m, h
   std::tie(basis_, lambda_) = principal_axes(project(random_at_scale(m, h)));
   rest_dof_ = static_cast<int>(y_.size() - project_.free().cols() - rank());
 }
+
+Matrix Rotated::coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
+
+Matrix Rotated::remainder(const Matrix& projected, const Matrix& coordinates) const {
+  return projected - basis_ * coordinates;
+}
+
+Vector Rotated::z() const { return basis_.transpose() * y_; }
 
 Vector Rotated::noise_part() const {
   const Vector taken = lambda_.array() / (1 + lambda_.array());

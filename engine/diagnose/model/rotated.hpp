@@ -26,13 +26,11 @@ class Rotated {
   /// Columns of the recording's rows, whitened and free of X.
   Matrix project(const Matrix& columns) const { return project_(columns); }
   /// U' of projected columns.
-  Matrix coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
+  Matrix coordinates(const Matrix& projected) const;
   /// What of projected columns the ensemble cannot do.
-  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const {
-    return projected - basis_ * coordinates;
-  }
+  Matrix remainder(const Matrix& projected, const Matrix& coordinates) const;
   const Vector& y() const { return y_; }  ///< projected
-  Vector z() const { return basis_.transpose() * y_; }
+  Vector z() const;
   /// What of the projected rows is noise, as far as they tell.
   Vector noise_part() const;
   /// Row vectors of the touches: Projection::of_touches, and um.

@@ -1,7 +1,5 @@
 #include "engine/diagnose/model/sizes_by_group.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
@@ -9,12 +7,6 @@
 #include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
-
-namespace {
-
-using Solver = Eigen::CompleteOrthogonalDecomposition<Matrix>;
-
-}  // namespace
 
 double SizesByGroup::p() const { return dof == 0 ? 1 : chi2_above(chi2, dof); }
 
@@ -25,7 +17,7 @@ OneShape::OneShape(const LinearModel& model, const Hyperparameters& h, const std
   found_ = precision_.seen(side_by_side(rows, found));
   information_ = inner(found_, found_);
   const Vector u = inner(found_, y_);
-  coefficients_ = Solver(information_).solve(u);
+  coefficients_ = least_squares(information_, u);
   std::vector<const Matrix*> others = found;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(which));
   others_ = precision_.seen(side_by_side(rows, others));
@@ -44,11 +36,11 @@ SizesByGroup OneShape::by(const std::vector<int>& group) const {
   const Vector u = inner(by_group, y_);
   SizesByGroup out;
   // beside all that was found, whatever its size
-  const Solver free(information_);
-  const Eigen::SelfAdjointEigenSolver<Matrix> contrasts(information - with_found * free.solve(with_found.transpose()));
-  const Vector t = contrasts.eigenvectors().transpose() * (u - with_found * coefficients_);
+  const Spectrum contrasts =
+      spectrum(information - with_found * least_squares(information_, Matrix(with_found.transpose())));
+  const Vector t = contrasts.vectors.transpose() * (u - with_found * coefficients_);
   for (Eigen::Index k = 0; k < t.size(); ++k) {
-    const double tells = contrasts.eigenvalues()(k);
+    const double tells = contrasts.values(k);
     if (tells < kTellsNothing) continue;
     out.chi2 += t(k) * t(k) / tells;
     ++out.dof;
@@ -57,14 +49,12 @@ SizesByGroup OneShape::by(const std::vector<int>& group) const {
   Matrix g = information;
   Vector v = u;
   if (others_.rows.cols() > 0) {
-    const Matrix across = inner(by_group, others_);
-    const Solver beside(inner(others_, others_));
-    g -= across * beside.solve(across.transpose());
-    v -= across * beside.solve(Matrix(inner(others_, y_)));
+    const Matrix across = inner(by_group, others_), among_others = inner(others_, others_);
+    g -= across * least_squares(among_others, Matrix(across.transpose()));
+    v -= across * least_squares(among_others, Matrix(inner(others_, y_)));
   }
-  const Solver sizes(g);
-  out.size = sizes.solve(v);
-  const Matrix covariance = sizes.pseudoInverse();
+  out.size = least_squares(g, v);
+  const Matrix covariance = pseudo_inverse(g);
   out.u = Vector::Constant(v.size(), std::numeric_limits<double>::infinity());
   for (Eigen::Index k = 0; k < v.size(); ++k)
     if (information(k, k) >= kTellsNothing) out.u(k) = std::sqrt(std::max(0.0, covariance(k, k)));

@@ -10,7 +10,6 @@
 // say (model/power.hpp).
 #include "engine/diagnose/planning/design.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,12 +51,9 @@ class Design {
       : all_(c.explanations), search_(search), power_(power) {
     for (int b = 0; b < static_cast<int>(all_.variants.size()); ++b) {
       const Matrix g = search.between(b, b);
-      const Eigen::SelfAdjointEigenSolver<Matrix> solver(g);
-      VariantView view{solver.eigenvectors(),
-                       solver.eigenvalues().cwiseMax(1e-9 * (g.trace() + 1e-300)),
-                       search.sizes(b),
-                       search.first_column(b),
-                       {}};
+      const Spectrum of_g = spectrum(g);
+      VariantView view{
+          of_g.vectors, of_g.values.cwiseMax(1e-9 * (g.trace() + 1e-300)), search.sizes(b), search.first_column(b), {}};
       const double log_weight = std::log(std::max(all_.variants[b].weight, 1e-300));
       for (const Size& size : view.sizes)
         view.log_belief.push_back(log_weight + size.log_prior -

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cctype>
@@ -113,8 +112,7 @@ Vector left_of(const Seen& truths, const std::vector<Seen>& variants) {
   Vector left = squares;
   for (const Seen& w : variants) {
     const Matrix g = inner(w, w), cross = inner(w, truths);
-    const Matrix fit =
-        Eigen::LDLT<Matrix>(g + kRidge * (g.trace() + 1) * Matrix::Identity(g.rows(), g.cols())).solve(cross);
+    const Matrix fit = Cholesky(g, kRidge * (g.trace() + 1)).solve(cross);
     left = left.cwiseMin(squares - cross.cwiseProduct(fit).colwise().sum().transpose());
   }
   return left.cwiseMax(0);

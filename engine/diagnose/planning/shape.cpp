@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/diagnose/model/decompositions.hpp"
 
 namespace abbe::diagnose {
 
@@ -13,14 +14,14 @@ namespace {
 constexpr double kRound_mm = 0.1;  // what may be left of a round feature
 
 /// Axes and mean squares of a cloud about its mean, the least first.
-Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> moments(const std::vector<Vec3>& list) {
+Spectrum moments(const std::vector<Vec3>& list) {
   const Vec3 m = mean_of(list);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Vec3& v : list) {
     const Eigen::Vector3d off(v.x - m.x, v.y - m.y, v.z - m.z);
     sum += off * off.transpose() / double(list.size());
   }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum);
+  return spectrum(sum);
 }
 
 /// R of the formula above, and c.
@@ -36,8 +37,8 @@ Ball behind(const Touched& s) {
 std::optional<DmisFeature> turned(const Touched& s) {
   const auto normals = moments(s.normals);
   constexpr double kInPlane = 1e-6, kSides = 0.05, kLong_mm = 1, kThin_mm = 1e-3;
-  if (normals.eigenvalues()(0) > kInPlane || normals.eigenvalues()(1) < kSides) return std::nullopt;
-  const auto e = normals.eigenvectors().col(0);
+  if (normals.values(0) > kInPlane || normals.values(1) < kSides) return std::nullopt;
+  const Vector e = normals.vectors.col(0);
   const double up = std::abs(e(2)) > 1e-9 ? e(2) : e.sum();
   const Vec3 axis = (up < 0 ? -1.0 : 1.0) * Vec3{e(0), e(1), e(2)};
   const Ball round = behind(s);
@@ -64,7 +65,7 @@ std::optional<DmisFeature> turned(const Touched& s) {
 std::optional<Ball> ball_of(const Touched& s) {
   constexpr double kSides = 0.02;  // mean square of the normals across the direction in which they spread least
   constexpr std::size_t kTouches = 4;
-  if (s.points.size() < kTouches || moments(s.normals).eigenvalues()(0) < kSides) return std::nullopt;
+  if (s.points.size() < kTouches || moments(s.normals).values(0) < kSides) return std::nullopt;
   const Ball ball = behind(s);
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (norm(s.points[i] - ball.radius_mm * s.normals[i] - ball.centre) > kRound_mm) return std::nullopt;
@@ -73,7 +74,7 @@ std::optional<Ball> ball_of(const Touched& s) {
 
 bool is_face(const Touched& s) {
   constexpr double kParallel = 1e-8;
-  return moments(s.normals).eigenvalues()(2) < kParallel;
+  return moments(s.normals).values(2) < kParallel;
 }
 
 std::vector<std::size_t> widest_triangle(const std::vector<Vec3>& points) {

@@ -1,6 +1,5 @@
 #include "engine/diagnose/values/value_estimate.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -86,9 +85,9 @@ std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const
     Matrix slopes(n, columns);
     for (Eigen::Index k = 0; k < columns; ++k) slopes.col(k) = (means.segment((k + 2) * n, n) - here) / move(k);
     const Matrix covariance = covariance_of(together.middleCols(n, n), b);
-    const Matrix weighted = Eigen::LLT<Matrix>(covariance).solve(slopes);
+    const Matrix weighted = Cholesky(covariance).solve(slopes);
     const Matrix information = slopes.transpose() * weighted + Matrix::Identity(columns, columns) / (kWide * kWide);
-    const Matrix gain = Eigen::LLT<Matrix>(information).solve(weighted.transpose());
+    const Matrix gain = Cholesky(information).solve(Matrix(weighted.transpose()));
     out.sizes.covariance = gain * covariance * gain.transpose();
     out.near = {slopes, here - means.head(n) - slopes * at, covariance};
     out.sizes.mean = at + gain * (b.deviation - here);
@@ -125,8 +124,8 @@ int next_variant(const ValueSearch& search, const Vector& deviation, const std::
 
 Sizes sizes_of(const ValueSearch& search, int variant, const Vector& deviation) {
   const Information info = search.information(variant, deviation);
-  const Eigen::LLT<Matrix> llt(info.g + Matrix::Identity(info.g.rows(), info.g.cols()) / (kWide * kWide));
-  return {llt.solve(info.u), llt.solve(Matrix::Identity(info.g.rows(), info.g.cols()))};
+  const Cholesky root(info.g, 1 / (kWide * kWide));
+  return {root.solve(info.u), root.inverse()};
 }
 
 Machine with_effect(const Machine& machine, const Effect& effect, const Variant& variant, const Vector& sizes) {

@@ -1,6 +1,5 @@
 #include "engine/diagnose/values/value_power.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -37,11 +36,11 @@ std::optional<ValueForm> middle_form(const ValueSearch& s, const Explanation& e)
 
 /// What is left of the information on one column once a rival takes what it can, as a share.
 double left(const ValueSearch& s, int variant, Eigen::Index column, int rival) {
+  constexpr double kRidge = 1e-9;
   const Vector cross = s.between(rival, variant).col(column);
   const Matrix g = s.between(rival, rival);
   const double own = s.between(variant, variant)(column, column);
-  return 1 -
-      cross.dot(Eigen::LDLT<Matrix>(g + 1e-9 * g.trace() * Matrix::Identity(g.rows(), g.cols())).solve(cross)) / own;
+  return 1 - cross.dot(Cholesky(g, kRidge * (g.trace() + 1)).solve(cross)) / own;
 }
 
 /// The statistic that so few machines in order reach.

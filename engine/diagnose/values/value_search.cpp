@@ -14,11 +14,8 @@ constexpr double kSizes[] = {0.3, 1, 3, 10};
 }  // namespace
 
 ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations explanations, const Matrix& free)
-    : explanations_(std::move(explanations)),
-      mean_(std::move(mean)),
-      covariance_(covariance),
-      root_(Eigen::LLT<Matrix>(covariance).matrixL()) {
-  if (free.cols() > 0) free_ = independent(root_.triangularView<Eigen::Lower>().solve(free));
+    : explanations_(std::move(explanations)), mean_(std::move(mean)), covariance_(covariance), root_(covariance) {
+  if (free.cols() > 0) free_ = independent(root_.whitened(free));
   for (const Variant& b : explanations_.variants) {
     white_.push_back(whitened(b.signature));
     told_.push_back(told_of(white_.back()));
@@ -27,15 +24,15 @@ ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations exp
 
 ValueSearch::Told ValueSearch::told_of(const Matrix& white) {
   Told out{white.transpose() * white, {}};
-  for (const double s : kSizes) out.by.emplace_back(Matrix::Identity(out.g.rows(), out.g.cols()) + s * s * out.g);
+  for (const double s : kSizes) out.by.emplace_back(s * s * out.g, 1);
   return out;
 }
 
 void ValueSearch::linearise(int variant, NearSizes near) {
   const auto b = static_cast<std::size_t>(variant);
-  const Matrix root = Eigen::LLT<Matrix>(near.covariance).matrixL();
+  const Cholesky root(near.covariance);
   explanations_.variants[b].signature = near.slopes;
-  white_[b] = root.triangularView<Eigen::Lower>().solve(near.slopes);
+  white_[b] = root.whitened(near.slopes);
   told_[b] = told_of(white_[b]);
   near_.insert_or_assign(variant, Near{std::move(near), root});
 }
@@ -43,11 +40,10 @@ void ValueSearch::linearise(int variant, NearSizes near) {
 std::pair<Vector, double> ValueSearch::from_offset(int variant, const Vector& deviation, const Vector& white) const {
   const auto near = near_.find(variant);
   if (near == near_.end()) return {white, 0};
-  const Matrix& root = near->second.root;
-  const Vector w = root.triangularView<Eigen::Lower>().solve(deviation - mean_ - near->second.of.offset);
+  const Cholesky& root = near->second.root;
+  const Vector w = root.whitened(Vector(deviation - mean_ - near->second.of.offset));
   return {w,
-          0.5 * (white.squaredNorm() - w.squaredNorm()) + root_.diagonal().array().log().sum() -
-              root.diagonal().array().log().sum()};
+          0.5 * (white.squaredNorm() - w.squaredNorm()) + root_.half_log_determinant() - root.half_log_determinant()};
 }
 
 Vector ValueSearch::predicted(int variant, const Vector& sizes) const {
@@ -57,11 +53,15 @@ Vector ValueSearch::predicted(int variant, const Vector& sizes) const {
 }
 
 Matrix ValueSearch::whitened(const Matrix& columns) const {
-  const Matrix white = root_.triangularView<Eigen::Lower>().solve(columns);
+  const Matrix white = root_.whitened(columns);
   return free_.cols() > 0 ? Matrix(white - free_ * (free_.transpose() * white)) : white;
 }
 
 Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
+
+Matrix ValueSearch::between(int a, int b) const {
+  return a == b ? told_[a].g : Matrix(white(a).transpose() * white(b));
+}
 
 Information ValueSearch::information(int variant, const Vector& deviation) const {
   return {told_[variant].g, white(variant).transpose() * from_offset(variant, deviation, white(deviation)).first};
@@ -75,10 +75,10 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
     const Vector u = white_[b].transpose() * w;
     std::vector<double> sizes;
     for (std::size_t i = 0; i < std::size(kSizes); ++i) {
-      const Eigen::LLT<Matrix>& llt = told_[b].by[i];
+      const Cholesky& root = told_[b].by[i];
       const double s = kSizes[i];
-      const Vector v = llt.matrixL().solve(u);
-      sizes.push_back(0.5 * s * s * v.squaredNorm() - llt.matrixLLT().diagonal().array().log().sum() -
+      const Vector v = root.whitened(u);
+      sizes.push_back(0.5 * s * s * v.squaredNorm() - root.half_log_determinant() -
                       std::log(double(std::size(kSizes))));
     }
     out.variant_log_bayes.push_back(log_sum_exp(sizes) + log_offset);

@@ -6,7 +6,6 @@
 // a covariance W of their own: y - o and W stand for y and V, and log N(y; o, W) - log N(y; 0, V) is added.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <map>
 #include <utility>
 #include <vector>
@@ -34,7 +33,7 @@ class ValueSearch {
   Evidence evidence(const Vector& deviation) const;
   Information information(int variant, const Vector& deviation) const;
   /// H_a' V^-1 H_b, of variants that are linear everywhere.
-  Matrix between(int a, int b) const { return a == b ? told_[a].g : Matrix(white(a).transpose() * white(b)); }
+  Matrix between(int a, int b) const;
   /// The deviation in units in which it is uncorrelated, each of variance 1, without what the free columns can do.
   Vector white(const Vector& deviation) const;
   /// What a variant predicts with these sizes.
@@ -46,17 +45,17 @@ class ValueSearch {
  private:
   /// What the values tell of a variant whatever they are, so that it is taken once for all machines.
   struct Told {
-    Matrix g;                            ///< H' V^-1 H
-    std::vector<Eigen::LLT<Matrix>> by;  ///< of 1 + s^2 g, by size s
+    Matrix g;                  ///< H' V^-1 H
+    std::vector<Cholesky> by;  ///< of 1 + s^2 g, by size s
   };
   struct Near {
     NearSizes of;
-    Matrix root;  ///< lower triangle of the covariance
+    Cholesky root;  ///< of the covariance
   };
   Explanations explanations_;
   Vector mean_;
   Matrix covariance_;
-  Matrix root_;                ///< lower triangle L of V = L L'
+  Cholesky root_;              ///< V = L L'
   Matrix free_;                ///< orthonormal basis of L^-1 times the free columns
   std::vector<Matrix> white_;  ///< L^-1 H by variant, without them
   std::vector<Told> told_;     ///< by variant

@@ -1,6 +1,5 @@
 #include "engine/diagnose/values/value_signature.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "engine/base/on_threads.hpp"
@@ -214,7 +213,7 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
 void add_value_patterns(const Matrix& covariance, Explanations& out) {
   const std::size_t catalogue = out.list.size();
   add_pattern(out, Factor::feature, "single values", Matrix(covariance.diagonal().cwiseSqrt().asDiagonal()));
-  add_pattern(out, Factor::position, "larger errors", Matrix(Eigen::LLT<Matrix>(covariance).matrixL()));
+  add_pattern(out, Factor::position, "larger errors", Cholesky(covariance).lower());
   for (std::size_t k = 0; k < out.list.size(); ++k)
     out.list[k].prior =
         k < catalogue ? kPriorCatalogue / double(catalogue) : kPriorOther / double(out.list.size() - catalogue);

@@ -1,8 +1,10 @@
 #include "engine/diagnose/baseline/baseline.hpp"
 
 #include <doctest/doctest.h>
-#include <Eigen/Dense>
+
 #include <cmath>
+
+#include "tests/unit/diagnose/random_model.hpp"
 
 using namespace abbe;
 using namespace abbe::diagnose;
@@ -34,8 +36,7 @@ TEST_CASE("what is left of the geometry is that of touches whose neighbours have
       if ((i < 25) == (j < 25)) noise(i, j) = std::pow(0.5 * 1.2, 2) * std::pow(0.6, std::abs(i - j));
   Matrix prior = Matrix::Identity(kCoefficients + 1, kCoefficients + 1);
   prior.topLeftCorner(kCoefficients, kCoefficients) *= 1.4 * 1.4;
-  const Matrix v = m.random * prior * m.random.transpose() + noise, inverse = v.inverse(), x = m.free;
-  const Matrix p = inverse - inverse * x * (x.transpose() * inverse * x).inverse() * x.transpose() * inverse;
+  const Matrix p = inverse_beside(m.free, m.random * prior * m.random.transpose() + noise);
   const Matrix gain = prior * m.random.transpose() * p;  // the law of what is known given the recording, X of no prior
   const Vector mean = b.mean + b.factor * (gain * m.y).head(kCoefficients);
   const Matrix covariance =

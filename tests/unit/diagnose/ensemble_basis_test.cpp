@@ -2,11 +2,10 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
-
 #include "engine/diagnose/model/projection.hpp"
 #include "engine/lanes/random.hpp"
 #include "engine/math/normal.hpp"
+#include "tests/unit/diagnose/random_model.hpp"
 
 using namespace abbe;
 using namespace abbe::diagnose;
@@ -61,8 +60,7 @@ TEST_CASE("inner products at every scale are those of the covariance in which so
       for (int j = 0; j < kTouches; ++j) v(i, j) = std::pow(0.4, 2) * std::pow(0.6, std::abs(i - j));
     for (int k = 0; k < 6; ++k)
       v += (m.random_group[k] == 0 ? g * g : 1) * m.random.col(k) * m.random.col(k).transpose();
-    const Matrix inverse = v.inverse(), weighted = inverse * m.free,
-                 precision = inverse - weighted * (m.free.transpose() * weighted).inverse() * weighted.transpose();
+    const Matrix precision = inverse_beside(m.free, v);
     const Vector weight = (1 + g * g * basis.lambda().array()).inverse();
     const Matrix got = z.transpose() * weight.asDiagonal() * z + rest.transpose() * rest,
                  expected = a.transpose() * precision * a;

@@ -1,7 +1,6 @@
 #include "engine/diagnose/model/power.hpp"
 
 #include <doctest/doctest.h>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -64,9 +63,8 @@ double log_bayes_by_definition(const LinearModel& m, const Variant& variant, con
     (m.random_group[k] == 0 ? scaled : kept) += m.random.col(k) * m.random.col(k).transpose();
   const auto log_likelihood = [&](double g, double size) {
     const Matrix v = kept + g * g * scaled + size * size * variant.signature * variant.signature.transpose();
-    const Eigen::LLT<Matrix> llt(v);
-    const Matrix l = llt.matrixL();
-    const double half_log_determinant = l.diagonal().array().log().sum(), squares = m.y.dot(llt.solve(m.y));
+    const Cholesky root(v);
+    const double half_log_determinant = root.half_log_determinant(), squares = root.whitened(m.y).squaredNorm();
     std::vector<double> logs;
     for (double log_v = -4; log_v < 4; log_v += 0.01) {
       const double f = std::exp(log_v);

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "engine/effects/effect.hpp"
@@ -88,8 +87,8 @@ double log_density_of(const LinearModel& m, const std::vector<Eigen::Index>& row
     Matrix v = 1e6 * Matrix::Ones(n, n) + g * g * z * z.transpose();
     v.diagonal().array() += std::pow(0.5 * noise, 2);
     if (effect) v += (*effect)(rows, 0) * (*effect)(rows, 0).transpose();
-    const Eigen::LLT<Matrix> llt(v);
-    const double half_log_determinant = llt.matrixLLT().diagonal().array().log().sum(), squares = y.dot(llt.solve(y));
+    const Cholesky root(v);
+    const double half_log_determinant = root.half_log_determinant(), squares = root.whitened(y).squaredNorm();
     for (double log_f = -4; log_f < 4; log_f += 0.01)
       logs.push_back(prior.back() - half_log_determinant - 0.5 * double(n - 1) * log_f -
                      0.5 * squares * std::exp(-log_f) - 2 * log_f - 2 * std::exp(-log_f));
@@ -111,7 +110,7 @@ Vector beyond_others(const LinearModel& m, int setup, const Matrix* effect) {
   if (effect) v += *effect * effect->transpose();
   const std::vector<Eigen::Index> rest = touches_outside(setup);
   const Matrix of_rest = v(rest, rest), cross = v(Eigen::all, rest);
-  return m.y - cross * Eigen::LLT<Matrix>(of_rest).solve(Vector(m.y(rest)));
+  return m.y - cross * Cholesky(of_rest).solve(Vector(m.y(rest)));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -54,7 +53,7 @@ TEST_CASE("a size is that of generalised least squares") {
   x << p.c.model.free, Vector::Ones(p.count());
   v.diagonal().array() += std::pow(h.noise(0) * Planted::kNoise_um, 2);
   REQUIRE(h.correlation == 0);
-  const Matrix weighted = x.transpose() * v.inverse(), covariance = (weighted * x).inverse();
+  const Matrix weighted = x.transpose() * Cholesky(v).inverse(), covariance = Cholesky(weighted * x).inverse();
   const double expected = (covariance * weighted * p.c.model.y)(3), u = std::sqrt(covariance(3, 3));
   const DiagnosedParameter& told = parameter(size, "amplitude_um");
   CHECK(std::abs(told.value - expected) < 0.01 * u);

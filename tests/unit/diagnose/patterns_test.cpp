@@ -1,6 +1,5 @@
 // Patterns that no effect of the catalogue makes are found in their factor.
 #include <doctest/doctest.h>
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -195,7 +194,7 @@ std::string told_of_nearest(const RecordedTouches& t, const std::function<Vec3(c
   double least = seen.squaredNorm();
   for (const Variant& v : explanations_without_readings(t, rows).variants) {
     if (v.told.empty()) continue;
-    const double left = (seen - v.signature * v.signature.completeOrthogonalDecomposition().solve(seen)).squaredNorm();
+    const double left = (seen - v.signature * least_squares(v.signature, seen)).squaredNorm();
     if (left < 0.999 * least) least = left, told = v.told;
   }
   return told;

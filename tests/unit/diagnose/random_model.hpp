@@ -1,7 +1,6 @@
 // A linear model with random columns, and its inverse covariance by definition.
 #pragma once
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "engine/diagnose/model/linear.hpp"
@@ -39,10 +38,14 @@ inline LinearModel model_of(int rows, double scale, double noise, double phi, st
   return m;
 }
 
-/// The inverse covariance with the free columns projected out, dense and by definition.
+/// The inverse of a covariance with the columns x projected out, dense and by definition.
+inline Matrix inverse_beside(const Matrix& x, const Matrix& covariance) {
+  const Matrix inverse = Cholesky(covariance).inverse(), weighted = inverse * x;
+  return inverse - weighted * Cholesky(x.transpose() * weighted).inverse() * weighted.transpose();
+}
+
 inline Matrix dense_precision(const LinearModel& m, const Hyperparameters& h, const Matrix& noise) {
-  const Matrix v = h.scale * h.scale * m.random * m.random.transpose() + noise, inverse = v.inverse(), x = m.free;
-  return inverse - inverse * x * (x.transpose() * inverse * x).inverse() * x.transpose() * inverse;
+  return inverse_beside(m.free, h.scale * h.scale * m.random * m.random.transpose() + noise);
 }
 
 inline Matrix dense_precision(const LinearModel& m, const Hyperparameters& h) {

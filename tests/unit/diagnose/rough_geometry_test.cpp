@@ -1,7 +1,6 @@
 #include "engine/diagnose/baseline/rough_geometry.hpp"
 
 #include <doctest/doctest.h>
-#include <Eigen/QR>
 
 #include <cmath>
 #include <numeric>
@@ -47,7 +46,7 @@ Vector ripple(const Machine& machine) {
       harmonics(i, 1 + 2 * n) = std::cos(n * kPi * u), harmonics(i, 2 + 2 * n) = std::sin(n * kPi * u);
     v(i) = std::sin((machine.harmonics + 0.5) * kPi * u);
   }
-  return v - harmonics * harmonics.colPivHouseholderQr().solve(v);
+  return v - harmonics * least_squares(harmonics, v);
 }
 
 double variance_of(const Matrix& columns, const Vector& combination) {

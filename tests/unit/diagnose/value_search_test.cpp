@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 using namespace abbe;
@@ -45,8 +44,8 @@ Vector deviation_of_values() {
 
 /// Of a normal law, but for what all laws of as many values share.
 double log_normal(const Vector& y, const Matrix& covariance) {
-  const Eigen::LLT<Matrix> llt(covariance);
-  return -0.5 * y.dot(llt.solve(y)) - llt.matrixLLT().diagonal().array().log().sum();
+  const Cholesky root(covariance);
+  return -0.5 * root.whitened(y).squaredNorm() - root.half_log_determinant();
 }
 
 /// The mean over the sizes of the search, as a logarithm, of what a variant is likelier than the machines alone.

@@ -1,6 +1,5 @@
 #include "engine/diagnose/explanations/patterns/functions.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -24,8 +23,7 @@ Matrix functions(const Points& points, const Points& at, Covariance covariance) 
       for (std::size_t j = 0; j < b.size(); ++j) k(i, j) = covariance(squared_distance(a[i], b[j]));
     return k;
   };
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(kernel(at, at) + 1e-6 * Matrix::Identity(at.size(), at.size()));
-  return kernel(points, at) * solver.operatorInverseSqrt();
+  return kernel(points, at) * inverse_root(kernel(at, at) + 1e-6 * Matrix::Identity(at.size(), at.size()));
 }
 
 auto exponential(double length) {
@@ -44,8 +42,7 @@ Points joined(const std::vector<Within>& factors) {
 /// The largest principal components of columns that are drawn together.
 Matrix principal(const Matrix& columns, int most) {
   if (columns.cols() <= most) return columns;
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(columns.transpose() * columns));
-  return columns * solver.eigenvectors().rightCols(most);
+  return columns * spectrum(columns.transpose() * columns).vectors.rightCols(most);
 }
 
 constexpr int kCentres = 3;  // for each principal function

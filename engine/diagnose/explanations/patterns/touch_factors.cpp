@@ -1,6 +1,5 @@
 #include "engine/diagnose/explanations/patterns/touch_factors.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -40,7 +39,7 @@ int ordinal(std::map<Key, int>& known, const Key& key) {
 bool on_one_round(const Points& place, const Directions& normal) {
   constexpr double kFollows = 0.02;
   const Matrix by_normal = linear(as_points(normal)), at = linear(place).rightCols(3);
-  const Matrix left = at - by_normal * by_normal.completeOrthogonalDecomposition().solve(at);
+  const Matrix left = at - by_normal * least_squares(by_normal, at);
   return left.squaredNorm() < kFollows * kFollows * double(at.rows());
 }
 
