@@ -123,20 +123,21 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
              tells_nothing = own_sizes && information * kWidest * kWidest < 1;
   b.sizes = !variant ? kLarger : own_sizes ? sizes_of(information) : variant->sizes;
   const auto sizes = static_cast<Eigen::Index>(b.sizes.size());
+  b.axes.resize(count, count * precision_.cols());
+  b.share.resize(sizes, count * precision_.cols());
   b.log_weight.resize(sizes, precision_.cols());
   for (Eigen::Index j = 0; j < precision_.cols(); ++j) {
     Matrix g = a.transpose() * precision_.col(j).asDiagonal() * a + outside;
     if (tells_nothing) g.setZero();
     const Spectrum of_g = spectrum(g);
     const Vector d = of_g.values.cwiseMax(0);
-    Axes axes{of_g.vectors.transpose(), Matrix(sizes, count)};
+    b.axes.middleCols(j * count, count) = of_g.vectors.transpose();
     for (Eigen::Index s = 0; s < sizes; ++s) {
       const auto& [factor, log_prior] = b.sizes[s];
       const double size = variant ? factor : factor * scales_[j], s2 = size * size;
-      axes.share.row(s) = (tells_nothing ? 0 : s2) / (1 + s2 * d.array());
+      b.share.block(s, j * count, 1, count) = ((tells_nothing ? 0 : s2) / (1 + s2 * d.array())).transpose();
       b.log_weight(s, j) = log_prior - 0.5 * (1 + s2 * d.array()).log().sum();
     }
-    b.axes.push_back(std::move(axes));
   }
   return b;
 }
@@ -168,21 +169,21 @@ Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variant
     const Eigen::Index sizes = b.log_weight.rows();
     left.resize(sizes, scales);
     for (Eigen::Index j = 0; j < scales; ++j) {
-      const Axes& axes = b.axes[j];
+      const double *const axes = b.axes.data() + j * b.count * b.count,
+                          *const share = b.share.data() + j * b.count * sizes;
       const double *const of = y.of.u.col(j).data() + b.first,
                           *const added = y.added ? y.added->u.col(j).data() + b.first : nullptr;
       along.assign(static_cast<std::size_t>(b.count), 0.0);
       for (Eigen::Index k = 0; k < b.count; ++k) {
-        const double* const e = axes.e.col(k).data();
+        const double* const e = axes + k * b.count;
         const double u = added ? of[k] + y.times * added[k] : of[k];
         for (Eigen::Index i = 0; i < b.count; ++i) along[i] += e[i] * u;
       }
       double* const left_by_size = left.col(j).data();
       std::fill_n(left_by_size, sizes, out.squares(j));
       for (Eigen::Index i = 0; i < b.count; ++i) {
-        const double* const share = axes.share.col(i).data();
         const double square = along[i] * along[i];
-        for (Eigen::Index s = 0; s < sizes; ++s) left_by_size[s] -= share[s] * square;
+        for (Eigen::Index s = 0; s < sizes; ++s) left_by_size[s] -= share[i * sizes + s] * square;
       }
     }
     logs = b.log_weight.array() - shape_ * left.log();

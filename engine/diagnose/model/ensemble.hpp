@@ -81,16 +81,14 @@ class Ensemble {
   Eigen::Index first_column(int variant) const { return of(variant).first; }
 
  private:
-  /// What a variant asks of the family at one scale, where H' P_g H = E diag(d) E'.
-  struct Axes {
-    Matrix e;      ///< E'
-    Matrix share;  ///< s^2 / (1 + s^2 d): of a square of E' u, what the variant takes; one row for each size
-  };
+  /// What a variant asks of the family, at each scale, where H' P_g H = E diag(d) E'. All scales lie in one piece of
+  /// memory, since a search reads it for every variant.
   struct Prepared {
     Eigen::Index first = 0, count = 0;  ///< columns
     std::vector<Size> sizes;            ///< of an error function at the scale 1: they are in proportion to it
-    std::vector<Axes> axes;             ///< by scale
-    Matrix log_weight;                  ///< by size and scale: prior and determinant
+    Matrix axes;                        ///< E', of the scales side by side
+    Matrix share;       ///< s^2 / (1 + s^2 d), by size and axis: of a square of E' u, what the variant takes
+    Matrix log_weight;  ///< by size and scale: prior and determinant
   };
   /// `variants`: whose signatures they are; none: error functions of the machine.
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);

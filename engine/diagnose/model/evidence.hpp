@@ -50,7 +50,7 @@ struct Replicates {
 class EvidenceSearch {
  public:
   /// How many simulated recordings are seen at once. Their last bits depend on it, so no number of threads changes it.
-  static constexpr int kTogether = 5;
+  static constexpr int kTogether = 20;
 
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
 
