@@ -1,12 +1,12 @@
 #include "engine/features/touched_fit.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "engine/features/feature.hpp"
 #include "engine/features/solve.hpp"
+#include "engine/math/scatter.hpp"
 
 namespace abbe {
 namespace {
@@ -34,16 +34,9 @@ double extent_of(const std::vector<Vec3>& points, const Vec3& middle) {
 /// The axis to which all normals of a cylinder or a cone have one angle; nothing where they are all alike.
 std::optional<Vec3> axis_of(const std::vector<Vec3>& normals) {
   constexpr double kAlike = 1e-3;
-  const Vec3 mean = mean_of(normals);
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vec3& n : normals) {
-    const Eigen::Vector3d d(n.x - mean.x, n.y - mean.y, n.z - mean.z);
-    spread += d * d.transpose() / double(normals.size());
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  if (solver.eigenvalues()(1) < kAlike) return std::nullopt;
-  const Eigen::Vector3d axis = solver.eigenvectors().col(0);
-  return Vec3{axis(0), axis(1), axis(2)};
+  const Eigen3<double> scatter = scatter_about(normals, mean_of(normals));
+  if (scatter.value[1] < kAlike) return std::nullopt;
+  return least_direction(scatter);
 }
 
 bool faces(Shape shape, const Element& e, const std::vector<Vec3>& points, const std::vector<Vec3>& normals) {

@@ -2,33 +2,23 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "engine/math/scatter.hpp"
+
 namespace abbe {
 
 namespace {
 
-Vec3 centre(const std::vector<Vec3>& points) {
-  Vec3 sum;
-  for (const Vec3& p : points) sum += p;
-  return sum / static_cast<double>(points.size());
-}
-
 /// Points on one line leave the turn about it open: then the second eigenvalue of their scatter vanishes.
 bool on_a_line(const std::vector<Vec3>& points, const Vec3& middle) {
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Vec3& p : points) {
-    const Eigen::Vector3d d(p.x - middle.x, p.y - middle.y, p.z - middle.z);
-    scatter += d * d.transpose();
-  }
-  const Eigen::Vector3d values =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
-  return values(1) <= 1e-9 * values(2);
+  const Eigen3<double> scatter = scatter_about(points, middle);
+  return scatter.value[1] <= 1e-9 * scatter.value[0];
 }
 
 }  // namespace
 
 std::optional<Rigid> rigid_fit(const std::vector<Vec3>& here, const std::vector<Vec3>& there) {
   if (here.size() < 3 || here.size() != there.size()) return std::nullopt;
-  const Vec3 from = centre(here), to = centre(there);
+  const Vec3 from = mean_of(here), to = mean_of(there);
   if (on_a_line(here, from)) return std::nullopt;
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < here.size(); ++i) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/model/decompositions.hpp"
+#include "engine/math/scatter.hpp"
 
 namespace abbe::diagnose {
 
@@ -12,14 +12,9 @@ namespace {
 /// The direction that all normals are square to, if there is only one.
 std::optional<Vec3> axis_of(const std::vector<Vec3>& normals) {
   constexpr double kSquare = 1e-3, kSpread = 1e-2;  // of the mean square of a component
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (const Vec3& n : normals) {
-    const Eigen::Vector3d v(n.x, n.y, n.z);
-    moments += v * v.transpose() / double(normals.size());
-  }
-  const auto [square, axes] = spectrum(moments);
-  if (square(0) > kSquare * kSquare || square(1) < kSpread) return std::nullopt;
-  return Vec3{axes(0, 0), axes(1, 0), axes(2, 0)};
+  const Eigen3<double> scatter = scatter_about(normals, {});
+  if (scatter.value[2] > kSquare * kSquare || scatter.value[1] < kSpread) return std::nullopt;
+  return least_direction(scatter);
 }
 
 Vec3 across(const Vec3& v, const std::optional<Vec3>& axis) { return axis ? v - dot(v, *axis) * *axis : v; }

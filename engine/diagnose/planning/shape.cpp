@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/model/decompositions.hpp"
+#include "engine/math/scatter.hpp"
 
 namespace abbe::diagnose {
 
@@ -13,16 +13,7 @@ namespace {
 
 constexpr double kRound_mm = 0.1;  // what may be left of a round feature
 
-/// Axes and mean squares of a cloud about its mean, the least first.
-Spectrum moments(const std::vector<Vec3>& list) {
-  const Vec3 m = mean_of(list);
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Vec3& v : list) {
-    const Eigen::Vector3d off(v.x - m.x, v.y - m.y, v.z - m.z);
-    sum += off * off.transpose() / double(list.size());
-  }
-  return spectrum(sum);
-}
+Eigen3<double> scatter(const std::vector<Vec3>& list) { return scatter_about(list, mean_of(list)); }
 
 /// R of the formula above, and c.
 Ball behind(const Touched& s) {
@@ -35,12 +26,12 @@ Ball behind(const Touched& s) {
 
 /// A circle or cylinder: its normals lie in one plane, and what the radius leaves of the points lies along its axis.
 std::optional<DmisFeature> turned(const Touched& s) {
-  const auto normals = moments(s.normals);
+  const Eigen3<double> normals = scatter(s.normals);
   constexpr double kInPlane = 1e-6, kSides = 0.05, kLong_mm = 1, kThin_mm = 1e-3;
-  if (normals.values(0) > kInPlane || normals.values(1) < kSides) return std::nullopt;
-  const Vector e = normals.vectors.col(0);
-  const double up = std::abs(e(2)) > 1e-9 ? e(2) : e.sum();
-  const Vec3 axis = (up < 0 ? -1.0 : 1.0) * Vec3{e(0), e(1), e(2)};
+  if (normals.value[2] > kInPlane || normals.value[1] < kSides) return std::nullopt;
+  const Vec3 e = least_direction(normals);
+  const double up = std::abs(e.z) > 1e-9 ? e.z : e.x + e.y + e.z;
+  const Vec3 axis = (up < 0 ? -1.0 : 1.0) * e;
   const Ball round = behind(s);
   double low = 1e9, high = -1e9;
   for (std::size_t i = 0; i < s.points.size(); ++i) {
@@ -65,7 +56,7 @@ std::optional<DmisFeature> turned(const Touched& s) {
 std::optional<Ball> ball_of(const Touched& s) {
   constexpr double kSides = 0.02;  // mean square of the normals across the direction in which they spread least
   constexpr std::size_t kTouches = 4;
-  if (s.points.size() < kTouches || moments(s.normals).values(0) < kSides) return std::nullopt;
+  if (s.points.size() < kTouches || scatter(s.normals).value[2] < kSides) return std::nullopt;
   const Ball ball = behind(s);
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (norm(s.points[i] - ball.radius_mm * s.normals[i] - ball.centre) > kRound_mm) return std::nullopt;
@@ -74,7 +65,7 @@ std::optional<Ball> ball_of(const Touched& s) {
 
 bool is_face(const Touched& s) {
   constexpr double kParallel = 1e-8;
-  return moments(s.normals).values(2) < kParallel;
+  return scatter(s.normals).value[0] < kParallel;
 }
 
 std::vector<std::size_t> widest_triangle(const std::vector<Vec3>& points) {
