@@ -209,12 +209,11 @@ std::optional<NoiseFinding> outliers(const Case& c, const SearchResult& result) 
   const double all = static_cast<double>(c.masked.size()), share = n / all;
   const double p = poisson_tail(n, expected_outliers(c));
   if (n < 2 || p > kNoiseAlarm || sum < kFarOut * limit) return std::nullopt;
-  constexpr double kLogSpread = 0.7;  // of the effect
   const double median = std::copysign(std::exp(log_sum / n), outwards);
   NoiseFinding f{find_effect("noise.outliers"),
                  p,
                  {figure("share", "1", share, std::sqrt(share / all)),
-                  figure("size_um", "um", median, kLogSpread * std::abs(median) / std::sqrt(n))},
+                  figure("size_um", "um", median, kOutlierLogSpread * std::abs(median) / std::sqrt(n))},
                  {}};
   // Dirt lies anywhere in the sequence. What lies so close together by chance in one recording of twenty may
   // be something that happened then.

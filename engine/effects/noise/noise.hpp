@@ -12,6 +12,9 @@ extern const Effect kOutliers;
 extern const Effect kResolution;
 extern const Effect kUnequalNoise;
 
+/// Standard deviation of the logarithm of an outlier's size (noise.outliers): 12 um exp(+-1.96 * 0.7) is 3 to 47 um.
+inline constexpr double kOutlierLogSpread = 0.7;
+
 /// Heads that are tilted by more count as tilted (noise.unequal).
 inline constexpr double kUpright_rad = 1 * kDegree;
 /// Whether the head has these angles, to a degree.

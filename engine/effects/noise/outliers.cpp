@@ -16,8 +16,6 @@
 namespace abbe {
 namespace {
 
-constexpr double kLogSpread = 0.7;  // 12 um exp(+-1.96 * 0.7) is 3 to 47 um
-
 constexpr EffectParameter kOutliersParameters[] = {
     {.name = "share",
      .unit = "1",
@@ -37,7 +35,7 @@ constexpr EffectParameter kOutliersParameters[] = {
 
 Vec3 outliers(const TouchScene& scene, const double* theta, const double* z) {
   if (normal_below(z[0]) >= theta[0]) return {};
-  return along_normal(scene, theta[1] * kUm * std::exp(kLogSpread * z[1]));
+  return along_normal(scene, theta[1] * kUm * std::exp(kOutlierLogSpread * z[1]));
 }
 
 }  // namespace
