@@ -17,13 +17,13 @@ ValueSearch::ValueSearch(Vector mean, const Matrix& covariance, Explanations exp
     : explanations_(std::move(explanations)), mean_(std::move(mean)), covariance_(covariance), root_(covariance) {
   if (free.cols() > 0) free_ = independent(root_.whitened(free));
   for (const Variant& b : explanations_.variants) {
-    white_.push_back(whitened(b.signature));
-    told_.push_back(told_of(white_.back()));
+    told_.push_back(told_of(whitened(b.signature)));
   }
 }
 
-ValueSearch::Told ValueSearch::told_of(const Matrix& white) {
-  Told out{white.transpose() * white, {}};
+ValueSearch::Told ValueSearch::told_of(Matrix white) {
+  Told out{std::move(white), {}, {}};
+  out.g = out.white.transpose() * out.white;
   for (const double s : kSizes) out.by.emplace_back(s * s * out.g, 1);
   return out;
 }
@@ -32,8 +32,7 @@ void ValueSearch::linearise(int variant, NearSizes near) {
   const auto b = static_cast<std::size_t>(variant);
   const Cholesky root(near.covariance);
   explanations_.variants[b].signature = near.slopes;
-  white_[b] = root.whitened(near.slopes);
-  told_[b] = told_of(white_[b]);
+  told_[b] = told_of(root.whitened(near.slopes));
   near_.insert_or_assign(variant, Near{std::move(near), root});
 }
 
@@ -60,19 +59,20 @@ Matrix ValueSearch::whitened(const Matrix& columns) const {
 Vector ValueSearch::white(const Vector& deviation) const { return whitened(deviation - mean_); }
 
 Matrix ValueSearch::between(int a, int b) const {
-  return a == b ? told_[a].g : Matrix(white(a).transpose() * white(b));
+  return a == b ? told_[a].g : Matrix(told_[a].white.transpose() * told_[b].white);
 }
 
 Information ValueSearch::information(int variant, const Vector& deviation) const {
-  return {told_[variant].g, white(variant).transpose() * from_offset(variant, deviation, white(deviation)).first};
+  const Told& told = told_[variant];
+  return {told.g, told.white.transpose() * from_offset(variant, deviation, white(deviation)).first};
 }
 
 Evidence ValueSearch::evidence(const Vector& deviation) const {
   const Vector white_deviation = white(deviation);
   Evidence out;
-  for (std::size_t b = 0; b < white_.size(); ++b) {
+  for (std::size_t b = 0; b < told_.size(); ++b) {
     const auto [w, log_offset] = from_offset(static_cast<int>(b), deviation, white_deviation);
-    const Vector u = white_[b].transpose() * w;
+    const Vector u = told_[b].white.transpose() * w;
     std::vector<double> sizes;
     for (std::size_t i = 0; i < std::size(kSizes); ++i) {
       const Cholesky& root = told_[b].by[i];

@@ -45,6 +45,7 @@ class ValueSearch {
  private:
   /// What the values tell of a variant whatever they are, so that it is taken once for all machines.
   struct Told {
+    Matrix white;              ///< L^-1 H, without what the free columns can do
     Matrix g;                  ///< H' V^-1 H
     std::vector<Cholesky> by;  ///< of 1 + s^2 g, by size s
   };
@@ -55,14 +56,12 @@ class ValueSearch {
   Explanations explanations_;
   Vector mean_;
   Matrix covariance_;
-  Cholesky root_;              ///< V = L L'
-  Matrix free_;                ///< orthonormal basis of L^-1 times the free columns
-  std::vector<Matrix> white_;  ///< L^-1 H by variant, without them
-  std::vector<Told> told_;     ///< by variant
-  std::map<int, Near> near_;   ///< by variant
-  static Told told_of(const Matrix& white);
+  Cholesky root_;             ///< V = L L'
+  Matrix free_;               ///< orthonormal basis of L^-1 times the free columns
+  std::vector<Told> told_;    ///< by variant
+  std::map<int, Near> near_;  ///< by variant
+  static Told told_of(Matrix white);
   Matrix whitened(const Matrix& columns) const;
-  const Matrix& white(int variant) const { return white_[variant]; }
   /// The deviation from the offset of a variant in units of its covariance, and log N(y; o, W) - log N(y; 0, V).
   std::pair<Vector, double> from_offset(int variant, const Vector& deviation, const Vector& white) const;
 };
