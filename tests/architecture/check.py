@@ -25,6 +25,8 @@ CONFINED = {
     "tao/pegtl": ["lang/parser.cpp"],
     "CLI/": ["programs/options.cpp"],
     "Eigen/": ["engine/math/", "engine/features/", "engine/diagnose/"],
+    **{f"Eigen/{decomposition}": ["engine/math/", "engine/features/", "engine/diagnose/model/decompositions.cpp"]
+       for decomposition in ("Cholesky", "Dense", "Eigenvalues", "QR", "SVD")},
 }
 
 
