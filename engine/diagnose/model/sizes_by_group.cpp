@@ -49,12 +49,12 @@ SizesByGroup OneShape::by(const std::vector<int>& group) const {
   Matrix g = information;
   Vector v = u;
   if (others_.rows.cols() > 0) {
-    const Matrix across = inner(by_group, others_), among_others = inner(others_, others_);
-    g -= across * least_squares(among_others, Matrix(across.transpose()));
-    v -= across * least_squares(among_others, Matrix(inner(others_, y_)));
+    const Matrix across = inner(by_group, others_), taken = across * pseudo_inverse(inner(others_, others_));
+    g -= taken * across.transpose();
+    v -= taken * inner(others_, y_);
   }
-  out.size = least_squares(g, v);
   const Matrix covariance = pseudo_inverse(g);
+  out.size = covariance * v;
   out.u = Vector::Constant(v.size(), std::numeric_limits<double>::infinity());
   for (Eigen::Index k = 0; k < v.size(); ++k)
     if (information(k, k) >= kTellsNothing) out.u(k) = std::sqrt(std::max(0.0, covariance(k, k)));
