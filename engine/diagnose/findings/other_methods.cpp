@@ -14,7 +14,6 @@ namespace {
 /// Forward selection by BIC over single variants, at the baseline of the recording.
 std::vector<int> forward_selection(const Case& c, const std::vector<Variant>& variants) {
   constexpr int kMost = 3;
-  constexpr double kRidge = 1e-9;
   std::vector<const Matrix*> signatures;
   for (const Variant& v : variants) signatures.push_back(&v.signature);
   const Matrix patterns = side_by_side(c.model.y.size(), signatures);
@@ -31,9 +30,7 @@ std::vector<int> forward_selection(const Case& c, const std::vector<Variant>& va
       const Eigen::Index count = variants[k].signature.cols();
       const Precision::Seen h{all.rows.middleCols(first, count), all.taken.middleCols(first, count)};
       first += count;
-      const Matrix g = inner(h, h);
-      const Vector u = inner(h, y);
-      const double gain = u.dot(Cholesky(g, kRidge * (g.trace() + 1)).solve(u)) - log_n * double(count);
+      const double gain = explained(inner(h, h), inner(h, y))(0) - log_n * double(count);
       if (gain > most) most = gain, chosen = static_cast<int>(k);
     }
     if (chosen < 0) break;

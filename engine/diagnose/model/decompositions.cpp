@@ -65,6 +65,11 @@ Matrix least_squares(const Matrix& a, const Matrix& b) { return Orthogonal(a).so
 
 Vector least_squares(const Matrix& a, const Vector& b) { return Orthogonal(a).solve(b); }
 
+Vector explained(const Matrix& gram, const Matrix& cross) {
+  constexpr double kRidge = 1e-9;
+  return cross.cwiseProduct(Cholesky(gram, kRidge * (gram.trace() + 1)).solve(cross)).colwise().sum();
+}
+
 Matrix pseudo_inverse(const Matrix& symmetric) { return Orthogonal(symmetric).pseudoInverse(); }
 
 Matrix independent(const Matrix& columns) {

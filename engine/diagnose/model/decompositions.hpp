@@ -53,6 +53,10 @@ class Cholesky {
 Matrix least_squares(const Matrix& a, const Matrix& b);
 Vector least_squares(const Matrix& a, const Vector& b);
 
+/// By column of `cross`, A' b: the squared length of what columns A explain of b, whose inner products are `gram`, A' A.
+/// Columns that tell nothing, or the same as others, explain nothing more.
+Vector explained(const Matrix& gram, const Matrix& cross);
+
 /// The inverse of a symmetric matrix in the space that it spans.
 Matrix pseudo_inverse(const Matrix& symmetric);
 

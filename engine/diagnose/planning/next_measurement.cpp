@@ -107,14 +107,9 @@ std::vector<Contender> contenders_of(const Case& c, const Hyperparameters& fitte
 
 /// What the likeliest of some variants leaves of each truth, which is one column.
 Vector left_of(const Seen& truths, const std::vector<Seen>& variants) {
-  constexpr double kRidge = 1e-9;
   const Vector squares = inner(truths, truths).diagonal();
   Vector left = squares;
-  for (const Seen& w : variants) {
-    const Matrix g = inner(w, w), cross = inner(w, truths);
-    const Matrix fit = Cholesky(g, kRidge * (g.trace() + 1)).solve(cross);
-    left = left.cwiseMin(squares - cross.cwiseProduct(fit).colwise().sum().transpose());
-  }
+  for (const Seen& w : variants) left = left.cwiseMin(squares - explained(inner(w, w), inner(w, truths)));
   return left.cwiseMax(0);
 }
 

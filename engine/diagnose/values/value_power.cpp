@@ -36,11 +36,9 @@ std::optional<ValueForm> middle_form(const ValueSearch& s, const Explanation& e)
 
 /// What is left of the information on one column once a rival takes what it can, as a share.
 double left(const ValueSearch& s, int variant, Eigen::Index column, int rival) {
-  constexpr double kRidge = 1e-9;
   const Vector cross = s.between(rival, variant).col(column);
-  const Matrix g = s.between(rival, rival);
   const double own = s.between(variant, variant)(column, column);
-  return 1 - cross.dot(Cholesky(g, kRidge * (g.trace() + 1)).solve(cross)) / own;
+  return 1 - explained(s.between(rival, rival), cross)(0) / own;
 }
 
 /// The statistic that so few machines in order reach.

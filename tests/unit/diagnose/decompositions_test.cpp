@@ -80,6 +80,14 @@ TEST_CASE("least squares are the shortest of columns that depend on each other")
   CHECK(distance(least_squares(a, Vector(b.col(1))), x.col(1)) < 10 * kRounding);
 }
 
+TEST_CASE("what columns explain is the squared length of the projection on them") {
+  const Matrix a = deficient(), b = random_matrix(5, 2, 50'000), q = independent(a);
+  const Vector squares = (q.transpose() * b).colwise().squaredNorm();
+  constexpr double kRidge = 1e-7;  // keeps it from dividing by nothing
+  CHECK(distance(explained(a.transpose() * a, a.transpose() * b), squares) < kRidge);
+  CHECK(explained(Matrix::Zero(2, 2), Matrix::Zero(2, 3)) == Vector::Zero(3));
+}
+
 TEST_CASE("the inverse of a singular matrix is one in the space that it spans") {
   const Matrix a = deficient(), g = a.transpose() * a, inverse = pseudo_inverse(g);
   CHECK(distance(g * inverse * g, g) < 100 * kRounding);
