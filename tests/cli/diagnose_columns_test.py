@@ -72,6 +72,16 @@ class Columns(harness.Case):
         self.assertEqual(at_night["members"], at_day["members"])
         self.assertAlmostEqual(at_night["parameters"]["t0_s"]["value"], at_day["parameters"]["t0_s"]["value"], places=3)
 
+    def test_a_clock_that_is_put_back_goes_on(self):
+        whole = self.record("--seed", 4, "--with", "machine.step:amplitude_um=25,t0_s=130,direction=x")
+        def put_back(row, by_s):
+            clock_s = 10700 + float(row["time_s"])
+            return row | {"time_s": f"{clock_s - (by_s if clock_s > 10800 else 0):.3f}"}
+        day, autumn = (self.diagnosis(self.changed(whole, lambda row: put_back(row, by_s))) for by_s in (0, 3600))
+        self.assertEqual(["N0734" in self.codes(d) for d in (day, autumn)], [False, True])
+        self.assertEqual(autumn["effects"][0]["members"], day["effects"][0]["members"])
+        self.assertAlmostEqual(*(d["effects"][0]["parameters"]["t0_s"]["value"] for d in (day, autumn)), places=3)
+
     def test_what_is_logged_in_part_is_left_out(self):
         whole = self.record("--seed", 4)
         gap = self.changed(whole, lambda row: row | ({"time_s": ""} if row["feature"] == "P2_13" else {"time_s": f"{float(row['time_s']) + 1.7e9:.3f}"}))

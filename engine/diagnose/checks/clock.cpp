@@ -8,8 +8,12 @@
 
 namespace abbe::diagnose {
 
+namespace {
+constexpr double kHour_s = 3600;
+}
+
 void continue_past_midnight(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
-  constexpr double kDay_s = 86400;
+  constexpr double kDay_s = 24 * kHour_s;
   std::vector<double*> times;
   for (RecordingRow& row : recording.rows)
     if (row.time_s) times.push_back(&*row.time_s);
@@ -28,8 +32,39 @@ void continue_past_midnight(Recording& recording, const std::string& file, std::
       "times after midnight count on; if the part was measured on another day, write true times into time_s"));
 }
 
+void continue_where_put_back(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  const struct {
+    double by_s;
+    const char* where;
+  } hands[] = {{kHour_s, "where summer time ends"}, {12 * kHour_s, "on a clock of twelve hours"}};
+  std::vector<RecordingRow*> rows;
+  for (RecordingRow& row : recording.rows)
+    if (row.time_s) rows.push_back(&row);
+  double longest_s = 0;  // from a touch to the next
+  std::vector<std::size_t> falls;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double step_s = *rows[i]->time_s - *rows[i - 1]->time_s;
+    longest_s = std::max(longest_s, step_s);
+    if (step_s < 0) falls.push_back(i);
+  }
+  if (falls.size() != 1) return;
+  const RecordingRow &before = *rows[falls.front() - 1], &after = *rows[falls.front()];
+  if (before.run != after.run || before.setup != after.setup) return;
+  for (const auto& [by_s, where] : hands) {
+    const double passed_s = *after.time_s + by_s - *before.time_s;
+    if (passed_s < 0 || passed_s > longest_s) continue;
+    messages.push_back(diagnostic(
+        Code::N0734,
+        fmt::format("{}: its clock falls from {:.0f} s to {:.0f} s within a run, as it does {}", file, *before.time_s,
+                    *after.time_s, where),
+        "later times count on; if the rows do not stand in the order of the touches, write true times into time_s"));
+    for (std::size_t i = falls.front(); i < rows.size(); ++i) *rows[i]->time_s += by_s;
+    return;
+  }
+}
+
 void count_from_first_touch(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
-  constexpr double kLate_s = 3600;  // a program that is so long before its first touch has another clock
+  constexpr double kLate_s = kHour_s;  // a program that is so long before its first touch has another clock
   std::optional<double> first;
   for (const RecordingRow& row : recording.rows)
     if (row.time_s) first = std::min(first.value_or(*row.time_s), *row.time_s);

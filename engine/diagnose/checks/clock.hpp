@@ -1,4 +1,4 @@
-// The clock of a recording: another beginning, or a new day.
+// The clock of a recording: another beginning, a new day, or hands that were put back.
 #pragma once
 
 #include <string>
@@ -12,6 +12,9 @@ namespace abbe::diagnose {
 /// A recording whose clock of the day falls back at midnight, with times that go on (N0727): what comes later in the file
 /// stands more than half a day before what comes first.
 void continue_past_midnight(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// A recording whose clock falls back within a run, and otherwise rises from row to row, with times that go on (N0734): by an
+/// hour, where summer time ends, or by the twelve hours of a clock that has no more, less the time of a touch.
+void continue_where_put_back(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// A recording whose clock began long before its first touch, with times from that touch on (N0721).
 void count_from_first_touch(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 

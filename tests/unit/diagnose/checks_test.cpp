@@ -87,8 +87,8 @@ TEST_CASE("a file without mistakes is as it was") {
   std::vector<Diagnostic> messages;
   CHECK(without_copies(r, "r.csv", messages).rows.size() == r.rows.size());
   for (const Check check :
-       {continue_past_midnight, count_from_first_touch, leave_out_partly_logged, leave_out_readings_without_phase,
-        leave_out_commanded_readings, leave_out_constant_travel, leave_out_astray})
+       {continue_past_midnight, continue_where_put_back, count_from_first_touch, leave_out_partly_logged,
+        leave_out_readings_without_phase, leave_out_commanded_readings, leave_out_constant_travel, leave_out_astray})
     check(r, "r.csv", messages);
   doubt_temperatures(r, "r.csv", messages);
   doubt_motion(r, "r.csv", messages);
@@ -170,6 +170,30 @@ TEST_CASE("clocks of the day count from the first touch, and on past midnight") 
   CHECK(fall[0].code == Code::N0727);
   for (std::size_t i = 1; i < night.rows.size(); ++i)
     CHECK(*night.rows[i].time_s - *night.rows[i - 1].time_s == doctest::Approx(5));
+}
+
+TEST_CASE("clocks that are put back within a run go on") {
+  constexpr double kHour_s = 3600, kDay_s = 86400;
+  const auto set_by = [](double begin_s, double last_s, double by_s) {
+    return damaged([=](RecordingRow& row) {
+      *row.time_s += begin_s;
+      if (*row.time_s > last_s) *row.time_s -= by_s;
+    });
+  };
+  for (const double by_s : {kHour_s, 12 * kHour_s}) {
+    Recording back = set_by(13 * kHour_s - 152, 13 * kHour_s, by_s);
+    const auto fall = said_by(continue_where_put_back, back);
+    REQUIRE(fall.size() == 1);
+    CHECK(fall[0].code == Code::N0734);
+    for (std::size_t i = 1; i < back.rows.size(); ++i)
+      CHECK(*back.rows[i].time_s - *back.rows[i - 1].time_s == doctest::Approx(5));
+  }
+  Recording other = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s / 2), night = set_by(kDay_s - 152, kDay_s, kDay_s),
+            again = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s),
+            slow = set_by(13 * kHour_s - 152, 13 * kHour_s, kHour_s - 6);
+  for (RecordingRow& row : again.rows)
+    if (*row.time_s < 13 * kHour_s - 152) row.run = 2;  // a new run may begin at any time
+  for (Recording* r : {&other, &night, &again, &slow}) CHECK(said_by(continue_where_put_back, *r).empty());
 }
 
 TEST_CASE("columns with gaps or of another unit are told") {
