@@ -30,4 +30,10 @@ ABBE_EVERY_LEVEL void for_lanes(int n, F f) {
   for (int i = 0; i < n; ++i) f(i);
 }
 
+/// Several loops over lanes that belong together: all of f() is compiled for every level. Each loop says ABBE_NO_ALIAS itself.
+template <class F>
+ABBE_EVERY_LEVEL void on_lanes(F f) {
+  f();
+}
+
 }  // namespace abbe

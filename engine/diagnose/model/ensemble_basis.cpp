@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "engine/diagnose/model/products.hpp"
 #include "engine/diagnose/model/rotated.hpp"
 
 namespace abbe::diagnose {
@@ -39,9 +40,7 @@ EnsembleBasis::EnsembleBasis(const LinearModel& m, const Hyperparameters& h)
 Matrix EnsembleBasis::Kept::whitened(Matrix projected) const {
   if (variance.size() == 0) return projected;
   const Vector less = 1 - (1 + variance.array()).rsqrt();
-  const Matrix taken = less.asDiagonal() * (axes.transpose() * projected);
-  projected.noalias() -= axes * taken;
-  return projected;
+  return projected - product(axes, less.asDiagonal() * transposed_product(axes, projected));
 }
 
 Matrix EnsembleBasis::Kept::unwhitened(Matrix white) const {
@@ -52,10 +51,10 @@ Matrix EnsembleBasis::Kept::unwhitened(Matrix white) const {
   return white;
 }
 
-Matrix EnsembleBasis::coordinates(const Matrix& projected) const { return basis_.transpose() * projected; }
+Matrix EnsembleBasis::coordinates(const Matrix& projected) const { return transposed_product(basis_, projected); }
 
 Matrix EnsembleBasis::remainder(const Matrix& projected, const Matrix& coordinates) const {
-  return projected - basis_ * coordinates;
+  return projected - product(basis_, coordinates);
 }
 
 Vector EnsembleBasis::recording(const Vector& coordinates, const Vector& kept, const Vector& noise) const {

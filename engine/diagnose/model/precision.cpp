@@ -1,5 +1,7 @@
 #include "engine/diagnose/model/precision.hpp"
 
+#include "engine/diagnose/model/products.hpp"
+
 namespace abbe::diagnose {
 
 Precision::Precision(const LinearModel& m, const Hyperparameters& h) : project_(m, h), y_(m.y) {
@@ -18,9 +20,8 @@ Precision::Seen Precision::seen(const Matrix& patterns) const { return with_take
 Precision::Seen Precision::y() const { return with_taken(project_(y_)); }
 
 Precision::Seen Precision::with_taken(Matrix rows) const {
-  Seen out{std::move(rows), {}};
-  out.taken = reach_ * out.rows;
-  return out;
+  Matrix taken = product(reach_, rows);
+  return {std::move(rows), std::move(taken)};
 }
 
 Matrix inner(const Precision::Seen& a, const Precision::Seen& b) {

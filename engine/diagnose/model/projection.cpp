@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/model/products.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -44,16 +46,14 @@ Projection::Projection(const LinearModel& m, const Hyperparameters& h)
 
 Matrix Projection::operator()(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);
-  const Matrix taken = q_.transpose() * w;
-  w.noalias() -= q_ * taken;
+  w -= product(q_, transposed_product(q_, w));
   return w;
 }
 
 Matrix Projection::of_patterns(const Matrix& columns) const {
   Matrix w = whitened(columns, weight_, correlation_, follows_);
   const Vector length = w.colwise().norm();
-  const Matrix taken = q_.transpose() * w;
-  w.noalias() -= q_ * taken;
+  w -= product(q_, transposed_product(q_, w));
   for (Eigen::Index k = 0; k < w.cols(); ++k)
     if (w.col(k).norm() < kNothingLeft * length(k)) w.col(k).setZero();
   return w;

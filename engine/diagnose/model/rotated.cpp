@@ -3,6 +3,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/diagnose/model/products.hpp"
+
 namespace abbe::diagnose {
 
 std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
@@ -10,7 +12,7 @@ std::pair<Matrix, Vector> principal_axes(const Matrix& z) {
   constexpr double kNegligible = 1e-6;
   if (z.cols() == 0) return {z, Vector()};
   const bool wide = z.cols() > z.rows();
-  const auto [values, all_vectors] = spectrum(wide ? Matrix(z * z.transpose()) : Matrix(z.transpose() * z));
+  const auto [values, all_vectors] = spectrum(wide ? product(z, z.transpose()) : transposed_product(z, z));
   Eigen::Index first = 0;
   while (first < values.size() && values(first) <= kNegligible) ++first;
   const Eigen::Index rank = values.size() - first;
