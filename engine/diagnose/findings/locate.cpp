@@ -11,6 +11,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/math/normal.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/model/rotated.hpp"
 #include "engine/math/normal.hpp"

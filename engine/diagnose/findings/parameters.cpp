@@ -12,6 +12,7 @@
 #include "engine/diagnose/explanations/refine.hpp"
 #include "engine/diagnose/explanations/search_grid.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/math/normal.hpp"
 

@@ -11,6 +11,7 @@
 #include "engine/base/ids.hpp"
 #include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "engine/diagnose/model/evidence.hpp"
+#include "engine/diagnose/model/log_sums.hpp"
+#include "engine/diagnose/model/products.hpp"
 #include "engine/lanes/random.hpp"
 
 namespace abbe::diagnose {
@@ -25,18 +27,6 @@ std::vector<double> scales_between(double estimated, double largest) {
   const double low = std::min(1.0, estimated) / kBeyond, high = std::min(largest, std::max(1.0, estimated) * kBeyond);
   std::vector<double> out;
   for (int k = 0; k < kCount; ++k) out.push_back(low * std::pow(high / low, double(k) / (kCount - 1)));
-  return out;
-}
-
-/// a' b, by stretches of the columns of a: a product copies what it multiplies, and what is larger than 32 MB the C library
-/// asks of the system each time, and gives back.
-Matrix transposed_times(const Matrix& a, const Matrix& b) {
-  constexpr Eigen::Index kTogether = 1024;
-  Matrix out(a.cols(), b.cols());
-  for (Eigen::Index first = 0; first < a.cols(); first += kTogether) {
-    const Eigen::Index count = std::min(kTogether, a.cols() - first);
-    out.middleRows(first, count).noalias() = a.middleCols(first, count).transpose() * b;
-  }
   return out;
 }
 
@@ -112,8 +102,8 @@ void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::
   }
 }
 
-Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, const Variant* variant) const {
-  Prepared b;
+PreparedVariant Ensemble::prepared(Eigen::Index first, Eigen::Index count, const Variant* variant) const {
+  PreparedVariant b;
   b.first = first;
   b.count = count;
   const auto a = coordinates_.middleCols(first, count), h = projected_.middleCols(first, count);
@@ -142,77 +132,74 @@ Ensemble::Prepared Ensemble::prepared(Eigen::Index first, Eigen::Index count, co
   return b;
 }
 
-std::vector<Ensemble::Seen> Ensemble::seen(const Matrix& recordings) const {
-  const Matrix y = basis_.project(recordings), z = basis_.coordinates(y), rest = basis_.remainder(y, z);
-  const Eigen::Index scales = precision_.cols();
-  Matrix weighted(z.rows(), z.cols() * scales);
-  for (Eigen::Index r = 0; r < z.cols(); ++r)
-    weighted.middleCols(r * scales, scales) = z.col(r).asDiagonal() * precision_;
-  const Matrix within = transposed_times(coordinates_, weighted), beside = transposed_times(projected_, rest);
-  std::vector<Seen> out;
-  for (Eigen::Index r = 0; r < z.cols(); ++r)
-    out.push_back({z.col(r), rest.col(r), within.middleCols(r * scales, scales).colwise() + beside.col(r)});
+Ensemble::Seen Ensemble::seen(const Matrix& recordings) const {
+  Seen out;
+  const Matrix y = basis_.project(recordings);
+  out.z = basis_.coordinates(y), out.rest = basis_.remainder(y, out.z);
+  const Eigen::Index scales = precision_.cols(), count = out.z.cols();
+  Matrix weighted(out.z.rows(), count * scales);
+  for (Eigen::Index j = 0; j < scales; ++j)
+    weighted.middleCols(j * count, count) = precision_.col(j).asDiagonal() * out.z;
+  out.u = transposed_product(weighted, coordinates_);
+  const Matrix beside = transposed_product(out.rest, projected_);
+  for (Eigen::Index j = 0; j < scales; ++j) out.u.middleRows(j * count, count) += beside;
   return out;
 }
 
+MarginalLikelihood Ensemble::likelihood(const Matrix& z, const Matrix& rest) const {
+  const Matrix within = transposed_product(z.cwiseAbs2(), precision_);
+  // Row by row: along a column, the order of a sum would depend on where it stands in memory.
+  Vector beside = Vector::Constant(rest.cols(), 2 * kPriorSquares);
+  for (Eigen::Index k = 0; k < rest.rows(); ++k) beside += rest.row(k).cwiseAbs2();
+  return {within.colwise() + beside, log_scale_, shape_};
+}
+
 Ensemble::Verdicts Ensemble::judge(const Sum& y, const std::vector<int>& variants) const {
-  const Eigen::Index scales = precision_.cols(), asked = static_cast<Eigen::Index>(functions_ + variants.size());
-  Verdicts out{{}, Matrix(scales, asked), {}, Matrix(scales, asked), Matrix(scales, asked)};
-  Vector z = y.of.z, rest = y.of.rest;
-  if (y.added) z += y.times * y.added->z, rest += y.times * y.added->rest;
-  out.squares = ((z.asDiagonal() * precision_).transpose() * z).array() + (rest.squaredNorm() + 2 * kPriorSquares);
-  out.alone = log_scale_.array() - shape_ * out.squares.array().log();
-  // Most of a diagnosis is spent here: loops without a sum that waits for itself, and no memory asked for.
-  Eigen::ArrayXXd left, logs;
-  std::vector<double> along;
-  const auto judge = [&](const Prepared& b, Eigen::Index column) {
-    const Eigen::Index sizes = b.log_weight.rows();
-    left.resize(sizes, scales);
-    for (Eigen::Index j = 0; j < scales; ++j) {
-      const double *const axes = b.axes.data() + j * b.count * b.count,
-                          *const share = b.share.data() + j * b.count * sizes;
-      const double *const of = y.of.u.col(j).data() + b.first,
-                          *const added = y.added ? y.added->u.col(j).data() + b.first : nullptr;
-      along.assign(static_cast<std::size_t>(b.count), 0.0);
-      for (Eigen::Index k = 0; k < b.count; ++k) {
-        const double* const e = axes + k * b.count;
-        const double u = added ? of[k] + y.times * added[k] : of[k];
-        for (Eigen::Index i = 0; i < b.count; ++i) along[i] += e[i] * u;
-      }
-      double* const left_by_size = left.col(j).data();
-      std::fill_n(left_by_size, sizes, out.squares(j));
-      for (Eigen::Index i = 0; i < b.count; ++i) {
-        const double square = along[i] * along[i];
-        for (Eigen::Index s = 0; s < sizes; ++s) left_by_size[s] -= share[i * sizes + s] * square;
-      }
-    }
-    logs = b.log_weight.array() - shape_ * left.log();
-    for (Eigen::Index j = 0; j < scales; ++j) {
-      Eigen::Index best = 0;
-      out.with(j, column) = logs.col(j).maxCoeff(&best);
-      out.squares_with(j, column) = left(best, j);
-      out.size_with(j, column) = b.sizes[static_cast<std::size_t>(best)].factor;
-      for (Eigen::Index s = 0; s < sizes; ++s) logs(s, j) -= out.with(j, column);
-    }
-    logs = logs.exp();
-    out.with.col(column).array() += log_scale_.array() + logs.colwise().sum().transpose().log();
+  const Eigen::Index recordings = y.of.recordings(), scales = precision_.cols();
+  const auto asked = functions_ + variants.size();
+  const auto add = [&](const auto& added, auto&& to) {  // a column a recording
+    for (Eigen::Index r = 0; r < recordings; ++r) to.col(r) += y.times(r) * added.col(added.cols() == 1 ? 0 : r);
   };
-  for (Eigen::Index k = 0; k < asked; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    judge(at < functions_ ? variants_[at] : of(variants[at - functions_]), k);
+  Matrix z = y.of.z, rest = y.of.rest;
+  if (y.added) add(y.added->z, z), add(y.added->rest, rest);
+  MarginalLikelihood likelihood = this->likelihood(z, rest);
+  Verdicts out{likelihood.alone(), Matrix(recordings, static_cast<Eigen::Index>(asked))};
+  Matrix sums;
+  WithData u;
+  for (std::size_t k = 0; k < asked; ++k) {
+    const PreparedVariant& b = k < functions_ ? variants_[k] : of(variants[k - functions_]);
+    if (y.added) {
+      sums = y.of.u.middleCols(b.first, b.count);
+      const Eigen::Index each = y.added->recordings();
+      for (Eigen::Index j = 0; j < scales; ++j)
+        add(y.added->u.block(j * each, b.first, each, b.count).transpose(),
+            sums.middleRows(j * recordings, recordings).transpose());
+    }
+    u.clear();
+    for (Eigen::Index i = 0; i < b.count; ++i)
+      u.push_back(y.added ? sums.col(i).data() : y.of.u.col(b.first + i).data());
+    likelihood.with(b, u, out.with.col(static_cast<Eigen::Index>(k)).data());
   }
   return out;
 }
 
-Level Ensemble::level(const Vector& log_belief, const Vector& squares) const {
-  const double total = log_sum_exp(log_belief);
+ByScale Ensemble::alone(const Seen& y) const { return likelihood(y.z, y.rest).alone_by_scale(); }
+
+ByScale Ensemble::with(const Seen& y, const PreparedVariant& b) const {
+  WithData u;
+  for (Eigen::Index i = 0; i < b.count; ++i) u.push_back(y.u.col(b.first + i).data());
+  return likelihood(y.z, y.rest).with_by_scale(b, u);
+}
+
+Level Ensemble::level(const ByScale& at) const {
+  const double total = log_sum_exp(at.log_likelihood);
   Level l{0, 0};
   double log_g = 0;
   for (std::size_t j = 0; j < scales_.size(); ++j) {
     const auto row = static_cast<Eigen::Index>(j);
-    const double p = std::exp(log_belief(row) - total);
+    const double p = std::exp(at.log_likelihood(row) - total);
     log_g += p * std::log(scales_[j]);
-    l.s2 += p * squares(row) / (2 * shape_);
+    l.s2 += p * at.squares(row) / (2 * shape_);
   }
   l.g2 = l.s2 * std::exp(2 * log_g);
   return l;
@@ -234,14 +221,14 @@ Vector Ensemble::precision(const Level& l) const { return (l.g2 * basis_.lambda(
 Vector Ensemble::beside_noise(const Level& l) const { return precision(l).array() - 1 / l.s2; }
 
 Matrix Ensemble::between(const Level& level, int a, int b) const {
-  const Prepared &i = of(a), &j = of(b);
+  const PreparedVariant &i = of(a), &j = of(b);
   return coordinates_.middleCols(i.first, i.count).transpose() * beside_noise(level).asDiagonal() *
       coordinates_.middleCols(j.first, j.count) +
       projected_.middleCols(i.first, i.count).transpose() * projected_.middleCols(j.first, j.count) / level.s2;
 }
 
 Vector Ensemble::with_data(const Level& level, int variant, const Vector& recording) const {
-  const Prepared& b = of(variant);
+  const PreparedVariant& b = of(variant);
   const Vector y = basis_.project(recording), z = basis_.coordinates(y), rest = basis_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
       projected_.middleCols(b.first, b.count).transpose() * rest / level.s2;
@@ -249,8 +236,9 @@ Vector Ensemble::with_data(const Level& level, int variant, const Vector& record
 
 Matrix Ensemble::against_all(const Level& level, const std::vector<Eigen::Index>& columns) const {
   const Matrix weighted = beside_noise(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
-  return transposed_times(coordinates_, weighted) +
-      transposed_times(projected_, Matrix(projected_(Eigen::all, columns))) / level.s2;
+  return (transposed_product(weighted, coordinates_) +
+          transposed_product(Matrix(projected_(Eigen::all, columns)), projected_) / level.s2)
+      .transpose();
 }
 
 }  // namespace abbe::diagnose

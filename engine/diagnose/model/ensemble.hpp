@@ -17,6 +17,7 @@
 
 #include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/model/ensemble_basis.hpp"
+#include "engine/diagnose/model/marginal_likelihood.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 
 namespace abbe::diagnose {
@@ -43,30 +44,33 @@ class Ensemble {
   /// Forgets the variants after the first `count`.
   void keep(std::size_t count);
 
-  /// Log likelihoods of a recording, by scale; the constants that all families share are left out.
-  struct Verdicts {
-    Vector alone;         ///< without any variant
-    Matrix with;          ///< a column for each error function, then for each variant that was asked for
-    Vector squares;       ///< what is left of the sum of squares alone
-    Matrix squares_with;  ///< likewise, with each of them at its best size
-    Matrix size_with;     ///< that size
-  };
-  /// What the family sees of a recording.
+  /// What the family sees of recordings.
   struct Seen {
-    Vector z, rest;  ///< by eigenvector, and off the model
-    Matrix u;        ///< H' P_g y of the columns of all variants, by scale
+    Matrix z, rest;  ///< by eigenvector, and off the model; a column each
+    Matrix u;  ///< H' P_g y: a column for each column of the variants, with the recordings of a scale, then of the next
+
+    int recordings() const { return static_cast<int>(z.cols()); }
   };
-  /// A recording, and some of another added to it: what is seen of them adds up.
+  /// Of recordings, um, one a column.
+  Seen seen(const Matrix& recordings) const;
+  /// What is seen of recordings with others added to them, so many times each: as many, or one for all.
   struct Sum {
     const Seen& of;
     const Seen* added = nullptr;
-    double times = 0;
+    Vector times = {};
   };
-  /// Of recordings, um, one a column: several at once take less time than one after the other.
-  std::vector<Seen> seen(const Matrix& recordings) const;
+  /// Log likelihoods, averaged over scales and sizes; the constants that all families share are left out.
+  struct Verdicts {
+    Vector alone;  ///< by recording: without any variant
+    Matrix with;   ///< a row a recording; a column for each error function, then for each variant that was asked for
+  };
   Verdicts judge(const Sum&, const std::vector<int>& variants) const;
+  /// Of the first recording, by scale: without any variant, with an error function, with a variant.
+  ByScale alone(const Seen&) const;
+  ByScale with_function(const Seen& y, std::size_t function) const { return with(y, variants_[function]); }
+  ByScale with_variant(const Seen& y, int variant) const { return with(y, of(variant)); }
   /// The likely level, given what is believed of each scale and what it leaves of the sum of squares.
-  Level level(const Vector& log_belief, const Vector& squares) const;
+  Level level(const ByScale&) const;
 
   /// A recording of such a machine, um, without what nothing is known of.
   Vector simulated(const Level&, const NoiseLaw&, std::uint64_t seed, int replicate) const;
@@ -81,19 +85,13 @@ class Ensemble {
   Eigen::Index first_column(int variant) const { return of(variant).first; }
 
  private:
-  /// What a variant asks of the family, at each scale, where H' P_g H = E diag(d) E'. All scales lie in one piece of
-  /// memory, since a search reads it for every variant.
-  struct Prepared {
-    Eigen::Index first = 0, count = 0;  ///< columns
-    std::vector<Size> sizes;            ///< of an error function at the scale 1: they are in proportion to it
-    Matrix axes;                        ///< E', of the scales side by side
-    Matrix share;       ///< s^2 / (1 + s^2 d), by size and axis: of a square of E' u, what the variant takes
-    Matrix log_weight;  ///< by size and scale: prior and determinant
-  };
   /// `variants`: whose signatures they are; none: error functions of the machine.
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);
-  Prepared prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
-  const Prepared& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
+  PreparedVariant prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
+  const PreparedVariant& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
+  /// Of these recordings, without any variant.
+  MarginalLikelihood likelihood(const Matrix& z, const Matrix& rest) const;
+  ByScale with(const Seen&, const PreparedVariant&) const;
   Vector precision(double g) const;
   Vector precision(const Level&) const;
   /// What the model adds to the precision that noise alone would have: h' P h = a' (this) a + h' h / s^2, a = U' h.
@@ -107,7 +105,7 @@ class Ensemble {
   /// of all columns: U' h, and h; what is off the model, h - U U' h, is seen in products with h alone
   Matrix coordinates_, projected_;
   std::size_t functions_ = 0;  ///< of the machine; variants follow them
-  std::vector<Prepared> variants_;
+  std::vector<PreparedVariant> variants_;
 };
 
 }  // namespace abbe::diagnose

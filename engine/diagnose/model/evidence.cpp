@@ -7,6 +7,7 @@
 
 #include "engine/base/ids.hpp"
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 
 namespace abbe::diagnose {
@@ -22,19 +23,6 @@ constexpr double kPriorUneven = 0.2;
 constexpr double kPriorCorrelated = 0.5;
 /// Nats below the better ensemble from which on the other makes no difference.
 constexpr double kOutOfQuestion = 8;
-
-std::size_t index_of_largest(const Vector& v) {
-  Eigen::Index at = 0;
-  v.maxCoeff(&at);
-  return static_cast<std::size_t>(at);
-}
-
-/// Of every column.
-Vector log_sums_exp(const Matrix& logs) {
-  const Eigen::ArrayXXd top = logs.colwise().maxCoeff(),
-                        sum = (logs.array() - top.replicate(logs.rows(), 1)).exp().colwise().sum();
-  return (top + sum.log()).transpose();
-}
 
 /// Recordings as they are, without another added.
 std::vector<Ensemble::Sum> sums_of(const std::vector<Ensemble::Seen>& seen) {
@@ -62,15 +50,15 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.variants);
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
-  if (!plan) evidence_ = judge(seen(model_.y), &alone_, &with_);
+  if (!plan) judge_recording();
 }
 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
   ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
   if (model.rough.cols() == 0 || model_.y.squaredNorm() == 0) return 0;
   Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
-  const double harmonic = log_sum_exp(ensembles_.back().judge({ensembles_.back().seen(model_.y).front()}, {}).alone),
-               other = log_sum_exp(rough.judge({rough.seen(model_.y).front()}, {}).alone);
+  const auto alone = [&](const Ensemble& e) { return e.judge({e.seen(model_.y)}, {}).alone(0); };
+  const double harmonic = alone(ensembles_.back()), other = alone(rough);
   if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
   return 1 / (1 + std::exp(harmonic - other));
 }
@@ -82,56 +70,54 @@ void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) 
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
-  if (model_.y.squaredNorm() > 0) evidence_ = judge(seen(model_.y), &alone_, &with_);
+  if (model_.y.squaredNorm() > 0) judge_recording();
 }
 
-std::vector<std::vector<Ensemble::Seen>> EvidenceSearch::seen_of_each(const Matrix& recordings) const {
-  std::vector<std::vector<Ensemble::Seen>> out(static_cast<std::size_t>(recordings.cols()));
-  for (const Ensemble& e : ensembles_) {
-    std::vector<Ensemble::Seen> seen = e.seen(recordings);
-    for (std::size_t r = 0; r < out.size(); ++r) out[r].push_back(std::move(seen[r]));
-  }
+std::vector<Ensemble::Seen> EvidenceSearch::seen(const Matrix& recordings) const {
+  std::vector<Ensemble::Seen> out;
+  for (const Ensemble& e : ensembles_) out.push_back(e.seen(recordings));
   return out;
 }
 
 EvidenceSearch::Weighed EvidenceSearch::weigh(const std::vector<Ensemble::Sum>& y,
                                               const std::vector<int>& variants) const {
-  Weighed out;
-  const auto families = static_cast<Eigen::Index>(ensembles_.size()), functions = static_cast<Eigen::Index>(functions_);
-  Matrix with(families, functions + static_cast<Eigen::Index>(variants.size()));
-  out.alone.resize(families);
+  const auto families = static_cast<Eigen::Index>(ensembles_.size()), functions = static_cast<Eigen::Index>(functions_),
+             recordings = static_cast<Eigen::Index>(y.front().of.recordings()),
+             asked = functions + static_cast<Eigen::Index>(variants.size());
+  // By family: without any variant, then with each.
+  Matrix logs(recordings * (1 + asked), families), sums(recordings, 1 + asked);
   for (Eigen::Index e = 0; e < families; ++e) {
     const auto at = static_cast<std::size_t>(e);
-    const Ensemble::Verdicts& v = out.verdicts.emplace_back(ensembles_[at].judge(y[at], variants));
-    out.alone(e) = log_sum_exp(v.alone);
-    with.row(e) = log_sums_exp(v.with);
+    const Ensemble::Verdicts v = ensembles_[at].judge(y[at], variants);
+    logs.col(e) << v.alone, v.with.reshaped();
   }
-  const Vector log_bayes = log_sums_exp(with);
-  Vector no_mismatch(functions + 1);
-  no_mismatch << log_sum_exp(out.alone) + std::log(functions > 0 ? 1 - kPriorUneven : 1),
-      log_bayes.head(functions).array() + std::log(kPriorUneven / double(std::max<Eigen::Index>(functions, 1)));
-  out.log_null = log_sum_exp(no_mismatch);
-  const Vector of_variants = log_bayes.tail(log_bayes.size() - functions).array() - out.log_null;
-  out.log_bayes.assign(of_variants.begin(), of_variants.end());
+  log_sums_exp(static_cast<int>(families), static_cast<int>(logs.rows()), logs.data(), sums.data());
+  Matrix no_mismatch = sums.leftCols(1 + functions);
+  no_mismatch.col(0).array() += std::log(functions > 0 ? 1 - kPriorUneven : 1);
+  no_mismatch.rightCols(functions).array() += std::log(kPriorUneven / double(std::max<Eigen::Index>(functions, 1)));
+  Weighed out{Vector(recordings), {}};
+  log_sums_exp(static_cast<int>(1 + functions), static_cast<int>(recordings), no_mismatch.data(), out.log_null.data());
+  out.log_bayes = sums.rightCols(asked - functions).colwise() - out.log_null;
   return out;
 }
 
 std::optional<Matrix> EvidenceSearch::uneven() const {
   constexpr double kLikely = 0.5;
   const std::vector<Ensemble::Seen> recording = seen(model_.y);
-  const Weighed w = weigh(sums_of(recording), {});
+  const double log_null = weigh(sums_of(recording), {}).log_null(0);
   double belief = 0;
   const double prior = std::log(kPriorUneven / double(std::max<std::size_t>(functions_, 1)));
   std::size_t function = 0;
   double most = -std::numeric_limits<double>::infinity(), size = 1;
-  for (const Ensemble::Verdicts& v : w.verdicts)
+  for (std::size_t e = 0; e < ensembles_.size(); ++e)
     for (std::size_t k = 0; k < functions_; ++k) {
-      const Vector with = v.with.col(static_cast<Eigen::Index>(k));
-      const double log = log_sum_exp(with);
-      belief += std::exp(prior + log - w.log_null);
+      const ByScale with = ensembles_[e].with_function(recording[e], k);
+      const double log = log_sum_exp(with.log_likelihood);
+      belief += std::exp(prior + log - log_null);
       if (log <= most) continue;
-      most = log, function = k;
-      size = v.size_with(static_cast<Eigen::Index>(index_of_largest(with)), static_cast<Eigen::Index>(k));
+      Eigen::Index scale = 0;
+      with.log_likelihood.maxCoeff(&scale);
+      most = log, function = k, size = with.size(scale);
     }
   return belief > kLikely ? std::optional<Matrix>(size * model_.uneven[function]) : std::nullopt;
 }
@@ -143,42 +129,63 @@ double EvidenceSearch::log_bayes_of(const Explanation& x, const std::vector<doub
   return log_sum_exp(variants);
 }
 
-double EvidenceSearch::log_belief(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
-                                  double times, int explanation) const {
+Vector EvidenceSearch::log_beliefs(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
+                                   const Vector& times, int explanation) const {
   const Explanation& x = explanations_[explanation];
   std::vector<Ensemble::Sum> y;
   for (std::size_t e = 0; e < of.size(); ++e) y.push_back({of[e], &added[e], times});
-  return std::log(x.prior) + log_bayes_of(x, weigh(y, x.variants).log_bayes);
+  const Matrix log_bayes = weigh(y, x.variants).log_bayes;
+  Vector out(log_bayes.rows());
+  for (Eigen::Index r = 0; r < out.size(); ++r) {
+    const Vector own = log_bayes.row(r);
+    out(r) = std::log(x.prior) + log_bayes_of(x, {own.begin(), own.end()});
+  }
+  return out;
 }
 
-Evidence EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const {
+std::vector<Evidence> EvidenceSearch::judge(const std::vector<Ensemble::Seen>& y) const {
   std::vector<int> variants(log_weight_.size());
   std::iota(variants.begin(), variants.end(), 0);
-  Weighed weighed = weigh(sums_of(y), variants);
-  Evidence out;
-  out.log_null = weighed.log_null;
-  out.variant_log_bayes = std::move(weighed.log_bayes);
-  std::vector<double> all;
-  for (const Explanation& x : explanations_) {
-    std::vector<double> own;
-    for (const int k : x.variants) own.push_back(out.variant_log_bayes[k]);
-    out.log_bayes.push_back(log_bayes_of(x, own));
-    all.push_back(std::log(x.prior) + out.log_bayes.back());
+  const Weighed weighed = weigh(sums_of(y), variants);
+  std::vector<Evidence> list(static_cast<std::size_t>(weighed.log_null.size()));
+  for (std::size_t r = 0; r < list.size(); ++r) {
+    const auto row = static_cast<Eigen::Index>(r);
+    Evidence& out = list[r];
+    out.log_null = weighed.log_null(row);
+    const Vector by_variant = weighed.log_bayes.row(row);
+    out.variant_log_bayes.assign(by_variant.begin(), by_variant.end());
+    std::vector<double> all;
+    for (const Explanation& x : explanations_) {
+      std::vector<double> own;
+      for (const int k : x.variants) own.push_back(out.variant_log_bayes[k]);
+      out.log_bayes.push_back(log_bayes_of(x, own));
+      all.push_back(std::log(x.prior) + out.log_bayes.back());
+    }
+    out.statistic = log_sum_exp(all);
+    ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
   }
-  out.statistic = log_sum_exp(all);
-  ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
-  if (!alone) return out;
-  const std::vector<Ensemble::Verdicts>& verdicts = weighed.verdicts;
-  const std::size_t e = index_of_largest(weighed.alone);
-  *alone = *with = {e, ensembles_[e].level(verdicts[e].alone, verdicts[e].squares)};
-  const auto best = std::max_element(out.variant_log_bayes.begin(), out.variant_log_bayes.end());
-  if (*best <= 0) return out;
-  const Eigen::Index variant = static_cast<Eigen::Index>(functions_) + (best - out.variant_log_bayes.begin());
-  Vector logs(weighed.alone.size());
-  for (Eigen::Index k = 0; k < logs.size(); ++k) logs(k) = log_sum_exp(Vector(verdicts[k].with.col(variant)));
-  const std::size_t f = index_of_largest(logs);
-  *with = {f, ensembles_[f].level(verdicts[f].with.col(variant), verdicts[f].squares_with.col(variant))};
-  return out;
+  return list;
+}
+
+EvidenceSearch::Baseline EvidenceSearch::likeliest(const std::vector<ByScale>& by_ensemble) const {
+  std::vector<double> logs;
+  for (const ByScale& s : by_ensemble) logs.push_back(log_sum_exp(s.log_likelihood));
+  const auto e = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
+  return {e, ensembles_[e].level(by_ensemble[e])};
+}
+
+void EvidenceSearch::judge_recording() {
+  const std::vector<Ensemble::Seen> y = seen(model_.y);
+  evidence_ = judge(y).front();
+  std::vector<ByScale> alone, with;
+  for (std::size_t e = 0; e < y.size(); ++e) alone.push_back(ensembles_[e].alone(y[e]));
+  alone_ = with_ = likeliest(alone);
+  const std::vector<double>& by_variant = evidence_.variant_log_bayes;
+  const auto best = std::max_element(by_variant.begin(), by_variant.end());
+  if (*best <= 0) return;
+  const auto variant = static_cast<int>(best - by_variant.begin());
+  for (std::size_t e = 0; e < y.size(); ++e) with.push_back(ensembles_[e].with_variant(y[e], variant));
+  with_ = likeliest(with);
 }
 
 std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw& law, const Replicates& replicates,
@@ -196,8 +203,8 @@ std::vector<Evidence> EvidenceSearch::bootstrap(double observed, const NoiseLaw&
         Matrix recordings(model_.y.size(), end - begin);
         for (int r = begin; r < end; ++r)
           recordings.col(r - begin) = ensembles_[alone_.ensemble].simulated(alone_.level, law, seed, r);
-        const auto seen = seen_of_each(recordings);
-        for (int r = begin; r < end; ++r) out[r] = judge(seen[r - begin], nullptr, nullptr);
+        std::vector<Evidence> judged = judge(seen(recordings));
+        std::move(judged.begin(), judged.end(), out.begin() + begin);
       });
       for (int r = first; r < first + count; ++r) {
         statistics.push_back(out[r].statistic);
@@ -232,15 +239,6 @@ double most_believed(double p, double prior) {
   const double chance = least < std::exp(-1.0) ? -std::exp(1.0) * least * std::log(least) : 1;
   return prior / (prior + (1 - prior) * chance);
 }
-
-double log_sum_exp(std::span<const double> v) {
-  const double top = *std::max_element(v.begin(), v.end());
-  double sum = 0;
-  for (const double x : v) sum += std::exp(x - top);
-  return top + std::log(sum);
-}
-
-double log_sum_exp(const Vector& v) { return log_sum_exp(std::span(v.data(), static_cast<std::size_t>(v.size()))); }
 
 LikeliestSize likeliest_size(const Information& info, const std::vector<Size>& sizes) {
   LikeliestSize out;

@@ -11,7 +11,6 @@
 
 #include <limits>
 #include <optional>
-#include <span>
 
 #include "engine/diagnose/model/ensemble.hpp"
 #include "engine/diagnose/model/prediction.hpp"
@@ -49,7 +48,7 @@ struct Replicates {
 
 class EvidenceSearch {
  public:
-  /// How many simulated recordings are seen at once. Their last bits depend on it, so no number of threads changes it.
+  /// How many simulated recordings are seen at once: what is seen of one does not depend on the others.
   static constexpr int kTogether = 20;
 
   EvidenceSearch(const LinearModel&, const Hyperparameters&, const Explanations&);
@@ -74,15 +73,13 @@ class EvidenceSearch {
   std::vector<Evidence> bootstrap(double observed, const NoiseLaw&, const Replicates&, std::uint64_t seed,
                                   int threads) const;
 
-  /// What the ensembles see of a recording, in their order.
-  std::vector<Ensemble::Seen> seen(const Vector& y) const { return seen_of_each(y).front(); }
-  /// The same of several recordings, one a column.
-  std::vector<std::vector<Ensemble::Seen>> seen_of_each(const Matrix& recordings) const;
-  /// The statistic of another recording than that of the search.
-  double statistic_of(const std::vector<Ensemble::Seen>& y) const { return judge(y, nullptr, nullptr).statistic; }
-  /// What one explanation has of a recording with some of another added to it, as a logarithm.
-  double log_belief(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added, double times,
-                    int explanation) const;
+  /// What the ensembles see of recordings, one a column; in the order of the ensembles.
+  std::vector<Ensemble::Seen> seen(const Matrix& recordings) const;
+  /// The evidence of other recordings than that of the search.
+  std::vector<Evidence> judge(const std::vector<Ensemble::Seen>&) const;
+  /// What one explanation has of each recording with some of another added to it, as many or one for all, as logarithms.
+  Vector log_beliefs(const std::vector<Ensemble::Seen>& of, const std::vector<Ensemble::Seen>& added,
+                     const Vector& times, int explanation) const;
   /// A recording of a machine in order, at the level of the recording beside its likeliest explanation.
   Vector in_order(std::uint64_t seed, int replicate) const {
     return likely().simulated(with_.level, {}, seed, replicate);
@@ -114,15 +111,16 @@ class EvidenceSearch {
     Level level;
   };
   struct Weighed {
-    std::vector<Ensemble::Verdicts> verdicts;  ///< by ensemble
-    Vector alone;                              ///< likewise: log likelihood without any variant
-    double log_null = 0;
-    std::vector<double> log_bayes;  ///< by variant that was asked for
+    Vector log_null;   ///< by recording
+    Matrix log_bayes;  ///< a row a recording; a column for each variant that was asked for
   };
   Weighed weigh(const std::vector<Ensemble::Sum>& y, const std::vector<int>& variants) const;
   /// Of the variants of an explanation, averaged over them.
   double log_bayes_of(const Explanation&, const std::vector<double>& by_own_variant) const;
-  Evidence judge(const std::vector<Ensemble::Seen>& y, Baseline* alone, Baseline* with) const;
+  /// The recording itself, and the baseline that it has without any explanation and with the likeliest.
+  void judge_recording();
+  /// The ensemble that makes a recording likeliest, and its level.
+  Baseline likeliest(const std::vector<ByScale>& by_ensemble) const;
   const Ensemble& likely() const { return ensembles_[with_.ensemble]; }
 
   LinearModel model_;
@@ -144,8 +142,5 @@ double tail_probability(double observed, std::vector<double> simulated);
 /// p-value can say for it, by the bound -e p ln p on the Bayes factor of chance. [Sellke, Bayarri & Berger,
 /// The American Statistician 55 (2001), eq. 2]
 double most_believed(double p, double prior);
-
-double log_sum_exp(std::span<const double>);
-double log_sum_exp(const Vector&);
 
 }  // namespace abbe::diagnose

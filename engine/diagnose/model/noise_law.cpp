@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/diagnose/model/evidence.hpp"
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/lanes/distribution.hpp"
 #include "engine/lanes/random.hpp"
 

@@ -28,48 +28,42 @@ double exceeded_by(double share, std::vector<double> values) {
 }  // namespace
 
 Power::Power(const EvidenceSearch& of, std::uint64_t seed, int threads) : search_(of), seed_(seed) {
+  const auto in_order = [&](int first, int count) {
+    Matrix recordings(of.rows(), count);
+    for (int k = 0; k < count; ++k) recordings.col(k) = of.in_order(seed, first + k);
+    return of.seen(recordings);
+  };
   std::vector<double> statistics(kForAlarm);
-  in_order_.resize(kWithShift);
   on_threads(kForAlarm / kTogether, threads, [&](int group) {
-    Matrix recordings(of.rows(), kTogether);
-    for (int k = 0; k < kTogether; ++k) recordings.col(k) = of.in_order(seed, group * kTogether + k);
-    auto seen = of.seen_of_each(recordings);
-    for (std::size_t k = 0; k < kTogether; ++k) {
-      const std::size_t at = static_cast<std::size_t>(group) * kTogether + k;
-      statistics[at] = of.statistic_of(seen[k]);
-      if (at < kWithShift) in_order_[at] = std::move(seen[k]);
-    }
+    const std::vector<Evidence> judged = of.judge(in_order(group * kTogether, kTogether));
+    for (int k = 0; k < kTogether; ++k) statistics[group * kTogether + k] = judged[k].statistic;
   });
+  in_order_ = in_order(0, kWithShift);
   alarm_ = exceeded_by(kAlarm, std::move(statistics));
 }
 
 double Power::detected_from(const Matrix& shift, int explanation, double share, double most) const {
   constexpr double kLeast = 0.5;
   constexpr int kHalvings = 7;
-  const bool drawn = shift.cols() > 1;
   Matrix shifts = shift;
-  if (drawn) {
+  if (shift.cols() > 1) {
     shifts.resize(shift.rows(), kWithShift);
     for (int k = 0; k < kWithShift; ++k)
       shifts.col(k) = shift * standard_normal(shift.cols(), seed_, stream_of("diagnose.power"), k);
   }
-  const auto all_there = search_.seen_of_each(shifts);
-  double sum = 0, squares = 0;
-  for (int k = 0; k < kWithShift; ++k) {
-    const std::vector<Ensemble::Seen>& there = all_there[drawn ? static_cast<std::size_t>(k) : 0];
-    const auto is_seen = [&](double times) {
-      return search_.log_belief(in_order_[k], there, times, explanation) - std::log(share) > alarm_;
-    };
-    if (!is_seen(most)) return std::numeric_limits<double>::infinity();
-    double low = kLeast, high = most;
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = std::sqrt(low * high);
-      (is_seen(middle) ? high : low) = middle;
-    }
-    sum += high, squares += high * high;
+  const std::vector<Ensemble::Seen> there = search_.seen(shifts);
+  const double from = alarm_ + std::log(share);
+  const auto log_beliefs = [&](const Vector& times) {
+    return search_.log_beliefs(in_order_, there, times, explanation);
+  };
+  Vector low = Vector::Constant(kWithShift, kLeast), high = Vector::Constant(kWithShift, most);
+  if ((log_beliefs(high).array() <= from).any()) return std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kHalvings; ++i) {
+    const Vector middle = (low.array() * high.array()).sqrt(), belief = log_beliefs(middle);
+    for (int k = 0; k < kWithShift; ++k) (belief(k) > from ? high : low)(k) = middle(k);
   }
-  const double n = kWithShift, mean = sum / n;
-  return mean + kPower * std::sqrt(std::max(0.0, squares - n * mean * mean) / (n - 1));
+  const double mean = high.mean();
+  return mean + kPower * std::sqrt((high.array() - mean).square().sum() / (kWithShift - 1));
 }
 
 }  // namespace abbe::diagnose

@@ -22,8 +22,8 @@ class Power {
  private:
   const EvidenceSearch& search_;
   std::uint64_t seed_;
-  double alarm_ = 0;                                   ///< the statistic from which on there is one
-  std::vector<std::vector<Ensemble::Seen>> in_order_;  ///< by recording
+  double alarm_ = 0;                      ///< the statistic from which on there is one
+  std::vector<Ensemble::Seen> in_order_;  ///< of some recordings
 };
 
 }  // namespace abbe::diagnose

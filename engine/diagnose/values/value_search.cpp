@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/diagnose/findings/search.hpp"
+#include "engine/diagnose/model/log_sums.hpp"
 
 namespace abbe::diagnose {
 

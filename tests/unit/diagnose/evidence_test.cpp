@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/lanes/random.hpp"
+#include "tests/unit/diagnose/random_model.hpp"
 
 using namespace abbe;
 using namespace abbe::diagnose;
@@ -311,7 +313,7 @@ TEST_CASE("four in five recordings show what the search is said to detect") {
     for (int k = 0; k < recordings; ++k) {
       const Vector size = columns.cols() == 1 ? Vector::Ones(1) : standard_normal(columns.cols(), 9, 77, k);
       const Vector y = noise_only(n, static_cast<std::uint32_t>(100 * (k + 1))).y + times * columns * size;
-      seen += search.statistic_of(search.seen(y)) > alarm ? 1 : 0;
+      seen += search.judge(search.seen(y)).front().statistic > alarm ? 1 : 0;
     }
     return seen / double(recordings);
   };
@@ -319,6 +321,23 @@ TEST_CASE("four in five recordings show what the search is said to detect") {
   CHECK(std::isinf(power.detected_from(shift, 0, 1, 1)));
   // Of what is drawn anew in every recording some is always small: more is needed than of the same shift in all.
   CHECK(power.detected_from(drawn, 0, 1, 100) > 1.3 * power.detected_from(shift, 0, 1, 100));
+}
+
+TEST_CASE("a recording is judged the same to the bit beside any number of others") {
+  const int n = 41, recordings = 23;
+  LinearModel m = model_of(n, 1, 1, 0.4, 8);
+  m.random_group[11] = 1;
+  Hyperparameters h;
+  h.noise = Vector::Ones(1);
+  h.correlation = 0.4;
+  const EvidenceSearch search(m, h, two(n));
+  const Matrix list = random_matrix(n, recordings, 9'000'000);
+  const std::vector<Evidence> together = search.judge(search.seen(list));
+  for (int k = 0; k < recordings; ++k) {
+    const Evidence alone = search.judge(search.seen(list.col(k))).front();
+    CHECK(alone.variant_log_bayes == together[static_cast<std::size_t>(k)].variant_log_bayes);
+    CHECK(alone.log_null == together[static_cast<std::size_t>(k)].log_null);
+  }
 }
 
 TEST_CASE("far tails are extrapolated, near ones counted") {

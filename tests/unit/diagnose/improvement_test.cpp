@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/diagnose/model/log_sums.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/lanes/random.hpp"
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "engine/diagnose/model/log_sums.hpp"
+
 using namespace abbe;
 using namespace abbe::diagnose;
 

@@ -1,0 +1,137 @@
+#include "engine/diagnose/model/marginal_likelihood.hpp"
+
+#include <cstddef>
+#include <utility>
+
+#include "engine/diagnose/model/log_sums.hpp"
+#include "engine/lanes/elementary.hpp"
+#include "engine/lanes/for_lanes.hpp"
+
+namespace abbe::diagnose {
+
+struct MarginalLikelihood::AtScale {
+  int recordings, columns, sizes;
+  double shape;
+  const double *axes, *share, *log_weight;  ///< of the variant
+  const double* squares;                    ///< by recording
+  const double* const* u;                   ///< of each column at the first scale
+  std::ptrdiff_t after;                     ///< it, as many numbers
+  double *along, *left, *logs;              ///< by recording; by size and recording
+
+  AtScale next() const {
+    AtScale s = *this;
+    s.axes += columns * columns, s.share += columns * sizes, s.log_weight += sizes;
+    s.squares += recordings, s.after += recordings;
+    return s;
+  }
+
+  /// What the variant leaves of the sums of squares at each size, and what the log likelihoods then are.
+  [[gnu::always_inline]] inline void judge_sizes() const {
+    for (int size = 0; size < sizes; ++size) {
+      double* const l = left + size * recordings;
+      ABBE_NO_ALIAS
+      for (int r = 0; r < recordings; ++r) l[r] = squares[r];
+    }
+    for (int axis = 0; axis < columns; ++axis) {
+      ABBE_NO_ALIAS
+      for (int r = 0; r < recordings; ++r) along[r] = 0;
+      for (int column = 0; column < columns; ++column) {
+        const double e = axes[column * columns + axis];
+        const double* const of_column = u[column] + after;
+        ABBE_NO_ALIAS
+        for (int r = 0; r < recordings; ++r) along[r] += e * of_column[r];
+      }
+      for (int size = 0; size < sizes; ++size) {
+        const double s = share[axis * sizes + size];
+        double* const l = left + size * recordings;
+        ABBE_NO_ALIAS
+        for (int r = 0; r < recordings; ++r) l[r] -= s * (along[r] * along[r]);
+      }
+    }
+    for (int size = 0; size < sizes; ++size) {
+      const double *const l = left + size * recordings, weight = log_weight[size];
+      double* const log = logs + size * recordings;
+      ABBE_NO_ALIAS
+      for (int r = 0; r < recordings; ++r) log[r] = weight - shape * log_positive(l[r]);
+    }
+  }
+};
+
+MarginalLikelihood::MarginalLikelihood(Matrix squares, Vector log_scale, double shape)
+    : squares_(std::move(squares)), log_scale_(std::move(log_scale)), shape_(shape) {
+  along_.resize(static_cast<std::size_t>(squares_.rows()));
+  top_.resize(along_.size());
+  by_scale_.resize(static_cast<std::size_t>(squares_.size()));
+}
+
+MarginalLikelihood::AtScale MarginalLikelihood::at_first_scale(const PreparedVariant& b, const WithData& u) {
+  left_.resize(b.sizes.size() * along_.size());
+  logs_.resize(left_.size());
+  return {.recordings = recordings(),
+          .columns = static_cast<int>(b.count),
+          .sizes = static_cast<int>(b.sizes.size()),
+          .shape = shape_,
+          .axes = b.axes.data(),
+          .share = b.share.data(),
+          .log_weight = b.log_weight.data(),
+          .squares = squares_.data(),
+          .u = u.data(),
+          .after = 0,
+          .along = along_.data(),
+          .left = left_.data(),
+          .logs = logs_.data()};
+}
+
+Vector MarginalLikelihood::alone() {
+  Vector out(recordings());
+  on_lanes([n = recordings(), scales = scales(), shape = shape_, squares = squares_.data(),
+            log_scale = log_scale_.data(), by_scale = by_scale_.data(), top = top_.data(), sums = out.data()] {
+    for (int j = 0; j < scales; ++j) {
+      ABBE_NO_ALIAS
+      for (int r = j * n; r < (j + 1) * n; ++r) by_scale[r] = log_scale[j] - shape * log_positive(squares[r]);
+    }
+    log_sums_exp(scales, n, by_scale, top, sums);
+  });
+  return out;
+}
+
+void MarginalLikelihood::with(const PreparedVariant& b, const WithData& u, double* out) {
+  on_lanes([first = at_first_scale(b, u), scales = scales(), log_scale = log_scale_.data(), by_scale = by_scale_.data(),
+            top = top_.data(), out] {
+    const int n = first.recordings;
+    AtScale s = first;
+    for (int j = 0; j < scales; ++j, s = s.next()) {
+      s.judge_sizes();
+      double* const log = by_scale + j * n;
+      log_sums_exp(s.sizes, n, s.logs, top, log);
+      ABBE_NO_ALIAS
+      for (int r = 0; r < n; ++r) log[r] += log_scale[j];
+    }
+    log_sums_exp(scales, n, by_scale, top, out);
+  });
+}
+
+ByScale MarginalLikelihood::alone_by_scale() {
+  alone();
+  ByScale out{Vector(scales()), squares_.row(0), {}};
+  for (int j = 0; j < scales(); ++j) out.log_likelihood(j) = by_scale_[static_cast<std::size_t>(j * recordings())];
+  return out;
+}
+
+ByScale MarginalLikelihood::with_by_scale(const PreparedVariant& b, const WithData& u) {
+  ByScale out{Vector(scales()), Vector(scales()), Vector(scales())};
+  AtScale s = at_first_scale(b, u);
+  for (int j = 0; j < scales(); ++j, s = s.next()) {
+    s.judge_sizes();
+    int best = 0;
+    for (int size = 1; size < s.sizes; ++size)
+      if (s.logs[size * s.recordings] > s.logs[best * s.recordings]) best = size;
+    log_sums_exp(s.sizes, s.recordings, s.logs, top_.data(), by_scale_.data());
+    out.log_likelihood(j) = by_scale_.front() + log_scale_(j);
+    out.squares(j) = s.left[best * s.recordings];
+    out.size(j) = b.sizes[static_cast<std::size_t>(best)].factor;
+  }
+  return out;
+}
+
+}  // namespace abbe::diagnose
