@@ -2,7 +2,6 @@
 import json
 import math
 import os
-import pty
 import random
 import subprocess
 import threading
@@ -237,7 +236,7 @@ class Outputs(Input):
 
     def test_who_waits_at_a_terminal_sees_the_step(self):
         """Each step takes the place of the one before, and none stays; a file or a pipe gets none."""
-        terminal, stderr = pty.openpty()
+        terminal, stderr = self.pseudo_terminal()
         done = subprocess.run([self.abbe_path, "diagnose", self.recording], stdout=subprocess.PIPE, stderr=stderr, timeout=120)
         os.close(stderr)
         shown = os.read(terminal, 65536).decode()

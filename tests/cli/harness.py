@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import pathlib
+import pty
 import subprocess
 import sys
 import tempfile
@@ -52,6 +53,13 @@ class Case(unittest.TestCase):
                               errors="replace", timeout=120)
         self.assertIn(done.returncode, code if isinstance(code, tuple) else (code,), f"exit code of abbe {args}\n{done.stdout}\n{done.stderr}")
         return done
+
+    def pseudo_terminal(self):
+        """Its two ends. A test is skipped where the system has none, as in a bare root without /dev/pts."""
+        try:
+            return pty.openpty()
+        except OSError as error:
+            self.skipTest(f"no pseudo-terminal: {error}")
 
     def refused(self, message_code, *args):
         """Exit code 2, the message on stderr, nothing on stdout. Returns stderr."""

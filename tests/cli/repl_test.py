@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """abbe repl: scripted sessions through a pipe."""
 import os
-import pty
 import subprocess
 import time
 
@@ -47,7 +46,7 @@ class Repl(harness.Case):
 
     def terminal(self, keys, *later):
         """What a session in a terminal shows when these keys are pressed; `later`: what is shown first, and the keys then."""
-        master, slave = pty.openpty()
+        master, slave = self.pseudo_terminal()
         with subprocess.Popen([self.abbe_path, "repl", "--machines", "20"], cwd=self.folder, stdin=slave, stdout=slave, stderr=slave,
                               env={**os.environ, "TERM": "xterm"}, start_new_session=True) as process:
             os.close(slave)
