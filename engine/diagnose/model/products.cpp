@@ -52,7 +52,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
                        together =
                            kTerms * std::max<std::ptrdiff_t>(1, kInCache / kTerms / std::max<std::ptrdiff_t>(n, 1));
   Matrix out = Matrix::Zero(n, columns);
-  Vector beside(n);  // columns go in pairs
+  Vector beside = Vector::Zero(n);  // columns go in pairs
   on_lanes([=, a = a.data(), b = b.data(), out = out.data(), beside = beside.data()] {
     for (std::ptrdiff_t begin = 0; begin < columns; begin += kColumns)
       for (std::ptrdiff_t first = 0; first < all; first += together) {
