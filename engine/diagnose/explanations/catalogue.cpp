@@ -250,8 +250,7 @@ class Variants {
 /// here. -1: none.
 int repeated(const Variant& variant, const Explanation& of, const std::vector<Variant>& variants) {
   for (const int k : of.variants) {
-    const Matrix& other = variants[k].signature;
-    if (other.cols() == variant.signature.cols() && (other - variant.signature).cwiseAbs().maxCoeff() < 1e-9) return k;
+    if (same_columns(variants[k].signature, variant.signature)) return k;
   }
   return -1;
 }
@@ -401,6 +400,13 @@ void share_belief(const Explanation& e, std::vector<Variant>& variants) {
     Variant& b = variants[k];
     b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
   }
+}
+
+bool same_columns(const Matrix& a, const Matrix& b, double less_than_um) {
+  if (a.cols() != b.cols() || a.rows() != b.rows()) return false;
+  // Most differ in their first rows.
+  return std::equal(a.data(), a.data() + a.size(), b.data(),
+                    [&](double x, double y) { return std::abs(x - y) < less_than_um; });
 }
 
 Matrix compressed(const Matrix& m) {

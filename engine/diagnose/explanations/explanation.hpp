@@ -76,6 +76,9 @@ struct Variant {
 /// in all runs and a change from one run to the next are two, and so are those of two styli or two axes.
 bool alike(const Variant&, const Variant&);
 
+/// Whether both have the same columns, so that no touch tells one from the other: none differs by this much anywhere, um.
+bool same_columns(const Matrix&, const Matrix&, double less_than_um = 1e-9);
+
 struct Explanation {
   std::string name;                ///< of the effect, or "OTHER time"
   const Effect* effect = nullptr;  ///< none: OTHER

@@ -16,8 +16,6 @@ namespace {
 constexpr int kSteps = 4, kMostEffects = 6, kMostCells = 3, kParts = 3;
 /// Nats below the likeliest cell from which on one is not worth a closer look.
 constexpr double kFarBelow = 3;
-/// Columns nearer than this to those of the cell before are the same: no touch lies between.
-constexpr double kSame_um = 1e-9;
 
 /// Whether a change between runs stands for several of them.
 bool of_several_runs(const Variant& b) { return b.runs.high > b.runs.low + 1; }
@@ -138,10 +136,6 @@ std::vector<Variant> parts_of(const Variant& whole, const Effect& effect, const 
   return list;
 }
 
-bool same(const Variant& a, const Variant& b) {
-  return a.signature.cols() == b.signature.cols() && (a.signature - b.signature).cwiseAbs().maxCoeff() < kSame_um;
-}
-
 /// Divides one variant of an explanation, unless its parts are all the same.
 void divide(const Case& c, Explanations& all, int explanation, int which) {
   Explanation& e = all.list[explanation];
@@ -153,7 +147,8 @@ void divide(const Case& c, Explanations& all, int explanation, int which) {
     part.joined = made.joined;
   }
   std::erase_if(parts, [](const Variant& b) { return b.signature.cols() == 0; });
-  if (std::all_of(parts.begin(), parts.end(), [&](const Variant& b) { return same(b, parts.front()); })) {
+  if (std::all_of(parts.begin(), parts.end(),
+                  [&](const Variant& b) { return same_columns(b.signature, parts.front().signature); })) {
     all.variants[which].finest = true;
     return;
   }

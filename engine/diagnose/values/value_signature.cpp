@@ -124,12 +124,8 @@ std::vector<Vector> grow(const Plantation& plantation, const std::vector<Plantin
 }
 
 bool repeats_values(const Variant& variant, const Explanation& of, const std::vector<Variant>& variants) {
-  for (const int b : of.variants) {
-    const Matrix& m = variants[b].signature;
-    if (m.cols() == variant.signature.cols() && (m - variant.signature).cwiseAbs().maxCoeff() < kSameValue_um)
-      return true;
-  }
-  return false;
+  return std::any_of(of.variants.begin(), of.variants.end(),
+                     [&](int k) { return same_columns(variants[k].signature, variant.signature, kSameValue_um); });
 }
 
 void add(const Effect& effect, std::vector<Draft>& drafts, const std::vector<Vector>& grown, std::size_t& at,

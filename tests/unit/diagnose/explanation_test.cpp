@@ -42,3 +42,14 @@ TEST_CASE("what is gone counts half of what is new") {
   CHECK(variants[1].weight == doctest::Approx(0.1 / 3));
   CHECK(variants[2].weight == doctest::Approx(0.9));
 }
+
+TEST_CASE("columns are the same where none differs anywhere") {
+  Matrix a(3, 2);
+  a << 1, 2, 3, 4, 5, 6;
+  Matrix b = a;
+  CHECK(same_columns(a, b));
+  b(2, 1) += 1e-8;
+  CHECK_FALSE(same_columns(a, b));
+  CHECK(same_columns(a, b, 1e-6));
+  CHECK_FALSE(same_columns(a, a.leftCols(1), 1e-6));
+}
