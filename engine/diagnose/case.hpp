@@ -1,5 +1,8 @@
-// The recording on the bench: everything that the steps of a diagnosis share.
+// The case of a recording: everything that the steps of a diagnosis share.
 #pragma once
+
+#include <optional>
+#include <string>
 
 #include "engine/diagnose/baseline/baseline.hpp"
 #include "engine/diagnose/diagnosis.hpp"
@@ -25,6 +28,15 @@ struct Case {
   bool rough = false;         ///< the machine's errors are rougher than the specification's ensemble
   Explanations explanations;  ///< on `rows`
 };
+
+/// The touches, what the part is, and what a machine in order may do to them. `surfaces`: what they count as; without,
+/// they are what the targets say unless half of them is not. Messages, and lengths beyond the specification, go to the
+/// diagnosis.
+Case case_of(const Recording&, const Machine&, const DiagnoseOptions&, std::optional<Surfaces> surfaces,
+             const std::string& file, Diagnosis&);
+/// Positions are multiples of a step. Rounding is noise too: without it, what is rounded coarsely would lie on its steps
+/// without any.
+void judge_rounding(double step_um, Case&);
 
 /// A model of this case with the ensemble of error functions that its recording fits better: the
 /// specification's, or the rougher one.

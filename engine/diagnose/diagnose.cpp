@@ -11,15 +11,15 @@
 #include "engine/diagnose/baseline/outliers.hpp"
 #include "engine/diagnose/baseline/own_noise.hpp"
 #include "engine/diagnose/baseline/standing.hpp"
-#include "engine/diagnose/bench.hpp"
+#include "engine/diagnose/case.hpp"
 #include "engine/diagnose/checks/clock.hpp"
 #include "engine/diagnose/checks/data_problems.hpp"
 #include "engine/diagnose/checks/logged_columns.hpp"
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/pairing.hpp"
 #include "engine/diagnose/checks/scale_readings.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
-#include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
@@ -266,7 +266,7 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   const std::string& file = given.file;
   const auto at = [&](std::string_view step) { begins(options.progress, step); };
   at("virtual machines of the specification");
-  Case c = on_the_bench(recording, given.machine, options, surfaces, file, out);
+  Case c = case_of(recording, given.machine, options, surfaces, file, out);
   const std::vector<Diagnostic> of_the_file = out.messages;
   judge_rounding(given.step_um, c);
   // What holds no error at all says no more than its plan.

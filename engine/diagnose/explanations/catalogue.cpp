@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
-#include "engine/diagnose/explanations/search_grid.hpp"
 #include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
@@ -78,13 +78,13 @@ class Evaluation {
 };
 
 /// Every combination of the values tried, with what each stands for.
-std::vector<Variant> settings(const Effect& effect, const std::vector<Search>& search) {
+std::vector<Variant> settings(const Effect& effect, const std::vector<ParameterGrid>& grids) {
   std::vector<Variant> list(1);
   for (std::size_t p = 0; p < effect.parameters.size(); ++p) {
-    const bool linear = effect.parameters[p].linear, varied = !linear && search[p].kind == Search::Kind::tried;
-    const double fixed = linear ? 0 : search[p].fixed;
+    const bool linear = effect.parameters[p].linear, varied = !linear && grids[p].kind == ParameterGrid::Kind::tried;
+    const double fixed = linear ? 0 : grids[p].fixed;
     const std::vector<TriedValue> values =
-        varied ? search[p].tried : std::vector<TriedValue>{{fixed, {fixed, fixed}, 1}};
+        varied ? grids[p].tried : std::vector<TriedValue>{{fixed, {fixed, fixed}, 1}};
     std::vector<Variant> longer;
     for (const Variant& prefix : list) {
       for (const TriedValue& at : values) {
@@ -144,11 +144,11 @@ std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effec
 /// The columns of one variant: each linear parameter by itself, along each direction and phase that is spanned.
 class VariantColumns {
  public:
-  VariantColumns(const Effect& effect, const std::vector<Search>& search, const Evaluation& evaluate)
+  VariantColumns(const Effect& effect, const std::vector<ParameterGrid>& grids, const Evaluation& evaluate)
       : effect_(effect), evaluate_(evaluate) {
-    for (std::size_t p = 0; p < search.size(); ++p) {
-      if (search[p].kind == Search::Kind::direction) direction_ = static_cast<int>(p);
-      if (search[p].kind == Search::Kind::phase) phases_.push_back(static_cast<int>(p));
+    for (std::size_t p = 0; p < grids.size(); ++p) {
+      if (grids[p].kind == ParameterGrid::Kind::direction) direction_ = static_cast<int>(p);
+      if (grids[p].kind == ParameterGrid::Kind::phase) phases_.push_back(static_cast<int>(p));
     }
   }
 
@@ -209,10 +209,10 @@ class VariantColumns {
 /// mismatch by the mismatch itself: all get the planned phase then.
 class Variants {
  public:
-  Variants(const Effect& effect, const std::vector<Search>& search, const RecordedTouches& t,
+  Variants(const Effect& effect, const std::vector<ParameterGrid>& grids, const RecordedTouches& t,
            const std::vector<int>& rows)
-      : evaluate_(effect, t, rows), columns_(effect, search, evaluate_) {
-    if (needs_raw_reading(effect)) planned_.emplace(effect, search, t, rows);
+      : evaluate_(effect, t, rows), columns_(effect, grids, evaluate_) {
+    if (needs_raw_reading(effect)) planned_.emplace(effect, grids, t, rows);
   }
   Variants(const Variants&) = delete;
   Variants& operator=(const Variants&) = delete;
@@ -233,9 +233,9 @@ class Variants {
   }
 
   struct Planned {
-    Planned(const Effect& effect, const std::vector<Search>& search, const RecordedTouches& t,
+    Planned(const Effect& effect, const std::vector<ParameterGrid>& grids, const RecordedTouches& t,
             const std::vector<int>& rows)
-        : evaluate(effect, without_deviations(t), rows), columns(effect, search, evaluate), direction(t, rows) {}
+        : evaluate(effect, without_deviations(t), rows), columns(effect, grids, evaluate), direction(t, rows) {}
     Evaluation evaluate;
     VariantColumns columns;
     SameDirection direction;
@@ -293,9 +293,9 @@ void share_priors(Explanations& all) {
 /// Effects of the noise change no mean: they are judged by the variance (findings/noise_effects.cpp).
 bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
 
-std::vector<Search> searches(const Effect& effect, const RecordedTouches& t, double least_period_um = 0) {
-  std::vector<Search> list;
-  for (const EffectParameter& p : effect.parameters) list.push_back(search_of(p, t, least_period_um));
+std::vector<ParameterGrid> grids_of(const Effect& effect, const RecordedTouches& t, double least_period_um = 0) {
+  std::vector<ParameterGrid> list;
+  for (const EffectParameter& p : effect.parameters) list.push_back(grid_of(p, t, least_period_um));
   return list;
 }
 
@@ -306,9 +306,9 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.effect = &effect;
   explanation.factor = factor_of(effect);
   explanation.missing = missing_of(effect, t);
-  const std::vector<Search> search = searches(effect, t, least_period_um);
-  const Variants variants(effect, search, t, rows);
-  for (Variant& variant : with_changes(by_groups(settings(effect, search), effect), effect, later_runs(t, rows))) {
+  const std::vector<ParameterGrid> grids = grids_of(effect, t, least_period_um);
+  const Variants variants(effect, grids, t, rows);
+  for (Variant& variant : with_changes(by_groups(settings(effect, grids), effect), effect, later_runs(t, rows))) {
     variant.explanation = static_cast<int>(out.list.size());
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;
@@ -382,7 +382,7 @@ Variant variant_like(const Variant& other, const Effect& effect, const RecordedT
   variant.theta = other.theta;
   variant.group = other.group;
   variant.change = other.change;
-  Variants(effect, searches(effect, t), t, rows).fill(variant);
+  Variants(effect, grids_of(effect, t), t, rows).fill(variant);
   return variant;
 }
 

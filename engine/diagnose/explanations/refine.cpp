@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/explanations/search_grid.hpp"
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 
 namespace abbe::diagnose {
 

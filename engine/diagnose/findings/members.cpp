@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
 

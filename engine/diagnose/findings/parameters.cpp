@@ -9,8 +9,8 @@
 #include <limits>
 #include <optional>
 
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
-#include "engine/diagnose/explanations/search_grid.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -147,7 +147,7 @@ class Estimator {
       variants_.push_back({weight, at(variants[k]), {}, search.information(variants[k])});
     }
     for (Candidate& v : variants_) v.estimate.emplace(*explanation_.effect, v.variant, v.info);
-    for (const EffectParameter& p : explanation_.effect->parameters) search_.push_back(search_of(p, c.touches));
+    for (const EffectParameter& p : explanation_.effect->parameters) grids_.push_back(grid_of(p, c.touches));
   }
 
   /// What the likeliest variant does at the touch where it does most. Draws have no parameters: they are
@@ -163,7 +163,7 @@ class Estimator {
 
   std::vector<DiagnosedParameter> all() const {
     std::vector<DiagnosedParameter> out;
-    for (std::size_t p = 0; p < search_.size(); ++p) add(p, out);
+    for (std::size_t p = 0; p < grids_.size(); ++p) add(p, out);
     doubt_contradictions(out);
     return out;
   }
@@ -204,19 +204,19 @@ class Estimator {
       if (!mixture.empty()) out.push_back(summary(parameter, mixture));
       return;
     }
-    switch (search_[p].kind) {
-      case Search::Kind::direction: return add_direction(p, out);
-      case Search::Kind::phase:
+    switch (grids_[p].kind) {
+      case ParameterGrid::Kind::direction: return add_direction(p, out);
+      case ParameterGrid::Kind::phase:
         if (const auto phase = likeliest.estimate->phase_deg(of_phase(parameter.name)))
           out.push_back(summary(parameter, phases(of_phase(parameter.name), phase->value), phase->value));
         return;
-      case Search::Kind::fixed: return;
-      case Search::Kind::tried: break;
+      case ParameterGrid::Kind::fixed: return;
+      case ParameterGrid::Kind::tried: break;
     }
     if (!matters(p)) return;
     const double value = likeliest.variant.theta[p];
     const bool standard = value == parameter.standard;
-    if (search_[p].between && !(standard && search_[p].tried.size() < 2)) {
+    if (grids_[p].between && !(standard && grids_[p].tried.size() < 2)) {
       const std::vector<MixtureTerm> mixture = searched(p);
       // A size goes with a period or a time constant: told are those that fit together.
       const bool place = parameter.sought == Sought::moment || parameter.sought == Sought::reading;
@@ -227,7 +227,7 @@ class Estimator {
                      .unit = "",
                      .word = std::string(parameter.choices[static_cast<std::size_t>(value - parameter.low + 0.5)])});
     else if (!standard ||
-             (search_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
+             (grids_[p].tried.size() > 1 && value != 0)) {  // 0 names no stylus, no tip, no place in particular
       out.push_back(told(parameter, {value, 0}));
       out.back().called = called(parameter, static_cast<int>(value));
     }
@@ -238,8 +238,8 @@ class Estimator {
     constexpr double kNothing_um = 1e-6;
     const Variant& likeliest = variants_[likeliest_].variant;
     Variant at = likeliest;
-    if (search_[p].tried.size() < 2) return true;
-    return std::any_of(search_[p].tried.begin(), search_[p].tried.end(), [&](const TriedValue& other_value) {
+    if (grids_[p].tried.size() < 2) return true;
+    return std::any_of(grids_[p].tried.begin(), grids_[p].tried.end(), [&](const TriedValue& other_value) {
       at.theta[p] = other_value.value;
       const Matrix other = variant_like(at, *explanation_.effect, touches_, rows_).signature;
       return other.cols() != likeliest.signature.cols() ||
@@ -327,9 +327,9 @@ class Estimator {
       const auto phase = v.estimate->phase_deg(size);
       if (!phase) continue;
       mixture.push_back({v.weight, at + std::remainder(phase->value - at, 360), phase->u});
-      period.push_back(sought < search_.size() ? v.variant.theta[sought] : 0);
-      half_width.push_back(sought < search_.size() ? (v.variant.cells[sought].high - v.variant.cells[sought].low) / 2
-                                                   : 0);
+      period.push_back(sought < grids_.size() ? v.variant.theta[sought] : 0);
+      half_width.push_back(sought < grids_.size() ? (v.variant.cells[sought].high - v.variant.cells[sought].low) / 2
+                                                  : 0);
     }
     mixture = normalised(mixture);
     // A longer period begins later to be the same in the middle of the recording: so within a cell, too.
@@ -388,8 +388,8 @@ class Estimator {
   const std::vector<int>& rows_;
   const Explanation& explanation_;
   std::vector<Candidate> variants_;
-  std::size_t likeliest_ = 0;   ///< of them
-  std::vector<Search> search_;  ///< by parameter
+  std::size_t likeliest_ = 0;         ///< of them
+  std::vector<ParameterGrid> grids_;  ///< by parameter
 };
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "engine/diagnose/explanations/same_phase.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
-#include "engine/diagnose/findings/doubt.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/planning/question.hpp"
 #include "engine/run/recorded/logged.hpp"

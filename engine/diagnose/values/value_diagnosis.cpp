@@ -11,7 +11,7 @@
 #include <set>
 
 #include "engine/diagnose/case.hpp"
-#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/search.hpp"
@@ -39,7 +39,7 @@ struct Judges {
   Matrix judged;      ///< the second half, with errors of calibration
 };
 
-/// The values on the bench.
+/// Recorded values, and what they are judged by.
 struct ValueCase {
   const ValueRecording* recording = nullptr;
   const std::vector<ValueProgram>* programs = nullptr;
@@ -64,7 +64,7 @@ Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64
   return out;
 }
 
-ValueBench bench_of(const ValueCase& c) {
+ValueReference reference_of(const ValueCase& c) {
   return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.calibration};
 }
 
@@ -72,8 +72,8 @@ ValueBench bench_of(const ValueCase& c) {
 int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
 bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }
 
-ValueCase on_the_bench(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
-                       const Machine& machine, const DiagnoseOptions& options) {
+ValueCase value_case_of(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                        const Machine& machine, const DiagnoseOptions& options) {
   const int n = static_cast<int>(recording.rows.size());
   if (n > kMostValues)
     throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n),
@@ -125,7 +125,7 @@ struct Closer {
   ValueSearch search;
   std::map<int, Sizes> sizes;  ///< by variant, of the likeliest
 
-  explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, bench_of(c))) {}
+  explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, reference_of(c))) {}
   const Variant& variant(const Finding& f) const { return search.explanations().variants[f.variant]; }
   const Explanation& explanation(const Finding& f) const { return search.explanations().list[f.explanation]; }
 };
@@ -377,14 +377,14 @@ void tell_references_only(const ValueCase& c, Diagnosis& out) {
 Diagnosis diagnose_values(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
                           const Machine& machine, const DiagnoseOptions& options) {
   begins(options.progress, "virtual machines of the specification, and every effect on them");
-  const ValueCase c = on_the_bench(recording, programs, machine, options);
+  const ValueCase c = value_case_of(recording, programs, machine, options);
   Diagnosis out;
   if (options.design_only) out.judged = Judged::plan;
   doubt_calibrations(c, out.messages);
   out.cannot_judge = cannot_judge(c.search->explanations());
   begins(options.progress, "what these values could detect");
   const std::vector<double> in_order = statistics_of(*c.search, c.judges.judged);
-  out.smallest_detectable = smallest_detectable(*c.search, bench_of(c), in_order);
+  out.smallest_detectable = smallest_detectable(*c.search, reference_of(c), in_order);
   tell_hidden(*c.search, out);
   if (options.design_only) return out;
   out.values = judge_each(c);

@@ -34,7 +34,7 @@ Vector possible_sizes(const Effect& effect, const Variant& variant, Vector sizes
 }
 
 /// Of few machines: what their number leaves open of the correlations is that of machines without the effect.
-Matrix covariance_of(const Matrix& machines, const ValueBench& b) {
+Matrix covariance_of(const Matrix& machines, const ValueReference& b) {
   const Matrix centred = machines.rowwise() - machines.colwise().mean();
   const Matrix calibrated = b.calibration * b.calibration.transpose();
   const Matrix seen = centred.transpose() * centred / double(machines.rows() - 1) + calibrated;
@@ -46,8 +46,8 @@ Matrix covariance_of(const Matrix& machines, const ValueBench& b) {
 
 class ValueEstimator {
  public:
-  explicit ValueEstimator(const ValueBench& b)
-      : bench_(b),
+  explicit ValueEstimator(const ValueReference& b)
+      : reference_(b),
         machines_(screened_machines(b.machine, b.options.seed, kMachines, b.options.threads)),
         without_(simulated_values(b.values, b.programs, b.machine, machines_, b.options)) {}
 
@@ -55,14 +55,14 @@ class ValueEstimator {
   std::optional<BesideErrors> estimate(const Effect&, const Variant&, const Vector& start) const;
 
  private:
-  const ValueBench& bench_;
+  const ValueReference& reference_;
   VirtualMachines machines_;
   Matrix without_;  ///< machines x values: deviations without an effect
 };
 
 std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const Variant& variant,
                                                      const Vector& start) const {
-  const ValueBench& b = bench_;
+  const ValueReference& b = reference_;
   const auto values_at = [&](const Vector& sizes) {
     return simulated_values(b.values, b.programs, with_effect(b.machine, effect, variant, sizes), machines_, b.options);
   };
@@ -138,17 +138,17 @@ Machine with_effect(const Machine& machine, const Effect& effect, const Variant&
   return planted;
 }
 
-std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueBench& bench) {
-  const ValueEstimator estimator(bench);
+std::map<int, Sizes> linearise_likeliest(ValueSearch& search, const ValueReference& reference) {
+  const ValueEstimator estimator(reference);
   std::map<int, Sizes> out;
   std::set<int> tried;
   while (tried.size() < kMost) {
-    const int b = next_variant(search, bench.deviation, tried);
+    const int b = next_variant(search, reference.deviation, tried);
     if (b < 0) break;
     tried.insert(b);
     const Variant& variant = search.explanations().variants[b];
     const Effect& effect = *search.explanations().list[variant.explanation].effect;
-    const auto found = estimator.estimate(effect, variant, sizes_of(search, b, bench.deviation).mean);
+    const auto found = estimator.estimate(effect, variant, sizes_of(search, b, reference.deviation).mean);
     if (!found) continue;
     search.linearise(b, found->near);
     out.emplace(b, found->sizes);

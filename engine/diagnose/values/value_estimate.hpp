@@ -22,7 +22,7 @@ struct Sizes {
 Sizes sizes_of(const ValueSearch&, int variant, const Vector& deviation);
 
 /// What recorded values are compared with. All of it must outlive this.
-struct ValueBench {
+struct ValueReference {
   const std::vector<RecordedValue>& values;
   const std::vector<ValueProgram>& programs;
   const Machine& machine;
@@ -36,7 +36,7 @@ struct ValueBench {
 /// covariance, with the mean of simulated machines as the model), so that their evidence is that beside errors.
 /// Returns the sizes by variant, with the spread of the simulated machines under the effect as the uncertainty; a variant
 /// that hardly any machine reaches all values with is left as it was.
-std::map<int, Sizes> linearise_likeliest(ValueSearch&, const ValueBench&);
+std::map<int, Sizes> linearise_likeliest(ValueSearch&, const ValueReference&);
 
 /// The machine with an effect of these sizes, in units of the columns of the variant, or the nearest possible ones.
 Machine with_effect(const Machine&, const Effect&, const Variant&, const Vector& sizes);

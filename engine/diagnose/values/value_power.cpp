@@ -49,12 +49,12 @@ double alarm_of(std::vector<double> in_order) {
 
 class Detection {
  public:
-  Detection(const ValueSearch& search, const ValueBench& bench, double alarm)
+  Detection(const ValueSearch& search, const ValueReference& reference, double alarm)
       : search_(search),
-        bench_(bench),
-        options_(bench.options),
+        reference_(reference),
+        options_(reference.options),
         alarm_(alarm),
-        machines_(screened_machines(bench.machine, bench.options.seed, kMachines, bench.options.threads)) {
+        machines_(screened_machines(reference.machine, reference.options.seed, kMachines, reference.options.threads)) {
     options_.threads = 1;  // effects are on threads
   }
 
@@ -84,17 +84,18 @@ class Detection {
   static constexpr double kPower = 0.8;
 
   double share_of_alarms(const Effect& effect, const Variant& variant, const Vector& sizes) const {
-    const Machine with = with_effect(bench_.machine, effect, variant, sizes);
-    const Matrix reached = complete_rows(simulated_values(bench_.values, bench_.programs, with, machines_, options_));
+    const Machine with = with_effect(reference_.machine, effect, variant, sizes);
+    const Matrix reached =
+        complete_rows(simulated_values(reference_.values, reference_.programs, with, machines_, options_));
     const std::vector<double> statistics =
-        statistics_of(search_, with_calibration(reached, bench_.calibration, options_.seed));
+        statistics_of(search_, with_calibration(reached, reference_.calibration, options_.seed));
     const auto alarms =
         std::count_if(statistics.begin(), statistics.end(), [&](double statistic) { return statistic > alarm_; });
     return double(alarms) / std::max(1.0, double(statistics.size()));
   }
 
   const ValueSearch& search_;
-  const ValueBench& bench_;
+  const ValueReference& reference_;
   DiagnoseOptions options_;
   double alarm_;
   VirtualMachines machines_;
@@ -120,14 +121,14 @@ void tell_apart(const ValueSearch& s, int explanation, const ValueForm& of, doub
 
 }  // namespace
 
-std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBench& bench,
+std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueReference& reference,
                                             std::vector<double> in_order) {
-  const Detection detection(s, bench, alarm_of(std::move(in_order)));
+  const Detection detection(s, reference, alarm_of(std::move(in_order)));
   const Explanations& all = s.explanations();
   const int count = static_cast<int>(all.list.size());
   std::vector<std::optional<ValueForm>> form(all.list.size());
   std::vector<std::optional<double>> from(all.list.size());
-  on_threads(count, bench.options.threads, [&](int k) {
+  on_threads(count, reference.options.threads, [&](int k) {
     const Explanation& e = all.list[k];
     const auto at = static_cast<std::size_t>(k);
     if (e.effect && !e.missing) form[at] = middle_form(s, e);
@@ -142,7 +143,7 @@ std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueBen
     const Variant& variant = all.variants[of.variant];
     const Column& column = variant.columns[of.column];
     const EffectParameter& p = e.effect->parameters[column.parameter];
-    const double largest = variant.signature(of_figures(bench.values), of.column).cwiseAbs().maxCoeff();
+    const double largest = variant.signature(of_figures(reference.values), of.column).cwiseAbs().maxCoeff();
     Detectable d{.effect = e.name,
                  .parameter = std::string(p.name),
                  .unit = std::string(p.unit),

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;

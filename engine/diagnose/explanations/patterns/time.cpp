@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/patterns/families.hpp"
-#include "engine/diagnose/explanations/search_grid.hpp"
 
 namespace abbe::diagnose::patterns {
 

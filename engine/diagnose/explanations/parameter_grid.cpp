@@ -1,4 +1,4 @@
-#include "engine/diagnose/explanations/search_grid.hpp"
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +17,11 @@ double duration(const RecordedTouches& t) {
 }
 
 /// From the first touch to the last.
-Search moments(const RecordedTouches& t) {
+ParameterGrid moments(const RecordedTouches& t) {
   std::vector<double> times;
   for (const RecordedTouch& touch : t.touches)
     if (times.empty() || touch.scene.time_s > times.back()) times.push_back(touch.scene.time_s);
-  return {.kind = Search::Kind::tried, .tried = moments_between(times, kMoments), .between = true};
+  return {.kind = ParameterGrid::Kind::tried, .tried = moments_between(times, kMoments), .between = true};
 }
 
 /// Equally spaced frequencies from half a cycle up: the spectral resolution is one cycle per recording.
@@ -85,15 +85,15 @@ std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches&
   return list;
 }
 
-Search each_for_itself(const std::vector<double>& values) {
-  Search out{.kind = Search::Kind::tried};
+ParameterGrid each_for_itself(const std::vector<double>& values) {
+  ParameterGrid out{.kind = ParameterGrid::Kind::tried};
   for (const double v : values) out.tried.push_back({v, {v, v}, 1 / double(values.size())});
   return out;
 }
 
 /// Each stands for those up to halfway to its neighbours, and as far beyond the ends; one alone for itself.
-Search with_those_between(const std::vector<double>& values) {
-  Search out = each_for_itself(values);
+ParameterGrid with_those_between(const std::vector<double>& values) {
+  ParameterGrid out = each_for_itself(values);
   out.between = true;
   if (values.size() < 2) return out;
   std::vector<double> sorted = values;
@@ -128,7 +128,7 @@ std::vector<TriedValue> moments_between(const std::vector<double>& ends_s, std::
   return list;
 }
 
-Search search_of(const EffectParameter& p, const RecordedTouches& t, double least_period_um) {
+ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double least_period_um) {
   switch (p.sought) {
     case Sought::listed: return each_for_itself(listed(p));
     case Sought::signal_period: {
@@ -142,8 +142,8 @@ Search search_of(const EffectParameter& p, const RecordedTouches& t, double leas
     case Sought::period: return with_those_between(periods(p, t));
     case Sought::time_constant: return with_those_between(time_constants(t));
     case Sought::reading: return with_those_between(places(t));
-    case Sought::phase: return {.kind = Search::Kind::phase};
-    case Sought::direction: return {.kind = Search::Kind::direction};
+    case Sought::phase: return {.kind = ParameterGrid::Kind::phase};
+    case Sought::direction: return {.kind = ParameterGrid::Kind::direction};
     case Sought::stylus: return each_for_itself(ordinals(t.styli.size()));
     case Sought::setup: return each_for_itself(setups(t));
     case Sought::tip: return each_for_itself(ordinals(t.tips > int(t.styli.size()) ? std::size_t(t.tips) : 0));

@@ -16,7 +16,7 @@ struct TriedValue {
 };
 
 /// How a parameter enters the search.
-struct Search {
+struct ParameterGrid {
   enum class Kind {
     fixed,      ///< one value
     tried,      ///< one after the other
@@ -31,7 +31,7 @@ struct Search {
 };
 
 /// No period of a scale is tried that is shorter than the least.
-Search search_of(const EffectParameter&, const RecordedTouches&, double least_period_um = 0);
+ParameterGrid grid_of(const EffectParameter&, const RecordedTouches&, double least_period_um = 0);
 
 /// A stretch of time in parts with as many gaps between touches (or one more), each with the middle of its middle gap for
 /// a value: only in which gap a moment lies can be told, and a pause is one. `ends_s` are the ends of the gaps, ascending;

@@ -1,4 +1,4 @@
-#include "engine/diagnose/bench.hpp"
+#include "engine/diagnose/case.hpp"
 
 #include <fmt/format.h>
 
@@ -17,8 +17,8 @@
 
 namespace abbe::diagnose {
 
-Case on_the_bench(const Recording& recording, const Machine& machine, const DiagnoseOptions& options,
-                  std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
+Case case_of(const Recording& recording, const Machine& machine, const DiagnoseOptions& options,
+             std::optional<Surfaces> surfaces, const std::string& file, Diagnosis& out) {
   Case c;
   c.recording = &recording;
   c.machine = &machine;

@@ -1,4 +1,4 @@
-#include "engine/diagnose/explanations/search_grid.hpp"
+#include "engine/diagnose/explanations/parameter_grid.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,9 +19,9 @@ const EffectParameter& parameter_sought(const char* effect, Sought how) {
   return *found;
 }
 
-std::vector<double> values(const Search& search) {
+std::vector<double> values(const ParameterGrid& grid) {
   std::vector<double> list;
-  for (const TriedValue& at : search.tried) list.push_back(at.value);
+  for (const TriedValue& at : grid.tried) list.push_back(at.value);
   return list;
 }
 
@@ -38,12 +38,12 @@ TEST_CASE("moments are tried between touches, each for as many gaps, from the fi
   const EffectParameter& moment = parameter_sought("part.shift", Sought::moment);
   std::vector<double> times_s;
   for (int i = 0; i < 200; ++i) times_s.push_back(5 * i + (i >= 60 ? 3600 : 0) + (i % 3 == 0 ? 2 : 0));
-  const Search search = search_of(moment, touched_at(times_s));
-  REQUIRE(search.tried.size() == 32);
-  CHECK(search.between);
+  const ParameterGrid grid = grid_of(moment, touched_at(times_s));
+  REQUIRE(grid.tried.size() == 32);
+  CHECK(grid.between);
   const auto touch_at = [&](double time_s) { return std::find(times_s.begin(), times_s.end(), time_s); };
   double reached_s = times_s.front();
-  for (const auto& [value, cell, share] : search.tried) {
+  for (const auto& [value, cell, share] : grid.tried) {
     CHECK(cell.low == reached_s);
     REQUIRE(touch_at(cell.high) != times_s.end());
     const auto gaps = touch_at(cell.high) - touch_at(cell.low);
@@ -60,8 +60,8 @@ TEST_CASE("moments are tried between touches, each for as many gaps, from the fi
 
 TEST_CASE("touches at one time have no moment between them") {
   const EffectParameter& moment = parameter_sought("part.shift", Sought::moment);
-  CHECK(values(search_of(moment, touched_at({0, 0, 4, 4, 4, 10}))) == std::vector<double>{2, 7});
-  CHECK(values(search_of(moment, touched_at({3, 3, 3}))).empty());
+  CHECK(values(grid_of(moment, touched_at({0, 0, 4, 4, 4, 10}))) == std::vector<double>{2, 7});
+  CHECK(values(grid_of(moment, touched_at({3, 3, 3}))).empty());
 }
 
 TEST_CASE("no wave of a part is longer than two parts as large as what was touched") {
@@ -70,7 +70,7 @@ TEST_CASE("no wave of a part is longer than two parts as large as what was touch
     RecordedTouches t;
     t.touches.resize(2);
     t.touches[1].scene.on_part = {0, extent_mm, 1};
-    return values(search_of(wavelength, t));
+    return values(grid_of(wavelength, t));
   };
   CHECK(tried(20) == std::vector<double>{50});  // the shortest is always tried
   CHECK(tried(50) == std::vector<double>{50, 70, 100});
@@ -84,7 +84,7 @@ TEST_CASE(
     RecordedTouches t;
     t.touches.resize(2);
     t.touches[1].scene.time_s = duration_s;
-    return values(search_of(period, t));
+    return values(grid_of(period, t));
   };
   const double day = 24 * 3600;
   for (const auto& [duration_s, quickest_s] :

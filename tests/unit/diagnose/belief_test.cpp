@@ -1,4 +1,4 @@
-#include "engine/diagnose/findings/doubt.hpp"
+#include "engine/diagnose/findings/belief.hpp"
 
 #include <doctest/doctest.h>
 
