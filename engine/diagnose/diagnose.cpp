@@ -81,6 +81,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   leave_out_commanded_readings(once, file, messages);
   continue_past_midnight(once, file, messages);
   continue_where_put_back(once, file, messages);
+  continue_from_run_to_run(once, file, messages);
   count_from_first_touch(once, file, messages);
   Recording placed = put_on_targets(once, most_out_mm(once, machine, options), file, messages);
   leave_out_astray(placed, file, messages);

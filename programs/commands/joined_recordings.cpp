@@ -6,37 +6,22 @@
 #include <map>
 #include <tuple>
 
+#include "engine/recording/clock.hpp"
 #include "engine/recording/copies.hpp"
 
 namespace abbe {
 
 namespace {
 
-/// First and last time of a recording, if any.
-std::optional<std::pair<double, double>> time_span(const Recording& r) {
-  std::optional<std::pair<double, double>> span;
-  for (const RecordingRow& row : r.rows) {
-    if (!row.time_s) continue;
-    if (!span) span = {*row.time_s, *row.time_s};
-    span = {std::min(span->first, *row.time_s), std::max(span->second, *row.time_s)};
-  }
-  return span;
-}
-
-/// A machine takes one recording at a time: where two overlap, the clock was set anew between them, and the
-/// next one counts as measured later.
-void continue_clock(const Recording& before, Recording& next, const std::string& file,
-                    std::vector<Diagnostic>& messages) {
-  constexpr double kPause_s = 60;
-  const auto past = time_span(before), own = time_span(next);
-  if (!past || !own || own->first > past->second || own->second < past->first) return;
-  const double later_s = past->second + kPause_s - own->first;
-  for (RecordingRow& row : next.rows)
-    if (row.time_s) *row.time_s += later_s;
+/// Two files may each have a clock of their own.
+void continue_clock_of(const Recording& before, Recording& next, const std::string& file,
+                       std::vector<Diagnostic>& messages) {
+  const std::optional<double> later_s = continue_clock(before.rows, next.rows);
+  if (!later_s) return;
   messages.push_back(
       diagnostic(Code::N0708,
                  fmt::format("{}: its times overlap those of the recording ahead of it; they count as {:.0f} s later",
-                             file, later_s),
+                             file, *later_s),
                  "if it was measured at another time, write its true times into time_s"));
 }
 
@@ -150,7 +135,7 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
     const std::string& name = files[k].name();
     Recording& one = read[k];
     doubt_machine(all, files[0].name(), one, name, messages);
-    continue_clock(all, one, name, messages);
+    continue_clock_of(all, one, name, messages);
     continue_runs(all, one, name, messages);
     all.rows.insert(all.rows.end(), one.rows.begin(), one.rows.end());
     // new styli; of what is said twice the first counts

@@ -59,6 +59,18 @@ class DiagnoseRuns(harness.Case):
             said = self.diagnosis(first, second)
             self.assertEqual((said["verdict"], said["touches"]), ("no_mismatch", 250))
 
+    def test_runs_in_one_file_are_those_of_two(self):
+        """Each has a clock that begins at 0."""
+        first, second = self.record(1), self.record(2, "--with", "machine.step:amplitude_um=10,t0_s=100")
+        lines = (self.folder / second).read_text().splitlines()
+        rows = [line for line in lines if not line.startswith("#")][1:]
+        (self.folder / "both.csv").write_text((self.folder / first).read_text() + "\n".join(rows) + "\n")
+        apart, together = self.diagnosis(first, second), self.diagnosis("both.csv")
+        for said in (apart, together):
+            self.assertIn("N0708", [m["code"] for m in said["messages"]])
+        self.assertEqual(apart["effects"][0]["members"], together["effects"][0]["members"])
+        self.assertEqual((apart["verdict"], apart["location"]), (together["verdict"], together["location"]))
+
     def test_copies_are_no_repeats_whatever_they_are_called(self):
         first = self.folder / self.record(1)
         for number in ({"run": "2"}, {"setup": "2"}, {"setup": "2", "run": "2"}):

@@ -4,7 +4,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
+#include <span>
+#include <utility>
 #include <vector>
+
+#include "engine/recording/clock.hpp"
 
 namespace abbe::diagnose {
 
@@ -26,10 +31,10 @@ void continue_past_midnight(Recording& recording, const std::string& file, std::
                evening = **std::min_element(times.begin(), morning, earlier),
                end = **std::max_element(morning, times.end(), earlier);
   if (last > kDay_s || end > evening - kDay_s / 2) return;
-  std::for_each(morning, times.end(), [](double* t) { *t += kDay_s; });
   messages.push_back(diagnostic(
       Code::N0727, fmt::format("{}: its clock falls from {:.0f} s to {:.0f} s", file, **fall, **morning),
       "times after midnight count on; if the part was measured on another day, write true times into time_s"));
+  std::for_each(morning, times.end(), [](double* t) { *t += kDay_s; });
 }
 
 void continue_where_put_back(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
@@ -61,6 +66,33 @@ void continue_where_put_back(Recording& recording, const std::string& file, std:
     for (std::size_t i = falls.front(); i < rows.size(); ++i) *rows[i]->time_s += by_s;
     return;
   }
+}
+
+void continue_from_run_to_run(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
+  const auto unlike = [](const RecordingRow& a, const RecordingRow& b) { return a.run != b.run || a.setup != b.setup; };
+  std::vector<RecordingRow>& rows = recording.rows;
+  std::vector<std::size_t> begins;
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i == 0 || unlike(rows[i - 1], rows[i])) {
+      if (!seen.emplace(rows[i].setup, rows[i].run).second) return;
+      begins.push_back(i);
+    } else if (rows[i].time_s && rows[i - 1].time_s && *rows[i].time_s < *rows[i - 1].time_s) {
+      return;
+    }
+  }
+  begins.push_back(rows.size());
+  int anew = 0;
+  for (std::size_t k = 1; k + 1 < begins.size(); ++k) {
+    const std::span all(rows);
+    if (continue_clock(all.first(begins[k]), all.subspan(begins[k], begins[k + 1] - begins[k]))) ++anew;
+  }
+  if (anew == 0) return;
+  messages.push_back(diagnostic(
+      Code::N0708,
+      fmt::format("{}: its clock was set back at the beginning of {} of {} runs; their times count on", file, anew,
+                  begins.size() - 1),
+      "each is taken to begin a minute after the touches ahead of it: if there was a longer pause, write true times into time_s"));
 }
 
 void count_from_first_touch(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

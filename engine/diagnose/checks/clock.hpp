@@ -15,6 +15,10 @@ void continue_past_midnight(Recording&, const std::string& file, std::vector<Dia
 /// A recording whose clock falls back within a run, and otherwise rises from row to row, with times that go on (N0734): by an
 /// hour, where summer time ends, or by the twelve hours of a clock that has no more, less the time of a touch.
 void continue_where_put_back(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+/// A recording whose clock was set anew for runs or setups that stand in it one after the other, with times that go on
+/// from one to the next (N0708). Where their rows are mixed, or stand in another order than that of time, nothing is
+/// changed.
+void continue_from_run_to_run(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// A recording whose clock began long before its first touch, with times from that touch on (N0721).
 void count_from_first_touch(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 

@@ -142,6 +142,20 @@ TEST_CASE("files that no physics explains are refused with what mends them") {
   }
 }
 
+TEST_CASE("a part in its own coordinates may be small, but not as small as one in metres") {
+  Recording small = of_three_balls();
+  small.in_part_frame = true;
+  for (RecordingRow& row : small.rows) {
+    const Vec3 deviation = row.position_mm - *row.target_mm;
+    row.target_mm = 0.8 * *row.normal;
+    row.position_mm = *row.target_mm + deviation;
+    row.reading_mm.reset();
+  }
+  CHECK_NOTHROW(check_data(small, read_machine("coord3-mc16"), "r.csv"));
+  for (RecordingRow& row : small.rows) row.target_mm = *row.target_mm / 20, row.position_mm = row.position_mm / 20;
+  CHECK(holds(refusal([&] { check_data(small, read_machine("coord3-mc16"), "r.csv"); }).message, "are in metres"));
+}
+
 TEST_CASE("copies of a row count once, and one touch has one value") {
   Recording r = of_three_balls();
   r.rows.push_back(r.rows[4]);
@@ -168,8 +182,35 @@ TEST_CASE("clocks of the day count from the first touch, and on past midnight") 
   const auto fall = said_by(continue_past_midnight, night);
   REQUIRE(fall.size() == 1);
   CHECK(fall[0].code == Code::N0727);
+  CHECK(holds(fall[0].message, "falls from 86395 s to 0 s"));
   for (std::size_t i = 1; i < night.rows.size(); ++i)
     CHECK(*night.rows[i].time_s - *night.rows[i - 1].time_s == doctest::Approx(5));
+}
+
+TEST_CASE("clocks that are set anew for each run go on from one to the next") {
+  const auto runs = [](int count, double begin_s) {
+    Recording all;
+    for (int run = 1; run <= count; ++run) {
+      Recording one = of_three_balls();
+      for (RecordingRow& row : one.rows) row.run = run, *row.time_s += begin_s * (run - 1), all.rows.push_back(row);
+    }
+    return all;
+  };
+  Recording anew = runs(3, 0);
+  const auto said = said_by(continue_from_run_to_run, anew);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].code == Code::N0708);
+  CHECK(holds(said[0].message, "at the beginning of 2 of 3 runs"));
+  for (std::size_t i = 1; i < anew.rows.size(); ++i) {
+    const double step_s = *anew.rows[i].time_s - *anew.rows[i - 1].time_s;
+    CHECK(step_s == doctest::Approx(anew.rows[i].run == anew.rows[i - 1].run ? 5 : 60));
+  }
+  Recording rising = runs(3, 1000), falling = runs(3, -1000), mixed = runs(2, 0);
+  std::stable_sort(mixed.rows.begin(), mixed.rows.end(),
+                   [](const RecordingRow& a, const RecordingRow& b) { return *a.time_s < *b.time_s; });
+  Recording in_a_pause = runs(3, 0);
+  for (RecordingRow& row : in_a_pause.rows) *row.time_s += row.run == 1 ? 2000 : row.run == 2 ? 0 : 1000;
+  for (Recording* r : {&rising, &falling, &mixed, &in_a_pause}) CHECK(said_by(continue_from_run_to_run, *r).empty());
 }
 
 TEST_CASE("clocks that are put back within a run go on") {

@@ -1,0 +1,15 @@
+// Times of recordings that one machine made one after the other.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "engine/recording/recording.hpp"
+
+namespace abbe {
+
+/// A machine does one thing at a time: where rows ahead were touched during the next ones, the clock was set anew in
+/// between. The next ones are counted on then, from a minute after the last one ahead; returns by how much, s.
+std::optional<double> continue_clock(std::span<const RecordingRow> ahead, std::span<RecordingRow> next);
+
+}  // namespace abbe
