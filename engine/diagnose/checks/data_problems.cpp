@@ -135,7 +135,7 @@ void check_one_value(const Recording& r, const std::string& file) {
 
 /// Positions and targets in different units, or both in one that this machine makes impossible.
 void check_units(const Recording& r, const Machine& machine, const std::string& file) {
-  constexpr double kLeast_mm = 1, kFar = 10, kClose = 2e-3;
+  constexpr double kLeast_mm = 1, kLeastOfPart_mm = 0.1, kFar = 10, kClose = 2e-3;
   const double recorded = size_of(r, [](const RecordingRow& row) { return row.position_mm; });
   const double meant = size_of(r, [](const RecordingRow& row) { return *row.target_mm; });
   const double largest = std::max({machine[Axis::x].travel_mm, machine[Axis::y].travel_mm, machine[Axis::z].travel_mm});
@@ -158,7 +158,9 @@ void check_units(const Recording& r, const Machine& machine, const std::string& 
             "positions and targets reach more than {:g} times as far as machine '{}' travels: they are in micrometres",
             kFar, machine.name),
         "multiply x, y, z, tx, ty, tz by 0.001");
-  if (meant > 0 && meant < kLeast_mm && reach_of(r, machine) < kClose)
+  // Coordinates of the part begin somewhere at it, and it may be as small as a ball of a millimetre.
+  const double least_mm = r.in_part_frame ? kLeastOfPart_mm : kLeast_mm;
+  if (meant > 0 && meant < least_mm && reach_of(r, machine) < kClose)
     refuse(
         file,
         fmt::format(

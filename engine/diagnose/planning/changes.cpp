@@ -119,7 +119,7 @@ double room_above_or_below(const Case& c) {
   for (const RecordedTouch& t : c.touches.touches)
     low = std::min(low, t.scene.reading.z), high = std::max(high, t.scene.reading.z);
   const MachineAxis& z = (*c.machine)[Axis::z];
-  const double end = z.direction * z.travel_mm, above = std::max(0.0, end) - high, below = low - std::min(0.0, end);
+  const double above = z.highest_mm() - high, below = low - z.lowest_mm();
   constexpr double kMargin_mm = 10, kFar_mm = 200;
   const double by = std::min(kFar_mm, std::floor((std::max(above, below) - kMargin_mm) / 10) * 10);
   return above >= below ? by : -by;

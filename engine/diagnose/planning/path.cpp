@@ -55,8 +55,7 @@ class Planner {
     for (std::size_t k = first_; k < all_.size(); ++k) box_.add(centre(k));
     for (int axis = 0; axis < 3; ++axis) {
       const MachineAxis& a = longer.machine[static_cast<Axis>(axis)];
-      travel_.low[axis] = std::min(0.0, a.direction * a.travel_mm),
-      travel_.high[axis] = std::max(0.0, a.direction * a.travel_mm);
+      travel_.low[axis] = a.lowest_mm(), travel_.high[axis] = a.highest_mm();
       box_.low[axis] -= kMargin_mm, box_.high[axis] += kMargin_mm;
     }
     find_height();

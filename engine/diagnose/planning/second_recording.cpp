@@ -54,10 +54,8 @@ Last last_of(const Recording& r) {
 }
 
 bool inside(const Machine& machine, const Vec3& reading) {
-  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-    const double end = machine[axis].direction * machine[axis].travel_mm, at = reading[static_cast<int>(axis)];
-    if (at < std::min(0.0, end) || at > std::max(0.0, end)) return false;
-  }
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+    if (!machine[axis].reaches(reading[static_cast<int>(axis)])) return false;
   return true;
 }
 

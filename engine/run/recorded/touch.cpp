@@ -39,12 +39,12 @@ Vec3 placement(const Recording& recording, const Machine& machine, const std::ve
   double beyond_mm = 0;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const int k = static_cast<int>(axis);
-    const double end = machine[axis].direction * machine[axis].travel_mm;
-    const auto [low, high] =
-        std::minmax_element(reading.begin(), reading.end(), [k](const Vec3& a, const Vec3& b) { return a[k] < b[k]; });
-    if ((*low)[k] >= std::min(0.0, end) && (*high)[k] <= std::max(0.0, end)) continue;
-    shift[k] = end / 2 - ((*low)[k] + (*high)[k]) / 2;
-    beyond_mm = std::max({beyond_mm, std::min(0.0, end) - (*low)[k], (*high)[k] - std::max(0.0, end)});
+    const MachineAxis& a = machine[axis];
+    const auto [low, high] = std::minmax_element(reading.begin(), reading.end(),
+                                                 [k](const Vec3& one, const Vec3& other) { return one[k] < other[k]; });
+    if (a.reaches((*low)[k]) && a.reaches((*high)[k])) continue;
+    shift[k] = (a.lowest_mm() + a.highest_mm()) / 2 - ((*low)[k] + (*high)[k]) / 2;
+    beyond_mm = std::max({beyond_mm, a.lowest_mm() - (*low)[k], (*high)[k] - a.highest_mm()});
   }
   if (shift == Vec3{} || recording.rows.empty()) return shift;
   out.messages.push_back(diagnostic(
@@ -200,7 +200,9 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     }
     out.touches.push_back(std::move(t));
   }
-  for (RecordedTouch& t : out.touches) t.scene.stylus.name = *out.names.insert(sensor_of[t.row]->name).first;
+  const auto names = std::make_shared<std::set<std::string>>();
+  for (RecordedTouch& t : out.touches) t.scene.stylus.name = *names->insert(sensor_of[t.row]->name).first;
+  out.names = names;
   follow_sequence(recording, out.touches);
   find_curved(out);
   return out;

@@ -10,6 +10,7 @@
 // effects of the part need.
 #pragma once
 
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -40,9 +41,9 @@ struct RecordedTouches {
   std::vector<std::string> features;   ///< labels by TouchScene::feature
   std::vector<std::string> styli;      ///< by StylusScene::ordinal - 1: the name of the first sensor with that stylus
   int tips = 0;                        ///< qualified tips: styli in each of their orientations
-  std::set<std::string> names;         ///< of the sensors; scenes point to them
-  unsigned known = 0;                  ///< Covariates that every row gives
-  unsigned varying = 0;                ///< of these, those that are not the same throughout
+  std::shared_ptr<const std::set<std::string>> names;  ///< of the sensors; scenes point to them, those of copies too
+  unsigned known = 0;                                  ///< Covariates that every row gives
+  unsigned varying = 0;                                ///< of these, those that are not the same throughout
   std::vector<Diagnostic> messages;
 };
 

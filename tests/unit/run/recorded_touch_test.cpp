@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
@@ -43,6 +44,26 @@ TEST_CASE("only effects within a signal period see what a touch itself adds to i
     CHECK(norm(scene_for(interpolation, t).reading - scene_for(interpolation, clean.touches[i]).reading -
                0.004 * t.scene.normal) < 1e-9);
   }
+}
+
+TEST_CASE("touches a hair beyond the travel stay where they are") {
+  const Machine machine = read_machine("coord3-mc16");
+  const auto highest = [&](double beyond_mm) {
+    Recording r = ball(0);
+    double top = -1e9;
+    for (const RecordedTouch& t : recorded_touches(r, machine, "r").touches) top = std::max(top, t.scene.reading.z);
+    for (RecordingRow& row : r.rows) row.target_mm->z += beyond_mm - top;
+    return recorded_touches(r, machine, "r");
+  };
+  CHECK(highest(0.0003).messages.size() == highest(-1).messages.size());
+  CHECK(highest(0.001).messages.back().code == Code::W0542);
+}
+
+TEST_CASE("copies of touches keep the names of their sensors") {
+  auto touches = std::make_unique<RecordedTouches>(recorded_touches(ball(0), read_machine("coord3-mc16"), "r"));
+  const RecordedTouches copy = *touches;
+  touches.reset();
+  for (const RecordedTouch& t : copy.touches) CHECK(t.scene.stylus.name.data() == copy.names->begin()->data());
 }
 
 TEST_CASE("effects know which axis carries the part, and which lies along the bridge") {
