@@ -64,6 +64,10 @@ constexpr double uniform_from_bits(std::uint32_t high, std::uint32_t low) {
   return std::bit_cast<double>(bits | 0x3FF0000000000000u) - (1.0 - 0x1p-53);
 }
 
+/// A seed of its own for the k-th of what has one in common; that of the first. Odd steps of the whole range: those of
+/// neighbouring seeds do not meet.
+constexpr std::uint64_t seed_of(std::uint64_t seed, std::uint64_t k) { return seed + 0x9E3779B97F4A7C15u * k; }
+
 struct UniformPair {
   double a, b;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/lanes/random.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/recording/recording.hpp"
@@ -48,7 +49,7 @@ struct RunOptions {
   int setup = 1;  ///< placement of the part that a recording names; it has other noise, too
   /// Two odd steps of the whole range: every repeat in every setup has a seed of its own.
   std::uint64_t noise_seed() const {
-    return seed + 0x9E3779B97F4A7C15u * static_cast<std::uint64_t>(repeat) +
+    return seed_of(seed, static_cast<std::uint64_t>(repeat)) +
         0xBF58476D1CE4E5B9u * static_cast<std::uint64_t>(setup - 1);
   }
   Vec3 placement_mm;  ///< where the program's machine coordinate system lies in W (directive `place`)

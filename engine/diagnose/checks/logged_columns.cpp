@@ -40,19 +40,26 @@ void leave_out(std::optional<Value> RecordingRow::*column, const std::string& na
 template <class Value>
 void leave_out(Value RecordingRow::*, const std::string&, Recording&, const std::string&, std::vector<Diagnostic>&) {}
 
+/// Of what other unit a number that is too large for degrees Celsius may be.
+std::string help_of_hot(double value) {
+  constexpr double kFreezing_F = 32, kPerKelvin = 1.8, kFreezing_K = 273.15, kLeast_K = 250;
+  if (value > kLeast_K)
+    return fmt::format("if these are kelvins, convert them: {:.1f} K are {:.1f} C", value, value - kFreezing_K);
+  return fmt::format("if these are degrees Fahrenheit, convert them: {:.1f} F are {:.1f} C", value,
+                     (value - kFreezing_F) / kPerKelvin);
+}
+
 /// Doubts a column of temperatures that reaches further than a measuring room does.
 void doubt(std::optional<double> RecordingRow::*column, const std::string& name, const Recording& recording,
            const std::string& file, std::vector<Diagnostic>& messages) {
-  constexpr double kCold_C = 5, kHot_C = 45, kFreezing_F = 32, kPerKelvin = 1.8;
+  constexpr double kCold_C = 5, kHot_C = 45;
   for (const RecordingRow& row : recording.rows) {
     const std::optional<double>& value = row.*column;
     if (!value || (*value > kCold_C && *value < kHot_C)) continue;
     messages.push_back(diagnostic(
         Code::W0724,
         fmt::format("{}: {} is {:.1f} degrees C for '{}' touch {}", file, name, *value, row.feature, row.touch),
-        *value <= kCold_C ? "if the sensor was not read there, leave the field empty"
-                          : fmt::format("if these are degrees Fahrenheit, convert them: {:.1f} F are {:.1f} C", *value,
-                                        (*value - kFreezing_F) / kPerKelvin)));
+        *value <= kCold_C ? "if the sensor was not read there, leave the field empty" : help_of_hot(*value)));
     return;
   }
 }

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "engine/base/ids.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -42,7 +44,9 @@ Matrix no_wider(const Matrix& factor) {
 
 Cholesky::Cholesky(Matrix p, double a) {
   p.diagonal().array() += a;
-  lower_ = Eigen::LLT<Matrix>(p).matrixL();
+  const Eigen::LLT<Matrix> decomposed(p);
+  ABBE_CHECK(decomposed.info() == Eigen::Success);
+  lower_ = decomposed.matrixL();
 }
 
 Matrix Cholesky::solve(const Matrix& b) const {

@@ -30,7 +30,7 @@ Matrix factor_of(const Matrix& symmetric);
 /// A factor with the same F F' that has no more columns than rows.
 Matrix no_wider(const Matrix& factor);
 
-/// P + a 1 = L L' of a positive definite matrix, L lower triangular.
+/// P + a 1 = L L' of a positive definite matrix, L lower triangular; InternalError where it is none.
 class Cholesky {
  public:
   explicit Cholesky(Matrix p, double a = 0);

@@ -73,10 +73,9 @@ std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const
     const Eigen::Index n = without_.cols(), columns = at.size();
     Matrix together(without_.rows(), (columns + 2) * n);  // next to each other: without, with, beside each derivative
     together << without_, values_at(at), Matrix(without_.rows(), columns * n);
-    Vector move(columns);  // inwards from the largest size
+    Vector move(columns);
     for (Eigen::Index k = 0; k < columns; ++k) {
-      const Vector beside = at + kMove * Vector::Unit(columns, k);
-      move(k) = possible_sizes(effect, variant, beside) == beside ? kMove : -kMove;
+      move(k) = move_within_range(effect, variant, at, k);
       together.middleCols((k + 2) * n, n) = values_at(at + move(k) * Vector::Unit(columns, k));
     }
     together = complete_rows(together);
@@ -121,6 +120,11 @@ int next_variant(const ValueSearch& search, const Vector& deviation, const std::
 }
 
 }  // namespace
+
+double move_within_range(const Effect& effect, const Variant& variant, const Vector& sizes, Eigen::Index k) {
+  const Column& column = variant.columns[static_cast<std::size_t>(k)];
+  return (sizes(k) + kMove) * column.unit <= effect.parameters[column.parameter].high ? kMove : -kMove;
+}
 
 Sizes sizes_of(const ValueSearch& search, int variant, const Vector& deviation) {
   const Information info = search.information(variant, deviation);

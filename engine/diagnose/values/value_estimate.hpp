@@ -38,6 +38,9 @@ struct ValueReference {
 /// that hardly any machine reaches all values with is left as it was.
 std::map<int, Sizes> linearise_likeliest(ValueSearch&, const ValueReference&);
 
+/// By how much the size of column `k` is moved, in units of the column, to see what it changes: to where it may be.
+double move_within_range(const Effect&, const Variant&, const Vector& sizes, Eigen::Index k);
+
 /// The machine with an effect of these sizes, in units of the columns of the variant, or the nearest possible ones.
 Machine with_effect(const Machine&, const Effect&, const Variant&, const Vector& sizes);
 

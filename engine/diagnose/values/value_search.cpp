@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/base/ids.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 
@@ -93,6 +94,7 @@ Evidence ValueSearch::evidence(const Vector& deviation) const {
     all.push_back(std::log(e.prior) + out.log_bayes.back());
   }
   out.statistic = log_sum_exp(all);
+  ABBE_CHECK(std::isfinite(out.statistic));  // or a mistake would pass for a machine in order
   return out;
 }
 

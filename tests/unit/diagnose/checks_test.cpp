@@ -253,6 +253,11 @@ TEST_CASE("columns with gaps or of another unit are told") {
   CHECK(holds(messages[0].help, "68.7 F are 20.4 C"));
 
   messages.clear();
+  doubt_temperatures(damaged([](RecordingRow& row) { row.temp_part_C = 293.4; }), "r.csv", messages);
+  REQUIRE(messages.size() == 1);
+  CHECK(holds(messages[0].help, "293.4 K are 20.2 C"));
+
+  messages.clear();
   doubt_motion(damaged([](RecordingRow& row) {
                  row.speed_mm_s = 300, row.accel_mm_s2 = 0.4;
                  *row.time_s *= 1000;

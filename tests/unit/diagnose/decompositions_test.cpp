@@ -71,6 +71,12 @@ TEST_CASE("the Cholesky factor solves, whitens and has the determinant") {
   CHECK(root.half_log_determinant() == doctest::Approx(0.5 * std::log(determinant)));
 }
 
+TEST_CASE("a matrix that is not positive definite has no Cholesky factor") {
+  Matrix p(2, 2);
+  p << 1, 2, 2, 1;
+  CHECK_THROWS(Cholesky(p));
+}
+
 TEST_CASE("least squares are the shortest of columns that depend on each other") {
   const Matrix a = deficient(), b = random_matrix(5, 2, 50'000), x = least_squares(a, b);
   CHECK(distance(a.transpose() * (b - a * x), Matrix::Zero(4, 2)) < 10 * kRounding);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/diagnose/model/log_sums.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
 
 using namespace abbe;
 using namespace abbe::diagnose;
@@ -107,4 +108,19 @@ TEST_CASE("near its sizes a variant has an offset and a covariance of its own") 
   const Evidence evidence = rest.evidence(y(kept));
   REQUIRE(evidence.log_bayes.size() == 1);
   CHECK(evidence.log_bayes[0] == doctest::Approx(of_rest));
+}
+
+TEST_CASE("the derivative at the end of a range is taken inwards") {
+  const Effect& bending = *find_effect("probe.stylus_bending");  // by a force that is not negative, typically 0.1 N
+  const auto p = std::find_if(bending.parameters.begin(), bending.parameters.end(),
+                              [](const EffectParameter& parameter) { return parameter.name == "force_N"; });
+  REQUIRE(p != bending.parameters.end());
+  Variant v;
+  v.columns.push_back({static_cast<int>(p - bending.parameters.begin()), 0, p->typical});
+  const auto moved_from = [&](double force) {
+    return move_within_range(bending, v, Vector::Constant(1, force / p->typical), 0);
+  };
+  CHECK(moved_from(p->low) > 0);
+  CHECK(moved_from(p->typical) > 0);
+  CHECK(moved_from(p->high) < 0);
 }
