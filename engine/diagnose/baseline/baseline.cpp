@@ -176,22 +176,6 @@ void group_noise(const RecordedTouches& t, const Machine& machine, Baseline& out
   }
 }
 
-/// The number of the point of a surface that each touch aims at, wherever the part stood.
-std::vector<int> surface_points(const RecordedTouches& t) {
-  constexpr double kSame_mm = 2e-3;
-  std::map<int, std::vector<std::pair<Vec3, int>>> known;  // by feature
-  std::vector<int> out;
-  int count = 0;
-  for (const RecordedTouch& touch : t.touches) {
-    std::vector<std::pair<Vec3, int>>& points = known[touch.scene.feature];
-    auto same = std::find_if(points.begin(), points.end(),
-                             [&](const auto& p) { return norm(p.first - touch.scene.on_part) < kSame_mm; });
-    if (same == points.end()) same = points.insert(points.end(), {touch.scene.on_part, count++});
-    out.push_back(same->second);
-  }
-  return out;
-}
-
 }  // namespace
 
 Baseline baseline_of(const RecordedTouches& t, const Machine& machine, const BaselineOptions& options) {

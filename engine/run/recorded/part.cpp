@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "engine/base/letter_case.hpp"
 #include "engine/recording/units.hpp"
@@ -165,13 +164,9 @@ class PartReader {
 
   /// The form of a surface point is the same at every repeat.
   void add_random_form(const std::vector<int>& rows, double sd_mm) {
-    std::map<std::tuple<long, long, long>, std::vector<int>> points;
-    constexpr double kSamePoint_mm = 1e-3;
-    for (const int i : rows) {
-      const Vec3& p = t_.touches[i].scene.on_part;
-      points[{std::lround(p.x / kSamePoint_mm), std::lround(p.y / kSamePoint_mm), std::lround(p.z / kSamePoint_mm)}]
-          .push_back(i);
-    }
+    const std::vector<int> number = surface_points(t_);
+    std::map<int, std::vector<int>> points;
+    for (const int i : rows) points[number[static_cast<std::size_t>(i)]].push_back(i);
     for (const auto& [point, same] : points) set(add_doubt(), same, sd_mm);
   }
 

@@ -127,6 +127,21 @@ TouchScene scene_for(const Effect& effect, const RecordedTouch& touch) {
   return scene;
 }
 
+std::vector<int> surface_points(const RecordedTouches& t) {
+  constexpr double kSame_mm = 2e-3;
+  std::map<int, std::vector<std::pair<Vec3, int>>> known;  // by feature
+  std::vector<int> out;
+  int count = 0;
+  for (const RecordedTouch& touch : t.touches) {
+    std::vector<std::pair<Vec3, int>>& points = known[touch.scene.feature];
+    auto same = std::find_if(points.begin(), points.end(),
+                             [&](const auto& p) { return norm(p.first - touch.scene.on_part) < kSame_mm; });
+    if (same == points.end()) same = points.insert(points.end(), {touch.scene.on_part, count++});
+    out.push_back(same->second);
+  }
+  return out;
+}
+
 void require_targets(const Recording& recording, const std::string& file) {
   for (const RecordingRow& row : recording.rows) {
     if (row.target_mm && row.normal) continue;

@@ -47,6 +47,10 @@ struct RecordedTouches {
   std::vector<Diagnostic> messages;
 };
 
+/// The number of the point of a surface that each touch aims at, wherever the part stood and whatever run it was: points
+/// of a feature that are nearer than two micrometres on the part are one, as targets are rounded.
+std::vector<int> surface_points(const RecordedTouches&);
+
 /// Throws UserError (E0543), with the first touch that has no target or no normal.
 void require_targets(const Recording&, const std::string& file);
 

@@ -66,6 +66,22 @@ TEST_CASE("copies of touches keep the names of their sensors") {
   for (const RecordedTouch& t : copy.touches) CHECK(t.scene.stylus.name.data() == copy.names->begin()->data());
 }
 
+TEST_CASE("a point of a surface is the same in every placement, though its targets are rounded") {
+  Recording r = ball(0);
+  const std::size_t once = r.rows.size();
+  for (std::size_t k = 0; k < once; ++k) {
+    RecordingRow row = r.rows[k];
+    row.setup = 2, *row.time_s += 100;
+    row.target_mm = *row.target_mm + Vec3{40, 25, 10} + 0.0006 * Vec3{k & 1 ? 1.0 : -1.0, 0, 0};
+    r.rows.push_back(row);
+  }
+  const std::vector<int> points = surface_points(recorded_touches(r, read_machine("coord3-mc16"), "r"));
+  for (std::size_t k = 0; k < once; ++k) {
+    CHECK(points[k] == static_cast<int>(k % 4));  // each is touched twice
+    CHECK(points[once + k] == points[k]);
+  }
+}
+
 TEST_CASE("effects know which axis carries the part, and which lies along the bridge") {
   const auto first = [](const std::string& machine) {
     Recording r = ball(0);
