@@ -134,12 +134,8 @@ std::string known_state_beside(const Case& c, const SearchResult& result) {
 
 /// An effect that could be judged but would not show at any size is hidden by what is unknown of the part.
 void add_hidden(const Case& c, Diagnosis& out) {
-  for (const Explanation& e : c.explanations.list) {
-    const auto is_it = [&](const auto& told) { return told.effect == e.name; };
-    if (e.effect && std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(), is_it) &&
-        std::none_of(out.cannot_judge.begin(), out.cannot_judge.end(), is_it))
-      out.cannot_judge.push_back({e.name, {}, {}});
-  }
+  for (const Explanation& e : c.explanations.list)
+    if (e.effect && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name, {}, {}});
 }
 
 /// The unknowns of the recording explain whatever it holds: no effect of any size would show.
@@ -241,7 +237,7 @@ void tell_machine(const Case& c, const SearchResult& result, const std::string& 
   if (!known && only_noise && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
     out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model, out.baseline.noise_um), file));
   const bool of_noise = std::any_of(out.effects.begin(), out.effects.end(),
-                                    [](const DiagnosedEffect& e) { return e.members.front().starts_with("noise."); });
+                                    [](const DiagnosedEffect& e) { return is_noise(e.members.front()); });
   out.baseline.noisier = !of_noise && scatters_more(out.baseline, static_cast<int>(c.rows.size()));
   if (out.baseline.noisier) out.messages.push_back(more_scatter(out.baseline, file));
   if (known && result.hyper.scale > kAnotherMachine) out.beyond_known = result.hyper.scale;
@@ -336,6 +332,12 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
 std::string_view name(Verdict v) {
   constexpr std::string_view names[] = {"no_mismatch", "named", "one_of", "unexplained", "cannot_judge"};
   return names[static_cast<int>(v)];
+}
+
+bool tells_of(const Diagnosis& d, std::string_view effect) {
+  const auto is_it = [&](const auto& of) { return of.effect == effect; };
+  return std::any_of(d.smallest_detectable.begin(), d.smallest_detectable.end(), is_it) ||
+      std::any_of(d.cannot_judge.begin(), d.cannot_judge.end(), is_it);
 }
 
 std::vector<Diagnostic> recording_problems(const Recording& recorded, const Machine& machine, const std::string& file) {

@@ -234,6 +234,9 @@ inline bool is_mismatch(const Diagnosis& d) {
   return d.judged == Judged::yes && (d.verdict != Verdict::no_mismatch || d.beyond || d.beyond_known || large);
 }
 
+/// Whether it says from which size on an effect shows, or that it cannot be judged.
+bool tells_of(const Diagnosis&, std::string_view effect);
+
 struct DiagnoseOptions {
   std::uint64_t seed = 1;
   int threads = 1;

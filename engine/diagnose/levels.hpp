@@ -10,7 +10,8 @@ inline constexpr double kAlarm = 0.01;
 inline constexpr double kCredible = 0.92;
 /// Up to so many times less likely, what was not chosen is told beside what was.
 inline constexpr double kAsWell = 3;
-/// What can be seen or named is so in 80 % of recordings: so many standard deviations beyond the limit.
-inline constexpr double kPower = 0.84;
+/// What can be seen or named is so in this share of recordings: so many standard deviations beyond the limit.
+inline constexpr double kPowerShare = 0.8;
+inline constexpr double kPowerDeviations = 0.84;
 
 }  // namespace abbe::diagnose

@@ -26,4 +26,9 @@ const Effect* find_effect(std::string_view name) {
   return nullptr;
 }
 
+bool is_noise(std::string_view name) {
+  const Effect* const effect = find_effect(name);
+  return effect && is_noise(*effect);
+}
+
 }  // namespace abbe

@@ -192,6 +192,11 @@ constexpr bool needs_raw_reading(const Effect& effect) {
   return (effect.needs & static_cast<unsigned>(Covariate::raw_reading)) != 0;
 }
 
+/// Whether it changes no mean, only the scatter.
+constexpr bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
+/// False for what is no effect.
+bool is_noise(std::string_view name);
+
 /// Every effect, in the order of the catalogue.
 std::span<const Effect* const> effects();
 const Effect* find_effect(std::string_view name);

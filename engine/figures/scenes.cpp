@@ -65,8 +65,8 @@ StylusScene stylus_of(const StandardTouch& t) {
   s.length_mm = t.stylus_mm;
   s.radius_mm = t.tip_radius_mm;
   s.shaft_diameter_mm = 4;  // carbide, as one would take for 100 mm
-  s.young_MPa = 620e3;
-  s.cte_per_K = 5e-6;
+  s.young_MPa = 1000 * NamedSensor::kUsualYoung_GPa;
+  s.cte_per_K = kPpm * NamedSensor::kUsualCte_ppm_per_K;
   s.indexed = true;
   return s;
 }

@@ -152,7 +152,8 @@ GeometryCoefficients draw_geometry(const Machine& machine, std::uint64_t seed, s
     RandomAddress address{seed, machine_index, stream_of("geometry"), static_cast<std::uint32_t>(k), 0, 0};
     double* const c = &coefficients[k * size];
     draw_shape(spec, machine.harmonics, address, c);
-    const double e_tot = spec.e_max * machine[axis_of(component)].travel_mm * kUm * (2 * uniform_pair(address).a - 1);
+    const double e_tot =
+        spec.e_max * machine[axis_of(component)].travel_mm * kMPerMm * (2 * uniform_pair(address).a - 1);
     const double scale = e_tot / largest_on_grid(grid, machine.harmonics, c, scratch.data());
     for (int b = 0; b < size; ++b) c[b] *= scale;
   }

@@ -7,6 +7,7 @@ namespace abbe {
 
 inline constexpr double kUm = 1e-3;                ///< mm per um
 inline constexpr double kUmPerMm = 1e3;            ///< um per mm
+inline constexpr double kMPerMm = 1e-3;            ///< m per mm
 inline constexpr double kMmPerInch = 25.4;         ///< by definition since 1959
 inline constexpr double kUrad = 1e-6;              ///< rad per urad
 inline constexpr double kUradPerRad = 1e6;         ///< urad per rad

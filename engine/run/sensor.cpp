@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/machine/head.hpp"
+#include "engine/math/units.hpp"
 
 namespace abbe {
 
@@ -57,8 +58,8 @@ Sensor resolve_sensor(const plan::SensorDef& definition, const Machine& machine,
   // SNSDEF says nothing of the stylus: a shaft of tungsten carbide half as thick as the ball is what one
   // would screw in.
   s.shaft_diameter_mm = named && named->shaft_diameter_mm > 0 ? named->shaft_diameter_mm : def.radius_mm;
-  s.young_MPa = named ? 1000 * named->young_GPa : 620e3;
-  s.cte_per_K = named ? 1e-6 * named->cte_ppm_per_K : 5e-6;
+  s.young_MPa = 1000 * (named ? named->young_GPa : NamedSensor::kUsualYoung_GPa);
+  s.cte_per_K = kPpm * (named ? named->cte_ppm_per_K : NamedSensor::kUsualCte_ppm_per_K);
   s.length_mm = norm(def.tip_in_r);
   s.tip_in_r_mm = def.tip_in_r;
   s.indexed = def.indexed;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "engine/machine/acceptance/acceptance.hpp"
 #include "engine/machine/geometry.hpp"
 #include "engine/run/sensor.hpp"
 #include "lang/compile.hpp"
@@ -44,20 +44,11 @@ std::string length_task(int axis, double length) {
                   length);
 }
 
-/// ISO 10360-5:2010, 6.2.4: one touch at the pole, 4, 8, 4 and 8 on the circles 22.5, 45, 67.5 and
-/// 90 degrees below it, each turned by 22.5 degrees against the one before.
+/// The 25 touches of ISO 10360-5.
 std::string sphere_task() {
   std::string text =
       fmt::format("F(SPHERE)=FEAT/SPHERE,OUTER,CART,0,0,0,{}\nMEAS/SPHERE,F(SPHERE),25\n", 2 * kSphereRadius);
-  constexpr std::array kTouches = {1, 4, 8, 4, 8};
-  for (std::size_t circle = 0; circle < kTouches.size(); ++circle) {
-    const double step = std::numbers::pi / 8, polar = static_cast<double>(circle) * step;
-    for (int k = 0; k < kTouches[circle]; ++k) {
-      const double turn = 2 * std::numbers::pi * k / kTouches[circle] + (circle % 2 == 0 ? step : 0);
-      const Vec3 n{std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)};
-      text += touch(n * kSphereRadius, n);
-    }
-  }
+  for (const Vec3& n : form_and_size_pattern()) text += touch(n * kSphereRadius, n);
   return text +
       "ENDMES\nT(SIZE)=TOL/DIAM,-1,1\nT(FORM)=TOL/CIRLTY,1\nOUTPUT/"
       "FA(SPHERE),TA(SIZE),TA(FORM)\n";

@@ -5,8 +5,8 @@
 // touches gives the sensitivities, and the covariance of the coefficients comes from a sample of screened
 // machines: no second physics. The head adds its indexing errors by visit, and every qualified stylus the
 // uncertainty of its qualification. Each setup has a free placement (six unknowns). Surfaces whose true place
-// nobody knows get an unknown each: by feature (its size) or by touch (then only differences between runs are
-// judged).
+// nobody knows get an unknown each: by feature (its size) or by surface point (then only differences
+// between runs are judged).
 //
 // *Fresh*: the covariance follows from the specification alone. *Known machine*: mean and covariance of the
 // coefficients are those that an earlier diagnosis of the same machine left (known_state of the machine

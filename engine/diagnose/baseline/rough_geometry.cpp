@@ -129,9 +129,8 @@ class BeyondHarmonics {
 
 /// Of an error function whose functions have coefficients of 1, mm or rad.
 double size_of(const Machine& machine, int component) {
-  constexpr double kMmPerM = 1e-3;
   const MachineAxis& a = machine[axis_of(static_cast<Component>(component))];
-  return machine.components[component].e_max * a.travel_mm * kMmPerM * kShareOfLargest;
+  return machine.components[component].e_max * a.travel_mm * kMPerMm * kShareOfLargest;
 }
 
 /// The columns of each of the 18 error functions.

@@ -290,9 +290,6 @@ void share_priors(Explanations& all) {
   for (Explanation& e : all.list) e.prior = e.share * (e.effect ? kPriorCatalogue / named : kPriorOther / patterns);
 }
 
-/// Effects of the noise change no mean: they are judged by the variance (findings/noise_effects.cpp).
-bool is_noise(const Effect& effect) { return effect.stage == Stage::noise; }
-
 std::vector<ParameterGrid> grids_of(const Effect& effect, const RecordedTouches& t, double least_period_um = 0) {
   std::vector<ParameterGrid> list;
   for (const EffectParameter& p : effect.parameters) list.push_back(grid_of(p, t, least_period_um));
@@ -328,6 +325,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
 void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out,
                    double least_period_um = 0) {
   for (const Effect* effect : effects())
+    // The noise is judged by the variance (findings/noise_effects.cpp).
     if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings)
       add_effect(*effect, t, rows, out, least_period_um);
 }

@@ -68,78 +68,92 @@ bool varies(const Case& c, Factor factor) {
   return true;
 }
 
-/// Where a pattern is strongest, in words of its factor: at touches that have at least half of the most that any has.
-std::vector<std::pair<std::string, std::string>> where(const Case& c, Factor factor, const Vector& pattern) {
-  constexpr double kStrong = 0.5;
-  Eigen::Index strongest = 0;
-  const double strong = kStrong * pattern.cwiseAbs().maxCoeff(&strongest);
-  const auto scene = [&](int k) -> const TouchScene& { return c.touches.touches[c.rows[k]].scene; };
-  /// Between which values these touches lie, unless that is nearly everywhere.
+/// Where a pattern is strongest, in words of its factor: names of columns and what they are there.
+class Strongest {
+ public:
   using Places = std::vector<std::pair<std::string, std::string>>;
-  const auto add_range = [&](Places& out, const char* name, auto value, const char* unit) {
-    constexpr double kNearlyEverywhere = 2.0 / 3;
-    double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
-    for (Eigen::Index i = 0; i < pattern.size(); ++i) {
-      const double at = value(scene(static_cast<int>(i)));
-      first = std::min(first, at), last = std::max(last, at);
-      if (std::abs(pattern(i)) >= strong) low = std::min(low, at), high = std::max(high, at);
+
+  Strongest(const Case& c, const Vector& pattern) : case_(c), pattern_(pattern) {}
+
+  Places in(Factor factor) const {
+    switch (factor) {
+      case Factor::time:
+        if (case_.recording->rows.front().time_s)
+          return range("time_s", " s", [](const TouchScene& s) { return s.time_s; });
+        return range("touch", "", [](const TouchScene& s) { return s.touch + 1.0; });
+      case Factor::position:
+        return joined({range("x", " mm", [](const TouchScene& s) { return s.point.x; }),
+                       range("y", " mm", [](const TouchScene& s) { return s.point.y; }),
+                       range("z", " mm", [](const TouchScene& s) { return s.point.z; })});
+      case Factor::direction: {
+        Eigen::Index strongest = 0;
+        pattern_.cwiseAbs().maxCoeff(&strongest);
+        const Vec3 n = scene(strongest).normal;
+        return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
+      }
+      case Factor::head:
+        return label("head", [](const TouchScene& s) {
+          return fmt::format("A {:.1f} B {:.1f}", in_degrees(s.stylus.head_a_rad), in_degrees(s.stylus.head_b_rad));
+        });
+      case Factor::sensor: return label("sensor", [](const TouchScene& s) { return std::string(s.stylus.name); });
+      case Factor::setup: return label("setup", [](const TouchScene& s) { return std::to_string(s.setup); });
+      case Factor::run: return label("run", [](const TouchScene& s) { return std::to_string(s.run); });
+      case Factor::feature:
+        return label("feature", [&](const TouchScene& s) { return case_.touches.features[s.feature]; });
+      case Factor::temperature: {
+        std::vector<Places> all;
+        for (const Thermometer& t : kThermometers) all.push_back(range(t.name, " C", t.of));
+        return joined(all);
+      }
+      case Factor::speed:
+        return label("speed", [](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); });
     }
-    if (high - low >= kNearlyEverywhere * (last - first)) return;
-    const std::string from = fmt::format("{:.0f}", low), to = fmt::format("{:.0f}", high);
-    out.emplace_back(name, (from == to ? from : from + " to " + to) + unit);
-  };
-  Places out;
-  const auto label = [&](auto value) {
-    std::map<std::string, double> weight;
-    for (Eigen::Index i = 0; i < pattern.size(); ++i)
-      weight[value(scene(static_cast<int>(i)))] += pattern(i) * pattern(i);
-    std::map<std::string, double> count;
-    for (Eigen::Index i = 0; i < pattern.size(); ++i) count[value(scene(static_cast<int>(i)))] += 1;
-    std::string best;
-    double most = -1;
-    for (const auto& [name, sum] : weight)
-      if (sum / count[name] > most) most = sum / count[name], best = name;
-    return best;
-  };
-  switch (factor) {
-    case Factor::time:
-      if (c.recording->rows.front().time_s)
-        add_range(
-            out, "time_s", [](const TouchScene& s) { return s.time_s; }, " s");
-      else
-        add_range(
-            out, "touch", [](const TouchScene& s) { return s.touch + 1.0; }, "");
-      break;
-    case Factor::position:
-      add_range(
-          out, "x", [](const TouchScene& s) { return s.point.x; }, " mm");
-      add_range(
-          out, "y", [](const TouchScene& s) { return s.point.y; }, " mm");
-      add_range(
-          out, "z", [](const TouchScene& s) { return s.point.z; }, " mm");
-      break;
-    case Factor::direction: {
-      const Vec3 n = scene(static_cast<int>(strongest)).normal;
-      return {{"normal", fmt::format("{:.2f}, {:.2f}, {:.2f}", n.x, n.y, n.z)}};
-    }
-    case Factor::head:
-      return {{"head", label([](const TouchScene& s) {
-                 return fmt::format("A {:.1f} B {:.1f}", in_degrees(s.stylus.head_a_rad),
-                                    in_degrees(s.stylus.head_b_rad));
-               })}};
-    case Factor::sensor: return {{"sensor", label([](const TouchScene& s) { return std::string(s.stylus.name); })}};
-    case Factor::setup: return {{"setup", label([](const TouchScene& s) { return std::to_string(s.setup); })}};
-    case Factor::run: return {{"run", label([](const TouchScene& s) { return std::to_string(s.run); })}};
-    case Factor::feature:
-      return {{"feature", label([&](const TouchScene& s) { return c.touches.features[s.feature]; })}};
-    case Factor::temperature:
-      for (const Thermometer& t : kThermometers) add_range(out, t.name, t.of, " C");
-      break;
-    case Factor::speed:
-      return {{"speed", label([](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); })}};
+    return {};
   }
-  return out;
-}
+
+ private:
+  const TouchScene& scene(Eigen::Index row) const { return case_.touches.touches[case_.rows[row]].scene; }
+
+  /// Between which values lie the touches that have at least half of the most that any has; nothing when that is nearly
+  /// everywhere.
+  template <class Value>
+  Places range(const char* name, const char* unit, Value value) const {
+    constexpr double kStrong = 0.5, kNearlyEverywhere = 2.0 / 3;
+    const double strong = kStrong * pattern_.cwiseAbs().maxCoeff();
+    double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
+    for (Eigen::Index i = 0; i < pattern_.size(); ++i) {
+      const double at = value(scene(i));
+      first = std::min(first, at), last = std::max(last, at);
+      if (std::abs(pattern_(i)) >= strong) low = std::min(low, at), high = std::max(high, at);
+    }
+    if (high - low >= kNearlyEverywhere * (last - first)) return {};
+    const std::string from = fmt::format("{:.0f}", low), to = fmt::format("{:.0f}", high);
+    return {{name, (from == to ? from : from + " to " + to) + unit}};
+  }
+
+  /// The label whose touches have the largest mean square.
+  template <class Value>
+  Places label(const char* name, Value value) const {
+    std::map<std::string, std::pair<double, double>> squares;  // sum, number
+    for (Eigen::Index i = 0; i < pattern_.size(); ++i) {
+      auto& [sum, number] = squares[value(scene(i))];
+      sum += pattern_(i) * pattern_(i), number += 1;
+    }
+    const auto mean = [](const auto& of) { return of.second.first / of.second.second; };
+    const auto most = std::max_element(squares.begin(), squares.end(),
+                                       [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
+    return {{name, most->first}};
+  }
+
+  static Places joined(const std::vector<Places>& each) {
+    Places out;
+    for (const Places& places : each) out.insert(out.end(), places.begin(), places.end());
+    return out;
+  }
+
+  const Case& case_;
+  const Vector& pattern_;
+};
 
 /// The explanations of one factor.
 struct Located {
@@ -189,7 +203,7 @@ std::vector<Location> locate(const Case& c, const EvidenceSearch& search, const 
     const Pattern pattern = pattern_of(search, all.variants[variant], variant);
     const auto best = static_cast<std::size_t>(located.best);
     const Evidence& judged = best < result.on_grid.log_bayes.size() ? result.on_grid : result.first;
-    entries.push_back({{std::string(abbe::diagnose::name(factor)), where(c, factor, pattern.values), 0,
+    entries.push_back({{std::string(abbe::diagnose::name(factor)), Strongest(c, pattern.values).in(factor), 0,
                         tail_probability(judged.log_bayes[best], simulated)},
                        log_sum_exp(located.log_belief),
                        pattern.energy});

@@ -30,10 +30,7 @@ double tails_of(const Vector& standardised) {
 }
 
 Residuals residuals(const Case& c, const SearchResult& result) {
-  // One noise for all rows, so that a difference between groups shows.
-  LinearModel m = with_free(likelier_ensemble(c, c.model), signatures_of(c, result.findings));
-  m.noise_group.assign(m.noise_group.size(), 0);
-  m.noise_groups = 1;
+  const LinearModel m = with_one_noise(with_free(likelier_ensemble(c, c.model), signatures_of(c, result.findings)));
   const Hyperparameters h = estimate(m);
   Residuals r{leave_one_out(m, h), m.noise_um.mean() * h.noise(0), 1, squared_correlation(m, h)};
   r.tails = tails_of(r.standardised);

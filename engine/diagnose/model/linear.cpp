@@ -83,6 +83,12 @@ Vector beside_free(const LinearModel& m, const Vector& displacement) {
   return m.noise_um.cwiseProduct(white - free * (free.transpose() * white));
 }
 
+LinearModel with_one_noise(LinearModel m) {
+  m.noise_group.assign(m.noise_group.size(), 0);
+  m.noise_groups = 1;
+  return m;
+}
+
 LinearModel without_rows(const LinearModel& m, const std::vector<char>& dropped) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index i = 0; i < m.y.size(); ++i)

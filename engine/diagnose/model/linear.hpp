@@ -68,6 +68,9 @@ Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
 /// What of this displacement of the rows, um, shows beside all that X can do.
 Vector beside_free(const LinearModel&, const Vector&);
 
+/// The model with one factor of the noise for all rows, so that a difference between groups shows.
+LinearModel with_one_noise(LinearModel);
+
 /// The model without some rows.
 LinearModel without_rows(const LinearModel&, const std::vector<char>& dropped);
 

@@ -63,7 +63,7 @@ double Power::detected_from(const Matrix& shift, int explanation, double share, 
     for (int k = 0; k < kWithShift; ++k) (belief(k) > from ? high : low)(k) = middle(k);
   }
   const double mean = high.mean();
-  return mean + kPower * std::sqrt((high.array() - mean).square().sum() / (kWithShift - 1));
+  return mean + kPowerDeviations * std::sqrt((high.array() - mean).square().sum() / (kWithShift - 1));
 }
 
 }  // namespace abbe::diagnose

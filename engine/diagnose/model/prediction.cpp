@@ -42,7 +42,10 @@ Matrix precision(const LinearModel& m, const Hyperparameters& h) {
 }
 
 Matrix squared_correlation(const LinearModel& m, const Hyperparameters& h) {
-  const Matrix p = Rotated(m, h).precision();
+  return squared_correlation(Rotated(m, h).precision());
+}
+
+Matrix squared_correlation(const Matrix& p) {
   const Vector variance = p.diagonal().cwiseMax(1e-9);
   return (p.array().square().colwise() / variance.array()).rowwise() / variance.transpose().array();
 }

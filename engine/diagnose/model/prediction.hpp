@@ -18,6 +18,8 @@ Matrix precision(const LinearModel&, const Hyperparameters&);
 
 /// Squares of the correlations of these residuals, by pair of rows, when the model is right.
 Matrix squared_correlation(const LinearModel&, const Hyperparameters&);
+/// The same from the precision of whitened rows.
+Matrix squared_correlation(const Matrix& precision);
 
 /// How far each of the `masked` rows is from what those that are not predict, um; 0 for the others.
 Vector beyond_prediction(LinearModel, const Hyperparameters&, const std::vector<char>& masked);

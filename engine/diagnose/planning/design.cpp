@@ -214,7 +214,7 @@ class Design {
     double against = 0;
     for (std::size_t j = 0; j < all_.list.size(); ++j) {
       if (j == truth) continue;
-      const double odds = own - log_belief(j, shift, snr) - kPower * snr * std::sqrt(shift.left[j]);
+      const double odds = own - log_belief(j, shift, snr) - kPowerDeviations * snr * std::sqrt(shift.left[j]);
       if (all_.list[j].effect)
         against += std::exp(-odds);
       else if (odds < over_patterns)

@@ -12,6 +12,7 @@
 #include "engine/diagnose/findings/noise_effects.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
+#include "engine/diagnose/model/prediction.hpp"
 #include "engine/diagnose/model/rotated.hpp"
 #include "engine/math/normal.hpp"
 
@@ -49,18 +50,15 @@ double median_excess(std::vector<ScatterForm> forms, double ScatterForm::*seen) 
 class ScatterDesign {
  public:
   explicit ScatterDesign(const Case& c) : c_(c) {
-    LinearModel m = c.model;
+    const LinearModel m = with_one_noise(c.model);  // as where scatter is judged
     Hyperparameters h = c.hyper;
-    // One noise for all rows, as where scatter is judged.
     double factor = 0;
-    for (const int group : m.noise_group) factor += c.hyper.noise(group) / double(m.noise_group.size());
-    m.noise_group.assign(m.noise_group.size(), 0);
-    m.noise_groups = 1;
+    for (const int group : c.model.noise_group) factor += c.hyper.noise(group) / double(c.model.noise_group.size());
     h.noise = Vector::Constant(1, factor);
     noise_um_ = m.noise_um.mean() * factor;
     const Matrix precision = Rotated(m, h).precision();
     own_ = precision.diagonal().cwiseMax(1e-9);
-    coupling_ = (precision.array().square().colwise() / own_.array()).rowwise() / own_.transpose().array();
+    coupling_ = squared_correlation(precision);
   }
 
   double noise_um() const { return noise_um_; }
@@ -73,7 +71,7 @@ class ScatterDesign {
     ScatterForm out;
     out.detected = least(kMost, [&](double excess) {
       const Excess e = expected(share, excess);
-      const double z = std::sqrt(e.chi2) - kPower;
+      const double z = std::sqrt(e.chi2) - kPowerDeviations;
       return z > 0 && of_its_kind * chance_of_excess(z * z) <= kNoiseAlarm && told(e.size);
     });
     out.named = std::max(out.detected, repeats_tell_from(share));
@@ -86,7 +84,7 @@ class ScatterDesign {
     const double relative = std::sqrt(std::max(1.0, inflation(1, coupling_, all)) / (2 * double(all.size())));
     ScatterForm out;
     out.detected = least(200, [&](double excess) {
-      const double read = std::sqrt(1 + excess) * (1 - kPower * relative);
+      const double read = std::sqrt(1 + excess) * (1 - kPowerDeviations * relative);
       return read > kLeastExcess && chance_of_ratio(read, relative) <= kNoiseAlarm;
     });
     out.named = std::max(out.detected, repeats_tell_from(all));
@@ -106,7 +104,7 @@ class ScatterDesign {
   double repeats_tell_from(const Vector& share) const {
     const auto pairs = repeats_in(c_, share).size();
     if (pairs < kEnoughRepeats) return kAtNoSize;
-    const double new_share = kPower / std::sqrt(double(pairs)) / kInCommon;
+    const double new_share = kPowerDeviations / std::sqrt(double(pairs)) / kInCommon;
     return new_share < 1 ? new_share / (1 - new_share) : kAtNoSize;
   }
 
@@ -144,7 +142,7 @@ bool add_unequal(const Case& c, const ScatterDesign& design, std::vector<Detecta
   for (const Split& s : splits_of(c)) {
     if (!parts(s)) continue;
     const auto told = [&](double excess) {
-      return std::sqrt(1 + excess) * (1 - (2 + kPower) * relative_u(s)) >= kLeastRatio;
+      return std::sqrt(1 + excess) * (1 - (2 + kPowerDeviations) * relative_u(s)) >= kLeastRatio;
     };
     of_kind[s.group].push_back(design.along(s.in, told, s.of_its_kind));
   }
@@ -186,12 +184,6 @@ void add_resolution(const ScatterDesign& design, std::vector<Detectable>& out) {
   out.push_back(std::move(d));
 }
 
-bool told(const Diagnosis& d, std::string_view effect) {
-  const auto is_it = [&](const auto& of) { return of.effect == effect; };
-  return std::any_of(d.smallest_detectable.begin(), d.smallest_detectable.end(), is_it) ||
-      std::any_of(d.cannot_judge.begin(), d.cannot_judge.end(), is_it);
-}
-
 }  // namespace
 
 void add_smallest_scatter(const Case& c, Diagnosis& out) {
@@ -204,7 +196,7 @@ void add_smallest_scatter(const Case& c, Diagnosis& out) {
     out.cannot_judge.push_back({"noise.unequal", columns, columns});
   }
   for (const Effect* effect : effects())
-    if (std::string(effect->name).starts_with("noise.") && !told(out, effect->name))
+    if (is_noise(*effect) && !tells_of(out, effect->name))
       out.cannot_judge.push_back({std::string(effect->name), {}, {}});
 }
 

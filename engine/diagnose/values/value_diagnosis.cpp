@@ -322,10 +322,7 @@ Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
 /// What no possible size makes seen cannot be judged.
 void tell_hidden(const ValueSearch& search, Diagnosis& out) {
   for (const Explanation& e : search.explanations().list)
-    if (e.effect && !e.missing &&
-        std::none_of(out.smallest_detectable.begin(), out.smallest_detectable.end(),
-                     [&](const Detectable& d) { return d.effect == e.name; }))
-      out.cannot_judge.push_back({e.name, {}, {}});
+    if (e.effect && !e.missing && !tells_of(out, e.name)) out.cannot_judge.push_back({e.name, {}, {}});
 }
 
 /// Calibrations that say less of most values than any machine of the specification would.

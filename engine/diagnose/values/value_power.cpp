@@ -6,6 +6,7 @@
 
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/quantile.hpp"
 
 namespace abbe::diagnose {
 
@@ -41,12 +42,6 @@ double left(const ValueSearch& s, int variant, Eigen::Index column, int rival) {
   return 1 - explained(s.between(rival, rival), cross)(0) / own;
 }
 
-/// The statistic that so few machines in order reach.
-double alarm_of(std::vector<double> in_order) {
-  std::sort(in_order.begin(), in_order.end());
-  return in_order[static_cast<std::size_t>((1 - kAlarm) * double(in_order.size()))];
-}
-
 class Detection {
  public:
   Detection(const ValueSearch& search, const ValueReference& reference, double alarm)
@@ -69,7 +64,7 @@ class Detection {
                  largest = effect.parameters[column.parameter].high / column.unit;
     double low = kLeast * about, high = std::min(kFar * about, largest);
     const auto detected = [&](double size) {
-      return share_of_alarms(effect, variant, size * Vector::Unit(variant.signature.cols(), of.column)) >= kPower;
+      return share_of_alarms(effect, variant, size * Vector::Unit(variant.signature.cols(), of.column)) >= kPowerShare;
     };
     if (low >= high || !detected(high)) return std::nullopt;
     for (int i = 0; i < kHalvings; ++i) {
@@ -81,7 +76,6 @@ class Detection {
 
  private:
   static constexpr int kMachines = 25;
-  static constexpr double kPower = 0.8;
 
   double share_of_alarms(const Effect& effect, const Variant& variant, const Vector& sizes) const {
     const Machine with = with_effect(reference_.machine, effect, variant, sizes);
@@ -123,7 +117,7 @@ void tell_apart(const ValueSearch& s, int explanation, const ValueForm& of, doub
 
 std::vector<Detectable> smallest_detectable(const ValueSearch& s, const ValueReference& reference,
                                             std::vector<double> in_order) {
-  const Detection detection(s, reference, alarm_of(std::move(in_order)));
+  const Detection detection(s, reference, quantile(std::move(in_order), 1 - kAlarm));
   const Explanations& all = s.explanations();
   const int count = static_cast<int>(all.list.size());
   std::vector<std::optional<ValueForm>> form(all.list.size());

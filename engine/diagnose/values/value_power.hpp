@@ -8,9 +8,8 @@
 
 namespace abbe::diagnose {
 
-/// Of each effect of the catalogue that some possible size makes seen in 80 % of recordings, in the form (axis, phase) in
-/// the middle. `in_order`: what the search
-/// says of machines in order.
+/// Of each effect of the catalogue that some possible size makes seen in kPowerShare of recordings, in the form (axis,
+/// phase) in the middle. `in_order`: what the search says of machines in order.
 std::vector<Detectable> smallest_detectable(const ValueSearch&, const ValueReference&, std::vector<double> in_order);
 
 }  // namespace abbe::diagnose

@@ -78,4 +78,9 @@ TestLine central_line(const Machine&, std::string_view test, std::string_view na
 /// 1e-12.
 double range_of_three_cdf(double r);
 
+/// The pattern that ISO 10360-5:2010, 6.2.4 proposes for a sphere: the pole, then 4, 8, 4 and 8 touches on circles 22.5
+/// degrees apart down to the equator, each circle turned by 22.5 degrees against the one above. Outward normals, the pole
+/// along z.
+std::array<Vec3, 25> form_and_size_pattern();
+
 }  // namespace abbe

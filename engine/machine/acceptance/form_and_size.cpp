@@ -21,21 +21,6 @@ namespace {
 constexpr int kTouches = 25, kUnknowns = 4;
 constexpr int kTests = 10'000;  ///< the share passed is known to 0.5 % (one standard deviation) or better
 
-/// The pattern that the standard proposes: the pole, then 4, 8, 4 and 8 touches on circles 22.5
-/// degrees apart down to the equator, each circle turned by 22.5 degrees against the one above.
-std::array<Vec3, kTouches> pattern() {
-  constexpr int counts[] = {1, 4, 8, 4, 8};
-  std::array<Vec3, kTouches> normal;
-  int i = 0;
-  for (int circle = 0; circle < 5; ++circle)
-    for (int k = 0; k < counts[circle]; ++k) {
-      const double polar = circle * kPi / 8;
-      const double azimuth = 2 * kPi * k / counts[circle] + std::max(0, circle - 1) * kPi / 8;
-      normal[i++] = {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
-    }
-  return normal;
-}
-
 double unknown_of(const Vec3& n, int j) { return j < 3 ? n[j] : 1; }
 
 /// gain[i]: what a unit error of touch i does to the centre (x, y, z) and the radius.
@@ -83,7 +68,7 @@ ProbeCheck judge(std::string_view name, double limit_mm, std::vector<double> val
 std::vector<ProbeCheck> check_form_and_size(const Machine& machine, std::uint64_t seed) {
   const Specification& spec = machine.specification;
   if (!spec.form_mpe_mm && !spec.size_mpe_mm) return {};
-  const auto normal = pattern();
+  const auto normal = form_and_size_pattern();
   const auto gain = fit_gain(normal);
   const auto error = radial_errors(machine, normal, seed);
   std::vector<double> form(kTests), size(kTests);
@@ -106,6 +91,19 @@ std::vector<ProbeCheck> check_form_and_size(const Machine& machine, std::uint64_
 }
 
 }  // namespace
+
+std::array<Vec3, 25> form_and_size_pattern() {
+  constexpr int counts[] = {1, 4, 8, 4, 8};
+  std::array<Vec3, 25> normal;
+  int i = 0;
+  for (int circle = 0; circle < 5; ++circle)
+    for (int k = 0; k < counts[circle]; ++k) {
+      const double polar = circle * kPi / 8;
+      const double azimuth = 2 * kPi * k / counts[circle] + std::max(0, circle - 1) * kPi / 8;
+      normal[i++] = {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar)};
+    }
+  return normal;
+}
 
 extern const AcceptanceTest form_and_size_test{
     .name = "form and size",

@@ -128,7 +128,7 @@ std::string what_would_show(const Diagnosis& d) {
 std::string third_sentence(const Diagnosis& d) {
   if (d.effects.empty() && !d.unexplained) return what_would_show(d);
   const bool scatter = !d.unexplained && std::all_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) {
-    return e.members.front().starts_with("noise.");
+    return is_noise(e.members.front());
   });
   if (scatter && !d.improvement)
     return "Scatter moves hardly any mean: no touch is predicted better with it, but results are less certain than without.";
