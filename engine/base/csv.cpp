@@ -113,7 +113,7 @@ CsvTable read_csv(const SourceFile& file) {
   if (sink.has_errors()) throw UserError(sink.list());
   if (table.header.empty() || table.rows.empty())
     throw UserError(diagnostic_at(file, {0, 1}, Code::E0524, "the file has no rows",
-                                  "the first line names the columns, every other line is one row (docs/formats.md)"));
+                                  "the first line names the columns, every other line is one row (docs/recording.md)"));
   return table;
 }
 

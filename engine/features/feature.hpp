@@ -47,7 +47,7 @@ struct Pattern {
   int minimum = 0;  ///< fewest touches that determine the feature, where they are more than the fit needs
 };
 
-/// What `abbe fit` calls the element and the values of its fit (docs/formats.md); empty: not reported.
+/// What `abbe fit` calls the element and the values of its fit (docs/recording.md); empty: not reported.
 struct FitNames {
   std::string_view element{}, point{}, direction{}, size{}, minor_size{};
   std::string_view half_angle{}, apex{};  ///< of a cone

@@ -24,7 +24,7 @@ struct FitError {
 };
 
 struct FitSolution {
-  Element element;  ///< `point` as the contract of `abbe fit` asks: docs/formats.md
+  Element element;  ///< `point` as the contract of `abbe fit` asks: docs/recording.md
   Vec3 apex;        ///< cone only
   double rms = 0, form = 0;
   std::optional<FitError> error;

@@ -1,5 +1,5 @@
 // The description of one real machine: its structure, its specification and the sizes of its errors. Read
-// from a machine file (docs/formats.md); everything is converted to the engine's units (mm, rad, s) at that
+// from a machine file (docs/machine.md); everything is converted to the engine's units (mm, rad, s) at that
 // edge.
 //
 // Source of the model: Van Gestel, Bleys, Kruth, "CMM hardware error simulation for uncertainty evaluation"

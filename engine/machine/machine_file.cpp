@@ -1,4 +1,4 @@
-// The machine file (docs/formats.md): keys, units, defaults and what contradicts what. Conversion
+// The machine file (docs/machine.md): keys, units, defaults and what contradicts what. Conversion
 // to mm and rad happens here.
 #include <fmt/format.h>
 

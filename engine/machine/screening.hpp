@@ -1,5 +1,5 @@
 // Virtual machines that satisfy the specification: a virtual acceptance test of each candidate (paper section 7,
-// docs/acceptance_tests.md, "Screening"). The lines of the test, seven of E0 and with an E150 stated four more, come from
+// docs/machine.md, "Screening"). The lines of the test, seven of E0 and with an E150 stated four more, come from
 // engine/machine/acceptance; a machine is as good as its worst length.
 #pragma once
 

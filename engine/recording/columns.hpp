@@ -1,4 +1,4 @@
-// The columns of a recording (docs/formats.md, "Recordings"), each once: what reads, writes and doubts them goes by this list.
+// The columns of a recording (docs/recording.md, "Recordings"), each once: what reads, writes and doubts them goes by this list.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A recording: what one machine reported, touch by touch, and everything logged beside it (docs/formats.md,
+// A recording: what one machine reported, touch by touch, and everything logged beside it (docs/recording.md,
 // "Recordings"). One row is one scalar observation along n. What was not logged is absent, never zero: an
 // effect that needs it cannot be judged.
 #pragma once
@@ -63,7 +63,7 @@ std::string to_csv(const Recording&);
 /// Whether a row needs a recorded position; a plan may have its target instead.
 enum class Positions { recorded, or_targets };
 
-/// Reads the contract of docs/formats.md. Throws UserError with the place of every mistake: unknown or
+/// Reads the contract of docs/recording.md. Throws UserError with the place of every mistake: unknown or
 /// missing column, value that is no number, incomplete vector, direction that is no unit vector.
 Recording read_recording(const SourceFile&, Positions = Positions::recorded);
 

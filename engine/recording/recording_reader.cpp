@@ -95,7 +95,7 @@ bool says(const CsvRemark& line, std::string_view yes, std::string_view no, cons
   if (line.value == yes || line.value == no) return line.value == yes;
   throw UserError(diagnostic_at(
       file, line.span, Code::E0525, fmt::format("'{}: {}' is neither '{}' nor '{}'", line.key, line.value, no, yes),
-      "correct the line, or leave it out: docs/formats.md, \"Recordings\", says what holds then"));
+      "correct the line, or leave it out: docs/recording.md, \"Recordings\", says what holds then"));
 }
 
 void check_distance(const CsvRemark& line, const SourceFile& file) {
@@ -149,7 +149,7 @@ std::vector<FileColumn> columns_of(const CsvTable& table, const SourceFile& file
           !present.contains(name))
         sink.add(diagnostic_at(
             file, table.header.front().span, Code::E0527, fmt::format("the column '{}' is missing", name),
-            "a recording needs feature, touch, x, y, z; docs/formats.md, \"Recordings\", lists the others"));
+            "a recording needs feature, touch, x, y, z; docs/recording.md, \"Recordings\", lists the others"));
   return columns;
 }
 

@@ -1,5 +1,5 @@
 // A recording of values: what one machine reported of the characteristics of programs, not touch by touch
-// (docs/formats.md, "Value recordings"). One row is one value, with what it should have been and how well
+// (docs/recording.md, "Value recordings"). One row is one value, with what it should have been and how well
 // that is known. All rows come from the same machine.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The words of the report of `abbe run`, for whoever reads one: the columns of the text and of the page, the keys of the
-// JSON. docs/formats.md has more about each.
+// JSON. docs/results.md has more about each.
 #pragma once
 
 #include <span>

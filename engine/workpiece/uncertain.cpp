@@ -72,7 +72,7 @@ double read_shape(JsonObject& object, const Word& word) {
   if (!object.has(word.shape_key)) {
     object.fault("distribution", Code::E0421,
                  fmt::format("the distribution \"{}\" needs \"{}\"", word.word, word.shape_key),
-                 "docs/formats.md explains the keys of every distribution");
+                 "docs/workpiece.md explains the keys of every distribution");
     return 0;
   }
   if (word.shape_key == "dof") return object.number("dof", kDegreesOfFreedom);

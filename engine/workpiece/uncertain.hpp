@@ -1,6 +1,6 @@
 // A quantity of a workpiece: a best estimate and what is not known of it.
 //
-// In a file every quantity is written in one of four ways (docs/formats.md):
+// In a file every quantity is written in one of four ways (docs/workpiece.md):
 //   838                                                  known exactly
 //   {"value": 838, "u": 32, "dof": 16}                   normal; with "dof" Student's t
 //   {"value": 0, "half_width": 1, "distribution": "rectangular"}

@@ -1,5 +1,5 @@
 // The workpiece: how the true part differs from its nominal geometry, how warm it is, and how well
-// both are known (docs/formats.md, "Workpiece file").
+// both are known (docs/workpiece.md, "Workpiece file").
 //
 // The true part at 20 degrees C (ISO 1) has its surfaces where the program says, moved by the best
 // estimates of this file. An error-free machine sees exactly that, so the reference of every

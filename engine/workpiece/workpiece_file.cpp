@@ -1,4 +1,4 @@
-// The workpiece file (docs/formats.md): keys, units, defaults and what contradicts what. Conversion
+// The workpiece file (docs/workpiece.md): keys, units, defaults and what contradicts what. Conversion
 // to mm and 1/K happens here.
 #include <fmt/format.h>
 
@@ -155,7 +155,7 @@ void check_schema(JsonObject& root) {
   if (!schema.empty() && schema != kSchema)
     root.fault("schema", Code::E0407,
                fmt::format("the schema is \"{}\", but a workpiece file has \"{}\"", schema, kSchema),
-               "is this the right file? docs/formats.md describes workpiece files");
+               "is this the right file? docs/workpiece.md describes workpiece files");
 }
 
 void read_surfaces(JsonObject surfaces, Workpiece& w) {

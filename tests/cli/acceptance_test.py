@@ -153,7 +153,7 @@ def test_documented_commands(folder):
     (pathlib.Path(folder) / "examples").symlink_to(ROOT / "examples")
     commands = [line.strip() for line in (ROOT / "docs" / "acceptance_tests.md").read_text().splitlines()
                 if line.startswith("    ")]
-    assert len(commands) >= 10
+    assert len(commands) >= 9
     for command in commands:
         words = shlex.split(command)
         done = run(ABBE if words[0] == "abbe" else words[0], *words[1:], cwd=folder)

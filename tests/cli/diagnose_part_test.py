@@ -164,7 +164,7 @@ class CalibratedPart(harness.Case):
         self.assertIn("W0549", self.abbe("diagnose", "ring.csv", "--workpiece", part, "--machine", "coord3-mc16").stderr)
 
     def test_true_targets_may_hold_the_form(self):
-        """The calibrated bore of docs/formats.md: its waves of known phase are in the targets that `record` writes."""
+        """The calibrated bore of docs/workpiece.md: its waves of known phase are in the targets that `record` writes."""
         ring = harness.ROOT / "examples/programs/ring_gauge.dmi"
         known, unknown = {"undulations": 3, "amplitude_um": 2, "phase_deg": 15}, {"undulations": 2, "amplitude_um": 1, "phase_deg": "random"}
         for waves, unused in (([known], False), ([known, unknown], True)):

@@ -121,8 +121,8 @@ def check_refusals(folder):
 
 
 def check_documented_example(folder):
-    # The complete example of docs/formats.md is a file that can be used.
-    text = (ROOT / "docs" / "formats.md").read_text()
+    # The complete example of docs/workpiece.md is a file that can be used.
+    text = (ROOT / "docs" / "workpiece.md").read_text()
     example = next(block for block in re.findall(r"```json\n(.*?)```", text, re.S) if "abbe.workpiece/1" in block)
     program, workpiece = folder / "p.dmi", folder / "w.json"
     workpiece.write_text(example)
@@ -176,7 +176,7 @@ def report_on(folder, workpiece, *arguments):
 
 
 def check_sensors_that_err(folder):
-    # docs/formats.md: a controller that takes off 20 ppm/K for half a kelvin too much makes 50 mm shorter by 0.5 um.
+    # docs/workpiece.md: a controller that takes off 20 ppm/K for half a kelvin too much makes 50 mm shorter by 0.5 um.
     warm = {"material": {"cte_ppm_per_K": 20}, "temperature": {"part_C": 26}}
     means = [report_on(folder, warm | {"compensation": {"on": True, "sensor_K": error}})["characteristics"][0]["mean"] for error in (0, 0.5)]
     assert abs(means[1] - means[0] + 0.0005) < 1e-5, means

@@ -15,7 +15,7 @@ from world import LADDER, Baseline, scaled, short
 
 COUNTS = {"null": 400, "single": 288, "pair": 60, "unknown": 80, "missing": 40, "covariance": 40}
 STRIDE = 7  # has no divisor in common with the number of families, so that all come
-# Parameters with one meaning everywhere (docs/formats.md), by which answers are judged.
+# Parameters with one meaning everywhere (docs/physics), by which answers are judged.
 FIXED = {
     "thermal.part_expansion": ["cte_error_ppm_per_K"],
     "thermal.scale_expansion": ["cte_error_ppm_per_K"],

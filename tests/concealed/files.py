@@ -1,5 +1,5 @@
 """What the program under test gets to see: the recording (CSV) and the machine's data sheet (JSON), formats
-of docs/formats.md. Nothing here knows what was concealed."""
+of docs/recording.md and docs/machine.md. Nothing here knows what was concealed."""
 
 import json
 

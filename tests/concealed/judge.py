@@ -1,5 +1,5 @@
 """Sets one answer against one truth: a flat row of what was right, what was wrong, and by how much.
-docs/formats.md has the answer's keys.
+docs/results.md has the answer's keys.
 
 Rules, fixed before any final round (but for the last, which became stricter after the twelfth): something is *detected*
 when the verdict is a mismatch. A name is *right* when the truth is among the members of the first effect (of any effect,

@@ -23,7 +23,7 @@ inline constexpr double kInseparable = 0.03;
 /// Correlation of two signatures, beside all unknowns, from which on they are called confounded.
 inline constexpr double kConfounded = 0.7;
 
-/// In what a mismatch lies: `location` of docs/formats.md, "Diagnoses".
+/// In what a mismatch lies: `location` of docs/results.md, "Diagnoses".
 enum class Factor { time, position, direction, head, sensor, setup, feature, run, temperature, speed };
 std::string_view name(Factor);
 

@@ -1,6 +1,6 @@
 // Acceptance tests: what a buyer of the machine would have tested, run on virtual machines. A test
 // is one .cpp file in this folder and one line in all.cpp. A machine file asks for a test by
-// stating its maximum permissible error (docs/formats.md).
+// stating its maximum permissible error (docs/machine.md).
 //
 // Tests of lengths (E0, E150): every virtual machine is measured on `lines`, and screening keeps
 // those whose indicator v = min |MPE(l) / error| over all these lengths lies in the accepted range.

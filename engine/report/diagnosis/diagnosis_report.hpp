@@ -1,4 +1,4 @@
-// A diagnosis in words, as JSON (schema "abbe.diagnosis/1", docs/formats.md) and as a page: one HTML file
+// A diagnosis in words, as JSON (schema "abbe.diagnosis/1", docs/results.md) and as a page: one HTML file
 // with its figures in it.
 #pragma once
 

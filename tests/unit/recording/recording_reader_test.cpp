@@ -41,8 +41,8 @@ TEST_CASE("what is written is read back") {
   CHECK(back.rows[0].line == 5);
 }
 
-TEST_CASE("every column is read and written, and docs/formats.md has it") {
-  std::ifstream stream(ABBE_SOURCE_DIR "/docs/formats.md");
+TEST_CASE("every column is read and written, and docs/recording.md has it") {
+  std::ifstream stream(ABBE_SOURCE_DIR "/docs/recording.md");
   const std::string docs{std::istreambuf_iterator<char>(stream), {}};
   std::string header, row;
   for (const RecordingColumn& column : recording_columns())
