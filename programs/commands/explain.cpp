@@ -41,7 +41,7 @@ constexpr CodeRange kRanges[] = {
     {"06", "files and command line", "a command is understood, and what it needs is found: settings, files, memory",
      "docs/results.md (\"Files\"), and `abbe COMMAND --help`"},
     {"07", "diagnosis of recordings", "a recording is compared with what the simulated machines may do",
-     "docs/diagnosis.md"},
+     "docs/diagnosis.md, docs/recording.md (\"Problems with a file\")"},
 };
 
 const CodeRange& range_of(const CodeInfo& code) {
