@@ -6,8 +6,8 @@
 
 #include "engine/diagnose/baseline/baseline.hpp"
 #include "engine/diagnose/diagnosis.hpp"
-#include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/levels.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 
 namespace abbe::diagnose {
 

@@ -18,6 +18,7 @@
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/pairing.hpp"
 #include "engine/diagnose/checks/scale_readings.hpp"
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/improvement.hpp"

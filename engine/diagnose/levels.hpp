@@ -14,4 +14,12 @@ inline constexpr double kAsWell = 3;
 inline constexpr double kPowerShare = 0.8;
 inline constexpr double kPowerDeviations = 0.84;
 
+/// Signal-to-noise at which a search over the whole catalogue detects about half, and names. Where it must be known
+/// more closely it is simulated (model/power.hpp).
+inline constexpr double kDetects = 4.5, kNames = 5.5;
+/// Share of the information beyond which nothing is left to tell two effects apart.
+inline constexpr double kInseparable = 0.03;
+/// Correlation of two signatures, beside all unknowns, from which on they are called confounded.
+inline constexpr double kConfounded = 0.7;
+
 }  // namespace abbe::diagnose

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks what docs/architecture.md promises. usage: check.py includes|headers|codes|files|format|constants [COMPILER EIGEN]
 
-includes  every #include of a layer names that layer or one that CMakeLists.txt lets it use; the heavy libraries stay where they belong
+includes  every #include of a layer names that layer or one that CMakeLists.txt lets it use; a step of the diagnosis none that comes after it;
+          the heavy libraries stay where they belong
 headers   every header compiles alone
 codes     every message code is exercised by a test
 files     no file is longer than 500 lines
@@ -30,6 +31,9 @@ CONFINED = {
        for decomposition in ("Cholesky", "Dense", "Eigenvalues", "QR", "SVD")},
 }
 
+# The folders of engine/diagnose, in the order in which they build on each other (docs/architecture.md, "Diagnosing a recording").
+STEPS = ["model", "checks", "baseline", "explanations", "findings", "planning", "values"]
+
 
 def sources(*suffixes, folders=("engine", "lang", "programs")):
     for folder in folders:
@@ -56,6 +60,11 @@ def layer_of(path, table):
     return max((f for f in table if name.startswith(f + "/")), key=len, default=None)
 
 
+def step_of(path):
+    match = re.match(r"engine/diagnose/(\w+)/", str(path))
+    return STEPS.index(match.group(1)) if match else None
+
+
 def check_includes():
     table, wrong = layers(), []
     for path in sources(".cpp", ".hpp", ".def"):
@@ -73,6 +82,9 @@ def check_includes():
                 other = layer_of(pathlib.Path(target), table)
                 if other not in table[own]:
                     wrong.append(f"{relative}:{number}: layer {own} may not include {target}")
+            step, other = step_of(relative), step_of(target)
+            if step is not None and other is not None and other > step:
+                wrong.append(f"{relative}:{number}: {STEPS[step]} comes before {STEPS[other]} and may not include {target}")
             for library, places in CONFINED.items():
                 if target.startswith(library) and not str(relative).startswith(tuple(places)):
                     wrong.append(f"{relative}:{number}: {target} belongs only in {', '.join(places)}")

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 #include "engine/machine/geometry.hpp"
 
 namespace abbe::diagnose {

@@ -8,8 +8,8 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/diagnose/baseline/most_agree.hpp"
 #include "engine/diagnose/baseline/round_surface.hpp"
+#include "engine/diagnose/checks/most_agree.hpp"
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/model/decompositions.hpp"
 #include "engine/diagnose/quantile.hpp"

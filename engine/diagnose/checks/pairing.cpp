@@ -8,7 +8,7 @@
 #include <map>
 #include <optional>
 
-#include "engine/diagnose/baseline/most_agree.hpp"
+#include "engine/diagnose/checks/most_agree.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/recording/units.hpp"

@@ -1,5 +1,6 @@
-// From the registry of effects to explanations: no physics here, only the effects' own displacements on the
-// recorded scenes.
+// No physics here, only the effects' own displacements on the recorded scenes.
+#include "engine/diagnose/explanations/catalogue.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"
+#include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/run/recorded/logged.hpp"
 
@@ -332,17 +333,6 @@ void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool 
 
 }  // namespace
 
-std::string_view name(Factor f) {
-  constexpr std::string_view names[] = {"time",  "position", "direction", "head",        "sensor",
-                                        "setup", "feature",  "run",       "temperature", "speed"};
-  return names[static_cast<int>(f)];
-}
-
-bool adjoin(const Cell& a, const Cell& b) {
-  const double rounding = 1e-9 * (std::abs(a.low) + std::abs(a.high));
-  return a.low <= b.high + rounding && b.low <= a.high + rounding;
-}
-
 std::optional<std::size_t> moment_of(const Effect& effect) {
   for (std::size_t p = 0; p < effect.parameters.size(); ++p)
     if (effect.parameters[p].sought == Sought::moment) return p;
@@ -384,38 +374,6 @@ Variant variant_like(const Variant& other, const Effect& effect, const RecordedT
   return variant;
 }
 
-void share_belief(const Explanation& e, std::vector<Variant>& variants) {
-  double constant = 0, changing = 0;
-  std::map<std::string_view, double> in_group;
-  for (const int k : e.variants) ++in_group[variants[k].group];
-  const auto weight = [&](const Variant& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
-  for (const int k : e.variants) {
-    const Variant& b = variants[k];
-    (b.change.any() ? changing : constant) += weight(b);
-  }
-  const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
-  for (const int k : e.variants) {
-    Variant& b = variants[k];
-    b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
-  }
-}
-
-bool same_columns(const Matrix& a, const Matrix& b, double less_than_um) {
-  if (a.cols() != b.cols() || a.rows() != b.rows()) return false;
-  // Most differ in their first rows.
-  return std::equal(a.data(), a.data() + a.size(), b.data(),
-                    [&](double x, double y) { return std::abs(x - y) < less_than_um; });
-}
-
-Matrix compressed(const Matrix& m) {
-  if (m.cols() == 0) return m;
-  const auto [values, vectors] = spectrum(m.transpose() * m);
-  const double least = 1e-6 * values(values.size() - 1);
-  Eigen::Index first = 0;
-  while (first < values.size() - 1 && values(first) < least) ++first;
-  return m * vectors.rightCols(values.size() - first);
-}
-
 Explanations named_explanations(const RecordedTouches& t, const std::vector<int>& rows,
                                 const std::vector<std::string>& names) {
   Explanations out;
@@ -446,26 +404,6 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
       if (u.effect == effect) out.push_back({std::string(effect->name), columns_of(u.missing), columns_of(u.constant)});
     }
   }
-  return out;
-}
-
-Explanations only(const Explanations& all, const std::vector<int>& kept) {
-  Explanations out;
-  for (const int k : kept) {
-    Explanation e = all.list[k];
-    for (int& b : e.variants) {
-      out.variants.push_back(all.variants[b]);
-      out.variants.back().explanation = static_cast<int>(out.list.size());
-      b = static_cast<int>(out.variants.size()) - 1;
-    }
-    out.list.push_back(std::move(e));
-  }
-  return out;
-}
-
-Explanations rows_of(const Explanations& all, const std::vector<Eigen::Index>& rows) {
-  Explanations out = all;
-  for (Variant& b : out.variants) b.signature = Matrix(b.signature(rows, Eigen::all));
   return out;
 }
 

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/explanation.hpp"
+#include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
 

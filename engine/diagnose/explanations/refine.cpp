@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"
 
 namespace abbe::diagnose {
@@ -160,14 +161,6 @@ void divide(const Case& c, Explanations& all, int explanation, int which) {
 }
 
 }  // namespace
-
-bool alike(const Variant& a, const Variant& b) {
-  if (a.change != b.change || a.group != b.group) return false;
-  for (std::size_t p = 0; p < a.theta.size(); ++p)
-    if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
-      return false;
-  return true;
-}
 
 void refine(const Case& c, Explanations& all, EvidenceSearch& search) {
   for (int step = 0; step < kSteps; ++step) {

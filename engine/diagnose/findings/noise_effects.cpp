@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/scatter.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/model/prediction.hpp"

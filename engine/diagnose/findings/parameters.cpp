@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/parameter_grid.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
 #include "engine/diagnose/findings/variant_estimate.hpp"

@@ -10,6 +10,7 @@
 
 #include "engine/base/ids.hpp"
 #include "engine/diagnose/explanations/patterns/functions.hpp"
+#include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/precision.hpp"
@@ -301,7 +302,7 @@ void drop_name_of_several_sizes(Case& c, EvidenceSearch& first, SearchResult& re
   const std::size_t before = c.explanations.variants.size();
   add_pattern(c.explanations, sizes->factor,
               c.explanations.list[result.findings.front().explanation].name + ", not of one size",
-              patterns::by_group(*signatures_of(c, result.findings).front(), sizes->group));
+              by_group(*signatures_of(c, result.findings).front(), sizes->group));
   first.extend(c.explanations, before);
   result.first = first.evidence();
   result.nearest = std::move(result.findings.front());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"

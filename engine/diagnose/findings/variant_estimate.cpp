@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "engine/diagnose/levels.hpp"
 #include "engine/math/normal.hpp"
 #include "engine/math/units.hpp"
 

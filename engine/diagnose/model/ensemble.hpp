@@ -15,8 +15,8 @@
 
 #include <cstdint>
 
-#include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/model/ensemble_basis.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 #include "engine/diagnose/model/marginal_likelihood.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 

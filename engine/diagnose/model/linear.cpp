@@ -76,6 +76,24 @@ LinearModel with_random(const LinearModel& m, const Matrix& columns) {
   return out;
 }
 
+Matrix indicator(const std::vector<int>& group) {
+  std::map<int, int> index;
+  for (const int g : group) index.emplace(g, 0);
+  int next = 0;
+  for (auto& [g, i] : index) i = next++;
+  Matrix out = Matrix::Zero(group.size(), next);
+  for (std::size_t i = 0; i < group.size(); ++i) out(i, index[group[i]]) = 1;
+  return out;
+}
+
+Matrix by_group(const Matrix& columns, const std::vector<int>& group) {
+  const Matrix in = indicator(group);
+  Matrix out = Matrix::Zero(columns.rows(), columns.cols() * in.cols());
+  for (Eigen::Index g = 0; g < in.cols(); ++g)
+    out.middleCols(g * columns.cols(), columns.cols()) = in.col(g).asDiagonal() * columns;
+  return out;
+}
+
 Vector beside_free(const LinearModel& m, const Vector& displacement) {
   const Vector weight = m.noise_um.cwiseInverse();
   const Matrix free = independent(weight.asDiagonal() * m.free);

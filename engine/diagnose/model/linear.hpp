@@ -65,6 +65,11 @@ LinearModel with_random(const LinearModel&, const Matrix& columns);
 /// The columns of all of them, which have so many rows, one after the other.
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
 
+/// One column for each group: 1 in its rows.
+Matrix indicator(const std::vector<int>& group);
+/// The columns kept apart by group.
+Matrix by_group(const Matrix&, const std::vector<int>& group);
+
 /// What of this displacement of the rows, um, shows beside all that X can do.
 Vector beside_free(const LinearModel&, const Vector&);
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 
 namespace abbe::diagnose {
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/math/normal.hpp"
 
 namespace abbe::diagnose {
@@ -31,9 +30,9 @@ OneShape::OneShape(const LinearModel& model, const Hyperparameters& h, const std
 SizesByGroup OneShape::by(const std::vector<int>& group) const {
   // Of what tells less, a size in one group that is twice that in the others would not show.
   constexpr double kTellsNothing = 0.25;
-  const Precision::Seen by_group = precision_.seen(patterns::by_group(shape_, group));
-  const Matrix information = inner(by_group, by_group), with_found = inner(by_group, found_);
-  const Vector u = inner(by_group, y_);
+  const Precision::Seen apart = precision_.seen(by_group(shape_, group));
+  const Matrix information = inner(apart, apart), with_found = inner(apart, found_);
+  const Vector u = inner(apart, y_);
   SizesByGroup out;
   // beside all that was found, whatever its size
   const Spectrum contrasts =
@@ -49,7 +48,7 @@ SizesByGroup OneShape::by(const std::vector<int>& group) const {
   Matrix g = information;
   Vector v = u;
   if (others_.rows.cols() > 0) {
-    const Matrix across = inner(by_group, others_), taken = across * pseudo_inverse(inner(others_, others_));
+    const Matrix across = inner(apart, others_), taken = across * pseudo_inverse(inner(others_, others_));
     g -= taken * across.transpose();
     v -= taken * inner(others_, y_);
   }

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/diagnose/planning/next_measurement.hpp"
+#include "engine/diagnose/planning/second_recording.hpp"
 
 namespace abbe::diagnose {
 

@@ -1,10 +1,10 @@
-// The menu of changes that separate effects.
+#include "engine/diagnose/planning/changes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/run/motion.hpp"
 

@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/levels.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/power.hpp"
 

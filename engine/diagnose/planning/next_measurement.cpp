@@ -12,7 +12,9 @@
 #include <string_view>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/model/precision.hpp"
+#include "engine/diagnose/planning/program.hpp"
 #include "engine/diagnose/planning/question.hpp"
 
 namespace abbe::diagnose {

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "engine/diagnose/planning/next_measurement.hpp"
+#include "engine/diagnose/planning/second_recording.hpp"
 
 namespace abbe::diagnose {
 

@@ -1,7 +1,5 @@
-// The new touches of a proposed measurement as a DMIS program. Labels and touch numbers are those of the
-// recording, so that what it records can be matched with a workpiece file and with the recording; how touches
-// were made (speeds, approach, compensation) is repeated as far as the recording tells it, and what it does
-// not tell is said in a comment.
+#include "engine/diagnose/planning/program.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

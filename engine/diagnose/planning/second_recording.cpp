@@ -1,4 +1,5 @@
-// A recording repeated under a change: its rows, its baseline, its machine time.
+#include "engine/diagnose/planning/second_recording.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -6,7 +7,6 @@
 #include "engine/diagnose/baseline/calibrated_part.hpp"
 #include "engine/diagnose/baseline/length_errors.hpp"
 #include "engine/diagnose/baseline/machine_effects.hpp"
-#include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/path.hpp"
 #include "engine/run/motion.hpp"
 

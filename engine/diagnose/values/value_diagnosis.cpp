@@ -11,6 +11,7 @@
 #include <set>
 
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"

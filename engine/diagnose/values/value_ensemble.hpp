@@ -2,7 +2,7 @@
 // and what each effect does to them. Deviations from the reference, um (lengths) and urad (angles).
 #pragma once
 
-#include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 #include "engine/diagnose/values/value_diagnosis.hpp"
 #include "engine/machine/screening.hpp"
 #include "engine/run/run.hpp"

@@ -6,6 +6,7 @@
 
 #include "engine/base/on_threads.hpp"
 #include "engine/diagnose/case.hpp"
+#include "engine/diagnose/levels.hpp"
 #include "engine/diagnose/quantile.hpp"
 
 namespace abbe::diagnose {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/run/run.hpp"
 

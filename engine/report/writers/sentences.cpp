@@ -137,11 +137,10 @@ std::string report_legend(const RunReport& r) {
   std::optional<double> worst;
   for (const auto& c : r.characteristics)
     if (c.varies) worst = std::max(worst.value_or(0), c.summary.u_error / c.summary.u);
-  std::string out =
-      "\nvalue: on an error-free machine; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % "
-      "and 97.5 %) minus value;\n"
-      "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the "
-      "variance.\n";
+  std::string out = fmt::format(
+      "\nvalue: {}; u: standard uncertainty; LCL, UCL: 95 % limits (2.5 % and 97.5 %) minus value;\n"
+      "lower, upper: tolerance limits; conforms: share of machines inside them; then shares of the variance.\n",
+      r.recorded_points ? "from the recorded points" : "on an error-free machine");
   if (worst)
     out += fmt::format("Monte Carlo error of u: {:.1f} % (standard error, the largest of the table).\n", 100 * *worst);
   return out;

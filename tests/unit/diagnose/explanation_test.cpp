@@ -1,4 +1,4 @@
-#include "engine/diagnose/explanations/explanation.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 
 #include <doctest/doctest.h>
 

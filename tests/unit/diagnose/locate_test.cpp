@@ -1,5 +1,6 @@
 // A mismatch is located where the physics acts that explains it, or where the best pattern lies.
 #include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/explanations/patterns/patterns.hpp"
 
 #include <doctest/doctest.h>
 

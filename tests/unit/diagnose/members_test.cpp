@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/effects/effect.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 

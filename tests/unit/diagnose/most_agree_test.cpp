@@ -1,4 +1,4 @@
-#include "engine/diagnose/baseline/most_agree.hpp"
+#include "engine/diagnose/checks/most_agree.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
+#include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/model/evidence.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 

@@ -8,8 +8,11 @@
 
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/planning/alignment.hpp"
+#include "engine/diagnose/planning/changes.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/path.hpp"
+#include "engine/diagnose/planning/program.hpp"
+#include "engine/diagnose/planning/second_recording.hpp"
 #include "engine/diagnose/planning/shape.hpp"
 
 using namespace abbe;

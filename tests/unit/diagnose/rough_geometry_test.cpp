@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/diagnose/baseline/baseline.hpp"
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/model/evidence.hpp"
 #include "engine/machine/geometry.hpp"
 

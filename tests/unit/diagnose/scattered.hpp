@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/lanes/random.hpp"

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/explanations/explanation.hpp"
 #include "engine/diagnose/explanations/patterns/touch_factors.hpp"
+#include "engine/diagnose/model/explanation.hpp"
 
 namespace abbe::diagnose::patterns {
 

@@ -158,24 +158,6 @@ Matrix lobes(const Directions& d, int axis, int count) {
   return m;
 }
 
-Matrix indicator(const std::vector<int>& group) {
-  std::map<int, int> index;
-  for (const int g : group) index.emplace(g, 0);
-  int next = 0;
-  for (auto& [g, i] : index) i = next++;
-  Matrix out = Matrix::Zero(group.size(), next);
-  for (std::size_t i = 0; i < group.size(); ++i) out(i, index[group[i]]) = 1;
-  return out;
-}
-
-Matrix by_group(const Matrix& columns, const std::vector<int>& group) {
-  const Matrix in = indicator(group);
-  Matrix out = Matrix::Zero(columns.rows(), columns.cols() * in.cols());
-  for (Eigen::Index g = 0; g < in.cols(); ++g)
-    out.middleCols(g * columns.cols(), columns.cols()) = in.col(g).asDiagonal() * columns;
-  return out;
-}
-
 Matrix products(const Matrix& a, const Matrix& b) {
   Matrix out(a.rows(), a.cols() * b.cols());
   for (Eigen::Index k = 0; k < b.cols(); ++k) out.middleCols(k * a.cols(), a.cols()) = b.col(k).asDiagonal() * a;

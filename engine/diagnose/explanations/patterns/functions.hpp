@@ -53,10 +53,6 @@ Matrix along(const Matrix& field, const Directions&);
 std::vector<Matrix> along_all_or_one(const Matrix& field, const Directions&);
 /// So many lobes about an axis of the directions, greatest on its equator: two columns, for any phase.
 Matrix lobes(const Directions&, int axis, int count);
-/// One column for each group: 1 in its rows.
-Matrix indicator(const std::vector<int>& group);
-/// The columns kept apart by group.
-Matrix by_group(const Matrix&, const std::vector<int>& group);
 /// Every column of one times every column of the other.
 Matrix products(const Matrix&, const Matrix&);
 Matrix side_by_side(const Matrix&, const Matrix&);

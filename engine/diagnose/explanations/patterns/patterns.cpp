@@ -1,4 +1,5 @@
-// Every family of patterns.
+#include "engine/diagnose/explanations/patterns/patterns.hpp"
+
 #include "engine/diagnose/explanations/patterns/families.hpp"
 
 namespace abbe::diagnose {

@@ -11,17 +11,9 @@
 
 #include "engine/diagnose/diagnosis.hpp"
 #include "engine/diagnose/model/linear.hpp"
-#include "engine/run/recorded/touch.hpp"
+#include "engine/effects/effect.hpp"
 
 namespace abbe::diagnose {
-
-/// Signal-to-noise at which a search over the whole catalogue detects about half, and names. Where it must be known
-/// more closely it is simulated (model/power.hpp).
-inline constexpr double kDetects = 4.5, kNames = 5.5;
-/// Share of the information beyond which nothing is left to tell two effects apart.
-inline constexpr double kInseparable = 0.03;
-/// Correlation of two signatures, beside all unknowns, from which on they are called confounded.
-inline constexpr double kConfounded = 0.7;
 
 /// In what a mismatch lies: `location` of docs/results.md, "Diagnoses".
 enum class Factor { time, position, direction, head, sensor, setup, feature, run, temperature, speed };
@@ -105,44 +97,6 @@ struct Explanations {
 inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
 /// Belief before the data that what is found is new in a later run, of what may be in all.
 inline constexpr double kPriorChange = 0.1;
-/// Every explanation for these touches but those that look at raw readings, which are added once the readings
-/// are free of noise (own_noise.cpp); `rows`: which touches take part.
-Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
-/// `step_um`: of the recorded positions. What their rounding does is periodic in the readings too, and so
-/// nothing is sought within a few steps.
-void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, double step_um, Explanations&);
-
-/// What cannot be judged, in the order of the catalogue, with the columns that are missing.
-std::vector<CannotJudge> cannot_judge(const Explanations&);
-
-/// The effects of these names only, in the order of the names.
-Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows,
-                                const std::vector<std::string>& names);
-
-/// Appends the variants of OTHER (patterns/).
-void add_other(const RecordedTouches&, const std::vector<int>& rows, Explanations&);
-
-/// One pattern more, believed as most of them, with these columns; `shape`: what it is.
-void add_pattern(Explanations&, Factor, std::string shape, const Matrix& columns);
-
-/// Where something may have changed between runs: in front of one of a stretch of runs.
-struct LaterRun {
-  int from_run = 0;  ///< the middle one, which stands for all
-  Cell runs;         ///< places in the order of the later runs: from low, up to high without it
-  Cell gap_s;        ///< from the last touch in front of it to its first
-
-  double between_s() const { return (gap_s.low + gap_s.high) / 2; }
-};
-/// Every run but that of the lowest number.
-std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);
-/// Those of some runs, one after the other, in at most so many stretches.
-std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::size_t most);
-/// The parameter that is the moment of an effect.
-std::optional<std::size_t> moment_of(const Effect&);
-
-/// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
-/// nothing there.
-Variant variant_like(const Variant&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);
 
 /// Belief in each variant of an explanation: the same for each group of parameters, and within a group for each
 /// variant, but for those that change between runs, which hold a tenth together. What is gone counts half of what is

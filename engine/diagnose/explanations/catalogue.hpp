@@ -1,0 +1,46 @@
+// From the registry of effects, and the patterns beside it, to the explanations of a recording.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/model/explanation.hpp"
+#include "engine/run/recorded/touch.hpp"
+
+namespace abbe::diagnose {
+
+/// Every explanation for these touches but those that look at raw readings, which are added once the readings
+/// are free of noise (own_noise.cpp); `rows`: which touches take part.
+Explanations explanations_without_readings(const RecordedTouches&, const std::vector<int>& rows);
+/// `step_um`: of the recorded positions. What their rounding does is periodic in the readings too, and so
+/// nothing is sought within a few steps.
+void add_explanations_of_readings(const RecordedTouches&, const std::vector<int>& rows, double step_um, Explanations&);
+
+/// What cannot be judged, in the order of the catalogue, with the columns that are missing.
+std::vector<CannotJudge> cannot_judge(const Explanations&);
+
+/// The effects of these names only, in the order of the names.
+Explanations named_explanations(const RecordedTouches&, const std::vector<int>& rows,
+                                const std::vector<std::string>& names);
+
+/// Where something may have changed between runs: in front of one of a stretch of runs.
+struct LaterRun {
+  int from_run = 0;  ///< the middle one, which stands for all
+  Cell runs;         ///< places in the order of the later runs: from low, up to high without it
+  Cell gap_s;        ///< from the last touch in front of it to its first
+
+  double between_s() const { return (gap_s.low + gap_s.high) / 2; }
+};
+/// Every run but that of the lowest number.
+std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);
+/// Those of some runs, one after the other, in at most so many stretches.
+std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::size_t most);
+/// The parameter that is the moment of an effect.
+std::optional<std::size_t> moment_of(const Effect&);
+
+/// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
+/// nothing there.
+Variant variant_like(const Variant&, const Effect&, const RecordedTouches&, const std::vector<int>& rows);
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,80 @@
+#include "engine/diagnose/model/explanation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace abbe::diagnose {
+
+std::string_view name(Factor f) {
+  constexpr std::string_view names[] = {"time",  "position", "direction", "head",        "sensor",
+                                        "setup", "feature",  "run",       "temperature", "speed"};
+  return names[static_cast<int>(f)];
+}
+
+bool adjoin(const Cell& a, const Cell& b) {
+  const double rounding = 1e-9 * (std::abs(a.low) + std::abs(a.high));
+  return a.low <= b.high + rounding && b.low <= a.high + rounding;
+}
+
+bool alike(const Variant& a, const Variant& b) {
+  if (a.change != b.change || a.group != b.group) return false;
+  for (std::size_t p = 0; p < a.theta.size(); ++p)
+    if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
+      return false;
+  return true;
+}
+
+void share_belief(const Explanation& e, std::vector<Variant>& variants) {
+  double constant = 0, changing = 0;
+  std::map<std::string_view, double> in_group;
+  for (const int k : e.variants) ++in_group[variants[k].group];
+  const auto weight = [&](const Variant& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
+  for (const int k : e.variants) {
+    const Variant& b = variants[k];
+    (b.change.any() ? changing : constant) += weight(b);
+  }
+  const double share = changing == 0 ? 0 : constant == 0 ? 1 : kPriorChange;
+  for (const int k : e.variants) {
+    Variant& b = variants[k];
+    b.weight = weight(b) * (b.change.any() ? share / changing : (1 - share) / constant);
+  }
+}
+
+bool same_columns(const Matrix& a, const Matrix& b, double less_than_um) {
+  if (a.cols() != b.cols() || a.rows() != b.rows()) return false;
+  // Most differ in their first rows.
+  return std::equal(a.data(), a.data() + a.size(), b.data(),
+                    [&](double x, double y) { return std::abs(x - y) < less_than_um; });
+}
+
+Matrix compressed(const Matrix& m) {
+  if (m.cols() == 0) return m;
+  const auto [values, vectors] = spectrum(m.transpose() * m);
+  const double least = 1e-6 * values(values.size() - 1);
+  Eigen::Index first = 0;
+  while (first < values.size() - 1 && values(first) < least) ++first;
+  return m * vectors.rightCols(values.size() - first);
+}
+
+Explanations only(const Explanations& all, const std::vector<int>& kept) {
+  Explanations out;
+  for (const int k : kept) {
+    Explanation e = all.list[k];
+    for (int& b : e.variants) {
+      out.variants.push_back(all.variants[b]);
+      out.variants.back().explanation = static_cast<int>(out.list.size());
+      b = static_cast<int>(out.variants.size()) - 1;
+    }
+    out.list.push_back(std::move(e));
+  }
+  return out;
+}
+
+Explanations rows_of(const Explanations& all, const std::vector<Eigen::Index>& rows) {
+  Explanations out = all;
+  for (Variant& b : out.variants) b.signature = Matrix(b.signature(rows, Eigen::all));
+  return out;
+}
+
+}  // namespace abbe::diagnose
