@@ -55,6 +55,7 @@ std::vector<CsvField> split(const SourceFile& file, std::string_view line, std::
 }
 
 void read_remark(std::string_view line, std::uint32_t begin, CsvTable& table) {
+  while (!line.empty() && (line.back() == ',' || line.back() == ' ')) line.remove_suffix(1);  // of a spreadsheet
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return;
   table.remarks.push_back({std::string(trimmed(line.substr(1, colon - 1))),
@@ -97,6 +98,14 @@ CsvTable read_csv(const SourceFile& file) {
       continue;
     }
     std::vector<CsvField> fields = split(file, line, begin, sink);
+    // A spreadsheet fills lines up with commas, and quotes a line of comment that has some of its own.
+    const bool one_field =
+        std::all_of(fields.begin() + 1, fields.end(), [](const CsvField& f) { return f.text.empty(); });
+    if (one_field && fields.size() > 1 && fields.front().text.empty()) continue;
+    if (one_field && table.header.size() != 1 && fields.front().text.starts_with('#')) {
+      read_remark(fields.front().text, begin, table);
+      continue;
+    }
     if (table.header.empty()) {
       check_separator(file, fields);
       table.header = std::move(fields);

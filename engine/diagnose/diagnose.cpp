@@ -36,6 +36,7 @@
 #include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/warnings.hpp"
 #include "engine/diagnose/words.hpp"
+#include "engine/machine/screening.hpp"
 
 namespace abbe {
 
@@ -364,6 +365,8 @@ Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, 
   const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
   out.touches = static_cast<int>(recording.rows.size());
   const double step_um = options.design_only ? 0 : kUmPerMm * common_step_mm(recorded);
+  if (std::optional<Diagnostic> contradiction = contradicts_specification(machine, options.seed, options.threads))
+    out.messages.push_back(std::move(*contradiction));
   const Given given{recording, step_um, machine, options, file};
   std::variant<Diagnosis, AnotherPart> found = diagnosed(given, stated_surfaces(recording, file), out);
   if (const auto* other = std::get_if<AnotherPart>(&found)) {

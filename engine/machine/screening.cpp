@@ -228,6 +228,20 @@ std::optional<Diagnostic> screening_warning(const Machine& machine, const Screen
                     "the e_max of the machine file fit its specification badly: " + way_out(counts, best));
 }
 
+std::optional<Diagnostic> contradicts_specification(const Machine& machine, std::uint64_t seed, int threads) {
+  constexpr int kCandidates = 2000;
+  constexpr double kHardlyAny = 0.01;
+  const Lines lines = test_lines(machine);
+  const double share =
+      share_accepted(machine.specification, lines, scalable_errors(machine, lines, seed, 0, kCandidates, threads), 1);
+  if (share >= kHardlyAny) return std::nullopt;
+  return diagnostic(Code::W0416,
+                    fmt::format("hardly any of the virtual machines of \"{}\" satisfies its specification ({} of {}): "
+                                "it is no machine that a recording can be compared with",
+                                machine.name, std::lround(share * kCandidates), kCandidates),
+                    "correct e_max or the MPE of the machine file; 'abbe machine screen' says which e_max would fit");
+}
+
 std::optional<SuggestedFactor> suggest_e_max_factor(const Machine& machine, std::uint64_t seed, int candidates,
                                                     int threads) {
   const Lines lines = test_lines(machine);

@@ -44,6 +44,9 @@ VirtualMachines screened_machines(const Machine&, std::uint64_t seed, int count,
 VirtualMachines more_screened_machines(const Machine&, std::uint64_t seed, int count, int threads,
                                        std::uint32_t first_candidate);
 
+/// W0416 where fewer than one in a hundred candidates satisfies the specification: a slip in e_max or in the MPE.
+std::optional<Diagnostic> contradicts_specification(const Machine&, std::uint64_t seed, int threads);
+
 /// What the user must hear of a screening: over half of the candidates fall outside the specification, and
 /// which factor on e_max would fit. Nothing when more pass.
 std::optional<Diagnostic> screening_warning(const Machine&, const ScreeningCounts&, std::uint64_t seed, int threads);

@@ -340,6 +340,16 @@ class Mistakes(Input):
         path.write_text("".join(line for line in path.read_text().splitlines(True) if not line.startswith("#")))
         self.assertIn("N0733", self.codes(self.said(path, "--machine", folder / "portal-2009.json")))
 
+    def test_two_rings_of_a_bore_are_no_hollow_ball(self):
+        """They lie on a ball, but their normals do not stand on it."""
+        rows = ["feature,touch,x,y,z,tx,ty,tz,nx,ny,nz"]
+        for k in range(24):
+            a, z = math.tau * (k % 12) / 12, -500 - 12 * (k // 12)
+            at = [f"{v:.6f}" for v in (500 + 18 * math.cos(a), 400 + 18 * math.sin(a), z)]
+            rows.append(",".join(["BORE", str(k + 1), *at, *at, f"{-math.cos(a):.9f}", f"{-math.sin(a):.9f}", "0"]))
+        said = self.said(self.write("bore.csv", "\n".join(rows) + "\n"), "--machine", "coord3-mc16")
+        self.assertNotIn("N0733", self.codes(said))
+
     def test_a_recording_names_a_machine_beside_it(self):
         machine = (harness.ROOT / "examples/machines/moving-table-700.json").read_text()
         self.write("there/mm2.json", machine)

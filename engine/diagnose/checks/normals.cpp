@@ -150,7 +150,7 @@ void check_normals_of_balls(const Recording& r, const std::string& file) {
 
 void doubt_hollow_balls(const Recording& r, const RecordedTouches& t, const std::string& file,
                         std::vector<Diagnostic>& messages) {
-  constexpr double kBehind = -0.7,
+  constexpr double kBehind = -0.7, kRadial = 0.9999,
                    kInReach = -0.5;  // cosine to the stylus: where its shaft is, and where it is not yet
   if (lies_as_planned(r)) return;
   bool through = false, outside_in_reach = !r.in_part_frame;
@@ -160,7 +160,7 @@ void doubt_hollow_balls(const Recording& r, const RecordedTouches& t, const std:
   const std::vector<OnBall> touches = on_balls(every_row(r));
   for (const auto& [out, row] : touches) {
     if (row->travel && !row->travel_as_planned) return;  // it says from which side
-    inward += dot(out, *row->normal) < 0;
+    inward += dot(out, unit(*row->normal)) < -kRadial;   // two rings of a bore lie on a ball, too
     const double along = dot(*row->normal, to_head[row]);
     through = through || along < kBehind;
     outside_in_reach = outside_in_reach && (row->sensor || row->head_a_deg) && -along > kInReach;

@@ -23,6 +23,14 @@ constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::a
 /// Covariates that a scene has by itself, whatever was logged.
 constexpr unsigned kImplied = Covariate::gradients | Covariate::qualification | Covariate::visit;
 
+/// Of one difference, as between two indexings, nobody can tell that it is a spread.
+bool spread_hidden(const Effect& effect, const RecordedTouches& t) {
+  constexpr std::size_t kLeastVisits = 3;
+  std::set<int> visits;
+  for (const RecordedTouch& touch : t.touches) visits.insert(touch.scene.visit);
+  return effect.draws > 0 && effect.draws_per == DrawsPer::visit && visits.size() < kLeastVisits;
+}
+
 unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
   const unsigned absent = effect.needs & ~(t.known | kImplied);
   const unsigned constant = effect.needs & kMustVary & t.known & ~t.varying;
@@ -113,6 +121,17 @@ std::vector<Variant> by_groups(const std::vector<Variant>& all, const Effect& ef
   return list;
 }
 
+/// The same along any direction, and along each axis.
+std::vector<Variant> by_directions(const std::vector<Variant>& all, const std::vector<ParameterGrid>& grids) {
+  const bool directed = std::any_of(grids.begin(), grids.end(), [](const ParameterGrid& grid) {
+    return grid.kind == ParameterGrid::Kind::direction;
+  });
+  std::vector<Variant> list;
+  for (int axis = -1; axis < (directed ? 3 : 0); ++axis)
+    for (const Variant& variant : all) list.push_back(variant), list.back().axis = axis;
+  return list;
+}
+
 /// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
 constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
 
@@ -166,11 +185,11 @@ class VariantColumns {
  private:
   void add_parameter(int p, Variant& variant) const {
     const double unit = effect_.parameters[p].typical;
-    for (int d = 0; d < (direction_ >= 0 ? 3 : 1); ++d) {
+    for (int d = 0; d < (direction_ >= 0 && variant.axis < 0 ? 3 : 1); ++d) {
       for (int phase = 0; phase < (phases_.empty() ? 1 : 2); ++phase) {
         std::vector<double> theta = variant.theta;
         theta[p] = unit;
-        if (direction_ >= 0) theta[direction_] = d;
+        if (direction_ >= 0) theta[direction_] = variant.axis < 0 ? d : variant.axis;
         for (const int at : phases_) theta[at] = 90.0 * phase;
         const Column column{p, d + 3 * phase, unit};
         if (effect_.draws == 0)
@@ -299,6 +318,11 @@ std::vector<ParameterGrid> grids_of(const Effect& effect, const RecordedTouches&
 
 void add_effect(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows, Explanations& out,
                 double least_period_um = 0) {
+  if (spread_hidden(effect, t)) {
+    constexpr auto kVisit = static_cast<unsigned>(Covariate::visit);
+    out.unjudged.push_back({&effect, kVisit, kVisit});
+    return;
+  }
   Explanation explanation;
   explanation.name = std::string(effect.name);
   explanation.effect = &effect;
@@ -306,7 +330,8 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.missing = missing_of(effect, t);
   const std::vector<ParameterGrid> grids = grids_of(effect, t, least_period_um);
   const Variants variants(effect, grids, t, rows);
-  for (Variant& variant : with_changes(by_groups(settings(effect, grids), effect), effect, later_runs(t, rows))) {
+  const std::vector<Variant> in_all = by_directions(by_groups(settings(effect, grids), effect), grids);
+  for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows))) {
     variant.explanation = static_cast<int>(out.list.size());
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;
@@ -369,6 +394,7 @@ Variant variant_like(const Variant& other, const Effect& effect, const RecordedT
   Variant variant;
   variant.theta = other.theta;
   variant.group = other.group;
+  variant.axis = other.axis;
   variant.change = other.change;
   Variants(effect, grids_of(effect, t), t, rows).fill(variant);
   return variant;

@@ -43,7 +43,7 @@ std::vector<int> candidates(const Explanations& all, const Evidence& evidence) {
 /// Whether two variants differ in no choice and their cells touch. The moment of what changed between runs is
 /// that of the runs.
 bool neighbours(const Variant& a, const Variant& b, const Effect& effect) {
-  if (a.group != b.group) return false;
+  if (a.group != b.group || a.axis != b.axis) return false;
   const bool of_runs = of_several_runs(a) || of_several_runs(b);
   if (a.change != b.change && !(of_runs && a.change.is_like(b.change) && adjoin(a.runs, b.runs))) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)

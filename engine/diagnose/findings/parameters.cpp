@@ -287,10 +287,15 @@ class Estimator {
   /// The axis where it may be one, else azimuth and elevation, the two parameters after it.
   void add_direction(std::size_t p, std::vector<DiagnosedParameter>& out) const {
     constexpr double kNone = 1e-6;  // rad: the touches see one direction only
-    auto d = variants_[likeliest_].estimate->direction();
+    const auto parameters = explanation_.effect->parameters;
+    const Candidate& likeliest = variants_[likeliest_];
+    if (const int axis = likeliest.variant.axis; axis >= 0) {
+      out.push_back({.name = "direction", .unit = "", .word = std::string(parameters[p].choices[axis])});
+      return;
+    }
+    auto d = likeliest.estimate->direction();
     if (!d) return;
     if (d->u < kNone) d->u = 0;
-    const auto parameters = explanation_.effect->parameters;
     constexpr double kClearly = 2;  // standard uncertainties
     const double components[] = {d->x, d->y, d->z};
     std::size_t axis = 3;

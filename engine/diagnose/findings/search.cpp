@@ -331,9 +331,12 @@ void drop_needless(const Case& c, SearchResult& result) {
   }
 }
 
+/// Along an axis and along any direction is one fault, too.
 bool same_fault(const Case& c, const Finding& a, const Finding& b) {
-  const auto variant = [&](const Finding& f) -> const Variant& { return c.explanations.variants[f.variant]; };
-  return a.explanation == b.explanation && alike(variant(a), variant(b));
+  if (a.explanation != b.explanation) return false;
+  Variant one = c.explanations.variants[a.variant], other = c.explanations.variants[b.variant];
+  if (one.axis < 0 || other.axis < 0) one.axis = other.axis;
+  return alike(one, other);
 }
 
 /// Names every finding again, given all others as they are by then. Two rounds may have named one fault twice: then one

@@ -91,13 +91,32 @@ VariantEstimate::VariantEstimate(const Effect& effect, const Variant& variant, c
     if (size + kNormal95 * u < parameter.low || size - kNormal95 * u > parameter.high) impossible.insert(p);
   }
   if (!impossible.empty()) solve(info, impossible);
+  if (const std::optional<int> one = one_for_all(info)) solve(info, {}, one);
+}
+
+std::optional<int> VariantEstimate::one_for_all(const Information& info) const {
+  constexpr double kCertain = 5;  // standard deviations of all together
+  if (directions_ * phases_ > 1 || variant_.joined) return std::nullopt;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < mean_.size(); ++k)
+    if (covariance_(k, k) > 0) kept.push_back(k);
+  if (kept.size() < 2) return std::nullopt;
+  const auto explains = [&](Eigen::Index k) { return info.u(k) * info.u(k) / info.g(k, k); };
+  for (const Eigen::Index k : kept)
+    if (std::abs(mean_(k)) > kNormal95 * std::sqrt(covariance_(k, k))) return std::nullopt;
+  if (mean_.dot(info.u) < kCertain * kCertain) return std::nullopt;
+  return variant_
+      .columns[static_cast<std::size_t>(*std::max_element(
+          kept.begin(), kept.end(), [&](Eigen::Index a, Eigen::Index b) { return explains(a) < explains(b); }))]
+      .parameter;
 }
 
 Vector VariantEstimate::shift_um() const { return variant_.signature * mean_; }
 
-void VariantEstimate::solve(const Information& info, const std::set<int>& later) {
+void VariantEstimate::solve(const Information& info, const std::set<int>& later, std::optional<int> only) {
   mean_.setZero(), covariance_.setZero();
-  const std::vector<Eigen::Index> kept = telling(variant_, info.g, later);
+  std::vector<Eigen::Index> kept = telling(variant_, info.g, later);
+  if (only) std::erase_if(kept, [&](Eigen::Index k) { return variant_.columns[k].parameter != *only; });
   const Cholesky root(info.g(kept, kept), 1 / (kWidest * kWidest));
   mean_(kept) = root.solve(Vector(info.u(kept)));
   covariance_(kept, kept) = root.inverse();

@@ -25,7 +25,9 @@ struct SpannedDirection {
 
 /// Linear-Gaussian posterior of the coefficients of a variant, with priors so wide that they do not pull.
 /// Where several parameters do the same to these touches the first of those that can have such a size tells it, and the
-/// others nothing: their sum is known, not their shares.
+/// others nothing: their sum is known, not their shares. Where they do nearly the same, so that each by itself may be
+/// nothing and all together cannot, the one that explains most tells it: beside each other their uncertainties would say
+/// nothing, and a machine file has no place for what they have in common.
 ///
 /// Columns along three directions and two phases span more than an effect does, which moves along one
 /// direction with one phase. Size, direction and phase are those of the nearest such motion: the leading term
@@ -54,8 +56,9 @@ class VariantEstimate {
     bool whole = true;  ///< whether the touches see it from every direction
   };
   std::optional<Motion> motion(int parameter) const;
-  /// `later`: parameters that tell only what no other one does.
-  void solve(const Information&, const std::set<int>& later);
+  /// `later`: parameters that tell only what no other one does; `only`: the one that tells anything.
+  void solve(const Information&, const std::set<int>& later, std::optional<int> only = {});
+  std::optional<int> one_for_all(const Information&) const;
 
   const Effect& effect_;
   const Variant& variant_;

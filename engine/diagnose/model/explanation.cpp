@@ -18,7 +18,7 @@ bool adjoin(const Cell& a, const Cell& b) {
 }
 
 bool alike(const Variant& a, const Variant& b) {
-  if (a.change != b.change || a.group != b.group) return false;
+  if (a.change != b.change || a.group != b.group || a.axis != b.axis) return false;
   for (std::size_t p = 0; p < a.theta.size(); ++p)
     if (a.theta[p] != b.theta[p] && a.cells[p].low == a.cells[p].high && b.cells[p].low == b.cells[p].high)
       return false;
@@ -26,10 +26,14 @@ bool alike(const Variant& a, const Variant& b) {
 }
 
 void share_belief(const Explanation& e, std::vector<Variant>& variants) {
+  constexpr double kAny = 0.5, kEachAxis = (1 - kAny) / 3;
   double constant = 0, changing = 0;
+  const auto of_direction = [](const Variant& b) { return b.axis < 0 ? kAny : kEachAxis; };
   std::map<std::string_view, double> in_group;
-  for (const int k : e.variants) ++in_group[variants[k].group];
-  const auto weight = [&](const Variant& b) { return (b.change.gone() ? 0.5 : 1) / in_group[b.group]; };
+  for (const int k : e.variants) in_group[variants[k].group] += of_direction(variants[k]);
+  const auto weight = [&](const Variant& b) {
+    return (b.change.gone() ? 0.5 : 1) * of_direction(b) / in_group[b.group];
+  };
   for (const int k : e.variants) {
     const Variant& b = variants[k];
     (b.change.any() ? changing : constant) += weight(b);

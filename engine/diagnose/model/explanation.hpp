@@ -51,6 +51,7 @@ struct Variant {
   /// possible
   std::vector<Cell> cells;
   std::string_view group;  ///< of the effect's parameters, which acts without the others; "": all act
+  int axis = -1;           ///< of an effect that has a direction: along which axis it acts; -1: any, which three span
   RunChange change;        ///< what changed between runs
   Cell runs;  ///< of a change: the stretch of later runs that its first one stands for, as places in their order
   double weight = 1;    ///< belief before the data in this variant, among those of its explanation
@@ -99,7 +100,8 @@ inline constexpr double kPriorCatalogue = 0.8, kPriorOther = 0.2;
 inline constexpr double kPriorChange = 0.1;
 
 /// Belief in each variant of an explanation: the same for each group of parameters, and within a group for each
-/// variant, but for those that change between runs, which hold a tenth together. What is gone counts half of what is
+/// variant, but for those that change between runs, which hold a tenth together. Of a direction, half is for any, and half
+/// for the axes: what carriages, scales and clamps do lies along one more often than chance would have it. What is gone counts half of what is
 /// new: where only differences between runs are seen, the two are the same.
 void share_belief(const Explanation&, std::vector<Variant>&);
 

@@ -280,6 +280,10 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
     out.push_back(
         "Smaller effects, and those that cannot be judged, need another measurement: 'abbe diagnose --design-only' says what a plan could show.");
   }
+  const auto of_outliers = [](const DiagnosedEffect& e) { return e.members.front() == "noise.outliers"; };
+  if (!d.baseline.outliers.empty() && std::any_of(d.effects.begin(), d.effects.end(), of_outliers))
+    out.push_back(
+        "Look at the surfaces where the touches were made that are left out (the last line), clean them and the tip, and touch them again: what does not come back is no property of the machine.");
   const bool pattern = d.values.empty() && d.unexplained, carried = pattern && !d.unexplained->model.empty();
   if (pattern && !carried)
     out.push_back(

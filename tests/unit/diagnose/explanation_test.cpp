@@ -27,6 +27,17 @@ TEST_CASE("groups of parameters share belief alike, and what is new in a later r
   CHECK(variants[7].weight == doctest::Approx(0.1));
 }
 
+TEST_CASE("of a direction half is for any, and half for the axes") {
+  std::vector<Variant> variants(4);
+  for (int k = 1; k < 4; ++k) variants[k].axis = k - 1;
+  Explanation e;
+  e.variants = {0, 1, 2, 3};
+  share_belief(e, variants);
+  CHECK(variants[0].weight == doctest::Approx(0.5));
+  for (int k = 1; k < 4; ++k) CHECK(variants[k].weight == doctest::Approx(0.5 / 3));
+  CHECK_FALSE(alike(variants[0], variants[1]));
+}
+
 TEST_CASE("what is gone counts half of what is new") {
   std::vector<Variant> variants(3);
   variants[0].change.from = 2;

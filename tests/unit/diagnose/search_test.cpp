@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/effects/effect.hpp"
@@ -33,6 +35,24 @@ Finding found(const std::vector<double>& names, double pattern, bool catalogue) 
 }
 
 }  // namespace
+
+TEST_CASE("an effect with a direction is sought along any, and along each axis") {
+  const Planted at(1);
+  const Explanations all = named_explanations(at.c.touches, at.c.rows, {"machine.step"});
+  std::map<int, std::set<Eigen::Index>> columns;  // by axis
+  for (const Variant& v : all.variants) columns[v.axis].insert(v.signature.cols());
+  CHECK(columns == std::map<int, std::set<Eigen::Index>>{{-1, {3}}, {0, {1}}, {1, {1}}, {2, {1}}});
+}
+
+TEST_CASE("a spread of indexings is not judged by two of them") {
+  Planted at(1);
+  const auto judged = [&](int visits) {
+    for (int i = 0; i < at.count(); ++i) at.scene(i).visit = i % visits;
+    return !named_explanations(at.c.touches, at.c.rows, {"head.reindexing"}).list.empty();
+  };
+  CHECK_FALSE(judged(2));
+  CHECK(judged(3));
+}
 
 TEST_CASE("what the recording does not speak for is in no set") {
   Explanations all;

@@ -25,6 +25,23 @@ struct Jump {
 
 }  // namespace
 
+TEST_CASE("of parameters that do nearly the same one tells what none does by itself") {
+  const Effect& bending = *find_effect("probe.stylus_bending");
+  Variant v;
+  v.columns = {{0, 0, 1}, {1, 0, 1}};
+  const auto estimated = [&](double correlation, double first) {
+    Information info;
+    info.g.resize(2, 2);
+    info.g << 100, 100 * correlation, 100 * correlation, 100;
+    info.u = info.g * (Vector(2) << first, 0.8).finished();
+    return VariantEstimate(bending, v, info);
+  };
+  const VariantEstimate alike = estimated(0.98, 0.5);
+  CHECK((alike.size(0).has_value() != alike.size(1).has_value()));
+  const VariantEstimate apart = estimated(0.5, 0.5);
+  CHECK((apart.size(0) && apart.size(1)));
+}
+
 TEST_CASE("a motion is told by the directions that the touches see") {
   const Jump jump({0.0, 30.0, 500.0}, {400.0, 400.0, 1e-4});
   const VariantEstimate e = jump.estimate();

@@ -169,6 +169,15 @@ TEST_CASE("an error-free machine has no factor on its errors") {
   CHECK(!suggest_e_max_factor(machine, 1, 100, 1));  // all pass, whatever the factor
 }
 
+TEST_CASE("a machine file whose errors and specification contradict each other is told") {
+  Machine m = read_machine("coord3-mc16");
+  CHECK_FALSE(contradicts_specification(m, 1, 1));
+  m.components[0].e_max *= 1000;
+  const auto told = contradicts_specification(m, 1, 1);
+  REQUIRE(told);
+  CHECK(told->code == Code::W0416);
+}
+
 TEST_CASE("a specification that nothing satisfies is refused with the way out") {
   Machine machine = read_machine("coord3-mc16");
   for (ComponentSpec& component : machine.components) component.e_max *= 50;
