@@ -49,6 +49,12 @@ std::string in_words(const RunChange& change) {
   return fmt::format("{}", fmt::join(ends, " and "));
 }
 
+/// Whether the 95 % interval is far from the value plus and minus two standard uncertainties, as that of a time constant is.
+bool lopsided(const DiagnosedParameter& p) {
+  constexpr double kHalf = 0.5;
+  return std::min(p.value - p.low, p.high - p.value) < kHalf * 2 * p.u;
+}
+
 std::string in_word(const DiagnosedParameter& p) { return plain_name(p) + " " + p.word + remark(p); }
 
 }  // namespace
@@ -62,6 +68,9 @@ std::string with_uncertainty(const DiagnosedParameter& p) {
   if (!p.word.empty()) return in_word(p);
   const int decimals = decimals_for(2 * p.u, p.value);
   if (p.u == 0) return without_uncertainty(p, decimals);
+  if (lopsided(p))
+    return fmt::format("{} {:.{}f}{} ({:.{}f} to {:.{}f}){}", plain_name(p), p.value, decimals, unit_after(p), p.low,
+                       decimals, p.high, decimals, remark(p));
   return fmt::format("{} {:.{}f} ± {:.{}f}{}{}", plain_name(p), p.value, decimals, 2 * p.u, decimals, unit_after(p),
                      remark(p));
 }

@@ -11,7 +11,8 @@ namespace abbe {
 
 /// With two significant digits and no exponent: "0.21", "4.5", "240".
 std::string two_digits(double);
-/// "delay 1.20 ± 0.08 ms": with two standard uncertainties, which have two significant digits (GUM 7.2.6).
+/// "delay 1.20 ± 0.08 ms": with two standard uncertainties, which have two significant digits (GUM 7.2.6); where the 95 %
+/// interval lies to one side, "tau 2866 s (1401 to 11215)".
 std::string with_uncertainty(const DiagnosedParameter&);
 /// "delay 1.20 ms (1.12 to 1.28)": with the 95 % interval; "implausible" where the catalogue says so.
 std::string with_interval(const DiagnosedParameter&);

@@ -143,13 +143,14 @@ class Design {
     return linear == p.end() ? 0 : static_cast<int>(linear - p.begin());
   }
 
-  /// Some of its variants, those in all runs or those that change between runs, from the one that shows most to the one that shows least, with the columns of the
-  /// size that is told.
+  /// Some of its variants, those in all runs or those that change between runs, from the one that shows most to the one
+  /// that shows least, with the columns of the size that is told. Any direction has those of the axes, which count once.
   std::vector<Form> forms_of(const Explanation& e, bool changing) const {
     constexpr std::size_t kVariants = 7;
     std::vector<int> variants;
     for (const int b : e.variants)
-      if (diagonal_[b].maxCoeff() > 1e-12 && (all_.variants[b].change.any()) == changing) variants.push_back(b);
+      if (diagonal_[b].maxCoeff() > 1e-12 && all_.variants[b].axis < 0 && all_.variants[b].change.any() == changing)
+        variants.push_back(b);
     std::stable_sort(variants.begin(), variants.end(),
                      [&](int a, int b) { return diagonal_[a].maxCoeff() > diagonal_[b].maxCoeff(); });
     const std::size_t n = variants.size(), m = std::min(n, kVariants);

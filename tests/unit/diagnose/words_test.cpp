@@ -28,6 +28,9 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
   DiagnosedParameter moment = size("t0_s", "s", 301.8, 4.85);
   moment.called = "in run 2";
   CHECK(with_uncertainty(moment) == "t0 301.8 ± 9.7 s (in run 2)");
+  DiagnosedParameter slow = size("tau_s", "s", 2866, 3600);
+  slow.low = 1401, slow.high = 11215;
+  CHECK(with_uncertainty(slow) == "tau 2866 s (1401 to 11215)");
   DiagnosedParameter far = size("squareness_urad", "urad", 46, 6);
   far.plausible = false;
   CHECK(with_interval(far) == "squareness 46 urad (34 to 58), implausible");
