@@ -91,7 +91,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
 }
 
 void refuse_too_many(const Recording& r, const std::string& file) {
-  constexpr std::size_t kMostTouches = 4000;  // ten minutes, and 4 GB
+  constexpr std::size_t kMostTouches = 4000;  // ten minutes, and 7 GB (docs/benchmarks.md)
   if (r.rows.size() > kMostTouches)
     throw UserError(diagnostic(
         Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, r.rows.size()),
