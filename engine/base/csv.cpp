@@ -102,7 +102,7 @@ CsvTable read_csv(const SourceFile& file) {
     const bool one_field =
         std::all_of(fields.begin() + 1, fields.end(), [](const CsvField& f) { return f.text.empty(); });
     if (one_field && fields.size() > 1 && fields.front().text.empty()) continue;
-    if (one_field && table.header.size() != 1 && fields.front().text.starts_with('#')) {
+    if (one_field && table.header.empty() && fields.front().text.starts_with('#')) {
       read_remark(fields.front().text, begin, table);
       continue;
     }

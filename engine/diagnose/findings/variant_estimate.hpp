@@ -58,6 +58,7 @@ class VariantEstimate {
   std::optional<Motion> motion(int parameter) const;
   /// `later`: parameters that tell only what no other one does; `only`: the one that tells anything.
   void solve(const Information&, const std::set<int>& later, std::optional<int> only = {});
+  /// The parameter that tells for all, where all together are certain and none by itself is.
   std::optional<int> one_for_all(const Information&) const;
 
   const Effect& effect_;

@@ -13,6 +13,8 @@ TEST_CASE("lines that a spreadsheet filled up with commas say what they said bef
   CHECK(t.remarks[1].value == "tip, long");
   REQUIRE(t.rows.size() == 2);
   CHECK(t.rows[1].fields[0].text == "#1");
+  // In the table a label of that kind is one, whatever else the row lacks.
+  CHECK(read_csv(SourceFile("t.csv", "feature,x\n\"#1\",\n")).rows.size() == 1);
 }
 
 TEST_CASE("a quoted field is what its quotes enclose, and nothing may stand beside them") {
