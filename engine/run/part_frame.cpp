@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/math/rigid_fit.hpp"
+#include "engine/math/round_fit.hpp"
 #include "engine/math/units.hpp"
 
 namespace abbe {
@@ -14,25 +15,17 @@ namespace {
 /// Targets of one point of the part in two placements agree this well: they come from one drawing.
 constexpr double kSamePoint_mm = 0.1;
 
-/// The point c that lies at one distance behind all touches of a feature: surface = c + rho normal, by least
-/// squares. Nothing for a feature that is touched from too few sides (a face, a line), which has no such
+/// The point that lies at one distance behind all touches of a feature. Nothing for a feature that is touched from too few sides (a face, a line), which has no such
 /// point.
 std::optional<Vec3> centre_of(const std::vector<const AimedTouch*>& touches) {
   std::vector<Vec3> normals, surfaces;
   for (const AimedTouch* t : touches) normals.push_back(t->normal), surfaces.push_back(t->surface);
-  const Vec3 n = mean_of(normals), s = mean_of(surfaces);
-  double spread = 0, product = 0;
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    spread += dot(normals[i] - n, normals[i] - n);
-    product += dot(normals[i] - n, surfaces[i] - s);
-  }
-  constexpr double kFlat = 0.05;  // mean square spread of the normals
-  if (touches.size() < 3 || spread < kFlat * double(touches.size())) return std::nullopt;
-  const double rho = product / spread;
-  const Vec3 c = s - rho * n;
+  const RoundFit round = round_fit(surfaces, normals);
+  constexpr double kFlat = 0.05;
+  if (touches.size() < 3 || round.spread < kFlat) return std::nullopt;
   for (std::size_t i = 0; i < normals.size(); ++i)
-    if (norm(surfaces[i] - rho * normals[i] - c) > kSamePoint_mm) return std::nullopt;
-  return c;
+    if (norm(round.rest(surfaces[i], normals[i])) > kSamePoint_mm) return std::nullopt;
+  return round.centre;
 }
 
 /// What a setup knows of the part: points with a key that is the same in every setup.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/round_fit.hpp"
 #include "engine/math/scatter.hpp"
 
 namespace abbe::diagnose {
@@ -28,21 +29,14 @@ std::optional<RoundSurface> RoundSurface::through(const std::vector<Vec3>& targe
   if (targets.size() < kFewest) return std::nullopt;
   RoundSurface out;
   out.axis_ = axis_of(normals);
-  const double share = 1 / double(targets.size());
-  Vec3 target, normal;
-  for (std::size_t i = 0; i < targets.size(); ++i)
-    target += share * across(targets[i], out.axis_), normal += share * normals[i];
-  double both = 0, spread = 0;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    const Vec3 n = normals[i] - normal;
-    both += share * dot(n, across(targets[i], out.axis_) - target), spread += share * dot(n, n);
-  }
-  if (spread < kSpread) return std::nullopt;
-  out.radius_mm_ = both / spread;
-  if (std::abs(out.radius_mm_) < kPoint_mm) return std::nullopt;  // coordinates of one centre bend nowhere
-  out.middle_ = target - out.radius_mm_ * normal;
-  for (std::size_t i = 0; i < targets.size(); ++i)
-    if (norm(across(targets[i], out.axis_) - out.middle_ - out.radius_mm_ * normals[i]) > kOn_mm) return std::nullopt;
+  std::vector<Vec3> seen;  // along the axis
+  for (const Vec3& target : targets) seen.push_back(across(target, out.axis_));
+  const RoundFit round = round_fit(seen, normals);
+  if (round.spread < kSpread) return std::nullopt;
+  if (std::abs(round.radius) < kPoint_mm) return std::nullopt;  // coordinates of one centre bend nowhere
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (norm(round.rest(seen[i], normals[i])) > kOn_mm) return std::nullopt;
+  out.middle_ = round.centre, out.radius_mm_ = round.radius;
   return out;
 }
 

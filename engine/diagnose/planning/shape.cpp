@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/math/round_fit.hpp"
 #include "engine/math/scatter.hpp"
 
 namespace abbe::diagnose {
@@ -15,15 +16,6 @@ constexpr double kRound_mm = 0.1;  // what may be left of a round feature
 
 Eigen3<double> scatter(const std::vector<Vec3>& list) { return scatter_about(list, mean_of(list)); }
 
-/// R of the formula above, and c.
-Ball behind(const Touched& s) {
-  const Vec3 p = mean_of(s.points), n = mean_of(s.normals);
-  double product = 0, square = 0;
-  for (std::size_t i = 0; i < s.points.size(); ++i)
-    product += dot(s.normals[i] - n, s.points[i] - p), square += dot(s.normals[i] - n, s.normals[i] - n);
-  return {p - product / square * n, product / square};
-}
-
 /// A circle or cylinder: its normals lie in one plane, and what the radius leaves of the points lies along its axis.
 std::optional<DmisFeature> turned(const Touched& s) {
   const Eigen3<double> normals = scatter(s.normals);
@@ -32,10 +24,10 @@ std::optional<DmisFeature> turned(const Touched& s) {
   const Vec3 e = least_direction(normals);
   const double up = std::abs(e.z) > 1e-9 ? e.z : e.x + e.y + e.z;
   const Vec3 axis = (up < 0 ? -1.0 : 1.0) * e;
-  const Ball round = behind(s);
+  const RoundFit round = round_fit(s.points, s.normals);
   double low = 1e9, high = -1e9;
   for (std::size_t i = 0; i < s.points.size(); ++i) {
-    const Vec3 left = s.points[i] - round.radius_mm * s.normals[i] - round.centre;
+    const Vec3 left = round.rest(s.points[i], s.normals[i]);
     if (norm(perpendicular_part(left, axis)) > kRound_mm || std::abs(dot(s.normals[i], axis)) > kThin_mm)
       return std::nullopt;
     low = std::min(low, dot(left, axis)), high = std::max(high, dot(left, axis));
@@ -47,8 +39,8 @@ std::optional<DmisFeature> turned(const Touched& s) {
   const std::string kind = circle ? "CIRCLE" : "CYLNDR";
   return DmisFeature{kind,
                      fmt::format("{},{},CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.7f}", kind,
-                                 round.radius_mm < 0 ? "INNER" : "OUTER", round.centre.x, round.centre.y,
-                                 round.centre.z, axis.x, axis.y, axis.z, 2 * std::abs(round.radius_mm))};
+                                 round.radius < 0 ? "INNER" : "OUTER", round.centre.x, round.centre.y, round.centre.z,
+                                 axis.x, axis.y, axis.z, 2 * std::abs(round.radius))};
 }
 
 }  // namespace
@@ -57,10 +49,10 @@ std::optional<Ball> ball_of(const Touched& s) {
   constexpr double kSides = 0.02;  // mean square of the normals across the direction in which they spread least
   constexpr std::size_t kTouches = 4;
   if (s.points.size() < kTouches || scatter(s.normals).value[2] < kSides) return std::nullopt;
-  const Ball ball = behind(s);
+  const RoundFit ball = round_fit(s.points, s.normals);
   for (std::size_t i = 0; i < s.points.size(); ++i)
-    if (norm(s.points[i] - ball.radius_mm * s.normals[i] - ball.centre) > kRound_mm) return std::nullopt;
-  return ball;
+    if (norm(ball.rest(s.points[i], s.normals[i])) > kRound_mm) return std::nullopt;
+  return Ball{ball.centre, ball.radius};
 }
 
 bool is_face(const Touched& s) {

@@ -1,8 +1,5 @@
 // What a feature is, from where it was touched: a recording has labels and touches, and a program needs a
 // kind and a nominal.
-//
-// On every round surface p = c + R n + t a, with n perpendicular to the axis a (a ball has no axis), so R =
-// sum (p - p')(n - n') / sum |n - n'|^2, primed: means; R is negative where it is touched from inside.
 #pragma once
 
 #include <optional>

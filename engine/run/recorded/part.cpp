@@ -9,6 +9,7 @@
 #include <map>
 
 #include "engine/base/letter_case.hpp"
+#include "engine/math/round_fit.hpp"
 #include "engine/recording/units.hpp"
 #include "engine/run/sensor.hpp"
 
@@ -24,25 +25,20 @@ std::optional<double> round_radius(const RecordedTouches& t, const std::vector<i
     Mean& m = mean[t.touches[i].scene.setup];
     m.point += t.touches[i].scene.point, m.normal += t.touches[i].scene.normal, m.n += 1;
   }
-  const auto centred = [&](int i) {
+  std::vector<Vec3> points, normals;  // about the means of their setup
+  for (const int i : rows) {
     const TouchScene& s = t.touches[i].scene;
     const Mean& m = mean[s.setup];
-    return std::pair{s.point - m.point / m.n, s.normal - m.normal / m.n};
-  };
-  double product = 0, square = 0;
-  for (const int i : rows) {
-    const auto [p, n] = centred(i);
-    product += dot(p, n), square += dot(n, n);
+    points.push_back(s.point - m.point / m.n), normals.push_back(s.normal - m.normal / m.n);
   }
+  const RoundFit round = round_fit(points, normals);
   // the means and the radius share what one touch is off
   constexpr double kSpread = 1e-3, kRound_mm = 1e-3, kFormShare = 4;
-  if (square < kSpread * double(rows.size())) return std::nullopt;
-  const double radius = product / square;
-  for (const int i : rows) {
-    const auto [p, n] = centred(i);
-    if (std::abs(dot(p - radius * n, n)) > kRound_mm + kFormShare * form_mm) return std::nullopt;
-  }
-  return radius;
+  if (round.spread < kSpread) return std::nullopt;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::abs(dot(round.rest(points[i], normals[i]), normals[i])) > kRound_mm + kFormShare * form_mm)
+      return std::nullopt;
+  return round.radius;
 }
 
 namespace {
