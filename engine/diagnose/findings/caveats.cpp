@@ -49,6 +49,12 @@ std::string whose_clock(const Case& c, const Effect& effect) {
                      kUsualInterval_s);
 }
 
+std::string unless_said(const std::vector<DiagnosedEffect>& effects, const std::string& note) {
+  const bool said = std::any_of(effects.begin(), effects.end(),
+                                [&](const DiagnosedEffect& e) { return e.sentence.find(note) != std::string::npos; });
+  return said ? "" : note;
+}
+
 bool may_be_rounding(const Case& c, const std::optional<double>& largest_um) {
   const Vec3& probe = c.machine->probe.sd_mm;
   return largest_um && *largest_um < c.step_um &&

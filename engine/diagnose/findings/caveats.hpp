@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/diagnose/findings/search.hpp"
 
@@ -26,6 +27,9 @@ std::string much_like_it(const Effect&);
 
 /// Without a clock, moments and rates are those of the motion model.
 std::string whose_clock(const Case&, const Effect&);
+
+/// The note, or "" where one of these has it already: an answer says once what holds for several of its effects.
+std::string unless_said(const std::vector<DiagnosedEffect>&, const std::string& note);
 
 inline constexpr const char* kSamePhase =
     " Wherever touches have the same direction, the scale was at the same phase: a pattern over direction would look the "

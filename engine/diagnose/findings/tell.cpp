@@ -113,7 +113,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     e.sentence = explanation_sentence(titles, e.parameters, "this recording", change, unsure, /*beside=*/k > 0) +
         pattern_beside(c, f) + not_of_one_size(f) +
         (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
-        much_like_it(effect) + whose_coordinates(c, effect) + clock + in_file;
+        much_like_it(effect);
+    for (const std::string& note : {whose_coordinates(c, effect), clock, in_file})
+      e.sentence += unless_said(out.effects, note);
     if (change.any() && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "engine/diagnose/findings/belief.hpp"
+#include "engine/diagnose/findings/caveats.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;
@@ -155,4 +156,12 @@ TEST_CASE("the verdict is the worst of what was found") {
   CHECK(verdict_of(p.c, p.result, d) == Verdict::no_mismatch);
   d.effects.emplace_back();  // scatter
   CHECK(verdict_of(p.c, p.result, d) == Verdict::named);
+}
+
+TEST_CASE("what holds for several effects is said once") {
+  const std::vector<DiagnosedEffect> none, first(1, {{"part.clamping"}, 1, {}, "It is bent. It is of this part."});
+  CHECK(unless_said(none, " It is of this part.") == " It is of this part.");
+  CHECK(unless_said(first, " It is of this part.") == "");
+  CHECK(unless_said(first, " It is gone.") == " It is gone.");
+  CHECK(unless_said(first, "") == "");
 }
