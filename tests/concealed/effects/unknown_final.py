@@ -1,7 +1,7 @@
 """Unknown effects of the final round only: none of them resembles those of the development."""
 
 from portable import np
-from scene import BALL
+from scene import APPROACH, BALL
 
 from .base import Change, Effect, unit
 
@@ -21,239 +21,232 @@ def half_size(scene):
     return float(np.abs(scene.part_point[:, :2]).max())
 
 
-def draw_insert(scene, rng):
-    half = half_size(scene)
-    turn, out = rng.uniform(0, 2 * np.pi), rng.uniform(0.3, 0.8) * half
-    begins = np.arange(int(0.25 * scene.size), int(0.6 * scene.size))
-    soon = np.minimum(begins + 40, scene.size - 1)
-    busy = np.flatnonzero(scene.time[soon] - scene.time[begins] < 700)  # no long pause soon after it
-    busy = busy if len(busy) else np.arange(len(begins))
+def starts(scene):
+    """First touch of each block, and how far the carriages have come from the block before, mm."""
+    first = np.flatnonzero(np.diff(scene.block, prepend=-1) > 0)
+    way = np.zeros((len(first), 3))
+    way[1:] = scene.reading[first[1:]] - scene.reading[first[1:] - 1]
+    return first, way
+
+
+def draw_counterweight(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "place_mm": [float(np.cos(turn) * out), float(np.sin(turn) * out)],
-        "width_mm": float(rng.uniform(0.2, 0.3) * half),
-        "spreads_mm2_per_s": float(rng.uniform(0.5, 0.9)),
-        "cools_s": float(rng.uniform(1200, 2500)),
-        "shrunk_in_s": float(rng.choice(scene.time[begins[busy]])) + 0.5,
+        "axis": "xy"[rng.integers(2)],
+        "period_s": float(rng.uniform(1.1, 1.9)),
+        "dies_s": float(rng.uniform(15, 40)),
+        "cruises_mm_per_s": float(rng.uniform(80, 200)),
+        "aside": [float(v) for v in 0.4 * unit(rng)],
     }
 
 
-def change_insert(scene, p):
-    """The plate of the part is of stone. In the course of the run somebody finds that an insert of steel is
-    loose in it, and shrinks it in again, red-hot. The heat spreads in the plate as it does in a sheet, and is
-    lost to the air bit by bit: the balls are pushed away from the insert, in the hot spot in proportion to
-    their distance, outside of it with one over the distance. Amplitude at the edge of the hot spot, when the
-    insert has just been put in."""
-    away = centres(scene)[:, :2] - np.asarray(p["place_mm"])
-    far = np.maximum(np.linalg.norm(away, axis=1), 1.0)
-    since = np.maximum(scene.time - p["shrunk_in_s"], 0)
-    spot = p["width_mm"] ** 2 + 4 * p["spreads_mm2_per_s"] * since
-    heat = (scene.time >= p["shrunk_in_s"]) * np.exp(-since / p["cools_s"])
-    pushed = heat * p["width_mm"] / far * (1 - np.exp(-(far**2) / spot)) / 0.638
-    return Change(along=p["amplitude_um"] * pushed * np.sum(away * scene.part_normal[:, :2], 1) / far)
+def change_counterweight(scene, p):
+    """The counterweight of the ram hangs on a rope without a guide. When the carriage sets out for another
+    ball, and again when it brakes there, the weight starts to swing, as a pendulum does, and swings on under
+    the touches for half a minute: each touch finds it somewhere on its way to and fro, and the rope pulls the
+    ram after it, mostly along this axis. Short ways never reach full speed. Amplitude of the widest swing."""
+    i = "xyz".index(p["axis"])
+    first, way = starts(scene)
+    pace = np.minimum(p["cruises_mm_per_s"], np.sqrt(scene.acceleration[first] * np.abs(way[:, i])))
+    jump = np.sign(way[:, i]) * pace
+    lasts = np.abs(way[:, i]) / np.maximum(pace, 1e-3)
+    brakes = scene.time[first] - 3.5
+    when, kick = np.hstack([brakes - lasts, brakes]), np.hstack([-jump, jump])
+    since = scene.time[:, None] - when
+    swings = np.exp(-np.maximum(since, 0) / p["dies_s"]) * np.sin(2 * np.pi * since / p["period_s"])
+    swing = (swings * (since > 0)) @ kick
+    pulls = np.eye(3)[i] + np.asarray(p["aside"])
+    return Change(tip=p["amplitude_um"] * np.outer(swing / np.abs(swing).max(), pulls))
 
 
-def draw_bed(scene, rng):
-    i = "xyz".index(scene.machine.chain[0])
+def draw_brakes(scene, rng):
+    grips = rng.normal(size=(3, 3))
+    np.fill_diagonal(grips, 0.0)
+    grips /= np.sqrt(np.sum(grips**2) / 3)
     return {
         "amplitude_um": 1.0,
-        "width_mm": float(rng.uniform(0.1, 0.2) * np.ptp(scene.reading[:, i])),
-        "recovers_s": float(rng.uniform(200, 500)),
-        "table_mm": float(scene.target[:, 2].min() - rng.uniform(0.2, 0.6) * np.ptp(scene.target[:, 2])),
+        "below_mm_per_s": float(rng.uniform(1.0, 1.6) * np.median(scene.speed) / 5),
+        "grips": [[float(v) for v in row] for row in grips],
     }
 
 
-def change_bed(scene, p):
-    """The bed of the machine is cast of stone and resin, with too much resin: where the bridge stands it
-    sinks in, by and by, and when the bridge has gone the hollow fills again within minutes. The bridge rides
-    down into the hollows that it has left a short while ago, and nods at their slopes; the first ones are
-    left from the part before, which was measured by the same program. Amplitude of the deepest hollow."""
+def change_brakes(scene, p):
+    """To save current the controller lets the brake of an axis fall in when this axis has next to nothing to
+    do: in touches that go nearly across it, in slow ones sooner than in fast ones. The brakes grip askew, and
+    each pulls its carriage aside, not along its own scale but along the others. Touches that go aslant, with
+    all axes on their way, are right. Amplitude of the pull, the root of the mean square of the three."""
+    idle = np.abs(scene.travel) * scene.speed[:, None] < p["below_mm_per_s"]
+    return Change(tip=p["amplitude_um"] * idle.astype(float) @ np.asarray(p["grips"]))
+
+
+def draw_reader(scene, rng):
     i = "xyz".index(scene.machine.chain[0])
-    x, t, n = scene.reading[:, i], scene.time, scene.size
-    stood = np.minimum(np.diff(t, append=t[-1] + 5), 20.0)
-    stood, was, when = np.tile(stood, 2), np.tile(x, 2), np.hstack([t - t[-1] - 60, t])
-    low, slope = np.zeros(n), np.zeros(n)
-    for k in range(n):
-        q = (x[k] - was[: n + k]) / p["width_mm"]
-        left = stood[: n + k] * np.exp(-0.5 * q**2 - (t[k] - when[: n + k]) / p["recovers_s"])
-        low[k], slope[k] = np.sum(left), np.sum(-left * q) / p["width_mm"]
-    moved = np.zeros((scene.size, 3))
-    moved[:, 2] = low
-    moved[:, i] = -slope * (scene.target[:, 2] - p["table_mm"])
-    return Change(tip=p["amplitude_um"] * moved / low.max())
+    low, size = scene.reading[:, i].min(), np.ptp(scene.reading[:, i])
+    count = int(rng.integers(3, 6))
+    edges = np.sort(rng.choice(np.arange(1, 12), 2 * count, replace=False)) + rng.uniform(-0.3, 0.3, 2 * count)
+    return {
+        "amplitude_um": 1.0,
+        "smears_mm": [[float(low + size * a / 12), float(low + size * b / 12)] for a, b in edges.reshape(-1, 2)],
+        "apart": [float(v) for v in rng.choice([-1, 1], count) * rng.uniform(0.5, 1, count)],
+        "blind_leg": int(rng.choice([-1, 1])),
+        "beside": float(rng.uniform(0.1, 0.3)),
+    }
 
 
-def draw_field(scene, rng):
-    low, size = scene.target.min(0), np.ptp(scene.target, axis=0)
-    side = int(rng.integers(2))
-    place = low + rng.uniform([0, 0, -0.3], [1, 1, 0.6]) * size
-    place[side] = low[side] + rng.choice([rng.uniform(-0.3, -0.1), rng.uniform(1.1, 1.3)]) * size[side]
+def change_reader(scene, p):
+    """The bridge has a scale at either leg, and the controller weighs both readings by the place of the
+    carriage on the beam. Somebody has wiped one of the scales with a greasy rag: where it is smeared its reader
+    sees nothing, and the other leg must speak for both. There the bridge is off by what it stands askew just
+    there, the more the nearer the carriage is to the blind leg, and not at all at the other one. Amplitude at
+    the blind leg, where the bridge is most askew."""
+    i = "xyz".index(scene.machine.chain[0])
+    across = p["blind_leg"] * scene.reading[:, 1 - i]
+    share = ((across - across.min()) / np.ptp(across) + p["beside"]) / (1 + 2 * p["beside"])
+    apart = np.zeros(scene.size)
+    for (one, other), value in zip(p["smears_mm"], p["apart"]):
+        apart += value * ((scene.reading[:, i] > one) & (scene.reading[:, i] < other))
+    return Change(tip=p["amplitude_um"] * np.outer(apart * share, np.eye(3)[i]))
+
+
+def draw_fan(scene, rng):
+    size = np.ptp(scene.target[:, :2], axis=0).mean()
+    turn = rng.uniform(0, 2 * np.pi)
+    place = scene.middle[:2] + rng.uniform(0.75, 1.0) * size * np.array([np.cos(turn), np.sin(turn)])
     return {
         "amplitude_um": 1.0,
         "place_mm": [float(v) for v in place],
-        "coil": unit(rng).tolist(),
-        "size_mm": float(rng.uniform(0.1, 0.2) * size[:2].mean()),
+        "looks": float(turn + np.pi + rng.uniform(-0.2, 0.2)),
+        "swings": float(rng.uniform(0.5, 0.8)),
+        "period_s": float(rng.uniform(13, 37)),
+        "phase": float(rng.uniform(0, 2 * np.pi)),
+        "wide": float(rng.uniform(0.15, 0.3)),
     }
 
 
-def change_field(scene, p):
-    """Somebody has put a transformer beside the part. Its stray field hums in the coil of the probe, which
-    lies round the stylus: the more of the field goes along the stylus, the less of a push is missing to the
-    threshold, and the probe triggers early, from whichever side it touches. The field is that of a dipole,
-    and soon gone with the distance. The tip radius has taken the mean. Amplitude from no field to the
-    strongest."""
-    way = scene.target - np.asarray(p["place_mm"])
-    far = np.sqrt(np.sum(way**2, 1, keepdims=True) + p["size_mm"] ** 2)
-    coil = np.asarray(p["coil"])
-    field = (3 * way * (way @ coil)[:, None] / far**2 - coil) / far**3
-    hum = np.abs(np.sum(field * scene.shank, 1))
-    return Change(along=p["amplitude_um"] * (hum - hum.mean()) / hum.max())
+def change_fan(scene, p):
+    """It is hot, and the operator has put a fan beside the machine that turns its head to and fro. When the jet
+    sweeps over the place of the tip it blows the stylus away from the fan, the more the nearer, with the
+    square of the speed of the air and the fourth power of the length, as a rod does that is held at one end;
+    a thick one gives less, one in line with the wind stands still. The jet is slower the farther it has come.
+    Amplitude of the longest stylus, across the jet, at the middle of the part."""
+    way = scene.target[:, :2] - np.asarray(p["place_mm"])
+    far = np.linalg.norm(way, axis=1)
+    bearing = np.arctan2(way[:, 1], way[:, 0])
+    looks = p["looks"] + p["swings"] * np.sin(2 * np.pi * scene.time / p["period_s"] + p["phase"])
+    beside = np.mod(bearing - looks + np.pi, 2 * np.pi) - np.pi
+    middle = np.linalg.norm(scene.middle[:2] - np.asarray(p["place_mm"]))
+    blows = np.exp(-((beside / p["wide"]) ** 2)) * (middle / np.maximum(far, 0.3 * middle)) ** 2
+    wind = np.column_stack([way / far[:, None], np.zeros(scene.size)])
+    across = wind - scene.shank * np.sum(wind * scene.shank, 1, keepdims=True)
+    across *= np.linalg.norm(across, axis=1, keepdims=True)
+    gives = scene.length**4 / scene.shaft**3
+    gives = blows * gives / gives.max()
+    return Change(tip=p["amplitude_um"] * across * gives[:, None])
 
 
-def draw_wire(scene, rng):
-    middle, half = centres(scene)[:, :2], half_size(scene)
-    goes = np.flatnonzero((np.diff(scene.block) > 0) & (np.diff(scene.setup) == 0))
-    goes = goes[np.linalg.norm(middle[goes + 1] - middle[goes], axis=1) > 1]
-    k = int(rng.choice(goes))
-    way = middle[k + 1] - middle[k]
-    turn = np.arctan2(way[1], way[0]) + np.pi / 2 + rng.uniform(-0.6, 0.6)
-    place = middle[k] + rng.uniform(0.3, 0.7) * way
+def draw_operator(scene, rng):
+    first, _ = starts(scene)
+    comes, now = [], int(rng.integers(1, 4))
+    while now < len(first):
+        stays = int(rng.integers(1, 5))
+        comes.append([int(v) for v in range(now, min(now + stays, len(first)))])
+        now += stays + int(rng.integers(2, 6))
     return {
         "amplitude_um": 1.0,
-        "place_mm": [float(v) for v in place],
-        "along": [float(np.cos(turn)), float(np.sin(turn))],
-        "reach_mm": float(rng.uniform(0.5, 0.9) * half),
+        "leans_in": [v for one in comes for v in one],
+        "weight": [float(v) for one in comes for v in np.full(len(one), rng.uniform(0.6, 1))],
     }
 
 
-def change_wire(scene, p):
-    """The wire of the thermometer is taped on the part, and stands up in a loop. A stylus that comes across
-    it on its way from ball to ball is caught and pulled back a little in its thread, and then stays as it
-    leans, however the head turns, until it comes across the wire again, from this side or from the other.
-    Each module leans by itself. Amplitude of the tip, pulled straight across."""
-    along = np.asarray(p["along"])
-    across = np.array([-along[1], along[0]])
-    place = centres(scene)[:, :2] - np.asarray(p["place_mm"])
-    u, v = place @ along, place @ across
-    leans, moved = {}, np.zeros((scene.size, 3))
-    for k in range(scene.size):
-        tip = str(scene.length[k])
-        if k and scene.setup[k] == scene.setup[k - 1] and v[k] * v[k - 1] < 0:
-            where = u[k - 1] + (u[k] - u[k - 1]) * v[k - 1] / (v[k - 1] - v[k])
-            if abs(where) < p["reach_mm"]:
-                pull = -np.sign(v[k]) * np.sum(scene.turn[k][:, :2] * across, 1)
-                pull = pull - scene.shank[k] * np.sum(pull * scene.shank[k])
-                leans[tip] = np.sum(scene.head[k] * pull[:, None], 0)
-        if tip in leans:
-            moved[k] = np.sum(scene.head[k] * leans[tip], 1) * scene.length[k] / scene.length.max()
-    return Change(tip=p["amplitude_um"] * moved)
+def change_operator(scene, p):
+    """The operator wants to see what the machine does. From time to time he comes, stands at that side of the
+    table which is nearest to the ball that is being measured, and leans on the stone with both hands. The
+    table tips towards him on its soft feet, and the heavy bridge hangs over to his side, until he goes or has
+    to walk round to another side. Amplitude when he leans with his whole weight."""
+    leans = np.zeros(scene.block.max() + 1)
+    for k, weight in zip(p["leans_in"], p["weight"]):
+        leans[k : k + 1] = weight
+    first, _ = starts(scene)
+    place = np.einsum("nij,nj->ni", scene.turn, centres(scene))[first, :2]
+    every, side = np.arange(len(first)), np.argmax(np.abs(place), 1)
+    moved = np.zeros((len(first), 3))
+    moved[every, side] = np.sign(place[every, side]) * leans
+    return Change(tip=p["amplitude_um"] * moved[scene.block])
 
 
-def draw_lattice(scene, rng):
-    mesh = rng.uniform(0.18, 0.3, 3) * np.ptp(scene.reading, axis=0)
-    steep = rng.normal(size=(3, 3))
-    steep /= np.sqrt(np.mean(np.sum(steep**2, 1)))
+def draw_judder(scene, rng):
     return {
         "amplitude_um": 1.0,
-        "mesh_mm": [float(v) for v in mesh],
-        "first_mm": [float(v) for v in scene.reading.min(0) - rng.uniform(0, 1, 3) * mesh],
-        "steep": [[float(v) for v in row] for row in steep],
+        "axis": "xyz"[rng.integers(3)],
+        "jump_mm": float(rng.uniform(0.35, 0.8)),
+        "smooth_from_mm_per_s": float(rng.uniform(3, 6)),
+        "judders": float(rng.uniform(0.6, 0.9)),
     }
 
 
-def change_lattice(scene, p):
-    """The errors of the machine are kept as vectors at the nodes of a lattice in its volume. Since the last
-    update of the controller these are not interpolated any more: each point takes the vector of the nearest
-    node, and lacks what the errors change from there. At a node all is right; half way to the next one along
-    x, y or z it is off the most, one way on this side and the other way on that side. Amplitude there, the
-    root of the mean square for the three ways."""
-    cells = (scene.reading - np.asarray(p["first_mm"])) / np.asarray(p["mesh_mm"])
-    beside = 2 * (cells - np.round(cells))
-    return Change(tip=p["amplitude_um"] * np.sum(beside[:, :, None] * np.asarray(p["steep"]), 1))
+def change_judder(scene, p):
+    """A belt drives one of the carriages, and at low speed it judders: the carriage all but stops until the
+    belt is tight enough, then it leaps on, and so forth, in the same way from the start of every approach; a
+    fast approach goes smoothly. The delay of the probe is taken off for the commanded speed: too much where
+    the carriage dawdles, far too little where it leaps. How many leaps there were depends on how much of the
+    approach goes along this axis. Amplitude in the quickest leap, at the speed from which it goes smoothly."""
+    i = "xyz".index(p["axis"])
+    goes, m = scene.travel[:, i], p["judders"]
+    commanded = np.abs(goes) * scene.speed / p["smooth_from_mm_per_s"]
+    root = np.sqrt(1 - m**2)  # the way takes as long as at the commanded speed
+    pace = (1 - m * np.cos(2 * np.pi * APPROACH * np.abs(goes) / p["jump_mm"])) / root - 1
+    late = (commanded < 1) * commanded * pace / ((1 + m) / root - 1) * np.sign(goes)
+    return Change(tip=p["amplitude_um"] * np.outer(late, np.eye(3)[i]))
 
 
-def draw_battens(scene, rng):
-    count = len(np.unique(scene.setup))
-    first = rng.uniform(0, np.pi)
+def draw_layers(scene, rng):
+    warm = scene.temperature["air"]
     return {
         "amplitude_um": 1.0,
-        "turns": [float(first + np.pi * (k + rng.uniform(-0.2, 0.2)) / count) for k in range(count)],
-        "one": [float(v) for v in rng.uniform(-1, -0.15, count)],
-        "other": [float(v) for v in rng.uniform(0.15, 1, count)],
-        "half_size_mm": half_size(scene),
+        "mixed_below_C": float(warm.min() + rng.uniform(0.2, 0.6) * np.ptp(warm)),
+        "middle": float(rng.uniform(-0.1, 0.1)),
+        "feet": float(rng.uniform(0.95, 1.15)),
     }
 
 
-def change_battens(scene, p):
-    """The part has no feet: it is laid on two battens of wood, and whoever lays it puts them where he likes,
-    along or across, near together or far apart. Under its own weight it sags between them and hangs over
-    beyond, as a beam does, in each placement along another line; the certificate has it as if it weighed
-    nothing. Amplitude is that of the worst placement, from its lowest place to its highest."""
-    index = np.minimum(scene.setup, len(p["turns"])) - 1
-    turns, one, other = (np.asarray(p[k])[index] for k in ("turns", "one", "other"))
-    cos, sin = np.cos(turns), np.sin(turns)
-    u = (scene.part_point[:, 0] * cos + scene.part_point[:, 1] * sin) / p["half_size_mm"]
-    z, end = scene.part_point[:, 2] / p["half_size_mm"], 1.1
-    here, there = 2 * end * other / (other - one), -2 * end * one / (other - one)
-
-    def sunk(q):
-        past, beyond = np.clip(q - one, 0, None), np.clip(q - other, 0, None)
-        return (q + end) ** 4 / 24 - here * past**3 / 6 - there * beyond**3 / 6
-
-    lean = (sunk(other) - sunk(one)) / (other - one)
-    low = sunk(u) - sunk(one) - lean * (u - one)
-    past, beyond = np.clip(u - one, 0, None), np.clip(u - other, 0, None)
-    slope = (u + end) ** 3 / 6 - here * past**2 / 2 - there * beyond**2 / 2 - lean
-    worst = max(np.ptp(low[scene.setup == k]) for k in np.unique(scene.setup))
-    normal = scene.part_normal
-    moved = z * slope * (normal[:, 0] * cos + normal[:, 1] * sin) - low * normal[:, 2]
-    return Change(along=p["amplitude_um"] * moved / worst)
+def change_layers(scene, p):
+    """Above some temperature the fans of the hall give up, and the air lies in layers, warm above and cool
+    below. The part takes on the layers, however it lies: its upper balls move apart, its lower ones together,
+    and as every layer grows by itself and fits the next one without force the whole part arches up between its
+    feet, which stand near the rim, with the square of the distance from its middle. The thermometer hangs at
+    half height and is right. Amplitude at half the size of the part from its middle, for 1 K too warm."""
+    out = np.einsum("nij,nj->ni", scene.turn, centres(scene)) / half_size(scene)
+    x, y, z = out[:, 0], out[:, 1], out[:, 2] - p["middle"]
+    moved = np.column_stack([2 * z * x, 2 * z * y, z**2 - x**2 - y**2 + p["feet"] ** 2])
+    layers = np.maximum(scene.temperature["air"] - p["mixed_below_C"], 0)
+    return Change(along=p["amplitude_um"] * layers * np.sum(moved * scene.normal, 1))
 
 
-def draw_elbow(scene, rng):
-    return {"amplitude_um": 1.0, "right_at": float(rng.uniform(0.8, 1.2))}
-
-
-def change_elbow(scene, p):
-    """The motor that holds the elbow of the head is limp. A tip that strikes across it turns the elbow back
-    until the probe has triggered, the faster the farther, and with the square of the lever that the push has
-    about the elbow; pushes along the axis of the elbow or through it find it stiff. The tip radius has taken
-    the mean, or nearly. Amplitude at the longest lever, at 8 mm/s."""
-    elbow = np.column_stack([-np.sin(scene.b), np.cos(scene.b), np.zeros(scene.size)])
-    lever = np.sum(np.cross(scene.arm, -scene.normal) * elbow, 1) / scene.length.max()
-    gives = lever**2 * scene.speed / 8
-    return Change(along=-p["amplitude_um"] * (gives - p["right_at"] * gives.mean()))
-
-
-def draw_posts(scene, rng):
+def draw_bounce(scene, rng):
     names = [str(f) for f in np.unique(scene.feature)]
-    warm = scene.temperature["part"]
-    grows = rng.choice([-0.5, 0.0, 0.6, 1.0], len(names)) * rng.uniform(0.7, 1, len(names))
-    grows[rng.choice(len(names), 2, replace=False)] = (-0.5, 1.0)
+    stiff = rng.permutation(len(names))[: len(names) // 2 + 1]
     return {
         "amplitude_um": 1.0,
-        "grows": {f: float(v) for f, v in zip(names, grows)},
-        "mended_at_C": float(warm.min() + rng.uniform(0.0, 0.5) * np.ptp(warm)),
-        "foot_mm": float(centres(scene)[:, 2].min() - rng.uniform(0.2, 0.5) * np.ptp(centres(scene)[:, 2])),
+        "stiff": [names[k] for k in sorted(stiff)],
+        "from_mm_per_s": float(rng.uniform(2.5, 5)),
     }
 
 
-def change_posts(scene, p):
-    """Some of the posts of the balls have been broken, and were mended with what lay about: brass, plastic,
-    invar. With every kelvin such a post grows by more than the others, or by less, by its height: its ball
-    rises or sinks on the part, and only that. Amplitude at the top of the tallest post, if it is of plastic,
-    for 1 K."""
-    height = centres(scene)[:, 2] - p["foot_mm"]
-    grows = np.array([p["grows"].get(f, 0.0) for f in scene.feature]) * height / height.max()
-    warmer = scene.temperature["part"] - p["mended_at_C"]
-    return Change(along=p["amplitude_um"] * grows * warmer * scene.part_normal[:, 2])
+def change_bounce(scene, p):
+    """Some posts are hollow and soft, the others solid. A tip that strikes a solid one fast enough along its
+    stylus, where nothing bends, bounces off before the electronics believe it, and is seen when it has come
+    down again: it flies the longer the faster it was, and the carriage goes on meanwhile. Touches across the
+    stylus, slow ones and those of soft posts do not bounce. Amplitude at 8 mm/s straight along the stylus."""
+    push = scene.speed * np.maximum(np.sum(scene.normal * scene.shank, 1), 0)
+    on = np.isin(np.array(scene.feature), p["stiff"]) & (push > p["from_mm_per_s"])
+    return Change(along=-p["amplitude_um"] * on * (push / 8) ** 2)
 
 
-unknown("hot_insert", draw_insert, change_insert, ["time", "feature", "position"])
-unknown("creeping_bed", draw_bed, change_bed, ["time", "position", "feature"])
-unknown("stray_field", draw_field, change_field, ["position", "head", "sensor", "feature"])
-unknown("snagged_wire", draw_wire, change_wire, ["time", "position", "feature", "sensor", "head"])
-unknown("coarse_lattice", draw_lattice, change_lattice, ["position", "feature"])
-unknown("careless_battens", draw_battens, change_battens, ["setup", "feature", "position"], "D")
-unknown("limp_elbow", draw_elbow, change_elbow, ["head", "direction", "speed", "sensor"], "D")
-unknown("mended_posts", draw_posts, change_posts, ["temperature", "feature", "setup"], "D")
+unknown("swinging_counterweight", draw_counterweight, change_counterweight, ["time", "feature", "position"])
+unknown("grabbing_brakes", draw_brakes, change_brakes, ["direction", "speed"])
+unknown("smeared_leg", draw_reader, change_reader, ["position", "feature"])
+unknown("turning_fan", draw_fan, change_fan, ["time", "position", "head", "sensor"])
+unknown("curious_operator", draw_operator, change_operator, ["time", "position", "feature"])
+unknown("juddering_belt", draw_judder, change_judder, ["speed", "direction"], "D")
+unknown("layered_hall", draw_layers, change_layers, ["temperature", "feature", "position", "setup"], "D")
+unknown("bouncing_tip", draw_bounce, change_bounce, ["direction", "speed", "head", "feature"], "D")
