@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/findings/scatter.hpp"
+#include "engine/diagnose/findings/noise/scatter.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
 

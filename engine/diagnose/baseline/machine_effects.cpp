@@ -3,6 +3,8 @@
 #include <cmath>
 #include <map>
 
+#include "engine/effects/noise/noise.hpp"
+
 namespace abbe::diagnose {
 
 namespace {
@@ -24,7 +26,7 @@ void add_uncertainties(const EffectSet& effects, const RecordedTouches& t, Basel
   LinearModel& m = baseline.model;
   for (const EffectSet::Uncertainty& of : effects.uncertainties()) {
     // Outliers are found one by one (outliers.hpp): they make no other touch less certain.
-    if (of.draw >= 0 && effects.effect(of.effect).name == "noise.outliers") continue;
+    if (of.draw >= 0 && effects.effect(of.effect).name == kOutliers.name) continue;
     Vector column(m.y.size());
     for (Eigen::Index i = 0; i < column.size(); ++i) {
       const RecordedTouch& touch = t.touches[i];
@@ -45,7 +47,7 @@ void add_uncertainties(const EffectSet& effects, const RecordedTouches& t, Basel
 
 void add_rounding(const Machine& machine, double rounding_um, LinearModel& m) {
   const auto& in_file = machine.effects;
-  if (std::any_of(in_file.begin(), in_file.end(), [](const EffectSetting& s) { return s.name == "noise.resolution"; }))
+  if (std::any_of(in_file.begin(), in_file.end(), [](const EffectSetting& s) { return s.name == kResolution.name; }))
     return;
   m.noise_um = (m.noise_um.array().square() + rounding_um * rounding_um).sqrt();
   m.quietest = std::max(m.quietest, rounding_um / m.noise_um.mean());

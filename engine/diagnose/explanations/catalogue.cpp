@@ -351,7 +351,7 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
 void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool of_readings, Explanations& out,
                    double least_period_um = 0) {
   for (const Effect* effect : effects())
-    // The noise is judged by the variance (findings/noise_effects.cpp).
+    // The noise is judged by the variance (findings/noise).
     if (!is_noise(*effect) && needs_raw_reading(*effect) == of_readings)
       add_effect(*effect, t, rows, out, least_period_um);
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "engine/diagnose/findings/noise_effects.hpp"
+#include "engine/diagnose/findings/noise/noise_property.hpp"
 #include "engine/diagnose/findings/search.hpp"
 
 namespace abbe::diagnose {

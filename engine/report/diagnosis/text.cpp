@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/diagnose/words.hpp"
+#include "engine/effects/noise/noise.hpp"
 #include "engine/math/units.hpp"
 #include "engine/report/diagnosis/diagnosis_report.hpp"
 
@@ -280,7 +281,7 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
     out.push_back(
         "Smaller effects, and those that cannot be judged, need another measurement: 'abbe diagnose --design-only' says what a plan could show.");
   }
-  const auto of_outliers = [](const DiagnosedEffect& e) { return e.members.front() == "noise.outliers"; };
+  const auto of_outliers = [](const DiagnosedEffect& e) { return e.members.front() == kOutliers.name; };
   if (!d.baseline.outliers.empty() && std::any_of(d.effects.begin(), d.effects.end(), of_outliers))
     out.push_back(
         "Look at the surfaces where the touches were made that are left out (the last line), clean them and the tip, and touch them again: what does not come back is no property of the machine.");

@@ -1,4 +1,4 @@
-#include "engine/diagnose/findings/scatter.hpp"
+#include "engine/diagnose/findings/noise/scatter.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// How unequal scatter is judged: of a recording (noise_effects.cpp), and of a plan (planning/noise_design.cpp).
+// How unequal scatter is judged: of a recording (judge_noise.hpp), and of a plan (scatter_design.hpp).
 //
 // Residuals that are each predicted from all other touches are nearly independent, with a variance of 1 when the noise
 // is what was fitted. A model of the variance is judged by what it gains in likelihood over equal ones.
@@ -15,15 +15,9 @@ inline constexpr int kLooks = 9;
 /// Together they may not cost more false alarms than a tenth of what the search allows itself.
 inline constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
 
-/// From where on a difference is worth telling: of a group, along an axis, and of all touches over the probe's
-/// specification; as ratios of standard deviations.
-inline constexpr double kLeastRatio = 1.1, kLeastAlong = 1.2, kLeastExcess = 1.6;
-/// Touches that a group, and the others, must have at least.
-inline constexpr int kEnoughOfGroup = 20;
-/// By how much outliers lie in the mean beyond the limit from which on they are left out: the ends of a pattern that the
-/// search has missed are just beyond it.
-inline constexpr double kFarOut = 1.5;
-
+/// From where on scatter of all touches over the probe's specification is worth telling, as a ratio of standard
+/// deviations.
+inline constexpr double kLeastExcess = 1.6;
 /// Standard uncertainty of rounding over the noise from which on it counts beside that, and is told.
 inline constexpr double kLeastRounding = 0.3;
 
@@ -51,26 +45,7 @@ double chance_of_excess(double chi2);
 /// relative standard uncertainty. Squares of so uncertain a ratio have the law of chi-squared (Wilson & Hilferty 1931).
 double chance_of_ratio(double ratio, double relative_u);
 
-/// A group of noise.unequal.
-struct Split {
-  const char* group;
-  std::string touches;                        ///< in words: "touches with long styli"
-  std::pair<std::string, std::string> where;  ///< of a location
-  Factor factor;
-  Vector in;                              ///< 1: in the group
-  std::vector<DiagnosedParameter> which;  ///< parameters of the effect that part it from the others
-  int of_its_kind = 1;  ///< the groups of one kind are one look: the chance of each counts so many times
-};
-/// All of them; a group that these touches do not part is empty or holds all.
-std::vector<Split> splits_of(const Case&);
-inline bool parts(const Split& s) {
-  return s.in.sum() >= kEnoughOfGroup && double(s.in.size()) - s.in.sum() >= kEnoughOfGroup;
-}
-/// Standard uncertainty of a ratio of standard deviations over that ratio.
-double relative_u(const Split&);
-
-/// How much of the variance along the normal is along an axis. Nothing where the normals do not differ in it.
-std::optional<Vector> share_along(const Case&, int axis);
+const TouchScene& scene_of_row(const Case&, Eigen::Index row);
 
 /// Repeats of one touch, with the same stylus at the same place, among rows of which more than half counts: the first
 /// and a later one. Where there are enough of them, they tell scatter from a pattern too fine for the recording.

@@ -1,5 +1,5 @@
 // Scatter is found for what it is, told in its own size, and not found where there is none.
-#include "engine/diagnose/findings/noise_effects.hpp"
+#include "engine/diagnose/findings/noise/judge_noise.hpp"
 
 #include <doctest/doctest.h>
 
