@@ -12,7 +12,6 @@
 #include "engine/diagnose/checks/normals.hpp"
 #include "engine/diagnose/checks/pairing.hpp"
 #include "engine/diagnose/checks/unlogged_styli.hpp"
-#include "engine/diagnose/findings/noise/scatter.hpp"
 #include "engine/diagnose/warnings.hpp"
 
 namespace abbe::diagnose {

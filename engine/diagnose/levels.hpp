@@ -22,4 +22,9 @@ inline constexpr double kInseparable = 0.03;
 /// Correlation of two signatures, beside all unknowns, from which on they are called confounded.
 inline constexpr double kConfounded = 0.7;
 
+/// Scatter of all touches over the probe's specification from which on it is worth telling: a ratio of standard deviations.
+inline constexpr double kLeastExcess = 1.6;
+/// Standard uncertainty of rounding over the noise from which on it counts beside that, and is told.
+inline constexpr double kLeastRounding = 0.3;
+
 }  // namespace abbe::diagnose

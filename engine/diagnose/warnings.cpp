@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/diagnose/findings/noise/scatter.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
 

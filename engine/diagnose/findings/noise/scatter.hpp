@@ -15,12 +15,6 @@ inline constexpr int kLooks = 9;
 /// Together they may not cost more false alarms than a tenth of what the search allows itself.
 inline constexpr double kNoiseAlarm = kAlarm / 10 / kLooks;
 
-/// From where on scatter of all touches over the probe's specification is worth telling, as a ratio of standard
-/// deviations.
-inline constexpr double kLeastExcess = 1.6;
-/// Standard uncertainty of rounding over the noise from which on it counts beside that, and is told.
-inline constexpr double kLeastRounding = 0.3;
-
 struct Residuals {
   Vector standardised;  ///< variance 1 under the fitted noise
   double noise_um = 1;  ///< that noise
