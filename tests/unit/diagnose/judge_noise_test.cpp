@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "tests/unit/diagnose/scattered.hpp"
 
 using namespace abbe;
@@ -50,6 +53,14 @@ void repeat(Planted& p) {
 }
 
 }  // namespace
+
+TEST_CASE("every effect of the noise is judged, and planned") {
+  std::vector<const Effect*> judged, listed;
+  for (const NoiseProperty* p : noise_properties()) judged.push_back(p->effect);
+  for (const Effect* e : effects())
+    if (is_noise(*e)) listed.push_back(e);
+  CHECK(std::is_permutation(judged.begin(), judged.end(), listed.begin(), listed.end()));
+}
 
 TEST_CASE("equal scatter is found unequal no more often than is allowed") {
   // A tenth of the alarms of the search: 0.5 of 500 expected; more than 4 once in 6000 times.
