@@ -12,6 +12,7 @@ import argparse
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -45,11 +46,13 @@ def generated(work, given):
 def drawn(specifications, work, folder):
     """SVG files of all figures that have data, and nothing else in the folder; returns their names."""
     names = plots.written(specifications, work / "plots")
+    files = [work / f"plots/{name}{ending}" for name in names for ending in (".vl.json", ".svg")]
+    subprocess.run(["node", ROOT / "docs/figures/render.mjs", *map(str, files)], check=True)
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("*.svg"):
         old.unlink()
-    files = [path for name in names for path in (work / f"plots/{name}.vl.json", folder / f"{name}.svg")]
-    subprocess.run(["node", ROOT / "docs/figures/render.mjs", *map(str, files)], check=True)
+    for name in names:
+        shutil.copyfile(work / f"plots/{name}.svg", folder / f"{name}.svg")
     return names
 
 
