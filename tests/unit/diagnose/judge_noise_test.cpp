@@ -102,6 +102,12 @@ TEST_CASE("a machine that shakes along one axis is told with the axis and how mu
   CHECK(figure_of(f, "direction").word == "y");
   CHECK(agrees(figure_of(f, "sd_um"), 2));
   CHECK(f.factor == Factor::direction);
+  CHECK_FALSE(f.certain);
+  CHECK(f.sentence.ends_with("than the others, as if the machine shook that way."));
+  Planted again(3, 240);
+  repeat(again);
+  scatter(again, 2, [](const TouchScene& scene) { return scene.normal.y; });
+  CHECK(only_noise(again, "noise.vibration").sentence.ends_with("than the others: the machine shakes that way."));
 }
 
 TEST_CASE("all touches may scatter more than the probe's specification says") {

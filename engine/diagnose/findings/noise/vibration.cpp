@@ -66,8 +66,8 @@ std::optional<NoiseFinding> judge_vibration(Scatter& scatter) {
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
     f.certain = other_each_time(scatter, along, e.size / (1 + e.size));
     f.factor = Factor::direction, f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
-    f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others: the machine shakes that way.",
-                             "xyz"[axis], sd);
+    f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others{}.", "xyz"[axis], sd,
+                             f.certain ? ": the machine shakes that way" : ", as if the machine shook that way");
     best = std::move(f);
   }
   if (best) return best;
