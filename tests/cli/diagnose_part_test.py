@@ -47,6 +47,16 @@ class CalibratedPart(harness.Case):
         self.assertNotEqual(said["verdict"], "no_mismatch")
         self.assertIn("probe.tip_radius", said["effects"][0]["members"])
 
+    def test_a_warm_part_expands_from_the_point_that_is_touched_first(self):
+        """From the machine's origin 345 ppm are a quarter of a millimetre: the targets were taken for those of another part."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        warm = self.write("warm.json", workpiece(material={"cte_ppm_per_K": 23}, scales={"cte_ppm_per_K": 8},
+                                                 temperature={"part_C": 35, "scale_C": 20}))
+        self.abbe("record", program, "--machine", MACHINE, "--workpiece", warm, "-o", "warm.csv")
+        said = self.diagnosis("warm.csv", "--program", program, "--workpiece", warm)
+        self.assertEqual(said["verdict"], "no_mismatch")
+        self.assertEqual([m["code"] for m in said["messages"] if m["code"] in ("W0704", "W0710")], [])
+
     def test_a_certificate_is_asked_for_before_a_measurement(self):
         recording = self.record("--with", "probe.pretravel_lobing:amplitude_um=3", header="# surfaces: unknown_size\n")
         ball = self.write("ball.json", workpiece({"BALL": {"diameter_mm": {"value": 25.0, "u": 0.0001}}}))

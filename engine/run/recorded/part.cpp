@@ -166,12 +166,16 @@ class PartReader {
     for (const auto& [point, same] : points) set(add_doubt(), same, sd_mm);
   }
 
+  /// From the point that is touched first in each placement, as a simulated part: from elsewhere a warm one would seem to
+  /// stand beside its targets.
   std::vector<double> stretched(const ThermalDraw& draw) const {
+    std::map<int, Vec3> first;
     std::vector<double> r;
     for (const RecordedTouch& touch : t_.touches) {
       const TouchScene& s = touch.scene;
-      const Vec3 e = strain(w_, draw, s.temperature, w_.compensated);
-      r.push_back(e.x * s.point.x * s.normal.x + e.y * s.point.y * s.normal.y + e.z * s.point.z * s.normal.z);
+      const Vec3 e = strain(w_, draw, s.temperature, w_.compensated),
+                 arm = s.point - first.try_emplace(s.setup, s.point).first->second;
+      r.push_back(e.x * arm.x * s.normal.x + e.y * arm.y * s.normal.y + e.z * arm.z * s.normal.z);
     }
     return r;
   }
