@@ -68,6 +68,19 @@ class Values(harness.Case):
             self.assertTrue(said["effects"][0]["probability"] <= 0.5 or len(said["effects"][0]["members"]) > 1)
             self.assertIn("--workpiece", said["effects"][0]["sentence"])
 
+    def test_a_part_that_is_warmer_than_any_sensor_errs_is_no_scale(self):
+        """Expansion of that size was struck as impossible, and a scale of 349 um/m told in its place, with a probability of 0.00."""
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        warm = self.write("warm.json", json.dumps({"schema": "abbe.workpiece/1", "name": "warm", "material": {"cte_ppm_per_K": 23},
+                                                   "scales": {"cte_ppm_per_K": 8}, "temperature": {"part_C": 35, "scale_C": 20}}))
+        self.abbe("record", program, "--workpiece", warm, "-o", "v.csv", "--dmo", "v.dmo")
+        said = self.diagnosis("v.dmo", "--program", program)
+        self.assertIn("thermal.part_expansion", said["effects"][0]["members"])
+        self.assertNotIn("machine.scale", said["effects"][0]["members"])
+        self.assertGreater(said["effects"][0]["probability"], 0.1)
+        self.assertIn("temp_part_C in a workpiece file", said["otherwise"])
+        self.assertEqual(self.diagnosis("v.dmo", "--program", program, "--workpiece", warm)["verdict"], "no_mismatch")
+
     def test_the_size_of_an_effect_is_not_pulled(self):
         said = self.diagnosis(self.recorded("--with", "machine.scale:scale_um_per_m=800,axis=all", lengths=BOTH), "--workpiece", self.at_20_degrees())
         self.assertEqual(said["effects"][0]["members"], ["machine.scale"])

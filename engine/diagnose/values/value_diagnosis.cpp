@@ -185,9 +185,12 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   const bool only_untold = closer.explanation(f).missing != 0;
   e.probability = believed(f.probability, adequacy < kInadequate || !size || only_untold);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
-  if (untold != 0)
+  if (untold != 0) {
     e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).",
                               fmt::join(columns_of(untold), ", "));
+    out.otherwise = fmt::format("Tell {} in a workpiece file, and diagnose the same values with it (--workpiece).",
+                                fmt::join(columns_of(untold), ", "));
+  }
   if (!size)
     e.sentence += kNoSuchSize;
   else
@@ -284,8 +287,8 @@ void put_told_first(const Explanations& all, const Evidence& evidence, Finding& 
   name.variant = best_variant(all, name.explanation, evidence);
 }
 
-/// The likeliest name with a size that it can have, if one is likelier than the pattern; else the likeliest.
-Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence, const Finding& pattern) {
+/// The likeliest name with a size that it can have, if one is likelier than a pattern; else the likeliest.
+Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
   constexpr int kMost = 5;
   constexpr double kStruck = -1e6;
   const Explanations& all = closer.search.explanations();
@@ -295,7 +298,7 @@ Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& 
     Finding name = finding_of(all, left, true);
     put_told_first(all, left, name);
     if (!likeliest) likeliest = name;
-    if (!likelier(name, pattern, kNamed)) break;
+    if (!likelier(name, finding_of(all, left, false), kNamed)) break;
     if (plausible(parameters_of(c, closer, name))) return name;
     left.log_bayes[name.explanation] = kStruck;
   }
@@ -306,7 +309,7 @@ Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& 
 Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
   const Explanations& all = closer.search.explanations();
   const Evidence evidence = closer.search.evidence(c.deviation);
-  const Finding pattern = finding_of(all, evidence, false), name = possible_name(c, closer, evidence, pattern);
+  const Finding pattern = finding_of(all, evidence, false), name = possible_name(c, closer, evidence);
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
