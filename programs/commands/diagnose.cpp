@@ -59,6 +59,33 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
   return {values.diagnosis(read_machine(name), how), name};
 }
 
+/// The name of the machine that --machine or else the recording names; nothing where no file of it is here.
+std::optional<std::string> other_name(const DiagnoseCommandOptions& options, const Recording& recording) {
+  if (options.machine) return read_machine(*options.machine).name;
+  try {
+    const std::string file =
+        recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
+    return file.empty() ? std::nullopt : std::optional(read_machine(file).name);
+  } catch (const UserError&) {
+    return std::nullopt;
+  }
+}
+
+/// What is known of one machine says nothing of another.
+void doubt_known(const DiagnoseCommandOptions& options, const Recording& recording, const Machine& known, Said& said) {
+  if (!known.known_state)
+    said.push_back(diagnostic(Code::W0715,
+                              fmt::format("'{}' has no known_state: the machine counts as new", *options.known),
+                              "`abbe diagnose --model-out` writes one; --machine takes a file without"));
+  const std::optional<std::string> other = other_name(options, recording);
+  if (other && *other != known.name)
+    said.push_back(
+        diagnostic(Code::W0714,
+                   fmt::format("'{}' knows machine '{}', {} '{}'; they are judged as one machine", *options.known,
+                               known.name, options.machine ? "--machine says" : "the recording is of", *other),
+                   "give --known what was learned of the same machine"));
+}
+
 Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how, Said& said) {
   Recording recording =
       joined(read.recordings, options.design_only ? Positions::or_targets : Positions::recorded, said);
@@ -71,9 +98,7 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
   if (program) said.insert(said.end(), program->messages.begin(), program->messages.end());
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
   Machine machine = read_machine(name);
-  if (options.known && !machine.known_state)
-    said.push_back(diagnostic(Code::W0715, fmt::format("'{}' has no known_state: the machine counts as new", name),
-                              "`abbe diagnose --model-out` writes one; --machine takes a file without"));
+  if (options.known) doubt_known(options, recording, machine, said);
   if (program) complete_from_program(recording, nominal_record(*program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   add_recorded_sensors(recording, machine, file, said);

@@ -441,6 +441,13 @@ class Mistakes(Input):
         self.assertIn("W0714", self.abbe("diagnose", self.recording, repeat, "--design-only").stderr)
         self.abbe("machine", "init", "mine.json")
         self.assertIn("W0715", self.abbe("diagnose", self.recording, "--known", "mine.json", "--design-only").stderr)
+        other = json.loads((self.folder / "mine.json").read_text()) | {"name": "another"}
+        self.write("another.json", json.dumps(other))
+        said = self.abbe("diagnose", self.recording, "--known", "another.json", "--design-only").stderr
+        self.assertIn("'another.json' knows machine 'another', the recording is of 'coord3-mc16'", said)
+        said = self.abbe("diagnose", self.recording, "--known", "another.json", "--machine", "coord3-mc16", "--design-only").stderr
+        self.assertIn("--machine says 'coord3-mc16'", said)
+        self.refused("E0601", "diagnose", self.recording, "--known", "another.json", "--machine", "nowhere.json", "--design-only")
 
 
     def test_a_number_beyond_its_range_is_told_as_such(self):
