@@ -76,7 +76,10 @@ class Diagnose(harness.Case):
         self.diagnosis(first, "--model-out", "worn.json")
         worn = json.loads((self.folder / "worn.json").read_text())
         self.assertEqual([e["name"] for e in worn["effects"]], ["probe.tip_radius"])
-        said = self.diagnosis(self.record("--run", 2), "--known", "worn.json", "--model-out", "mended.json")
+        second = self.record("--run", 2)
+        self.assertIn("What is gone is in the machine file still: --model-out writes it without.",
+                      self.abbe("diagnose", second, "--known", "worn.json").stdout)
+        said = self.diagnosis(second, "--known", "worn.json", "--model-out", "mended.json")
         self.assertEqual(said["effects"][0]["members"][0], "probe.tip_radius")
         self.assertIn("not there any more", said["effects"][0]["sentence"])
         self.assertEqual(json.loads((self.folder / "mended.json").read_text())["effects"], [])

@@ -289,6 +289,8 @@ std::vector<std::string> further_steps(const Diagnosis& d) {
   if (pattern && !carried)
     out.push_back(
         "No machine file can carry this pattern: it belongs to the part or the occasion, depends on more than one thing, or is too rough for a curve or a map.");
+  if (d.model_effects.empty() && !d.superseded.empty())
+    out.push_back("What is gone is in the machine file still: --model-out writes it without.");
   if (!d.model_effects.empty()) {
     const bool open =
         std::any_of(d.effects.begin(), d.effects.end(), [](const DiagnosedEffect& e) { return e.members.size() > 1; });
