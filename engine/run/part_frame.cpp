@@ -15,8 +15,8 @@ namespace {
 /// Targets of one point of the part in two placements agree this well: they come from one drawing.
 constexpr double kSamePoint_mm = 0.1;
 
-/// The point that lies at one distance behind all touches of a feature. Nothing for a feature that is touched from too few sides (a face, a line), which has no such
-/// point.
+/// The point that lies at one distance behind all touches of a feature. Nothing for a feature that is touched from too
+/// few sides (a face, a line), which has no such point.
 std::optional<Vec3> centre_of(const std::vector<const AimedTouch*>& touches) {
   std::vector<Vec3> normals, surfaces;
   for (const AimedTouch* t : touches) normals.push_back(t->normal), surfaces.push_back(t->surface);
