@@ -186,10 +186,10 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   e.probability = believed(f.probability, adequacy < kInadequate || !size || only_untold);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
   if (untold != 0) {
-    e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).",
-                              fmt::join(columns_of(untold), ", "));
-    out.otherwise = fmt::format("Tell {} in a workpiece file, and diagnose the same values with it (--workpiece).",
-                                fmt::join(columns_of(untold), ", "));
+    const std::string columns = fmt::format("{}", fmt::join(columns_of(untold), ", "));
+    e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).", columns);
+    out.otherwise =
+        fmt::format("Tell {} in a workpiece file, and diagnose the same values with it (--workpiece).", columns);
   }
   if (!size)
     e.sentence += kNoSuchSize;
@@ -287,29 +287,32 @@ void put_told_first(const Explanations& all, const Evidence& evidence, Finding& 
   name.variant = best_variant(all, name.explanation, evidence);
 }
 
-/// The likeliest name with a size that it can have, if one is likelier than a pattern; else the likeliest.
-Finding possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
+struct NameAndPattern {
+  Finding name, pattern;
+};
+
+/// The likeliest name with a size that it can have, if one is likelier than a pattern; else the likeliest. Beside it the
+/// likeliest pattern, once those names are struck that are impossible.
+NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
   constexpr int kMost = 5;
   constexpr double kStruck = -1e6;
   const Explanations& all = closer.search.explanations();
   Evidence left = evidence;
-  std::optional<Finding> likeliest;
+  std::optional<NameAndPattern> likeliest;
   for (int k = 0; k < kMost; ++k) {
-    Finding name = finding_of(all, left, true);
-    put_told_first(all, left, name);
-    if (!likeliest) likeliest = name;
-    if (!likelier(name, finding_of(all, left, false), kNamed)) break;
-    if (plausible(parameters_of(c, closer, name))) return name;
-    left.log_bayes[name.explanation] = kStruck;
+    NameAndPattern now{finding_of(all, left, true), finding_of(all, left, false)};
+    put_told_first(all, left, now.name);
+    if (!likeliest) likeliest = now;
+    if (!likelier(now.name, now.pattern, kNamed)) break;
+    if (plausible(parameters_of(c, closer, now.name))) return now;
+    left.log_bayes[now.name.explanation] = kStruck;
   }
   return *likeliest;
 }
 
 /// A name, or what stands for none; what is told is returned.
 Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
-  const Explanations& all = closer.search.explanations();
-  const Evidence evidence = closer.search.evidence(c.deviation);
-  const Finding pattern = finding_of(all, evidence, false), name = possible_name(c, closer, evidence);
+  const auto [name, pattern] = possible_name(c, closer, closer.search.evidence(c.deviation));
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
