@@ -139,6 +139,9 @@ std::string csv_field(const std::string& text) {
 
 std::string column_help(std::string_view written, const std::vector<std::string_view>& known) {
   const std::string near = nearest_word(written, known);
+  const std::string_view stem = written.substr(0, written.find_first_of("_ ([/"));
+  if (near.empty() && std::find(known.begin(), known.end(), stem) != known.end())
+    return fmt::format("did you mean '{}'? Its name has no unit (docs/recording.md tells which it is in)", stem);
   if (near.empty()) return fmt::format("its columns are: {}", fmt::join(known, ", "));
   if (near == "U") return "'U' is an expanded uncertainty (k = 2): twice the standard one";
   return fmt::format("did you mean '{}'?{}", near,

@@ -38,10 +38,12 @@ struct StylusScene {
   int tip_ordinal = 1;
 };
 
-/// Temperatures in degrees C; 20 where nothing is known.
+inline constexpr double kReferenceTemperature_C = 20;  ///< ISO 1
+
+/// Temperatures in degrees C; the reference where nothing is known.
 struct Temperatures {
-  double part = 20, air = 20;
-  double scale[3] = {20, 20, 20};
+  double part = kReferenceTemperature_C, air = kReferenceTemperature_C;
+  double scale[3] = {kReferenceTemperature_C, kReferenceTemperature_C, kReferenceTemperature_C};
   double table_top_minus_bottom_K = 0;
   double bridge_gradient_K = 0;  ///< top minus bottom of the beam
   double legs_difference_K = 0;  ///< leg at large y minus leg at small y

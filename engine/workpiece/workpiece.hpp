@@ -31,8 +31,6 @@
 
 namespace abbe {
 
-inline constexpr double kReferenceTemperature_C = 20;  ///< ISO 1
-
 /// One harmonic of the form error of a round surface: amplitude cos(n phi + phase) along the
 /// outward normal, phi being the angle about the axis of the feature from the x axis of the
 /// coordinate system in force (from y where the axis is along x).

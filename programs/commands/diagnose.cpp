@@ -56,7 +56,13 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
   const RecordedValues values(read.recordings.front(), options.program, said);
   const std::string name = machine_of(options, [&] { return values.machine(); });
   protect_files(options, read, values.files(), name);
-  return {values.diagnosis(read_machine(name), how), name};
+  const Machine machine = read_machine(name);
+  if (options.known || machine.known_state)
+    said.push_back(diagnostic(
+        Code::W0715,
+        fmt::format("values are compared with all machines of the specification: no known_state of '{}' is used", name),
+        "record the touches: their diagnosis uses it"));
+  return {values.diagnosis(machine, how), name};
 }
 
 /// The name of the machine that --machine or else the recording names; nothing where no file of it is here.

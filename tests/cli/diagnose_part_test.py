@@ -57,6 +57,17 @@ class CalibratedPart(harness.Case):
         self.assertEqual(said["verdict"], "no_mismatch")
         self.assertEqual([m["code"] for m in said["messages"] if m["code"] in ("W0704", "W0710")], [])
 
+    def test_the_material_of_a_warm_part_is_asked_for_and_not_a_column_that_is_there(self):
+        program = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        warm = self.write("warm.json", workpiece(material={"cte_ppm_per_K": 23}, temperature={"part_C": 25}))
+        self.abbe("record", program, "--machine", MACHINE, "--workpiece", warm, "-o", "warm.csv")
+        lines = (self.folder / "warm.csv").read_text().splitlines(keepends=True)
+        self.write("untold.csv", "".join(line for line in lines if not line.startswith("# workpiece")))
+        otherwise = self.diagnosis("untold.csv", "--program", program)["otherwise"]
+        self.assertIn("The part was at 25.0 degrees C, and no workpiece file tells what it is made of: give one with --workpiece", otherwise)
+        self.assertIn("Let temp_part_C vary", otherwise)
+        self.assertNotIn("Log temp_part_C", otherwise)
+
     def test_a_certificate_is_asked_for_before_a_measurement(self):
         recording = self.record("--with", "probe.pretravel_lobing:amplitude_um=3", header="# surfaces: unknown_size\n")
         ball = self.write("ball.json", workpiece({"BALL": {"diameter_mm": {"value": 25.0, "u": 0.0001}}}))

@@ -40,6 +40,10 @@ class Values(harness.Case):
         self.assertEqual(missing["probe.tip_form"], [])   # drawn by chance: no column would tell it from values
         self.assertEqual((said["baseline"], said["rivals"]), (None, None))   # there are no touches to say it of
 
+    def test_what_is_known_of_the_machine_is_not_used_and_that_is_said(self):
+        told = self.diagnosis(self.recorded(), "--known", harness.ROOT / "examples/iso10360/portal-2009.json")
+        self.assertIn("W0715", [m["code"] for m in told["messages"]])
+
     def test_an_effect_on_lengths_is_found_and_modelled(self):
         values = self.recorded("--with", "probe.tip_radius:amplitude_um=15")
         said = self.diagnosis(values, "--model-out", "improved.json", "--report", "report.html", "--fail-on-mismatch", code=1)

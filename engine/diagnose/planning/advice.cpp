@@ -60,6 +60,17 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
   return "";
 }
 
+/// "log a, and let it vary"; "let a and b vary" of what was logged and is the same throughout.
+std::string to_let_vary(const Case& c, unsigned missing, std::string_view first_word_log,
+                        std::string_view first_word_let) {
+  const std::vector<std::string> all = columns_of(missing), absent = columns_of(missing & ~c.touches.known);
+  if (absent.empty()) return fmt::format("{} {} vary", first_word_let, fmt::join(all, ", "));
+  const std::string what = absent.size() < all.size() ? fmt::format("{}", fmt::join(all, ", "))
+      : all.size() == 1                               ? "it"
+                                                      : "them";
+  return fmt::format("{} {}, and let {} vary", first_word_log, fmt::join(absent, ", "), what);
+}
+
 /// What must be logged, and vary, before the names that were found can be judged.
 std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
   std::map<unsigned, std::vector<std::string>> names;  // by what they miss
@@ -71,9 +82,8 @@ std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
   }
   std::vector<std::string> out;
   for (const auto& [missing, list] : names) {
-    const std::vector<std::string> columns = columns_of(missing);
-    if (!columns.empty())
-      out.push_back(fmt::format("Log {}, and let it vary: what {} does depends on it.", fmt::join(columns, ", "),
+    if (!columns_of(missing).empty())
+      out.push_back(fmt::format("{}: what {} does depends on it.", to_let_vary(c, missing, "Log", "Let"),
                                 fmt::join(list, " or ")));
   }
   return out;
@@ -84,11 +94,10 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
   if (result.findings.empty() || result.other || result.adequacy >= kInadequate) return "";
   unsigned missing = 0;
   for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
-  const std::vector<std::string> columns = columns_of(missing);
-  if (columns.empty())
+  if (columns_of(missing).empty())
     return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
-  return fmt::format("What is left may belong to what was not logged or did not change: log {}, and let them vary.",
-                     fmt::join(columns, ", "));
+  return fmt::format("What is left may belong to what was not logged or did not change: {}.",
+                     to_let_vary(c, missing, "log", "let"));
 }
 
 /// What would show whether a name that stands alone is right, where it is not told for certain.
@@ -127,6 +136,23 @@ std::string besides_sizes(const Case& c, const SearchResult& result, const std::
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
+/// A part that is not at 20 degrees C expands as a workpiece file says, and not at all where none does.
+std::string to_know_the_material(const Case& c, const SearchResult& result) {
+  constexpr double kWarm_K = 0.5;
+  const std::optional<double>& part_C = c.recording->rows.front().temp_part_C;
+  const bool corrected = said(c.recording->metadata, "temperature_compensation") == "on";
+  if (c.options.workpiece || corrected || !part_C || std::abs(*part_C - kReferenceTemperature_C) < kWarm_K) return "";
+  const bool expands = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& f) {
+    return std::any_of(f.set.begin(), f.set.end(), [&](int k) {
+      return (c.explanations.list[k].effect->needs & static_cast<unsigned>(Covariate::part_temperature)) != 0;
+    });
+  });
+  if (!expands) return "";
+  return fmt::format(
+      "The part was at {:.1f} degrees C, and no workpiece file tells what it is made of: give one with --workpiece, which costs no measurement.",
+      *part_C);
+}
+
 /// Sizes that nobody gave hide the radius of the tip and all that acts like it. A certificate costs no measurement.
 std::string to_know_sizes(const Case& c, const SearchResult& result) {
   const bool mismatch = !result.findings.empty() || result.other;
@@ -137,8 +163,10 @@ std::string to_know_sizes(const Case& c, const SearchResult& result) {
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  const std::string sizes = to_know_sizes(c, result), others = besides_sizes(c, result, next);
-  return sizes + (sizes.empty() || others.empty() ? "" : " ") + others;
+  std::vector<std::string> sentences = {to_know_sizes(c, result), to_know_the_material(c, result),
+                                        besides_sizes(c, result, next)};
+  std::erase(sentences, "");
+  return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 }  // namespace abbe::diagnose

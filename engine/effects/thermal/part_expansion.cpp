@@ -50,7 +50,7 @@ constexpr EffectParameter kPartExpansionParameters[] = {
 };
 
 Vec3 part_expansion(const TouchScene& scene, const double* theta, const double*) {
-  const double above_K = scene.temperature.part - kReference_C;
+  const double above_K = scene.temperature.part - kReferenceTemperature_C;
   return isotropic_growth(scene, kPpm * (theta[0] * above_K + theta[2] * theta[1])) +
       origin_shift(scene, theta[3], above_K * Vec3{theta[4], theta[5], theta[6]});
 }

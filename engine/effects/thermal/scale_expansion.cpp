@@ -56,7 +56,7 @@ constexpr EffectParameter kScaleExpansionParameters[] = {
 Vec3 scale_expansion(const TouchScene& scene, const double* theta, const double*) {
   Vec3 d;
   for (int axis = 0; axis < 3; ++axis) {
-    const double above_K = scene.temperature.scale[axis] - kReference_C;
+    const double above_K = scene.temperature.scale[axis] - kReferenceTemperature_C;
     d[axis] = -kPpm * (theta[0] * above_K + theta[4] * theta[1 + axis]) * scene.reading[axis];
   }
   return d;

@@ -21,8 +21,6 @@ extern const Effect kRamGrowth;
 extern const Effect kStylusGrowth;
 extern const Effect kPartSoak;
 
-inline constexpr double kReference_C = 20;  ///< ISO 1
-
 /// Time constant of a body that exchanges heat with the air, s: density times heat capacity times
 /// thickness per cooled face over the heat transfer coefficient (lumped capacity, Biot number <<
 /// 1).
