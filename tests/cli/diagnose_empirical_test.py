@@ -13,13 +13,13 @@ ALL_ROUND = [(0, 0, 1)] + [(math.cos(a), math.sin(a), 1) for a in (0.3, 1.87, 3.
 UPPER = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
 
 
-def plate(side=SIDE, rounds=1, directions=ALL_ROUND):
+def plate(side=SIDE, rounds=1, directions=ALL_ROUND, shape="SPHERE", axis=""):
     """Balls on a plane, row by row, and the distance of the first and the last ball of the first column."""
     text = harness.LENGTH.split("S(P)=")[0] + ("S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,150.0,4.0\nSNSLCT/S(P)\n"
                                                "D(M)=DATSET/MCS\nD(R)=TRANS/XORIG,500,YORIG,300,ZORIG,-450\n")
     for k, j, i in itertools.product(range(rounds), range(side), range(side)):
         x, y, label = PITCH * i, PITCH * j, f"B{i}{j}" + (f"_{k}" if rounds > 1 else "")
-        text += f"F({label})=FEAT/SPHERE,OUTER,CART,{x},{y},0,{2 * RADIUS}\nMEAS/SPHERE,F({label}),{len(directions)}\n"
+        text += f"F({label})=FEAT/{shape},OUTER,CART,{x},{y},0,{axis}{2 * RADIUS}\nMEAS/{shape},F({label}),{len(directions)}\n"
         for d in directions:
             n = [c / math.hypot(*d) for c in d]
             p, before = [c + RADIUS * k for c, k in zip((x, y, 0), n)], [c + 3 * RADIUS * k for c, k in zip((x, y, 0), n)]
@@ -100,6 +100,17 @@ class Empirical(harness.Case):
         effects = json.loads((self.folder / "improved.json").read_text())["effects"]
         [knots] = [e["parameters"] for e in effects if e["name"] == "empirical.curve"]  # a touch at a jump may be dirt beside it
         self.assertLess(max(abs(knots[f"z{k}_um"]["value"]) for k in range(16)), 13)
+
+    def test_a_bump_of_what_lies_at_one_height(self):
+        """Pins that are touched at one z: a curve along z would have no length, and no program could read it."""
+        around = [(math.cos(a), math.sin(a), 0) for a in (0, 1.0, 2.0, 3.1, 4.2, 5.2)]
+        recording = self.plate_that(lambda at: (0, 0, 0, 10 * math.exp(-((at["x"] - 650) / 70) ** 2)), directions=around, shape="CIRCLE", axis="0,0,1,")
+        said = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
+        self.assertEqual(said["verdict"], "unexplained")
+        along = [e["parameters"]["along"] for e in json.loads((self.folder / "improved.json").read_text())["effects"]]
+        self.assertIn("x", along)
+        self.assertNotIn("z", along)
+        self.assertNotEqual(self.diagnosis(recording, "--machine", "improved.json")["verdict"], "unexplained")
 
     def test_what_comes_and_goes_is_no_dirt(self):
         """The touches from above are off by as much, with touches of other sides in between."""

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "engine/effects/empirical/empirical.hpp"
@@ -22,6 +21,7 @@ struct Piece {
   const Effect* effect = nullptr;
   std::vector<double> theta;  ///< choices and ranges; the linear parameters are 0
   Along along = Along::both;
+  bool spans = true;  ///< whether touches differ in what it is a function of
 
   bool fits(const EffectParameter& p) const {
     return p.linear && (along == Along::both || (along == Along::normal) == p.name.starts_with('r'));
@@ -38,7 +38,15 @@ Piece piece(const Effect& effect) {
 /// Several settings are fitted together: a pattern over position may be the sum of one along each axis.
 using Pieces = std::vector<Piece>;
 
-std::pair<double, double> range_of(const Case& c, CurveCoordinate along) {
+/// The ends of a curve. Below a thousandth of a mm, s, degree or mm/s there is nothing between them.
+struct Range {
+  double low, high;
+  bool spans() const {
+    constexpr double kLeast = 1e-3;
+    return high - low > kLeast;
+  }
+};
+Range range_of(const Case& c, CurveCoordinate along) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const int i : c.rows) {
     const double at = curve_coordinate(c.touches.touches[i].scene, along);
@@ -51,7 +59,9 @@ Piece curve(const Case& c, CurveCoordinate of, Along along) {
   Piece p = piece(kEmpiricalCurve);
   p.along = along;
   p.theta[0] = static_cast<double>(of);
-  std::tie(p.theta[1], p.theta[2]) = range_of(c, of);
+  const Range range = range_of(c, of);
+  p.theta[1] = range.low, p.theta[2] = range.high;
+  p.spans = range.spans();
   return p;
 }
 
@@ -63,8 +73,9 @@ Piece map(const Case& c, MapPlane plane, Along along) {
   Piece p = piece(kEmpiricalMap);
   p.along = along;
   p.theta[0] = static_cast<double>(plane);
-  std::tie(p.theta[1], p.theta[2]) = range_of(c, first);
-  std::tie(p.theta[3], p.theta[4]) = range_of(c, second);
+  const Range one = range_of(c, first), other = range_of(c, second);
+  p.theta[1] = one.low, p.theta[2] = one.high, p.theta[3] = other.low, p.theta[4] = other.high;
+  p.spans = one.spans() && other.spans();
   return p;
 }
 
@@ -113,6 +124,8 @@ std::vector<Pieces> followers_of(const Case& c, Factor factor) {
     case Factor::feature:
     case Factor::run: break;
   }
+  for (Pieces& pieces : list) std::erase_if(pieces, [](const Piece& p) { return !p.spans; });
+  std::erase_if(list, [](const Pieces& pieces) { return pieces.empty(); });
   return list;
 }
 
