@@ -186,7 +186,7 @@ bool another_part(const Case& c, const SearchResult& result, const Diagnosis& d)
   const auto dirt = double(std::count(c.masked.begin(), c.masked.end(), 1));
   return result.other || dirt > kMostDirt * double(c.masked.size()) || d.baseline.noise_um > kMostNoise_um ||
       std::any_of(d.effects.begin(), d.effects.end(),
-                  [](const DiagnosedEffect& e) { return !plausible(e.parameters); });
+                  [](const DiagnosedEffect& e) { return !all_plausible(e.parameters); });
 }
 
 /// What is diagnosed.
@@ -304,8 +304,6 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   }
   c.rough = first.rough() > 0.5;
   SearchResult result = search(c, first);
-  put_judged_members_first(c, result);
-  drop_impossible_members(c, result);
   out.baseline = machine_beside(c, first, result, known);
   out.p_value = result.p_value;
   out.other_methods = other_methods(c, result.first);

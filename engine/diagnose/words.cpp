@@ -51,8 +51,8 @@ std::string in_words(const RunChange& change) {
 
 /// Whether the 95 % interval is far from the value plus and minus two standard uncertainties, as that of a time constant is.
 bool lopsided(const DiagnosedParameter& p) {
-  constexpr double kHalf = 0.5;
-  return std::min(p.value - p.low, p.high - p.value) < kHalf * 2 * p.u;
+  constexpr double kShort = 1;  // standard uncertainties
+  return std::min(p.value - p.low, p.high - p.value) < kShort * p.u;
 }
 
 std::string in_word(const DiagnosedParameter& p) { return plain_name(p) + " " + p.word + remark(p); }

@@ -54,6 +54,17 @@ class Values(harness.Case):
         self.assertIn("<svg", (self.folder / "report.html").read_text())
         self.assertIn("7 values are not what", self.abbe("diagnose", values).stdout)
 
+    def test_what_the_machine_file_has_of_an_effect_is_not_written_beside_it(self):
+        """Scales of 20 um/m in the file, of 63 more in the recording: the file gets one of both together."""
+        program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", json.loads((harness.ROOT / "examples/iso10360/portal-2009.json").read_text())
+        scale = {"name": "machine.scale", "parameters": {"scale_um_per_m": {"value": 20, "u": 1}, "axis": "all"}}
+        self.write("has.json", json.dumps(machine | {"effects": [scale]}))
+        self.abbe("record", program, "--machine", "has.json", "--seed", 1, "--with", "machine.scale:scale_um_per_m=63,axis=all", "-o", "v.csv", "--dmo", "v.dmo")
+        said = self.diagnosis("v.dmo", "--program", program, "--machine", "has.json", "--workpiece", self.at_20_degrees(), "--model-out", "now.json")
+        self.assertIn("beside what the machine file has of it", said["effects"][0]["sentence"])
+        [now] = json.loads((self.folder / "now.json").read_text())["effects"]
+        self.assertTrue(70 < now["parameters"]["scale_um_per_m"]["value"] < 95, now)
+
     def test_an_effect_is_found_with_either_sign(self):
         """A position is an absolute value: what makes it is no linear function of the size of an effect."""
         program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", harness.ROOT / "examples/iso10360/portal-2009.json"

@@ -1,13 +1,11 @@
-// What a diagnosis makes of a name that may be wrong: how far it is believed, and what a machine file gets of it.
+// How far a name that may be wrong is believed.
 #pragma once
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/diagnose/diagnosis.hpp"
-#include "engine/effects/effect.hpp"
 
 namespace abbe::diagnose {
 
@@ -30,24 +28,11 @@ inline double believed(double probability, bool doubted) {
   return doubted ? std::min(probability, kDoubted) : probability;
 }
 
-/// Of several names the machine file gets the first, but not one that is believed less than this.
-inline constexpr double kCarried = 0.1;
-
 /// Whether held-out touches are predicted better by more than the standard error of the gain, and lie closer. A score may
 /// gain because a model is less sure of itself.
-bool shown(const std::optional<Improvement>&);
+bool predicts_better(const std::optional<Improvement>&);
 
 /// Whether every size is inside the catalogue's range.
-bool plausible(const std::vector<DiagnosedParameter>&);
-/// Of a size that is not, no machine file may have a setting either.
-inline constexpr const char* kNoSuchSize =
-    " No such effect has such a size: the name may be wrong, and no machine file carries it.";
-
-EffectSetting setting_of(const std::string& effect, const std::vector<DiagnosedParameter>&);
-
-/// Sizes beside the catalogue's range, but within their uncertainty of it, at its end: a force of -0.01 ±
-/// 0.02 N may be none. Those that do not go together are made smaller by one factor until they do: less than their
-/// uncertainty, or they would not be plausible.
-EffectSetting nearest_possible(const Effect&, EffectSetting);
+bool all_plausible(const std::vector<DiagnosedParameter>&);
 
 }  // namespace abbe::diagnose

@@ -176,7 +176,7 @@ Matrix between_neighbours(const Pieces& pieces, const Basis& basis) {
 }
 
 /// What columns show beside the placement of the part.
-Matrix shown(const Matrix& placement, const Matrix& columns) {
+Matrix beside_placement(const Matrix& placement, const Matrix& columns) {
   return columns - placement * (placement.transpose() * columns);
 }
 
@@ -184,7 +184,7 @@ Matrix shown(const Matrix& placement, const Matrix& columns) {
 /// up all but a tenth, in squares, is left out: the little that shows of it would make it large.
 Matrix weights_of(const Basis& basis, const Matrix& between, const Matrix& placement, const Matrix& pattern) {
   constexpr double kSeen = 0.1;
-  const Matrix visible = shown(placement, basis.columns);
+  const Matrix visible = beside_placement(placement, basis.columns);
   const auto [share, course] =
       spectrum_beside(visible.transpose() * visible, basis.columns.transpose() * basis.columns + between);
   const Vector weight = (share.array() > kSeen).select(share.cwiseMax(kSeen).cwiseInverse(), 0);
@@ -246,7 +246,7 @@ struct Following {
 /// The likeliest of the effects that are functions of these factors.
 Following best_following(const Case& c, const LinearModel& beside, const Hyperparameters& hyper, const Matrix& pattern,
                          const std::vector<Factor>& factors) {
-  const Matrix placement = independent(beside.free), visible = shown(placement, pattern);
+  const Matrix placement = independent(beside.free), visible = beside_placement(placement, pattern);
   std::vector<Following> all;
   std::vector<Matrix> between, weights;
   Explanations each;
@@ -277,10 +277,10 @@ Following best_following(const Case& c, const LinearModel& beside, const Hyperpa
   out.log_bayes = belief[best];
   const Fit found = fitted(search.information(0)), fit = fitted(search.information(static_cast<int>(best)));
   const Matrix& followed = each.variants[best].signature;
-  const Vector whole = visible * found.value, left = whole - shown(placement, followed) * fit.value;
+  const Vector whole = visible * found.value, left = whole - beside_placement(placement, followed) * fit.value;
   out.share = 1 - left.squaredNorm() / whole.squaredNorm();
   out.value = weights[best - 1] * fit.value;
-  out.u = uncertainties(out.basis, between[best - 1], shown(placement, followed), fit.covariance);
+  out.u = uncertainties(out.basis, between[best - 1], beside_placement(placement, followed), fit.covariance);
   return out;
 }
 

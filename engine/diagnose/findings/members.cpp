@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/diagnose/findings/belief.hpp"
+#include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
 
@@ -15,14 +16,14 @@ namespace {
 constexpr std::size_t kSized = 5;
 
 /// How probable a member of a finding's set is, up to a factor that all members share.
-double weight(const Case& c, const Finding& f, int member) {
+double weight(const Explanations& all, const Finding& f, int member) {
   const std::vector<double>& bayes = f.evidence.log_bayes;
-  return c.explanations.list[member].prior * std::exp(bayes[member] - bayes[f.explanation]);
+  return all.list[member].prior * std::exp(bayes[member] - bayes[f.explanation]);
 }
 
-double weight_of_all(const Case& c, const Finding& f) {
+double weight_of_all(const Explanations& all, const Finding& f) {
   double sum = 0;
-  for (const int member : f.set) sum += weight(c, f, member);
+  for (const int member : f.set) sum += weight(all, f, member);
   return sum;
 }
 
@@ -31,9 +32,9 @@ bool possible(const Case& c, const SearchResult& result, std::size_t k, int memb
   const Finding& f = result.findings[k];
   const std::vector<DiagnosedParameter> found = estimate_size(c, result, k, member).parameters;
   const Effect& effect = *c.explanations.list[member].effect;
-  if (c.explanations.variants[f.variant_of(member)].change.gone()) return plausible(found);
-  const auto known = known_effect(*c.machine, effect, abbe::diagnose::setting_of(std::string(effect.name), found));
-  if (!known) return plausible(found);
+  if (c.explanations.variants[f.variant_of(member)].change.gone()) return all_plausible(found);
+  const auto known = known_effect(*c.machine, effect, setting_from(std::string(effect.name), found));
+  if (!known) return all_plausible(found);
   return known->gone || plausible(effect, nearest_possible(effect, known->now));
 }
 
@@ -44,11 +45,11 @@ void fill_up(const Case& c, Finding& f, const std::vector<int>& struck) {
     return std::find(list.begin(), list.end(), k) != list.end();
   };
   std::vector<std::pair<double, int>> others;
-  double held = weight_of_all(c, f), all = held;
+  double held = weight_of_all(c.explanations, f), all = held;
   for (int k = 0; k < static_cast<int>(c.explanations.list.size()); ++k) {
     if (!c.explanations.list[k].effect || in(f.set, k) || in(struck, k) || !says_something(f.evidence, k)) continue;
-    others.emplace_back(-weight(c, f, k), k);
-    all += weight(c, f, k);
+    others.emplace_back(-weight(c.explanations, f, k), k);
+    all += weight(c.explanations, f, k);
   }
   std::sort(others.begin(), others.end());
   const double probability_of_weight = f.probability / held;
@@ -66,12 +67,12 @@ bool judged(const Case& c, const Finding& f) {
   constexpr double kMostly = 0.8;
   double open = 0;
   for (const int k : f.set)
-    if (c.explanations.list[k].missing) open += weight(c, f, k);
-  return open < kMostly * weight_of_all(c, f);
+    if (c.explanations.list[k].missing) open += weight(c.explanations, f, k);
+  return open < kMostly * weight_of_all(c.explanations, f);
 }
 
-double belief_in_first(const Case& c, const Finding& f) {
-  return f.probability * weight(c, f, f.set.front()) / weight_of_all(c, f);
+double belief_in_first(const Explanations& all, const Finding& f) {
+  return f.probability * weight(all, f, f.set.front()) / weight_of_all(all, f);
 }
 
 void put_judged_members_first(const Case& c, SearchResult& result) {
@@ -88,13 +89,13 @@ void put_judged_members_first(const Case& c, SearchResult& result) {
 void drop_impossible_members(const Case& c, SearchResult& result) {
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding as_found = result.findings[k];
-    const double all = weight_of_all(c, as_found);
+    const double all = weight_of_all(c.explanations, as_found);
     double dropped = 0;
     std::vector<int> struck;
     Finding& f = result.findings[k];
     const auto strike = [&](std::size_t at) {
       struck.push_back(f.set[at]);
-      dropped += weight(c, as_found, f.set[at]);
+      dropped += weight(c.explanations, as_found, f.set[at]);
       f.set.erase(f.set.begin() + static_cast<std::ptrdiff_t>(at));
       // of all that were in question before, those outside the set too
       const double impossible = as_found.probability * dropped / all;
@@ -125,10 +126,10 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
 std::vector<DiagnosedMember> members_of(const Case& c, const SearchResult& result, std::size_t k,
                                         const DiagnosedEffect& told) {
   const Finding& f = result.findings[k];
-  const double all = weight_of_all(c, f);
+  const double all = weight_of_all(c.explanations, f);
   std::vector<DiagnosedMember> out;
   for (const int m : f.set) {
-    out.push_back({told.probability * weight(c, f, m) / all, {}, {}});
+    out.push_back({told.probability * weight(c.explanations, f, m) / all, {}, {}});
     if (m == f.explanation) {
       out.back().parameters = told.parameters;
       out.back().largest_um = told.largest_um;

@@ -19,7 +19,7 @@ void put_judged_members_first(const Case&, SearchResult&);
 void drop_impossible_members(const Case&, SearchResult&);
 
 /// How far the first member of a set is believed by itself.
-double belief_in_first(const Case&, const Finding&);
+double belief_in_first(const Explanations&, const Finding&);
 
 /// The members of the set of a finding, the first as it was told.
 std::vector<DiagnosedMember> members_of(const Case&, const SearchResult&, std::size_t finding,

@@ -12,6 +12,7 @@
 #include "engine/diagnose/explanations/patterns/functions.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/diagnose/explanations/refine.hpp"
+#include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/precision.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -282,6 +283,21 @@ void fit_beside_findings(const Case& c, SearchResult& result) {
   result.hyper_of_likelier = c.rough ? beside(likelier_ensemble(c, c.model)) : result.hyper;
 }
 
+/// Which of the names of a set is told, and what is left beside it.
+void choose_first_members(const Case& c, SearchResult& result) {
+  const auto first_members = [&] {
+    std::vector<int> list;
+    for (const Finding& f : result.findings) list.push_back(f.explanation);
+    return list;
+  };
+  const std::vector<int> before = first_members();
+  put_judged_members_first(c, result);
+  drop_impossible_members(c, result);
+  if (first_members() == before) return;
+  result.adequacy = round(c, rest_of(c, signatures_of(c, result.findings)), kRounds + 3).p;
+  fit_beside_findings(c, result);
+}
+
 /// How the size of each name differs between the touches.
 void compare_sizes(const Case& c, SearchResult& result) {
   const std::vector<const Matrix*> found = signatures_of(c, result);
@@ -392,6 +408,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   add_what_names_leave(c, result);
   put_largest_first(c, result.findings);
   fit_beside_findings(c, result);
+  choose_first_members(c, result);
   compare_sizes(c, result);
   drop_name_of_several_sizes(c, first, result);
   return result;

@@ -9,10 +9,10 @@
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
 #include "engine/diagnose/findings/belief.hpp"
+#include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
 #include "engine/diagnose/findings/empirical.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
-#include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/parameters.hpp"
@@ -32,30 +32,6 @@ bool stays_in_its_setup(const Case& c) {
     const TouchScene& s = c.touches.touches[row].scene;
     return run_of.try_emplace(s.setup, s.run).first->second != s.run;
   });
-}
-
-constexpr const char* kOfThisPart = " It is of this part: a machine file with it holds for no other part.";
-
-/// Puts an effect into the machine file: beside the others, or with what the file has of it already. Decides
-/// whether that is plausible, and says what is to be said.
-std::string tell_machine_file(const Case& c, const Effect& effect, std::vector<DiagnosedParameter>& parameters,
-                              Diagnosis& out) {
-  EffectSetting setting = setting_of(std::string(effect.name), parameters);
-  std::optional<KnownEffect> before = known_effect(*c.machine, effect, setting);
-  const auto& taken = out.superseded;
-  if (before && std::find(taken.begin(), taken.end(), before->index) != taken.end()) before.reset();
-  if (before) setting = before->now;
-  setting = nearest_possible(effect, setting);
-  const bool gone = before && before->gone;
-  const bool possible = gone || plausible(effect, setting);
-  for (DiagnosedParameter& p : parameters) p.plausible = possible;
-  if (!possible) return kNoSuchSize;
-  if (before) out.superseded.push_back(before->index);
-  if (!gone) out.model_effects.push_back(std::move(setting));
-  if (!before) return effect.stage == Stage::part ? kOfThisPart : "";
-  return gone           ? " The machine file has the opposite: it is not there any more."
-      : before->instead ? " It takes the place of what the machine file has of it."
-                        : " That is beside what the machine file has of it.";
 }
 
 /// What of a variant changes between runs. Where it stands for a stretch of runs that holds the one of the
@@ -98,13 +74,13 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
               c.step_um)
-        : belief_in_first(c, f) < kCarried ? " It is one of so many that no machine file carries it."
-                                           : tell_machine_file(c, effect, e.parameters, out);
-    const bool possible = plausible(e.parameters);
+        : belief_in_first(c.explanations, f) < kCarried ? kNotCarried
+                                                        : carry(*c.machine, effect, e.parameters, out);
+    const bool possible = all_plausible(e.parameters);
     const bool same_phase = is_same_phase(c, f);
     const bool large_errors = !out.baseline.known && out.baseline.geometry_scale >= kLargeErrors;
     const bool doubted = something_else || large_errors || of_several_sizes(f.sizes) || rounding || same_phase ||
-        effect.only_spread || !judged(c, f) || !possible || !shown(out.improvement);
+        effect.only_spread || !judged(c, f) || !possible || !predicts_better(out.improvement);
     e.probability = believed(f.probability, doubted);
     if (f.set.size() > 1) e.by_member = members_of(c, result, k, e);
     std::vector<std::string_view> titles;
@@ -114,8 +90,8 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         pattern_beside(c, f) + not_of_one_size(f) +
         (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
         much_like_it(effect);
-    for (const std::string& note : {whose_coordinates(c, effect), clock, in_file})
-      e.sentence += unless_said(out.effects, note);
+    for (const std::string& note : {whose_coordinates(c, effect), clock}) e.sentence += unless_said(out.effects, note);
+    e.sentence += in_file;
     if (change.any() && stays_in_its_setup(c))
       e.sentence +=
           " That takes for granted that the part did not move between the runs; if it may have, give them different setups.";
@@ -136,10 +112,11 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
 
 void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) {
   for (NoiseFinding& n : noise) {
-    const std::string in_file = tell_machine_file(c, *n.effect, n.parameters, out);
+    const std::string in_file = carry(*c.machine, *n.effect, n.parameters, out);
     if (n.factor && out.effects.empty() && !out.unexplained)
       out.location.push_back({std::string(abbe::diagnose::name(*n.factor)), n.where, 1, n.p});
-    const double probability = believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain);
+    const double probability =
+        believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain || !all_plausible(n.parameters));
     out.effects.push_back({{std::string(n.effect->name)}, probability, n.parameters, n.sentence});
     if (!n.certain)
       out.effects.back().sentence +=

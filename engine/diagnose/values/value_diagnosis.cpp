@@ -13,8 +13,10 @@
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/belief.hpp"
+#include "engine/diagnose/findings/carried.hpp"
 #include "engine/diagnose/findings/improvement.hpp"
 #include "engine/diagnose/findings/locate.hpp"
+#include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/search.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/diagnose/values/value_estimate.hpp"
@@ -179,11 +181,12 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   }
   const Effect& effect = *closer.explanation(f).effect;
   e.parameters = parameters_of(c, closer, f);
-  const bool size = plausible(e.parameters);
   const unsigned untold = std::accumulate(f.set.begin(), f.set.end(), 0u,
                                           [&](unsigned missing, int k) { return missing | all.list[k].missing; });
   const bool only_untold = closer.explanation(f).missing != 0;
-  e.probability = believed(f.probability, adequacy < kInadequate || !size || only_untold);
+  const std::string in_file =
+      belief_in_first(all, f) < kCarried ? kNotCarried : carry(*c.machine, effect, e.parameters, out);
+  e.probability = believed(f.probability, adequacy < kInadequate || !all_plausible(e.parameters) || only_untold);
   e.sentence = explanation_sentence(titles, e.parameters, "a file of values", {}, e.probability < kTold);
   if (untold != 0) {
     const std::string columns = fmt::format("{}", fmt::join(columns_of(untold), ", "));
@@ -191,10 +194,7 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
     out.otherwise =
         fmt::format("Tell {} in a workpiece file, and diagnose the same values with it (--workpiece).", columns);
   }
-  if (!size)
-    e.sentence += kNoSuchSize;
-  else
-    out.model_effects.push_back(nearest_possible(effect, setting_of(e.members.front(), e.parameters)));
+  e.sentence += in_file;
   out.adequacy_p = adequacy;
   out.verdict = f.set.size() > 1 ? Verdict::one_of : Verdict::named;
   out.effects.push_back(std::move(e));
@@ -304,7 +304,7 @@ NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evi
     put_told_first(all, left, now.name);
     if (!likeliest) likeliest = now;
     if (!likelier(now.name, now.pattern, kNamed)) break;
-    if (plausible(parameters_of(c, closer, now.name))) return now;
+    if (all_plausible(parameters_of(c, closer, now.name))) return now;
     left.log_bayes[now.name.explanation] = kStruck;
   }
   return *likeliest;

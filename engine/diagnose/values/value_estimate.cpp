@@ -138,7 +138,7 @@ Machine with_effect(const Machine& machine, const Effect& effect, const Variant&
   for (std::size_t k = 0; k < variant.columns.size(); ++k)
     theta[variant.columns[k].parameter] = taken(static_cast<Eigen::Index>(k)) * variant.columns[k].unit;
   Machine planted = machine;
-  planted.effects.push_back(setting_of(effect, theta));
+  planted.effects.push_back(setting_at(effect, theta));
   return planted;
 }
 

@@ -49,7 +49,7 @@ class Plantation {
   /// The deviations of all values; NaN where the planted machine does not get.
   Vector signature(const Planting& planting) const {
     Machine planted = machine_;
-    planted.effects = {setting_of(*planting.effect, planting.theta)};
+    planted.effects = {setting_at(*planting.effect, planting.theta)};
     return simulated_values(values_, programs_, planted, one_, options_, contributors_).row(0);
   }
 
@@ -170,7 +170,7 @@ void add_pattern(Explanations& out, Factor factor, const char* shape, Matrix sig
 
 }  // namespace
 
-EffectSetting setting_of(const Effect& effect, const std::vector<double>& theta) {
+EffectSetting setting_at(const Effect& effect, const std::vector<double>& theta) {
   EffectSetting s{std::string(effect.name), {}};
   for (std::size_t p = 0; p < theta.size(); ++p) {
     const EffectParameter& parameter = effect.parameters[p];

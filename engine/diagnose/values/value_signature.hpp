@@ -15,7 +15,7 @@ Explanations value_explanations(const std::vector<RecordedValue>&, const std::ve
                                 const VirtualMachines& machines, const DiagnoseOptions&);
 
 /// An effect of one setting, as a machine file says it.
-EffectSetting setting_of(const Effect&, const std::vector<double>& theta);
+EffectSetting setting_at(const Effect&, const std::vector<double>& theta);
 
 /// OTHER: `covariance` of the values as the machines of the specification have it. Sets the priors of all explanations.
 void add_value_patterns(const Matrix& covariance, Explanations&);

@@ -41,19 +41,42 @@ struct OfASet {
   Finding& finding() { return result.findings.front(); }
 };
 
+/// A tip radius, and a set of three names that share nine tenths of all belief as 0.5, 0.3 and 0.2.
+struct OfThree : Planted {
+  explicit OfThree(const std::vector<std::string>& names) : Planted(4) {
+    plant("probe.tip_radius", {1.2, 0});
+    c.explanations = named_explanations(c.touches, c.rows, names);
+    c.machine = &machine;
+    Finding f;
+    f.evidence = EvidenceSearch(c.model, c.hyper, c.explanations).evidence();
+    const double shares[] = {0.5, 0.3, 0.2};
+    for (int k = 0; k < 3; ++k) {
+      f.evidence.log_bayes[k] = 20 + std::log(shares[k] / c.explanations.list[k].prior);
+      f.set.push_back(k);
+      f.best.push_back(best_variant(c.explanations, k, f.evidence));
+    }
+    f.explanation = 0, f.variant = f.best[0], f.probability = 0.9;
+    result.findings = {f};
+  }
+};
+
 }  // namespace
 
-TEST_CASE("a member is believed by its share of the set") {
-  OfASet of({0.5, 0.3, 0.2}, {});
-  CHECK(belief_in_first(of.c, of.finding()) == doctest::Approx(0.45));
-  const auto members = [&] {
-    DiagnosedEffect told;
-    told.probability = 0.9;
-    of.finding().set = {0};  // by itself it has all
-    return members_of(of.c, of.result, 0, told);
-  }();
-  REQUIRE(members.size() == 1);
-  CHECK(members[0].probability == doctest::Approx(0.9));
+TEST_CASE("a member is believed by its share of the set, and told with a size of its own") {
+  OfThree of({"probe.tip_radius", "machine.scale", "machine.squareness"});
+  CHECK(belief_in_first(of.c.explanations, of.result.findings[0]) == doctest::Approx(0.45));
+  DiagnosedEffect told;
+  told.probability = 0.5;  // doubted: less than the 0.9 of the set
+  told.parameters = {{.name = "amplitude_um", .unit = "um", .value = 1.2, .u = 0.1}};
+  told.largest_um = 1.2;
+  const std::vector<DiagnosedMember> members = members_of(of.c, of.result, 0, told);
+  REQUIRE(members.size() == 3);
+  CHECK(members[0].probability == doctest::Approx(0.25));
+  CHECK(members[1].probability == doctest::Approx(0.15));
+  CHECK(members[2].probability == doctest::Approx(0.10));
+  CHECK(members[0].parameters.at(0).name == "amplitude_um");
+  CHECK(members[1].parameters.at(0).name == "scale_um_per_m");
+  CHECK(members[2].parameters.at(0).unit == "urad");
 }
 
 TEST_CASE("a set is judged unless four fifths of it need what was not logged") {

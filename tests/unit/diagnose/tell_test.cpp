@@ -139,6 +139,30 @@ TEST_CASE("scatter is told with its place where nothing else was, and counts in 
   CHECK(beside.p_value == 1e-9);
 }
 
+TEST_CASE("scatter of an impossible size is doubted as any other name is") {
+  Planted p(5);
+  NoiseFinding dirt{
+      find_effect("noise.outliers"), 1e-12, {{.name = "share", .unit = "", .value = 1.5, .u = 0.01}}, "Dirt."};
+  Diagnosis out;
+  tell_noise(p.c, {dirt}, out);
+  CHECK(out.effects.at(0).probability == kDoubted);
+  CHECK(out.effects[0].sentence.find("No such effect has such a size") != std::string::npos);
+  CHECK(out.model_effects.empty());
+}
+
+TEST_CASE("of each of two effects that are gone it is said") {
+  Told of;
+  of.find({"probe.tip_radius", "machine.scale"});
+  Finding second = of.result.findings.at(0);
+  second.explanation = 1, second.set = {1}, second.variant = of.c.explanations.list[1].variants[0];
+  of.result.findings[0].set = {0};
+  of.result.findings.push_back(second);
+  for (const Finding& f : of.result.findings) of.c.explanations.variants[f.variant].change = {0, 2};
+  tell_findings(of.c, of.result, of.out);
+  REQUIRE(of.out.effects.size() == 2);
+  for (const DiagnosedEffect& e : of.out.effects) CHECK(e.sentence.find(" It is gone: ") != std::string::npos);
+}
+
 TEST_CASE("the verdict is the worst of what was found") {
   Planted p(4);
   p.plant("probe.tip_radius", {1.2, 0});

@@ -1,0 +1,77 @@
+#include "engine/diagnose/findings/carried.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "engine/diagnose/findings/known_effect.hpp"
+#include "engine/math/normal.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr const char* kOfThisPart = " It is of this part: a machine file with it holds for no other part.";
+constexpr const char* kNoSuchSize =
+    " No such effect has such a size: the name may be wrong, and no machine file carries it.";
+
+EffectSetting without_contradiction(const Effect& effect, EffectSetting setting) {
+  constexpr double kStep = 0.99;
+  constexpr int kMost = 200;
+  const auto contradicts = [&] {
+    std::vector<double> theta;
+    for (const EffectParameter& p : effect.parameters) {
+      const auto found = setting.parameters.find(std::string(p.name));
+      theta.push_back(found == setting.parameters.end() || !found->second.word.empty() ? p.standard
+                                                                                       : found->second.value);
+    }
+    return !effect.contradiction(theta.data()).empty();
+  };
+  for (int k = 0; effect.contradiction && k < kMost && contradicts(); ++k)
+    for (const EffectParameter& p : effect.parameters)
+      if (const auto found = setting.parameters.find(std::string(p.name));
+          p.linear && found != setting.parameters.end())
+        found->second.value *= kStep;
+  return setting;
+}
+
+}  // namespace
+
+EffectSetting setting_from(const std::string& effect, const std::vector<DiagnosedParameter>& figures) {
+  EffectSetting setting{effect, {}};
+  for (const DiagnosedParameter& p : figures) setting.parameters[p.name] = {p.value, p.word.empty() ? p.u : 0, p.word};
+  return setting;
+}
+
+EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
+  for (const EffectParameter& p : effect.parameters) {
+    const auto found = setting.parameters.find(std::string(p.name));
+    if (found == setting.parameters.end()) continue;
+    found->second.u = std::min(found->second.u, p.high - p.low);
+    if (!p.linear) continue;
+    const double possible = std::clamp(found->second.value, p.low, p.high);
+    if (std::abs(found->second.value - possible) <= kNormal95 * found->second.u) found->second.value = possible;
+  }
+  return without_contradiction(effect, std::move(setting));
+}
+
+std::string carry(const Machine& machine, const Effect& effect, std::vector<DiagnosedParameter>& size, Diagnosis& out) {
+  EffectSetting setting = setting_from(std::string(effect.name), size);
+  std::optional<KnownEffect> before = known_effect(machine, effect, setting);
+  const auto& taken = out.superseded;
+  if (before && std::find(taken.begin(), taken.end(), before->index) != taken.end()) before.reset();
+  if (before) setting = before->now;
+  setting = nearest_possible(effect, setting);
+  const bool gone = before && before->gone;
+  const bool possible = gone || plausible(effect, setting);
+  for (DiagnosedParameter& p : size) p.plausible = possible;
+  if (!possible) return kNoSuchSize;
+  if (before) out.superseded.push_back(before->index);
+  if (!gone) out.model_effects.push_back(std::move(setting));
+  if (!before) return effect.stage == Stage::part ? kOfThisPart : "";
+  return gone           ? " The machine file has the opposite: it is not there any more."
+      : before->instead ? " It takes the place of what the machine file has of it."
+                        : " That is beside what the machine file has of it.";
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,41 @@
+#include "engine/diagnose/findings/carried.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/diagnose/findings/known_effect.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+TEST_CASE("a size beside the range is possible where its uncertainty reaches the range, and is then the end of it") {
+  const Effect& bending = *find_effect("probe.stylus_bending");
+  const auto force = [&](double value, double u) {
+    return nearest_possible(bending, EffectSetting{"probe.stylus_bending", {{"force_N", {value, u, ""}}}});
+  };
+  const auto value = [](const EffectSetting& setting) { return setting.parameters.at("force_N").value; };
+  CHECK(value(force(0.08, 0.02)) == 0.08);
+  CHECK(value(force(-0.01, 0.02)) == 0);
+  CHECK(plausible(bending, force(-0.01, 0.02)));
+  CHECK(value(force(-0.0002, 0.00001)) == -0.0002);  // no force pulls, however small it is
+  CHECK_FALSE(plausible(bending, force(-0.0002, 0.00001)));
+  CHECK(value(force(2.5, 0.1)) == 2.5);
+  CHECK_FALSE(plausible(bending, force(2.5, 0.1)));
+}
+
+TEST_CASE("an uncertainty is no larger than the range of its parameter") {
+  const Effect& dirt = *find_effect("noise.outliers");
+  CHECK(nearest_possible(dirt, EffectSetting{"noise.outliers", {{"share", {0.3, 5, ""}}}}).parameters.at("share").u ==
+        0.5);
+}
+
+TEST_CASE("sizes that do not go together are made smaller until they do") {
+  const Effect& scale = *find_effect("machine.scale_interpolation");
+  const EffectSetting steep{
+      "machine.scale_interpolation",
+      {{"amplitude_um", {2.4, 0.3, ""}}, {"second_um", {0.6, 0.3, ""}}, {"period_um", {20, 0, ""}}}};
+  const EffectSetting possible = nearest_possible(scale, steep);
+  const double first = possible.parameters.at("amplitude_um").value, second = possible.parameters.at("second_um").value;
+  CHECK(2 * 3.14159265358979 * (first + 2 * second) / 20 < 1);
+  CHECK(first == doctest::Approx(2.1).epsilon(0.02));
+  CHECK(second / first == doctest::Approx(0.25));
+}
