@@ -13,12 +13,12 @@ ALL_ROUND = [(0, 0, 1)] + [(math.cos(a), math.sin(a), 1) for a in (0.3, 1.87, 3.
 UPPER = [(0, 0, 1), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)]
 
 
-def plate(side=SIDE, rounds=1, directions=ALL_ROUND, shape="SPHERE", axis=""):
+def plate(side=SIDE, rounds=1, directions=ALL_ROUND, shape="SPHERE", axis="", pitch=PITCH):
     """Balls on a plane, row by row, and the distance of the first and the last ball of the first column."""
     text = harness.LENGTH.split("S(P)=")[0] + ("S(P)=SNSDEF/PROBE,INDEX,POL,0.0,0.0,0.0,0.0,-1.0,150.0,4.0\nSNSLCT/S(P)\n"
                                                "D(M)=DATSET/MCS\nD(R)=TRANS/XORIG,500,YORIG,300,ZORIG,-450\n")
     for k, j, i in itertools.product(range(rounds), range(side), range(side)):
-        x, y, label = PITCH * i, PITCH * j, f"B{i}{j}" + (f"_{k}" if rounds > 1 else "")
+        x, y, label = pitch * i, pitch * j, f"B{i}{j}" + (f"_{k}" if rounds > 1 else "")
         text += f"F({label})=FEAT/{shape},OUTER,CART,{x},{y},0,{axis}{2 * RADIUS}\nMEAS/{shape},F({label}),{len(directions)}\n"
         for d in directions:
             n = [c / math.hypot(*d) for c in d]
@@ -27,7 +27,7 @@ def plate(side=SIDE, rounds=1, directions=ALL_ROUND, shape="SPHERE", axis=""):
             text += goto + "PTMEAS/CART," + ",".join(f"{c:.8f}" for c in (*p, *n)) + "\n" + goto
         text += "ENDMES\n"
     first, last = (f"B0{j}" + ("_0" if rounds > 1 else "") for j in (0, side - 1))
-    return text + f"T(D)=TOL/DISTB,NOMINL,{PITCH * (side - 1)},-0.05,0.05,PT2PT\nOUTPUT/FA({first}),FA({last}),TA(D)\nENDFIL\n"
+    return text + f"T(D)=TOL/DISTB,NOMINL,{pitch * (side - 1)},-0.05,0.05,PT2PT\nOUTPUT/FA({first}),FA({last}),TA(D)\nENDFIL\n"
 
 
 class Empirical(harness.Case):
@@ -111,6 +111,14 @@ class Empirical(harness.Case):
         self.assertIn("x", along)
         self.assertNotIn("z", along)
         self.assertNotEqual(self.diagnosis(recording, "--machine", "improved.json")["verdict"], "unexplained")
+
+    def test_a_period_of_an_impossible_size_has_no_name(self):
+        """At a few places of each axis a period fits anything, if it may be as large as it likes."""
+        steep = lambda at: (15 * math.sin(2 * math.pi * at["x"] / 0.1), 0, 0)
+        said = self.diagnosis(self.plate_that(steep, directions=UPPER, pitch=75.037), "--machine", MACHINE)
+        self.assertEqual((said["verdict"], said["effects"]), ("unexplained", []))
+        self.assertIn("machine.scale_interpolation would explain it as well, but only with a size that no such effect has", said["unexplained"]["sentence"])
+        self.assertTrue(said["otherwise"])
 
     def test_what_comes_and_goes_is_no_dirt(self):
         """The touches from above are off by as much, with touches of other sides in between."""

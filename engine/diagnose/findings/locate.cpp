@@ -257,9 +257,9 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   const CredibleSet name = credible_set(c.explanations, f.evidence, true);
   const bool several_sizes = result.nearest && result.nearest->sizes;
   const bool as_good = !several_sizes && kAsWell * name.probability >= f.probability;
-  const std::string leaves = several_sizes
-      ? fmt::format("its size {}", in_words(*result.nearest->sizes))
-      : fmt::format("leaves more than chance does (p = {:.1f} %)", 100 * result.adequacy);
+  const std::string leaves = several_sizes ? fmt::format("its size {}", in_words(*result.nearest->sizes))
+      : result.nearest_impossible          ? "only with a size that no such effect has"
+                                  : fmt::format("leaves more than chance does (p = {:.1f} %)", 100 * result.adequacy);
   const bool alone = result.nearest && name.set.size() == 1 && name.explanation == result.nearest->explanation;
   u.sentence += as_good ? fmt::format(". {} would explain it as well{}.", listed(c.explanations, name.set),
                                       alone ? ", but " + leaves : "")

@@ -75,6 +75,10 @@ double belief_in_first(const Explanations& all, const Finding& f) {
   return f.probability * weight(all, f, f.set.front()) / weight_of_all(all, f);
 }
 
+bool possible_first(const Case& c, const SearchResult& result, std::size_t k) {
+  return possible(c, result, k, result.findings[k].explanation);
+}
+
 void put_judged_members_first(const Case& c, SearchResult& result) {
   const auto can_be = [&](int m) { return !c.explanations.list[m].missing; };
   for (Finding& f : result.findings) {

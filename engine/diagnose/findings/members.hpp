@@ -9,6 +9,9 @@ namespace abbe::diagnose {
 /// Whether what was named could be judged from this recording.
 bool judged(const Case&, const Finding&);
 
+/// Whether a machine can have what was found of the first member, with what its file has of it.
+bool possible_first(const Case&, const SearchResult&, std::size_t finding);
+
 /// Of a set that can be judged those that can be stand first: a size in the unit of what was not logged tells nobody
 /// anything.
 void put_judged_members_first(const Case&, SearchResult&);

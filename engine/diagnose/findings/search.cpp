@@ -298,6 +298,29 @@ void choose_first_members(const Case& c, SearchResult& result) {
   fit_beside_findings(c, result);
 }
 
+bool has_period(const Effect& effect) {
+  return std::any_of(effect.parameters.begin(), effect.parameters.end(), [](const EffectParameter& p) {
+    return p.sought == Sought::signal_period || p.sought == Sought::wavelength || p.sought == Sought::period;
+  });
+}
+
+/// A period fits whatever differs between a few places, as long as it may be as large as it likes. One of a size that no
+/// such effect has is none, and what it was taken for has no name.
+void drop_impossible_periods(const Case& c, SearchResult& result) {
+  std::vector<Finding> left;
+  for (std::size_t k = 0; k < result.findings.size(); ++k) {
+    const Finding& f = result.findings[k];
+    if (has_period(*c.explanations.list[f.explanation].effect) && !possible_first(c, result, k))
+      result.nearest = f, result.nearest_impossible = true;
+    else
+      left.push_back(f);
+  }
+  if (left.size() == result.findings.size()) return;
+  result.findings = std::move(left);
+  result.other = finding_of(c.explanations, rest_of(c, signatures_of(c, result.findings)).evidence(), false);
+  fit_beside_findings(c, result);
+}
+
 /// How the size of each name differs between the touches.
 void compare_sizes(const Case& c, SearchResult& result) {
   const std::vector<const Matrix*> found = signatures_of(c, result);
@@ -409,6 +432,7 @@ SearchResult search(Case& c, EvidenceSearch& first) {
   put_largest_first(c, result.findings);
   fit_beside_findings(c, result);
   choose_first_members(c, result);
+  drop_impossible_periods(c, result);
   compare_sizes(c, result);
   drop_name_of_several_sizes(c, first, result);
   return result;

@@ -40,14 +40,15 @@ void put_largest_first(const Case&, std::vector<Finding>&);
 
 struct SearchResult {
   double p_value = 1;
-  double adequacy = 1;             ///< p-value of what the findings leave; 1 without any
-  std::vector<Finding> findings;   ///< of the catalogue
-  std::optional<Finding> other;    ///< what the catalogue does not explain
-  std::optional<Finding> nearest;  ///< the name that was doubted in favour of `other`
-  std::set<int> refined;           ///< explanations that have finer variants in the case now
-  Evidence first;                  ///< before any finding, with the finer variants of what was found
-  Evidence on_grid;                ///< that of the grid alone, as `null` is
-  std::vector<Evidence> null;      ///< simulated, before any finding
+  double adequacy = 1;              ///< p-value of what the findings leave; 1 without any
+  std::vector<Finding> findings;    ///< of the catalogue
+  std::optional<Finding> other;     ///< what the catalogue does not explain
+  std::optional<Finding> nearest;   ///< the name that was doubted in favour of `other`
+  bool nearest_impossible = false;  ///< for its size, which no such effect has
+  std::set<int> refined;            ///< explanations that have finer variants in the case now
+  Evidence first;                   ///< before any finding, with the finer variants of what was found
+  Evidence on_grid;                 ///< that of the grid alone, as `null` is
+  std::vector<Evidence> null;       ///< simulated, before any finding
   /// of the recording beside all that was found: a mismatch passes for noise and for larger errors
   Hyperparameters hyper;
   /// likewise, of the ensemble that the recording fits better (likelier_ensemble)
