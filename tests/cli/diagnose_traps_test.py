@@ -193,6 +193,15 @@ class Traps(harness.Case):
         swapped = self.changed(self.record("--seed", 5), lambda row: row | {"nx": row["ny"], "ny": row["nx"]})
         self.assertIn("write the columns nx, ny, nz as they are now ny, nx, nz", self.refused("E0701", "diagnose", swapped, "--machine", MACHINE))
 
+    def test_what_predicts_as_well_is_not_left_out_for_its_size(self):
+        """A drift along z seven times as large as usual, at one height: growth of the ram does the same with a size that is usual."""
+        self.abbe("record", harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi", "--machine", PORTAL, "--seed", 2,
+                  "--with", "thermal.drift:amplitude_um=20,direction=z,tau_s=100", "-o", "drift.csv")
+        said = json.loads(self.abbe("diagnose", "drift.csv", "--machine", PORTAL, "--format", "json").stdout)
+        self.assertEqual(said["verdict"], "one_of")
+        self.assertEqual(said["effects"][0]["members"], ["thermal.ram_growth", "thermal.drift"])
+        self.assertEqual(said["next_measurement"][0]["separates"], ["thermal.ram_growth", "thermal.drift"])
+
     def test_of_features_one_after_the_other_it_may_be_the_time(self):
         """Every ball has come loose by its own amount, or something has happened between any two."""
         def loose(target, _):

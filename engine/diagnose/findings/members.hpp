@@ -21,6 +21,10 @@ void put_judged_members_first(const Case&, SearchResult&);
 /// filled up with the effects next in likelihood.
 void drop_impossible_members(const Case&, SearchResult&);
 
+/// The runner-up joins the set of the only finding where it predicts touches left out as well: what sets them apart is the
+/// size that was expected of each, and not the recording.
+void take_in_runner_up(const Case&, const Diagnosis&, SearchResult&);
+
 /// How far the first member of a set is believed by itself.
 double belief_in_first(const Explanations&, const Finding&);
 

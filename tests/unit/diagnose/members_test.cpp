@@ -79,6 +79,24 @@ TEST_CASE("a member is believed by its share of the set, and told with a size of
   CHECK(members[2].parameters.at(0).unit == "urad");
 }
 
+TEST_CASE("a runner-up that predicts as well joins the set") {
+  const auto set_with = [](double gain_of_runner_up, bool beside_a_pattern = false) {
+    OfThree of({"probe.tip_radius", "machine.scale", "machine.squareness"});
+    of.result.findings[0].set = {0};
+    of.result.findings[0].probability = 0.6;
+    if (beside_a_pattern) of.result.other.emplace();
+    Diagnosis d;
+    d.improvement = Improvement{"leave-one-setup-out", 20, 4};
+    d.runner_up = RunnerUp{{"machine.scale"}, gain_of_runner_up};
+    take_in_runner_up(of.c, d, of.result);
+    return std::pair(of.result.findings[0].set, of.result.findings[0].probability);
+  };
+  CHECK(set_with(18.9).first == std::vector<int>{0});
+  CHECK(set_with(19.1).first == std::vector<int>{0, 1});
+  CHECK(set_with(19.1).second == doctest::Approx(0.6 * (0.5 + 0.3) / 0.5));
+  CHECK(set_with(25, true).first == std::vector<int>{0});
+}
+
 TEST_CASE("a set is judged unless four fifths of it need what was not logged") {
   CHECK(judged(OfASet({0.5, 0.3, 0.2}, {}).c, OfASet({0.5, 0.3, 0.2}, {}).finding()));
   OfASet less({0.5, 0.29, 0.21}, {0, 1}), more({0.5, 0.31, 0.19}, {0, 1});
