@@ -26,6 +26,12 @@ const Effect* find_effect(std::string_view name) {
   return nullptr;
 }
 
+std::optional<std::size_t> moment_of(const Effect& effect) {
+  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
+    if (effect.parameters[p].sought == Sought::moment) return p;
+  return std::nullopt;
+}
+
 bool is_noise(std::string_view name) {
   const Effect* const effect = find_effect(name);
   return effect && is_noise(*effect);

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -202,5 +203,8 @@ bool is_noise(std::string_view name);
 /// Every effect, in the order of the catalogue.
 std::span<const Effect* const> effects();
 const Effect* find_effect(std::string_view name);
+
+/// The index of the parameter that says when in a program the effect begins, s; nothing of one that is there throughout.
+std::optional<std::size_t> moment_of(const Effect&);
 
 }  // namespace abbe

@@ -343,16 +343,21 @@ class StudyRun {
     const bool corrected = options_.effect_use == EffectUse::corrected;
     for (std::size_t k = 0; k < names.size(); ++k) {
       if (study_.result.acted[k]) continue;
-      const EffectParameter* size = missing_size(machine_.effects[k]);
-      message(
-          Code::W0615,
-          fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
-          size ? fmt::format("its {} is 0: give it a size, such as \"{}\": {:g}", size->name, size->name, size->typical)
-               : fmt::format("`abbe explain {}` says on what it depends; temperatures and loads "
-                             "come from a workpiece file{}",
-                             machine_.effects[k].name,
-                             corrected ? "; of a corrected effect only the uncertainty remains" : ""));
+      message(Code::W0615,
+              fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
+              why_idle(machine_.effects[k], corrected));
     }
+  }
+
+  static std::string why_idle(const EffectSetting& setting, bool corrected) {
+    if (const EffectParameter* size = missing_size(setting))
+      return fmt::format("its {} is 0: give it a size, such as \"{}\": {:g}", size->name, size->name, size->typical);
+    if (const double begin_s = begins_at_s(setting); begin_s > 0)
+      return fmt::format(
+          "it begins {:g} s after the start of a program: of what happened before this program, set its t0_s to 0",
+          begin_s);
+    return fmt::format("`abbe explain {}` says on what it depends; temperatures and loads come from a workpiece file{}",
+                       setting.name, corrected ? "; of a corrected effect only the uncertainty remains" : "");
   }
 
   /// Beyond each end of an interval must be some values, or its ends are those of the sample. LCL and

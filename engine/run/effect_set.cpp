@@ -137,6 +137,14 @@ std::vector<double> normal_numbers(int count, std::uint64_t seed, const std::vec
 
 }  // namespace
 
+double begins_at_s(const EffectSetting& setting) {
+  const Effect& effect = *find_effect(setting.name);
+  const std::optional<std::size_t> moment = moment_of(effect);
+  if (!moment) return 0;
+  const auto given = setting.parameters.find(std::string(effect.parameters[*moment].name));
+  return given == setting.parameters.end() ? effect.parameters[*moment].standard : given->second.value;
+}
+
 const EffectParameter* missing_size(const EffectSetting& setting) {
   const std::span<const EffectParameter> parameters = find_effect(setting.name)->parameters;
   const EffectParameter* first = nullptr;

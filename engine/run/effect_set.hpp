@@ -27,6 +27,9 @@ namespace abbe {
 /// The size that a setting of a known effect does not give, so that it does nothing; nullptr: it has one.
 const EffectParameter* missing_size(const EffectSetting&);
 
+/// When in a program the effect begins, s; 0 of one that is there from the start.
+double begins_at_s(const EffectSetting&);
+
 class EffectSet {
  public:
   EffectSet() = default;

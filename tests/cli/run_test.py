@@ -373,6 +373,11 @@ class Effects(harness.Case):
         self.assertEqual(told(), (["thermal.drift", "thermal.part_expansion"], ["not modelled", "not modelled", "modelled"]))
         self.assertEqual(told("--workpiece", "warm.json"), (["thermal.drift"], ["not modelled", "modelled", "modelled"]))
 
+    def test_a_change_that_comes_after_the_program_is_told_as_that(self):
+        self.write("crash.json", with_effects([{"name": "probe.step", "parameters": {"amplitude_um": 5, "t0_s": 742}}]))
+        told = self.abbe("run", "length.dmi", "--machine", "crash.json", "--machines", 20).stderr
+        self.assertIn("it begins 742 s after the start of a program: of what happened before this program, set its t0_s to 0", told)
+
     def test_another_word_is_refused(self):
         self.assertIn("corrected", self.refused("E0609", "run", "length.dmi", "--effects", "removed"))
 

@@ -358,12 +358,6 @@ void add_catalogue(const RecordedTouches& t, const std::vector<int>& rows, bool 
 
 }  // namespace
 
-std::optional<std::size_t> moment_of(const Effect& effect) {
-  for (std::size_t p = 0; p < effect.parameters.size(); ++p)
-    if (effect.parameters[p].sought == Sought::moment) return p;
-  return std::nullopt;
-}
-
 std::vector<LaterRun> later_runs(const RecordedTouches& t, const std::vector<int>& rows) {
   const auto scene = [&](int row) -> const TouchScene& { return t.touches[row].scene; };
   std::map<int, Cell> begin;

@@ -36,8 +36,6 @@ struct LaterRun {
 std::vector<LaterRun> later_runs(const RecordedTouches&, const std::vector<int>& rows);
 /// Those of some runs, one after the other, in at most so many stretches.
 std::vector<LaterRun> in_stretches(const std::vector<LaterRun>& single, std::size_t most);
-/// The parameter that is the moment of an effect.
-std::optional<std::size_t> moment_of(const Effect&);
 
 /// A variant of an effect with the parameters, the group and the change of another; no columns where the effect does
 /// nothing there.

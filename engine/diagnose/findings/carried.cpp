@@ -1,11 +1,14 @@
 #include "engine/diagnose/findings/carried.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/math/normal.hpp"
+#include "engine/run/effect_set.hpp"
 
 namespace abbe::diagnose {
 
@@ -55,6 +58,19 @@ EffectSetting nearest_possible(const Effect& effect, EffectSetting setting) {
   return without_contradiction(effect, std::move(setting));
 }
 
+namespace {
+
+/// A program is simulated from its own start: what happened late in this recording would come late, or never, in it.
+std::string when_in_file(const Effect& effect, const EffectSetting& setting) {
+  const double begin_s = begins_at_s(setting);
+  if (!(begin_s > 0)) return "";
+  return fmt::format(" In the machine file it begins {:.0f} s after the start of a program, as here: {}.", begin_s,
+                     effect.stage == Stage::probe ? "for what is measured since it happened, set t0_s to 0 there"
+                                                  : "what was set up since it happened has none of it");
+}
+
+}  // namespace
+
 std::string carry(const Machine& machine, const Effect& effect, std::vector<DiagnosedParameter>& size, Diagnosis& out) {
   EffectSetting setting = setting_from(std::string(effect.name), size);
   std::optional<KnownEffect> before = known_effect(machine, effect, setting);
@@ -67,7 +83,9 @@ std::string carry(const Machine& machine, const Effect& effect, std::vector<Diag
   for (DiagnosedParameter& p : size) p.plausible = possible;
   if (!possible) return kNoSuchSize;
   if (before) out.superseded.push_back(before->index);
+  const std::string when = gone ? "" : when_in_file(effect, setting);
   if (!gone) out.model_effects.push_back(std::move(setting));
+  if (!when.empty()) return when;
   if (!before) return effect.stage == Stage::part ? kOfThisPart : "";
   return gone           ? " The machine file has the opposite: it is not there any more."
       : before->instead ? " It takes the place of what the machine file has of it."

@@ -39,3 +39,18 @@ TEST_CASE("sizes that do not go together are made smaller until they do") {
   CHECK(first == doctest::Approx(2.1).epsilon(0.02));
   CHECK(second / first == doctest::Approx(0.25));
 }
+
+TEST_CASE("of a sudden change it is said when it begins in the machine file") {
+  const auto said_of = [](const char* name, double t0_s) {
+    std::vector<DiagnosedParameter> size = {{.name = "amplitude_um", .unit = "um", .value = 4, .u = 0.2},
+                                            {.name = "t0_s", .unit = "s", .value = t0_s, .u = 1}};
+    Diagnosis out;
+    const std::string said = carry(Machine{}, *find_effect(name), size, out);
+    CHECK(out.model_effects.size() == 1);
+    return said;
+  };
+  CHECK(said_of("probe.step", 742).find("begins 742 s") != std::string::npos);
+  CHECK(said_of("probe.step", 742).find("set t0_s to 0") != std::string::npos);
+  CHECK(said_of("machine.step", 742).find("has none of it") != std::string::npos);
+  CHECK(said_of("probe.step", 0) == "");
+}
