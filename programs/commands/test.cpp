@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
+#include "engine/base/file_kind.hpp"
 #include "engine/base/files.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/expectations.hpp"
@@ -50,8 +53,8 @@ void fail_unreadable(TestSuite& suite, const Errors& errors, const std::vector<l
   }
 }
 
-TestSuite test_program(const std::string& path, const TestOptions& options, ProgressLine& progress) {
-  const CompiledProgram program = compile_program(path, {options.answers});
+TestSuite test_program(const CompiledProgram& program, const TestOptions& options, ProgressLine& progress) {
+  const std::string& path = program.source.name();
   const auto& expectations = program.compilation.directives.expectations;
   const Errors errors = errors_of(program);
   TestSuite suite{path, {}};
@@ -87,16 +90,46 @@ TestSuite test_program(const std::string& path, const TestOptions& options, Prog
   return suite;
 }
 
+/// A program that cannot even be read has no expectations, and passes none: it is one case that fails.
+TestSuite test_file(const std::string& path, const TestOptions& options, ProgressLine& progress) {
+  std::optional<CompiledProgram> program;
+  try {
+    program = compile_program(path, {options.answers});
+  } catch (const UserError& error) {
+    print_messages(error.diagnostics());
+    return {path, {{"a program that can be read", 1, error.what(), false}}};
+  }
+  return test_program(*program, options, progress);
+}
+
+/// A path that leads nowhere, and a file of another kind, are mistakes of the command, told before the work. What else is
+/// wrong with a file is that program's.
+void refuse_no_programs(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    std::error_code none;
+    if (!std::filesystem::exists(path, none))
+      throw UserError(diagnostic(Code::E0601, fmt::format("cannot read '{}': it does not exist", path),
+                                 "check the name of the program or folder"));
+    if (!std::filesystem::is_regular_file(path, none)) continue;  // a pipe is read once
+    try {
+      refuse_other_kind(read_source(path), FileKind::program);
+    } catch (const UserError& error) {
+      if (error.diagnostics().front().code == Code::E0622) throw;
+    }
+  }
+}
+
 }  // namespace
 
 int test_command(const TestOptions& options) {
+  refuse_no_programs(options.paths);
   const std::vector<std::string> programs = program_files(options.paths);
   if (options.junit) refuse_overwriting(programs, {*options.junit});
   std::vector<TestSuite> suites;
   int passed = 0, failed = 0;
   for (const std::string& path : programs) {
     ProgressLine progress;
-    TestSuite suite = test_program(path, options, progress);
+    TestSuite suite = test_file(path, options, progress);
     if (suite.cases.empty()) continue;
     for (const TestCase& c : suite.cases) {
       ++(c.passed ? passed : failed);

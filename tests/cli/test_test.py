@@ -80,6 +80,20 @@ class Expectations(harness.Case):
         self.assertIn("outside the travel", done.stdout)
         self.assertIn("1 passed, 1 failed", done.stdout)
 
+    def test_a_program_that_cannot_be_read_fails_and_the_others_go_on(self):
+        self.program("TA(LEN) u >= 0", name="a.dmi")
+        self.write("b.dmi", LENGTH.encode("utf-16"))
+        self.write("c.dmi", "feature,touch,x,y,z\nA,1,0,0,0\n")
+        self.program("TA(LEN) u >= 0", name="d.dmi")
+        done = self.abbe("test", ".", "--junit", "out.xml", code=1)
+        self.assertEqual([line.split()[0] for line in done.stdout.splitlines()[:-1]], ["ok", "FAIL", "FAIL", "ok"])
+        self.assertIn("2 passed, 2 failed", done.stdout)
+        self.assertIn("b.dmi:1: './b.dmi' is in UTF-16", done.stdout)
+        self.assertIn("E0618", done.stderr)
+        suites = ElementTree.parse(self.folder / "out.xml").getroot().findall("testsuite")
+        self.assertEqual([suite.get("failures") for suite in suites], ["0", "1", "1", "0"])
+        self.refused("E0601", "test", "a.dmi", "missing.dmi")
+
     def test_folders_are_searched(self):
         self.program("TA(LEN) u >= 0", name="one/a.dmi")
         self.program("TA(LEN) u >= 0", name="one/two/b.DMI")
