@@ -37,6 +37,10 @@ void print_result(std::string_view text) {
                                "check the disk, or the program that reads the result"));
 }
 
+void print_result(std::string_view text, const std::vector<OutputFile>& files) {
+  write_together(files, [&] { print_result(text); });
+}
+
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/files.hpp"
 
 namespace abbe {
 
@@ -18,6 +19,10 @@ void print_messages(const std::vector<Diagnostic>& messages);
 /// The result of a command, on stdout. Throws UserError when it cannot be written (a full disk, a
 /// closed pipe).
 void print_result(std::string_view text);
+
+/// The result of a command that has other outputs, too: when it cannot be written, no file is. Throws UserError as
+/// print_result and write_together do.
+void print_result(std::string_view text, const std::vector<OutputFile>&);
 
 /// The files among options, of which some were not given.
 std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options);

@@ -37,13 +37,13 @@ class Descriptor {
 };
 
 /// Whoever ends the program while a file is written gets it whole, and no temporary file stays behind: the
-/// signal waits.
+/// signal waits. That of a closed pipe too: the write fails, the temporary files go, and then it ends the program.
 class SignalsWait {
  public:
   SignalsWait() {
     sigset_t ending;
     sigemptyset(&ending);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) sigaddset(&ending, signal);
     pthread_sigmask(SIG_BLOCK, &ending, &before_);
   }
   ~SignalsWait() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
@@ -182,7 +182,7 @@ void write_whole(const std::string& path, std::string_view content) {
   Replacement(followed(path), content).take_place();
 }
 
-void write_together(const std::vector<OutputFile>& files) {
+void write_together(const std::vector<OutputFile>& files, const std::function<void()>& print) {
   for (const OutputFile& file : files) refuse_no_file(file.path);
   for (const OutputFile& file : files)
     if (takes_content(file.path)) write_into(file.path, file.content);
@@ -190,6 +190,7 @@ void write_together(const std::vector<OutputFile>& files) {
   std::vector<Replacement> made;
   for (const OutputFile& file : files)
     if (!takes_content(file.path)) made.emplace_back(followed(file.path), file.content);
+  if (print) print();
   for (Replacement& replacement : made) replacement.take_place();
 }
 

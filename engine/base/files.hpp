@@ -1,6 +1,7 @@
 // Output files appear whole or not at all, and destroy nothing that the same command reads or writes.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +18,9 @@ struct OutputFile {
   std::string path, content;
 };
 
-/// Writes several files of one command so, all or none: every file is there before the first takes its place. What goes
-/// into devices and pipes goes first, because it cannot be taken back.
-void write_together(const std::vector<OutputFile>&);
+/// Writes several files of one command so, all or none: every file is there before the first takes its place. What cannot
+/// be taken back goes before: into devices and pipes, and what `print` writes elsewhere. When that throws, no file changes.
+void write_together(const std::vector<OutputFile>&, const std::function<void()>& print = {});
 
 /// Throws UserError when an output is one of the inputs, stands there twice, whatever the paths are called,
 /// is read-only or a folder, or has the name "" or "-". Call it before the work.

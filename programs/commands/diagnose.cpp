@@ -142,8 +142,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   if (options.report)
     files.push_back(
         {*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine)});
-  write_together(files);
-  print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d));
+  print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d), files);
   return options.fail_on_mismatch && is_mismatch(d) ? kNo : kDone;
 }
 

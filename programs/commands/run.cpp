@@ -50,9 +50,8 @@ int run_command(const RunCommandOptions& options) {
   if (options.dmo)
     files.push_back({*options.dmo, dmis_result(plan, study.result.reference_outputs, study.report.characteristics)});
   if (options.report) files.push_back({*options.report, find_report_writer("html")->write(study.report)});
-  write_together(files);
   tell(study.report.messages);
-  print_result(writer->write(study.report));
+  print_result(writer->write(study.report), files);
   return kDone;
 }
 

@@ -140,8 +140,9 @@ int test_command(const TestOptions& options) {
   if (suites.empty())
     throw UserError(diagnostic(Code::E0607, "no program with an expectation was found",
                                "write a line such as `$$! expect TA(LEN) u95 between 0.003 0.005` into a .dmi file"));
-  if (options.junit) write_whole(*options.junit, junit_xml(suites));
-  print_result(fmt::format("{} passed, {} failed\n", passed, failed));
+  std::vector<OutputFile> files;
+  if (options.junit) files.push_back({*options.junit, junit_xml(suites)});
+  print_result(fmt::format("{} passed, {} failed\n", passed, failed), files);
   return failed ? kNo : kDone;
 }
 

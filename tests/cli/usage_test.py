@@ -5,6 +5,8 @@ import subprocess
 
 import harness
 
+PART = harness.ROOT / "examples/programs/prismatic_part.dmi"
+
 
 class Usage(harness.Case):
     def test_version(self):
@@ -117,6 +119,22 @@ class Usage(harness.Case):
                         ("explain", "PTMEAS"), ("fit", "circle", harness.ROOT / "tests/cli/circle.csv"), ("machine", "list"), ("--help",)):
             with open("/dev/full", "w") as full:
                 self.assertIn("E0602", self.abbe(*command, code=2, stdout=full).stderr, command)
+
+    def test_without_the_result_no_file_is_written(self):
+        self.write("length.dmi", "$$! expect TA(LEN) u >= 0\n" + harness.LENGTH)
+        self.abbe("record", PART, "-o", "rec.csv")
+        commands = ("run length.dmi --machines 20 --csv out --report out2", "diagnose rec.csv --machine coord3-mc16 --design-only --report out",
+                    "test length.dmi --machines 20 --junit out")
+        for command in commands:
+            for stdout in (">/dev/full", ">&-", "| true"):
+                done = subprocess.run(["bash", "-o", "pipefail", "-c", f"{self.abbe_path} {command} {stdout}"], cwd=self.folder, capture_output=True, text=True)
+                if stdout != "| true":   # a pipe may take it all before its reader is gone
+                    self.assertEqual(done.returncode, 2, done.stderr)
+                    self.assertIn("E0602", done.stderr)
+                if done.returncode:
+                    self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["length.dmi", "rec.csv"], command + stdout)
+                for made in self.folder.glob("out*"):
+                    made.unlink()
 
     def test_a_limit_of_the_file_size_leaves_nothing_half(self):
         self.write("length.dmi", harness.LENGTH)

@@ -76,6 +76,10 @@ TEST_CASE("several files are written all or none") {
     CHECK(read_source("files_test_one").text() == "after");
     CHECK_FALSE(std::filesystem::exists("files_test_two"));
   }
+  const auto unprinted = [] { throw UserError(diagnostic(Code::E0602, "no")); };
+  CHECK_THROWS_AS(write_together({{"files_test_one", "changed"}, {"files_test_two", "new"}}, unprinted), UserError);
+  CHECK(read_source("files_test_one").text() == "after");
+  CHECK_FALSE(std::filesystem::exists("files_test_two"));
   for (const auto& entry : std::filesystem::directory_iterator("."))
     CHECK(entry.path().filename().string().rfind("files_test_one.", 0) == std::string::npos);
   std::remove("files_test_one");
