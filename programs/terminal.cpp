@@ -1,6 +1,7 @@
 #include "programs/terminal.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -39,6 +40,18 @@ void print_result(std::string_view text) {
 
 void print_result(std::string_view text, const std::vector<OutputFile>& files) {
   write_together(files, [&] { print_result(text); });
+}
+
+void refuse_stdout(const std::vector<std::string>& outputs) {
+  struct stat result {};
+  // of what goes to /dev/null nobody reads anything
+  if (::fstat(STDOUT_FILENO, &result) != 0 || (S_ISCHR(result.st_mode) && isatty(STDOUT_FILENO) == 0)) return;
+  for (const std::string& output : outputs)
+    if (struct stat there{};
+        ::stat(output.c_str(), &there) == 0 && there.st_dev == result.st_dev && there.st_ino == result.st_ino)
+      throw UserError(diagnostic(
+          Code::E0616, fmt::format("the output '{}' would go where the result goes, two texts in one", output),
+          "give it a file of its own, or leave out --format"));
 }
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}

@@ -24,6 +24,10 @@ void print_result(std::string_view text);
 /// print_result and write_together do.
 void print_result(std::string_view text, const std::vector<OutputFile>&);
 
+/// Throws UserError (E0616) when an output goes to stdout, where a program that reads the result would find two texts in
+/// one.
+void refuse_stdout(const std::vector<std::string>& outputs);
+
 /// The files among options, of which some were not given.
 std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options);
 

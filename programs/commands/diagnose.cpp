@@ -41,7 +41,9 @@ void protect_files(const DiagnoseCommandOptions& options, const Files& read, con
   inputs.push_back(machine);
   for (const std::string& file : files_of(read.workpiece)) inputs.push_back(file);
   inputs.insert(inputs.end(), options.recordings.begin(), options.recordings.end());
-  refuse_overwriting(inputs, files_given({options.report, options.model_out}));
+  const std::vector<std::string> outputs = files_given({options.report, options.model_out});
+  refuse_overwriting(inputs, outputs);
+  if (options.format != "text") refuse_stdout(outputs);
 }
 
 struct Answer {

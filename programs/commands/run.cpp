@@ -38,7 +38,9 @@ int run_command(const RunCommandOptions& options) {
   tell(program.messages);
   if (program.has_errors && !options.request.only_valid) refuse_errors(program);
   const StudyInputs inputs = read_inputs(program, options.request.settings);
-  refuse_overwriting(inputs.files, files_given({options.report, options.csv, options.dmo}));
+  const std::vector<std::string> outputs = files_given({options.report, options.csv, options.dmo});
+  refuse_overwriting(inputs.files, outputs);
+  if (options.format != "text") refuse_stdout(outputs);
   if (options.request.only_valid) tell(leave_out_what_is_impossible(program, as_asked, inputs));
 
   ProgressLine line;

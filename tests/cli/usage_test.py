@@ -136,6 +136,18 @@ class Usage(harness.Case):
                 for made in self.folder.glob("out*"):
                     made.unlink()
 
+    def test_json_is_alone_on_stdout(self):
+        self.write("length.dmi", harness.LENGTH)
+        self.abbe("record", PART, "-o", "rec.csv")
+        diagnose = ("diagnose", "rec.csv", "--machine", "coord3-mc16", "--design-only", "--format", "json")
+        self.refused("E0616", *diagnose, "--report", "/dev/stdout")
+        self.refused("E0616", "run", "length.dmi", "--machines", 20, "--format", "json", "--csv", "/dev/stdout")
+        with open(self.folder / "out.json", "w") as out:
+            self.abbe(*diagnose, "--report", "out.json", code=2, stdout=out)
+        self.abbe("run", "length.dmi", "--machines", 20, "--csv", "/dev/stdout")
+        with open("/dev/null", "w") as nowhere:
+            self.abbe(*diagnose, "--report", "/dev/null", stdout=nowhere)
+
     def test_a_limit_of_the_file_size_leaves_nothing_half(self):
         self.write("length.dmi", harness.LENGTH)
         done = subprocess.run(["bash", "-c", f"ulimit -f 4; {self.abbe_path} run length.dmi --machines 1000 --csv values.csv"], cwd=self.folder,
