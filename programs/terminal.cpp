@@ -54,6 +54,8 @@ void refuse_stdout(const std::vector<std::string>& outputs) {
           "give it a file of its own, or leave out --format"));
 }
 
+void print_hint(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 ProgressLine::~ProgressLine() {

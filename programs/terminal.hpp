@@ -28,6 +28,9 @@ void print_result(std::string_view text, const std::vector<OutputFile>&);
 /// one.
 void refuse_stdout(const std::vector<std::string>& outputs);
 
+/// What a command did, for people, on stderr.
+void print_hint(std::string_view text);
+
 /// The files among options, of which some were not given.
 std::vector<std::string> files_given(std::initializer_list<std::optional<std::string>> options);
 

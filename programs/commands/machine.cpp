@@ -131,8 +131,8 @@ int init(const MachineOptions& options) {
     return kDone;
   }
   write_whole(options.machine, text);
-  print_result(fmt::format("wrote {}: adapt it to your machine, then look at it with `abbe machine show {}`\n",
-                           options.machine, options.machine));
+  print_hint(fmt::format("wrote {}: adapt it to your machine, then look at it with `abbe machine show {}`\n",
+                         options.machine, options.machine));
   return kDone;
 }
 

@@ -170,7 +170,9 @@ class Machine(harness.Case):
         self.assertEqual(one, two)
 
     def test_init_writes_a_file_that_can_be_used_and_overwrites_none(self):
-        self.machine("init", "mine.json")
+        done = self.abbe("machine", "init", "mine.json")
+        self.assertEqual(done.stdout, "")
+        self.assertIn("wrote mine.json", done.stderr)
         before = (self.folder / "mine.json").read_text()
         self.assertEqual(json.loads(before)["schema"], "abbe.machine/1")
         self.machine("show", "mine.json")
