@@ -9,6 +9,7 @@
 #include "engine/base/csv.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/recording/columns.hpp"
+#include "engine/recording/sensor_line.hpp"
 
 namespace abbe {
 
@@ -107,6 +108,19 @@ void check_distance(const CsvRemark& line, const SourceFile& file) {
                                   "give millimetres, 0 to 10000: 3.5"));
 }
 
+void check_surfaces(const CsvRemark& line, const SourceFile& file) {
+  if (line.value != "calibrated" && line.value != "unknown_size" && line.value != "unknown")
+    throw UserError(diagnostic_at(file, line.span, Code::E0703,
+                                  fmt::format("'{}: {}' is not known", line.key, line.value),
+                                  "write calibrated, unknown_size or unknown"));
+}
+
+void check_sensor(const CsvRemark& line, const SourceFile& file) {
+  if (const std::string mistake = read_sensor_line(line.value).mistake; !mistake.empty())
+    throw UserError(diagnostic_at(file, line.span, Code::E0545,
+                                  fmt::format("'{}' cannot be read: {}", line.key, mistake), kSensorLineHelp));
+}
+
 Recording with_metadata(const CsvTable& table, const SourceFile& file) {
   Recording recording;
   for (const CsvRemark& line : table.remarks) {
@@ -118,6 +132,8 @@ Recording with_metadata(const CsvTable& table, const SourceFile& file) {
       recording.metadata.emplace_back(line.key, line.value);
     if (line.key == "approach_mm" || line.key == "retract_mm") check_distance(line, file);
     if (line.key == "temperature_compensation") says(line, "on", "off", file);
+    if (line.key == "surfaces") check_surfaces(line, file);
+    if (line.key.starts_with(kSensorKey)) check_sensor(line, file);
   }
   return recording;
 }

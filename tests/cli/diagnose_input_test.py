@@ -59,6 +59,16 @@ class Frames(Input):
         self.refused("E0544", "diagnose", other, "--program", PROGRAM)
 
 
+class Lines(Input):
+    def with_lines(self, *lines, name="lines.csv"):
+        return self.write(name, "".join(f"# {line}\n" for line in lines) + self.recording.read_text())
+
+    def test_a_line_that_cannot_be_read_is_named_with_its_place(self):
+        self.assertIn("lines.csv:2:1: error E0703", self.refused("E0703", "diagnose", self.with_lines("note: free", "surfaces: maybe")))
+        said = self.refused("E0545", "diagnose", self.with_lines("note: free", "sensor H1: head_deg 0"))
+        self.assertIn("lines.csv:2:1: error E0545: 'sensor H1' cannot be read: head_deg has 1 of 2 numbers", said)
+
+
 class Placement(Input):
     def test_a_part_off_its_targets_is_no_other_part(self):
         """Beside its targets, or turned too, with the approaches that its program turns along; which of two equal members comes first is rounding."""
