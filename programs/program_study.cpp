@@ -89,6 +89,7 @@ StudyInputs read_inputs(const CompiledProgram& program, const StudySettings& set
     refuse_other_kind(recording, FileKind::table);
     in.recording = read_recording(recording);
     in.messages = sink.list();
+    in.messages.insert(in.messages.end(), in.recording->messages.begin(), in.recording->messages.end());
     in.files.push_back(*settings.recording);
     if (in.recording->in_part_frame)
       throw UserError(diagnostic(

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/diagnostic.hpp"
 #include "engine/base/source.hpp"
 #include "engine/math/vec.hpp"
 
@@ -47,6 +48,7 @@ struct Recording {
   bool in_part_frame = false;  ///< `frame: part`, else machine coordinates
   RecordedPoint point = RecordedPoint::tip_centre;
   std::vector<RecordingRow> rows;
+  std::vector<Diagnostic> messages;  ///< of reading it: what is doubtful and no error
 };
 
 /// The step of which all these lengths are multiples: their greatest common divisor, down to 1 nm; 0 without any. mm.
@@ -63,8 +65,8 @@ std::string to_csv(const Recording&);
 /// Whether a row needs a recorded position; a plan may have its target instead.
 enum class Positions { recorded, or_targets };
 
-/// Reads the contract of docs/recording.md. Throws UserError with the place of every mistake: unknown or
-/// missing column, value that is no number, incomplete vector, direction that is no unit vector.
+/// Reads the contract of docs/recording.md. Throws UserError with the place of every mistake: lines before the table
+/// that contradict each other, unknown or missing column, value that is no number, incomplete vector, direction that is no unit vector.
 Recording read_recording(const SourceFile&, Positions = Positions::recorded);
 
 /// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches. Throws

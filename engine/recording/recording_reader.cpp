@@ -9,6 +9,7 @@
 #include "engine/base/csv.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/recording/columns.hpp"
+#include "engine/recording/remarks.hpp"
 #include "engine/recording/sensor_line.hpp"
 
 namespace abbe {
@@ -123,6 +124,7 @@ void check_sensor(const CsvRemark& line, const SourceFile& file) {
 
 Recording with_metadata(const CsvTable& table, const SourceFile& file) {
   Recording recording;
+  recording.messages = check_remarks(table, file);
   for (const CsvRemark& line : table.remarks) {
     if (line.key == "frame")
       recording.in_part_frame = says(line, "part", "mcs", file);

@@ -9,6 +9,7 @@
 
 #include "engine/base/csv.hpp"
 #include "engine/base/numbers.hpp"
+#include "engine/recording/remarks.hpp"
 
 namespace abbe {
 
@@ -96,7 +97,7 @@ ValueRecording read_value_recording(const SourceFile& file) {
   Sink sink;
   const std::vector<const ReadColumn*> columns = columns_used(table, file, sink);
   if (sink.has_errors()) throw UserError(sink.list());
-  ValueRecording out{file, {}, {}};
+  ValueRecording out{file, {}, {}, check_remarks(table, file)};
   for (const CsvRemark& line : table.remarks) out.metadata.emplace_back(line.key, line.value);
   for (const CsvRow& row : table.rows) {
     ValueRow r;

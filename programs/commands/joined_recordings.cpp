@@ -126,6 +126,7 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
   std::vector<Recording> read;
   for (const SourceFile& file : files) {
     read.push_back(read_recording(file, positions));
+    messages.insert(messages.end(), read.back().messages.begin(), read.back().messages.end());
     refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
     for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
   }

@@ -68,7 +68,7 @@ ValueRecording from_result(const SourceFile& file, std::vector<Diagnostic>& mess
   Sink sink;
   const lang::DmisResult result = lang::read_dmis_result(file, sink);
   for (Diagnostic& d : said_of_result(file, sink.sorted())) messages.push_back(std::move(d));
-  ValueRecording out{file, {}, {}};
+  ValueRecording out{file, {}, {}, {}};
   std::map<std::string, int> met;
   for (const lang::ResultValue& v : result.values) {
     ValueRow row;
@@ -119,6 +119,7 @@ std::string recorded_machine(const std::string& named, const std::vector<std::st
 RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program,
                                std::vector<Diagnostic>& messages)
     : recording_(is_result(file.name()) ? from_result(file, messages) : read_value_recording(file)) {
+  messages.insert(messages.end(), recording_.messages.begin(), recording_.messages.end());
   const std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
   for (const ValueRow& row : recording_.rows) {
     if (std::find(names_.begin(), names_.end(), row.program) != names_.end()) continue;
