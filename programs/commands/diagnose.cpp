@@ -19,13 +19,20 @@ namespace abbe {
 
 namespace {
 
+/// What is said before the answer is there. It is printed with the answer and stands in its reports, too.
+using Said = std::vector<Diagnostic>;
+
 /// The machine to compare with: what the command line names, else what the recording names, else the default.
 template <class Recorded>
-std::string machine_of(const DiagnoseCommandOptions& options, Recorded recorded_machine) {
+std::string machine_of(const DiagnoseCommandOptions& options, Said& said, Recorded recorded_machine) {
   if (options.known) return *options.known;
   if (options.machine) return *options.machine;
-  const std::string recorded = recorded_machine();
-  return recorded.empty() ? kDefaultMachine : recorded;
+  if (const std::string recorded = recorded_machine(); !recorded.empty()) return recorded;
+  said.push_back(diagnostic(
+      Code::N0735,
+      fmt::format("neither the command nor the recording names a machine: {} is taken, the default", kDefaultMachine),
+      "name yours with --machine, or in a line '# machine: NAME' before the table"));
+  return kDefaultMachine;
 }
 
 /// Every file was read once: a recording may come through a pipe.
@@ -48,15 +55,13 @@ void protect_files(const DiagnoseCommandOptions& options, const Files& read, con
 
 struct Answer {
   Diagnosis diagnosis;
-  std::string machine;  ///< that it was compared with
+  std::string machine;  ///< that it was compared with, as read_machine takes it
+  std::string name;     ///< of that machine
 };
-
-/// What is said before the answer is there. It is printed with the answer and stands in its reports, too.
-using Said = std::vector<Diagnostic>;
 
 Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how, Said& said) {
   const RecordedValues values(read.recordings.front(), options.program, said);
-  const std::string name = machine_of(options, [&] { return values.machine(); });
+  const std::string name = machine_of(options, said, [&] { return values.machine(); });
   protect_files(options, read, values.files(), name);
   const Machine machine = read_machine(name);
   if (options.known || machine.known_state)
@@ -64,7 +69,7 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
         Code::W0715,
         fmt::format("values are compared with all machines of the specification: no known_state of '{}' is used", name),
         "record the touches: their diagnosis uses it"));
-  return {values.diagnosis(machine, how), name};
+  return {values.diagnosis(machine, how), name, machine.name};
 }
 
 /// The name of the machine that --machine or else the recording names; nothing where no file of it is here.
@@ -98,7 +103,7 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
   Recording recording =
       joined(read.recordings, options.design_only ? Positions::or_targets : Positions::recorded, said);
   const std::string file = fmt::format("{}", fmt::join(options.recordings, ", "));
-  const std::string name = machine_of(options, [&] {
+  const std::string name = machine_of(options, said, [&] {
     return recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
   });
   const std::optional<CompiledProgram> program =
@@ -110,7 +115,7 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
   if (program) complete_from_program(recording, nominal_record(*program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   add_recorded_sensors(recording, machine, file, said);
-  return {diagnose_recording(recording, machine, how, file), name};
+  return {diagnose_recording(recording, machine, how, file), name, machine.name};
 }
 
 }  // namespace
@@ -127,7 +132,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
   Said said = sink.list();
-  auto [d, machine] = [&] {
+  auto [d, machine, name] = [&] {
     ProgressLine line;
     how.progress = [&](std::string_view step) { line.show(step); };
     try {
@@ -144,7 +149,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   if (options.report)
     files.push_back(
         {*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine)});
-  print_result(options.format == "json" ? diagnosis_json(d) : diagnosis_text(d), files);
+  print_result(options.format == "json" ? diagnosis_json(d, name) : diagnosis_text(d), files);
   return options.fail_on_mismatch && is_mismatch(d) ? kNo : kDone;
 }
 

@@ -91,6 +91,16 @@ class Lines(Input):
         said = self.refused("E0545", "diagnose", self.with_lines("note: free", "sensor H1: head_deg 0"))
         self.assertIn("lines.csv:2:1: error E0545: 'sensor H1' cannot be read: head_deg has 1 of 2 numbers", said)
 
+    def test_the_default_machine_is_not_taken_in_silence(self):
+        named = self.said(self.recording, "--design-only")
+        self.assertEqual((list(named)[:2], named["machine"]), (["schema", "machine"], "coord3-mc16"))
+        self.assertNotIn("N0735", self.codes(named))
+        nameless = self.write("nameless.csv", self.recording.read_text().replace("# machine: coord3-mc16\n", ""))
+        for options in ((), ("--design-only",)):
+            said = self.said(nameless, *options)
+            self.assertEqual((self.codes(said)[0], said["machine"]), ("N0735", "coord3-mc16"))
+        self.assertNotIn("N0735", self.codes(self.said(nameless, "--design-only", "--machine", "coord3-mc16")))
+
 
 class Placement(Input):
     def test_a_part_off_its_targets_is_no_other_part(self):

@@ -9,7 +9,8 @@
 
 namespace abbe {
 
-std::string diagnosis_json(const Diagnosis&);
+/// `machine`: its name.
+std::string diagnosis_json(const Diagnosis&, const std::string& machine);
 /// Three sentences, one table, what to do next: for people who measure, not for statisticians.
 std::string diagnosis_text(const Diagnosis&);
 /// Whether they agree, what it is, whether that is better.

@@ -153,9 +153,10 @@ Json value(const JudgedValue& v) {
 
 }  // namespace
 
-std::string diagnosis_json(const Diagnosis& d) {
+std::string diagnosis_json(const Diagnosis& d, const std::string& machine) {
   const Json out = {
       {"schema", "abbe.diagnosis/1"},
+      {"machine", machine},
       {"verdict", d.judged != Judged::plan ? Json(name(d.verdict)) : Json()},
       {"p_value", d.judged == Judged::yes ? number(d.p_value) : Json()},
       {"adequacy_p_value", number(d.adequacy_p)},
