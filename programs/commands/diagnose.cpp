@@ -75,13 +75,7 @@ Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const
 /// The name of the machine that --machine or else the recording names; nothing where no file of it is here.
 std::optional<std::string> other_name(const DiagnoseCommandOptions& options, const Recording& recording) {
   if (options.machine) return read_machine(*options.machine).name;
-  try {
-    const std::string file =
-        recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
-    return file.empty() ? std::nullopt : std::optional(read_machine(file).name);
-  } catch (const UserError&) {
-    return std::nullopt;
-  }
+  return name_of_recorded_machine(abbe::said(recording.metadata, "machine").value_or(""), options.recordings);
 }
 
 /// What is known of one machine says nothing of another.

@@ -8,6 +8,7 @@
 
 #include "engine/recording/clock.hpp"
 #include "engine/recording/copies.hpp"
+#include "programs/commands/recorded_values.hpp"
 
 namespace abbe {
 
@@ -97,11 +98,18 @@ void refuse_copy(const Recording& before, const std::string& name, const Recordi
                                help));
 }
 
+/// Files may spell one machine file differently. Where it is not here, its spelling is all that is known of it.
+bool same_machine(const std::string& one, const std::string& file, const std::string& other,
+                  const std::string& other_file) {
+  const auto name = name_of_recorded_machine(one, {file}), other_name = name_of_recorded_machine(other, {other_file});
+  return name && other_name ? *name == *other_name : one == other;
+}
+
 /// Recordings of one machine belong together.
 void doubt_machine(const Recording& first, const std::string& name, const Recording& next, const std::string& file,
                    std::vector<Diagnostic>& messages) {
   const auto one = said(first.metadata, "machine"), other = said(next.metadata, "machine");
-  if (one && other && *one != *other)
+  if (one && other && !same_machine(*one, name, *other, file))
     messages.push_back(diagnostic(
         Code::W0714,
         fmt::format("'{}' is of machine '{}', '{}' of '{}'; they are judged as one machine", name, *one, file, *other),

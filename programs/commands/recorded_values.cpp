@@ -116,6 +116,16 @@ std::string recorded_machine(const std::string& named, const std::vector<std::st
       "give --machine, put the machine file beside the recording, or correct the line"));
 }
 
+std::optional<std::string> name_of_recorded_machine(const std::string& named,
+                                                    const std::vector<std::string>& recordings) {
+  try {
+    const std::string file = recorded_machine(named, recordings);
+    return file.empty() ? std::nullopt : std::optional(read_machine(file).name);
+  } catch (const UserError&) {
+    return std::nullopt;
+  }
+}
+
 RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::string>& program,
                                std::vector<Diagnostic>& messages)
     : recording_(is_result(file.name()) ? from_result(file, messages) : read_value_recording(file)) {

@@ -15,6 +15,10 @@ bool are_values(const std::vector<SourceFile>& files);
 /// these.
 std::string recorded_machine(const std::string& named, const std::vector<std::string>& recordings);
 
+/// The name in that machine's file; nothing where `named` is empty or no file of it is here.
+std::optional<std::string> name_of_recorded_machine(const std::string& named,
+                                                    const std::vector<std::string>& recordings);
+
 /// A recording of values with everything that its diagnosis needs.
 class RecordedValues {
  public:

@@ -483,6 +483,11 @@ class Mistakes(Input):
         repeat.write_text(repeat.read_text().replace("# machine: coord3-mc16", "# machine: other"))
         self.assertIn("W0714", self.abbe("diagnose", self.recording, repeat, "--design-only").stderr)
         self.abbe("machine", "init", "mine.json")
+        spelt = self.write("spelt.csv", self.recording.read_text().replace("machine: coord3-mc16", "machine: mine.json"))
+        for other, warned in (("./mine.json", False), (self.folder / "mine.json", False), ("coord3-mc16", True)):
+            repeat.write_text(repeat.read_text().replace("# machine: other", f"# machine: {other}"))
+            self.assertEqual("W0714" in self.abbe("diagnose", spelt, repeat, "--design-only").stderr, warned, other)
+            repeat.write_text(repeat.read_text().replace(f"# machine: {other}", "# machine: other"))
         self.assertIn("W0715", self.abbe("diagnose", self.recording, "--known", "mine.json", "--design-only").stderr)
         other = json.loads((self.folder / "mine.json").read_text()) | {"name": "another"}
         self.write("another.json", json.dumps(other))
