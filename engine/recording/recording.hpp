@@ -69,8 +69,8 @@ enum class Positions { recorded, or_targets };
 /// that contradict each other, unknown or missing column, value that is no number, incomplete vector, direction that is no unit vector.
 Recording read_recording(const SourceFile&, Positions = Positions::recorded);
 
-/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches. Throws
-/// UserError where it is no table.
+/// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches, complete or not.
+/// Throws UserError where it is no table.
 bool is_value_recording(const SourceFile&);
 
 }  // namespace abbe

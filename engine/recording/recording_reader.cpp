@@ -247,8 +247,10 @@ Recording read_recording(const SourceFile& file, Positions positions) {
 
 bool is_value_recording(const SourceFile& file) {
   const std::vector<CsvField> header = read_csv(file).header;
-  return std::any_of(header.begin(), header.end(),
-                     [](const CsvField& column) { return column.text == "characteristic"; });
+  const auto has = [&](std::string_view name) {
+    return std::any_of(header.begin(), header.end(), [&](const CsvField& column) { return column.text == name; });
+  };
+  return has("characteristic") || (has("value") && !has("x") && !has("y") && !has("z"));
 }
 
 }  // namespace abbe

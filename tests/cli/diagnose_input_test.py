@@ -101,6 +101,12 @@ class Lines(Input):
             self.assertEqual((self.codes(said)[0], said["machine"]), ("N0735", "coord3-mc16"))
         self.assertNotIn("N0735", self.codes(self.said(nameless, "--design-only", "--machine", "coord3-mc16")))
 
+    def test_a_table_of_values_without_characteristics(self):
+        values = self.write("values.csv", "value,reference\n30,30\n")
+        said = self.refused("E0527", "diagnose", values, "--program", PROGRAM)
+        self.assertIn("the column 'characteristic' is missing", said)
+        self.assertEqual(said.count("error"), 1, said)
+
 
 class Placement(Input):
     def test_a_part_off_its_targets_is_no_other_part(self):
