@@ -103,8 +103,8 @@ void refuse_other_kind(const SourceFile& source, FileKind expected) {
   const FileKind kind = kind_of(source.text());
   if (kind == expected || kind == FileKind::unknown) return;
   throw UserError(diagnostic(Code::E0622,
-                             "'" + source.name() + "' is " + std::string(name_of(kind)) + ", and " +
-                                 std::string(name_of(expected)) + " is expected here",
+                             "'" + source.name() + "' is " + std::string(name_of(kind)) +
+                                 "; what is expected here is " + std::string(name_of(expected)),
                              std::string(reader_of(kind))));
 }
 

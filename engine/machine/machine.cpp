@@ -61,7 +61,7 @@ std::vector<Diagnostic> machine_warnings(const Machine& machine) {
   std::vector<Diagnostic> warnings;
   if (!machine.offsets_not_given.empty())
     warnings.push_back(diagnostic(Code::W0417,
-                                  fmt::format("machine \"{}\" gives no scale position for {}: they are taken for zero",
+                                  fmt::format("machine \"{}\" gives no scale position for {}: zero is taken",
                                               machine.name, fmt::join(machine.offsets_not_given, ", ")),
                                   "measure where the scales are and give \"offsets_mm\": without them "
                                   "measurements far from the scales seem too good"));

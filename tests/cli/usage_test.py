@@ -100,6 +100,8 @@ class Usage(harness.Case):
                 said = self.refused("E0622", *reader.split(), file)
                 self.assertIn(f"is {what}", said)
                 self.assertEqual(said.count("error"), 1, said)
+        self.write("results.txt", "FA(A)=FEAT/POINT,CART,0,0,0,1,0,0\nENDFIL\n")
+        self.assertIn("is a DMIS result file; what is expected here is a table (CSV), as recordings are\n", self.refused("E0622", "diagnose", "results.txt"))
         self.assertIn("`abbe diagnose` reads recordings", self.refused("E0622", "run", "rec.csv"))
 
     def test_only_effects_have_a_figure(self):

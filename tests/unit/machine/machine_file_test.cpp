@@ -293,7 +293,7 @@ TEST_CASE("a machine without scale positions is usable, with a warning that name
     CHECK(found[0].code == Code::W0417);
     return found[0].message;
   };
-  CHECK(warned("").find("for x, y, z, mount:") != std::string::npos);
+  CHECK(warned("").find("for x, y, z, mount: zero is taken") != std::string::npos);
   CHECK(warned(R"("offsets_mm": {"y": [0, 1, 0], "x": [0, 0, 0]})").find("for z, mount:") != std::string::npos);
   CHECK(machine_warnings(
             parse_machine(
