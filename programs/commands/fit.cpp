@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "engine/base/diagnostic.hpp"
 #include "engine/base/file_kind.hpp"
@@ -46,6 +48,16 @@ std::string needs(const FeatureKind& kind) {
   constexpr const char* kSpread[] = {"", "", ", not all on one line", ", not all in one plane"};
   return fmt::format("a {} needs at least {} different points{}, and every coordinate a finite number",
                      kind.fit_names.element, kind.minimum_points, kSpread[kind.spread]);
+}
+
+/// The line of the first point of which a coordinate is nan or infinite: points stand on all lines below the header.
+std::optional<Span> not_finite(const std::vector<Vec3>& points, const SourceFile& file) {
+  const auto finite = [](const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+  const auto found = std::find_if_not(points.begin(), points.end(), finite);
+  if (found == points.end()) return std::nullopt;
+  const int line = static_cast<int>(found - points.begin()) + 2;
+  const std::uint32_t begin = file.line_begin(line);
+  return Span{begin, begin + static_cast<std::uint32_t>(file.line(line).size())};
 }
 
 Json components(const Vec3& v) { return {v.x, v.y, v.z}; }
@@ -108,10 +120,11 @@ int fit_command(const FitOptions& options) {
   }
   const FitSolution solution = fit_points(problem);
   if (solution.error) {
-    Diagnostic d = diagnostic(Code::E0505,
-                              fmt::format("no {} can be fitted to {} points: {} ({})", name, problem.points.size(),
-                                          solution.error->message, solution.error->code),
-                              needs(kind));
+    const std::string message = fmt::format("no {} can be fitted to {} points: {} ({})", name, problem.points.size(),
+                                            solution.error->message, solution.error->code);
+    if (const std::optional<Span> line = not_finite(problem.points, points))
+      throw UserError(diagnostic_at(points, *line, Code::E0505, message, needs(kind)));
+    Diagnostic d = diagnostic(Code::E0505, message, needs(kind));
     d.file = options.points;
     throw UserError(d);
   }

@@ -54,6 +54,8 @@ def check_refusals(folder):
     assert done.returncode == 2 and "E0505" in done.stderr and "at least 6" in done.stderr, done
     done = fit(folder, "sphere", [["1", "2", "3,4"]])
     assert done.returncode == 2 and "points.csv:2:1: error E0502" in done.stderr, done
+    done = fit(folder, "plane", [*points, [0, "nan", 1]])
+    assert done.returncode == 2 and "points.csv:6:1: error E0505" in done.stderr, done
 
 
 with tempfile.TemporaryDirectory() as temporary:
