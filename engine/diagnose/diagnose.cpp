@@ -356,16 +356,20 @@ std::vector<Diagnostic> recording_problems(const Recording& recorded, const Mach
   return messages;
 }
 
-Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
-                             const std::string& file) {
+namespace {
+
+/// `messages`: what has been said of the recording, also where it is refused then.
+Diagnosis diagnose_saying(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
+                          const std::string& file, std::vector<Diagnostic>& messages) {
   Diagnosis out;
   refuse_too_many(recorded, file);
   if (options.design_only) out.judged = Judged::plan;
-  const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, out.messages);
+  const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, messages);
   out.touches = static_cast<int>(recording.rows.size());
   const double step_um = options.design_only ? 0 : kUmPerMm * common_step_mm(recorded);
   if (std::optional<Diagnostic> contradiction = contradicts_specification(machine, options.seed, options.threads))
-    out.messages.push_back(std::move(*contradiction));
+    messages.push_back(std::move(*contradiction));
+  out.messages = messages;
   const Given given{recording, step_um, machine, options, file};
   std::variant<Diagnosis, AnotherPart> found = diagnosed(given, stated_surfaces(recording, file), out);
   if (const auto* other = std::get_if<AnotherPart>(&found)) {
@@ -373,6 +377,19 @@ Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, 
     found = diagnosed(given, Surfaces::unknown, std::move(out));
   }
   return std::get<Diagnosis>(std::move(found));
+}
+
+}  // namespace
+
+Diagnosis diagnose_recording(const Recording& recorded, const Machine& machine, const DiagnoseOptions& options,
+                             const std::string& file) {
+  std::vector<Diagnostic> messages;
+  try {
+    return diagnose_saying(recorded, machine, options, file, messages);
+  } catch (const UserError& error) {
+    messages.insert(messages.end(), error.diagnostics().begin(), error.diagnostics().end());
+    throw UserError(std::move(messages));
+  }
 }
 
 }  // namespace abbe

@@ -202,6 +202,12 @@ class Traps(harness.Case):
         self.assertEqual(said["effects"][0]["members"], ["thermal.ram_growth", "thermal.drift"])
         self.assertEqual(said["next_measurement"][0]["separates"], ["thermal.ram_growth", "thermal.drift"])
 
+    def test_why_touches_are_too_few_is_told_with_it(self):
+        """Of 30 rows 22 are their targets and are left out: the error alone would only count the rest."""
+        count = itertools.count()
+        few = self.changed(self.record("--seed", 5), lambda row: (row if k < 8 else row | {a: row["t" + a] for a in "xyz"}) if (k := next(count)) < 30 else None)
+        self.assertIn("W0717", self.refused("E0705", "diagnose", few, "--machine", MACHINE))
+
     def test_of_features_one_after_the_other_it_may_be_the_time(self):
         """Every ball has come loose by its own amount, or something has happened between any two."""
         def loose(target, _):
