@@ -12,9 +12,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// So many members of a set are told with a size.
-constexpr std::size_t kSized = 5;
-
 /// How probable a member of a finding's set is, up to a factor that all members share.
 double weight(const Explanations& all, const Finding& f, int member) {
   const std::vector<double>& bayes = f.evidence.log_bayes;
@@ -71,8 +68,12 @@ bool judged(const Case& c, const Finding& f) {
   return open < kMostly * weight_of_all(c.explanations, f);
 }
 
+double share_of(const Explanations& all, const Finding& f, int member) {
+  return weight(all, f, member) / weight_of_all(all, f);
+}
+
 double belief_in_first(const Explanations& all, const Finding& f) {
-  return f.probability * weight(all, f, f.set.front()) / weight_of_all(all, f);
+  return f.probability * share_of(all, f, f.set.front());
 }
 
 bool possible_first(const Case& c, const SearchResult& result, std::size_t k) {

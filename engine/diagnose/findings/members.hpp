@@ -25,8 +25,13 @@ void drop_impossible_members(const Case&, SearchResult&);
 /// size that was expected of each, and not the recording.
 void take_in_runner_up(const Case&, const Diagnosis&, SearchResult&);
 
+/// The share of one member in what is believed of its set.
+double share_of(const Explanations&, const Finding&, int member);
 /// How far the first member of a set is believed by itself.
 double belief_in_first(const Explanations&, const Finding&);
+
+/// So many members of a set are told with a size.
+inline constexpr std::size_t kSized = 5;
 
 /// The members of the set of a finding, the first as it was told.
 std::vector<DiagnosedMember> members_of(const Case&, const SearchResult&, std::size_t finding,

@@ -171,6 +171,30 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
   out.verdict = Verdict::unexplained;
 }
 
+/// The members of a set, the first as it was told, some others with sizes of their own.
+std::vector<DiagnosedMember> members_of(const ValueCase& c, const Closer& closer, const Finding& f,
+                                        const DiagnosedEffect& told) {
+  std::vector<DiagnosedMember> out;
+  for (const int k : f.set) {
+    out.push_back({told.probability * share_of(closer.search.explanations(), f, k), {}, {}});
+    Finding alone = f;
+    alone.explanation = k, alone.variant = f.variant_of(k);
+    if (out.size() <= kSized)
+      out.back().parameters = k == f.explanation ? told.parameters : parameters_of(c, closer, alone);
+  }
+  return out;
+}
+
+/// What would tell the members of a set apart, where values do not.
+std::string to_tell_apart(const Explanations& all, const Finding& f) {
+  std::string out = "These values do not tell them apart. What would:";
+  for (std::size_t k = 0; k < std::min(f.set.size(), kSized); ++k) {
+    const Explanation& e = all.list[f.set[k]];
+    out += fmt::format(" {}: {}.", e.name, e.effect->separate);
+  }
+  return out;
+}
+
 void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, double adequacy, Diagnosis& out) {
   const Explanations& all = closer.search.explanations();
   DiagnosedEffect e;
@@ -193,6 +217,10 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
     e.sentence += fmt::format(" Whether it is that depends on {}: a workpiece file tells them (--workpiece).", columns);
     out.otherwise =
         fmt::format("Tell {} in a workpiece file, and diagnose the same values with it (--workpiece).", columns);
+  }
+  if (f.set.size() > 1) {
+    e.by_member = members_of(c, closer, f, e);
+    out.otherwise += (out.otherwise.empty() ? "" : " ") + to_tell_apart(all, f);
   }
   e.sentence += in_file;
   out.adequacy_p = adequacy;
