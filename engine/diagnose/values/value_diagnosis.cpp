@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "engine/diagnose/case.hpp"
 #include "engine/diagnose/explanations/catalogue.hpp"
@@ -228,15 +229,20 @@ void tell_name(const ValueCase& c, const Closer& closer, const Finding& f, doubl
   out.effects.push_back(std::move(e));
 }
 
-/// The groups that are left out in turn: programs, else single values.
+/// The groups that are left out in turn: programs, else characteristics with all their repeats, which foretell each other
+/// whatever made them.
 std::vector<int> groups_of(const ValueCase& c, std::string& scheme) {
-  std::vector<int> program;
-  for (const RecordedValue& v : c.ensemble.values) program.push_back(v.program);
-  scheme = "leave-one-program-out";
-  if (std::set<int>(program.begin(), program.end()).size() >= 3) return program;
-  scheme = "leave-one-value-out";
-  std::iota(program.begin(), program.end(), 0);
-  return program;
+  std::vector<int> program, characteristic;
+  std::map<std::tuple<int, int, int>, int> met;
+  for (const RecordedValue& v : c.ensemble.values) {
+    program.push_back(v.program);
+    characteristic.push_back(
+        met.emplace(std::tuple(v.program, v.characteristic.value, v.occurrence), static_cast<int>(met.size()))
+            .first->second);
+  }
+  const bool programs = std::set<int>(program.begin(), program.end()).size() >= 3;
+  scheme = programs ? "leave-one-program-out" : "leave-one-characteristic-out";
+  return programs ? program : characteristic;
 }
 
 /// What the explanation predicts of values that it was not fitted to (improvement.cpp has the formula). The point near

@@ -11,7 +11,7 @@ namespace abbe::diagnose {
 
 namespace {
 
-constexpr int kMachines = 200, kNewtonSteps = 4;
+constexpr int kNewtonSteps = 4;
 constexpr double kWide = 30;       // typical sizes: a prior that does not pull
 constexpr double kSettled = 0.05;  // standard uncertainties
 constexpr double kMove = 0.1;      // typical sizes, for the derivatives; they are taken on the same machines
@@ -44,11 +44,17 @@ Matrix covariance_of(const Matrix& machines, const ValueReference& b) {
   return share * seen + (1 - share) * Matrix(by.asDiagonal() * b.covariance * by.asDiagonal());
 }
 
+/// Fewer would make the scatter that a covariance is estimated with, of so many values, look like a mismatch.
+int machines_beside(std::size_t values) {
+  constexpr std::size_t kLeast = 200, kOfValue = 20, kMostMachines = 2000;
+  return static_cast<int>(std::min(kLeast + kOfValue * values, kMostMachines));
+}
+
 class ValueEstimator {
  public:
   explicit ValueEstimator(const ValueReference& b)
       : reference_(b),
-        machines_(screened_machines(b.machine, b.options.seed, kMachines, b.options.threads)),
+        machines_(screened_machines(b.machine, b.options.seed, machines_beside(b.values.size()), b.options.threads)),
         without_(simulated_values(b.values, b.programs, b.machine, machines_, b.options)) {}
 
   /// Nothing where hardly a machine with the effect reaches the values.
@@ -79,7 +85,7 @@ std::optional<BesideErrors> ValueEstimator::estimate(const Effect& effect, const
       together.middleCols((k + 2) * n, n) = values_at(at + move(k) * Vector::Unit(columns, k));
     }
     together = complete_rows(together);
-    if (together.rows() < kMachines / 4) return std::nullopt;
+    if (together.rows() < without_.rows() / 4) return std::nullopt;
     const Vector means = together.colwise().mean(), here = means.segment(n, n);
     Matrix slopes(n, columns);
     for (Eigen::Index k = 0; k < columns; ++k) slopes.col(k) = (means.segment((k + 2) * n, n) - here) / move(k);

@@ -140,6 +140,7 @@ std::string third_sentence(const Diagnosis& d) {
              closer = i.rms_after_um <= i.rms_before_um;
   const std::string says = clear && gains
       ? (closer ? "it predicts better" : "something is there too, but not of the size that it has on the others")
+      : clear && closer ? "it comes closer, but errs by more than it says that it may"
       : clear           ? "it predicts worse"
       : gains && closer ? "it predicts better, though not beyond doubt"
       : closer          ? "it cannot be told whether it predicts better"

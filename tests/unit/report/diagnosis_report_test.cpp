@@ -147,7 +147,8 @@ TEST_CASE("touches are predicted better only where less of them is left") {
   CHECK(says(third(2, 0.8), "it predicts better, though not beyond doubt"));
   CHECK(says(third(2, 1.28), "it does not predict better"));
   CHECK(says(third(-2, 0.8), "it cannot be told whether it predicts better"));
-  CHECK(says(third(-20, 0.8), "it predicts worse"));
+  CHECK(says(third(-20, 0.8), "it comes closer, but errs by more than it says that it may"));
+  CHECK(says(third(-20, 1.2), "it predicts worse"));
 }
 
 TEST_CASE("what a machine file carries of a pattern, and of names beside it, is said") {
