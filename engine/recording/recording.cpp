@@ -47,6 +47,11 @@ struct WrittenColumn {
 
 }  // namespace
 
+std::string line_of(const Recording& r, const RecordingRow& row) {
+  return fmt::format("line {}{}", row.line,
+                     r.files.size() > 1 ? " of " + r.files[static_cast<std::size_t>(row.file)] : "");
+}
+
 std::optional<std::string> said(const Metadata& metadata, std::string_view key) {
   const auto found =
       std::find_if(metadata.begin(), metadata.end(), [&](const auto& line) { return line.first == key; });

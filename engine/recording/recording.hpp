@@ -33,6 +33,7 @@ struct RecordingRow {
   /// program that was measured, in no file.
   std::optional<Vec3> on_part_mm, normal_on_part;
   int line = 0;  ///< of the file it was read from; 0: made by a simulation
+  int file = 0;  ///< which of Recording::files that is
 };
 
 enum class RecordedPoint { tip_centre, surface };
@@ -49,7 +50,15 @@ struct Recording {
   RecordedPoint point = RecordedPoint::tip_centre;
   std::vector<RecordingRow> rows;
   std::vector<Diagnostic> messages;  ///< of reading it: what is doubtful and no error
+  std::vector<std::string> files = {};  ///< names of those that were joined; none of a recording that never was
 };
+
+/// The name of the file that a row was read from; `all`: what the whole recording is called.
+inline const std::string& file_of(const Recording& r, const RecordingRow& row, const std::string& all) {
+  return r.files.empty() ? all : r.files[static_cast<std::size_t>(row.file)];
+}
+/// Where a row stands: "line 7", or of several files "line 7 of b.csv".
+std::string line_of(const Recording&, const RecordingRow&);
 
 /// The step of which all these lengths are multiples: their greatest common divisor, down to 1 nm; 0 without any. mm.
 double common_step_mm(const std::vector<double>& lengths_mm);

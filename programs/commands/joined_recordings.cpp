@@ -135,11 +135,13 @@ Recording joined(const std::vector<SourceFile>& files, Positions positions, std:
   for (const SourceFile& file : files) {
     read.push_back(read_recording(file, positions));
     messages.insert(messages.end(), read.back().messages.begin(), read.back().messages.end());
+    for (RecordingRow& row : read.back().rows) row.file = static_cast<int>(read.size()) - 1;
     refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
     for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
   }
   doubt_qualifications(read);
   Recording all = std::move(read.front());
+  for (const SourceFile& file : files) all.files.push_back(file.name());
   for (std::size_t k = 1; k < files.size(); ++k) {
     const std::string& name = files[k].name();
     Recording& one = read[k];

@@ -91,6 +91,25 @@ class Columns(harness.Case):
         without = self.diagnosis(self.changed(whole, lambda row: {k: v for k, v in row.items() if k != "time_s"}))
         self.assertEqual(said["p_value"], without["p_value"])
 
+    def test_of_several_files_the_one_is_named_that_is_meant(self):
+        short = {"program": harness.ROOT / "examples/iso10360/form_and_size_1x25.dmi"}
+        whole, again = self.record("--seed", 4, **short), self.record("--seed", 4, "--run", 2, name="again.csv", **short)
+        at = lambda C, but=None: lambda row: row | {"temp_part_C": "" if row["touch"] == but else C}
+        warm = self.changed(whole, at("20.1"), "warm.csv").name
+
+        def told(other):
+            said, = (m for m in self.diagnosis(warm, other.name)["messages"] if m["code"] in ("W0722", "W0724", "W0712"))
+            return said["message"], said["help"]
+        message, help_ = told(again)
+        self.assertTrue(message.startswith("again.csv: temp_part_C is in no row, only in other files"), message)
+        self.assertNotIn("leave those rows out", help_)
+        message, help_ = told(self.changed(again, at("20.1", "13"), "gap.csv"))
+        self.assertTrue(message.startswith("gap.csv: temp_part_C is empty in 1 of 25 rows, first for 'BALL' touch 13"), message)
+        self.assertIn("leave those rows out", help_)
+        self.assertTrue(told(self.changed(again, at("68.2"), "hot.csv"))[0].startswith("hot.csv: temp_part_C is 68.2 degrees C"))
+        astray = self.changed(again, lambda row: at("20.1")(row) | ({"x": repr(float(row["x"]) + 500)} if row["touch"] == "7" else {}), "astray.csv")
+        self.assertIn("of astray.csv) lies 500", told(astray)[0])
+
     def test_degrees_fahrenheit_are_doubted(self):
         whole = self.record("--seed", 4)
         warm = self.changed(whole, lambda row: row | {"temp_part_C": "68.2"})

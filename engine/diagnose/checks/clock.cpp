@@ -60,8 +60,8 @@ void continue_where_put_back(Recording& recording, const std::string& file, std:
     if (passed_s < 0 || passed_s > longest_s) continue;
     messages.push_back(diagnostic(
         Code::N0734,
-        fmt::format("{}: its clock falls from {:.0f} s to {:.0f} s within a run, as it does {}", file, *before.time_s,
-                    *after.time_s, where),
+        fmt::format("{}: its clock falls from {:.0f} s to {:.0f} s within a run, as it does {}",
+                    file_of(recording, after, file), *before.time_s, *after.time_s, where),
         "later times count on; if the rows do not stand in the order of the touches, write true times into time_s"));
     for (std::size_t i = falls.front(); i < rows.size(); ++i) *rows[i]->time_s += by_s;
     return;

@@ -241,8 +241,8 @@ Recording without_copies(const Recording& recorded, const std::string& file, std
       out.rows.push_back(row);
       continue;
     }
-    const std::string which =
-        fmt::format("'{}' touch {} (lines {} and {})", row.feature, row.touch, at->second->line, row.line);
+    const std::string which = fmt::format("'{}' touch {} ({} and {})", row.feature, row.touch,
+                                          line_of(recorded, *at->second), line_of(recorded, row));
     if (!(at->second->position_mm == row.position_mm))
       throw UserError(diagnostic(Code::E0713,
                                  fmt::format("{}: {} has two values at one time, in one setup and run", file, which),

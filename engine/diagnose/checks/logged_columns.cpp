@@ -1,9 +1,11 @@
 #include "engine/diagnose/checks/logged_columns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,19 +22,41 @@ namespace abbe::diagnose {
 
 namespace {
 
+/// Where one file of a recording lacks a column.
+struct Gaps {
+  std::size_t rows = 0, empty = 0;
+  const RecordingRow* first = nullptr;  ///< of the empty ones
+};
+
 /// Takes a column out where some rows have it and some do not.
 template <class Value>
 void leave_out(std::optional<Value> RecordingRow::*column, const std::string& name, Recording& recording,
                const std::string& file, std::vector<Diagnostic>& messages) {
-  const auto& rows = recording.rows;
-  const auto missing = std::find_if(rows.begin(), rows.end(), [&](const RecordingRow& r) { return !(r.*column); });
-  const auto logged = std::count_if(rows.begin(), rows.end(), [&](const RecordingRow& r) { return bool(r.*column); });
-  if (missing == rows.end() || logged == 0) return;
-  messages.push_back(diagnostic(
-      Code::W0722,
-      fmt::format("{}: {} is empty in {} of {} rows, first for '{}' touch {}: it is not used", file, name,
-                  rows.size() - static_cast<std::size_t>(logged), rows.size(), missing->feature, missing->touch),
-      "fill it in, or leave those rows out"));
+  std::map<int, Gaps> files;
+  std::size_t empty = 0;
+  for (const RecordingRow& row : recording.rows) {
+    Gaps& gaps = files[row.file];
+    ++gaps.rows;
+    if (row.*column) continue;
+    if (gaps.empty++ == 0) gaps.first = &row;
+    ++empty;
+  }
+  if (empty == 0 || empty == recording.rows.size()) return;
+  std::vector<std::string> without, told;
+  for (const auto& [k, gaps] : files) {
+    if (gaps.empty == 0) continue;
+    const std::string& which = file_of(recording, *gaps.first, file);
+    if (gaps.empty == gaps.rows)
+      without.push_back(which);
+    else
+      told.push_back(fmt::format("{}: {} is empty in {} of {} rows, first for '{}' touch {}", which, name, gaps.empty,
+                                 gaps.rows, gaps.first->feature, gaps.first->touch));
+  }
+  if (!without.empty())
+    told.insert(told.begin(), fmt::format("{}: {} is in no row, only in other files", fmt::join(without, ", "), name));
+  messages.push_back(diagnostic(Code::W0722, fmt::format("{}; it is not used", fmt::join(told, "; ")),
+                                without.empty() ? "fill it in, or leave those rows out"
+                                                : "fill it in, or judge the files that have it by themselves"));
   for (RecordingRow& row : recording.rows) (row.*column).reset();
 }
 
@@ -58,7 +82,8 @@ void doubt(std::optional<double> RecordingRow::*column, const std::string& name,
     if (!value || (*value > kCold_C && *value < kHot_C)) continue;
     messages.push_back(diagnostic(
         Code::W0724,
-        fmt::format("{}: {} is {:.1f} degrees C for '{}' touch {}", file, name, *value, row.feature, row.touch),
+        fmt::format("{}: {} is {:.1f} degrees C for '{}' touch {}", file_of(recording, row, file), name, *value,
+                    row.feature, row.touch),
         *value <= kCold_C ? "if the sensor was not read there, leave the field empty" : help_of_hot(*value)));
     return;
   }
@@ -94,9 +119,10 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
     });
     if (odd == recording.rows.end()) return;
     const double value = *((*odd).*column);
-    messages.push_back(diagnostic(
-        Code::W0728, fmt::format("{}: {} is {:g} for '{}' touch {}", file, name, value, odd->feature, odd->touch),
-        help(value)));
+    messages.push_back(diagnostic(Code::W0728,
+                                  fmt::format("{}: {} is {:g} for '{}' touch {}", file_of(recording, *odd, file), name,
+                                              value, odd->feature, odd->touch),
+                                  help(value)));
   };
   doubt(&RecordingRow::speed_mm_s, "speed_mm_s", kSlow_mm_s, kFast_mm_s, [&](double value) {
     if (value == 0) return kNotLogged;

@@ -65,11 +65,13 @@ std::vector<double> limits(const RecordedTouches& t) {
 /// Rows that lie elsewhere than their targets.
 class Astray {
  public:
+  explicit Astray(const Recording& of) : of_(of) {}
+
   void add(const RecordingRow& row, const std::string& where) {
     const std::optional<ForeignUnit> in = own_unit(row);
     if (rows_.empty()) unit_ = in;
     if (!in || !unit_ || in->mm != unit_->mm) unit_.reset();
-    rows_.push_back(fmt::format("touch {} of '{}' (line {}) {}", row.touch, row.feature, row.line, where));
+    rows_.push_back(fmt::format("touch {} of '{}' ({}) {}", row.touch, row.feature, line_of(of_, row), where));
   }
 
   /// Throws UserError (E0711) where they are many of `all`; warns of a few (W0712). `and_so`: what becomes of these.
@@ -90,6 +92,7 @@ class Astray {
   }
 
  private:
+  const Recording& of_;
   std::vector<std::string> rows_;
   std::optional<ForeignUnit> unit_;  ///< of all of them
 };
@@ -133,8 +136,8 @@ void leave_out_targets(Recording& recording, const std::string& file, std::vecto
   const auto first = std::find_if(recording.rows.begin(), recording.rows.end(), is_target);
   messages.push_back(diagnostic(
       Code::W0717,
-      fmt::format("{}: {} of {} touches are exactly their targets, the first is touch {} of '{}' (line {}): left out",
-                  file, targets, all, first->touch, first->feature, first->line),
+      fmt::format("{}: {} of {} touches are exactly their targets, the first is touch {} of '{}' ({}): left out", file,
+                  targets, all, first->touch, first->feature, line_of(recording, *first)),
       "a real machine differs in the last digits: check that measured positions were recorded there, and not targets"));
   std::erase_if(recording.rows, is_target);
 }
@@ -142,7 +145,7 @@ void leave_out_targets(Recording& recording, const std::string& file, std::vecto
 void leave_out_astray(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {
   constexpr double kAstray_mm = 100;
   const std::vector<double> far = from_targets(recording, [](const Vec3& off, const Vec3&) { return norm(off); });
-  Astray astray;
+  Astray astray(recording);
   std::vector<RecordingRow> kept;
   for (std::size_t i = 0; i < far.size(); ++i) {
     const RecordingRow& row = recording.rows[i];
@@ -158,7 +161,7 @@ void leave_out_astray(Recording& recording, const std::string& file, std::vector
 void check_pairing(const Recording& r, const RecordedTouches& t, const std::string& file,
                    std::vector<Diagnostic>& messages) {
   const std::vector<double> beside = beside_targets(r), limit = limits(t);
-  Astray astray;
+  Astray astray(r);
   for (const RecordedTouch& touch : t.touches) {
     const double off = beside[touch.row];
     if (off >= limit[touch.scene.feature])

@@ -175,9 +175,9 @@ std::optional<std::string> far_off(const Recording& r) {
   for (const auto& [from, to] : in_one_mounting(r)) {
     const double tip = norm(to->position_mm - from->position_mm), scales = norm(*to->reading_mm - *from->reading_mm);
     if (!goes_where_sent(*from, *to) || std::abs(scales - tip) < kFar_mm + kShare * tip) continue;
-    return fmt::format(
-        "from touch {} of '{}' (line {}) to touch {} of '{}' (line {}) the scales go {:.1f} mm, the tip {:.1f} mm",
-        from->touch, from->feature, from->line, to->touch, to->feature, to->line, scales, tip);
+    return fmt::format("from touch {} of '{}' ({}) to touch {} of '{}' ({}) the scales go {:.1f} mm, the tip {:.1f} mm",
+                       from->touch, from->feature, line_of(r, *from), to->touch, to->feature, line_of(r, *to), scales,
+                       tip);
   }
   return std::nullopt;
 }

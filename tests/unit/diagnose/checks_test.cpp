@@ -246,6 +246,18 @@ TEST_CASE("columns with gaps or of another unit are told") {
   CHECK(holds(left_out[0].message, "temp_part_C is empty in 1 of 18 rows"));
   for (const RecordingRow& row : gaps.rows) CHECK((!row.temp_part_C && row.temp_air_C));
 
+  Recording two = of_three_balls();
+  two.files = {"a.csv", "b.csv"};
+  for (std::size_t k = 9; k < 18; ++k) two.rows[k].file = 1, two.rows[k].temp_part_C.reset();
+  two.rows[4].temp_air_C.reset();
+  const auto by_file = said_by(leave_out_partly_logged, two);
+  REQUIRE(by_file.size() == 2);
+  CHECK(holds(by_file[0].message, "b.csv: temp_part_C is in no row, only in other files"));
+  CHECK(!holds(by_file[0].message, "a.csv"));
+  CHECK(!holds(by_file[0].help, "leave those rows out"));
+  CHECK(holds(by_file[1].message, "a.csv: temp_air_C is empty in 1 of 9 rows"));
+  CHECK(!holds(by_file[1].message, "b.csv"));
+
   std::vector<Diagnostic> messages;
   doubt_temperatures(damaged([](RecordingRow& row) { row.temp_part_C = 68.7; }), "r.csv", messages);
   REQUIRE(messages.size() == 1);
