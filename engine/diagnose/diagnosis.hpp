@@ -109,10 +109,12 @@ struct RunnerUp {
 
 struct CannotJudge {
   std::string effect;
-  /// columns that were not logged or are the same throughout; empty: the effect does nothing to these touches, or what is
+  /// columns that were not logged or do not differ enough; empty: the effect does nothing to these touches, or what is
   /// unknown of the part hides it
   std::vector<std::string> missing;
-  std::vector<std::string> constant;  ///< of these, those that are the same throughout
+  std::vector<std::string> constant;      ///< of these, those that are the same throughout
+  std::vector<std::string> too_few = {};  ///< and those that differ, but too seldom
+  std::string too_few_of = {};            ///< what there is too little of then: "fewer than three indexings"
 };
 
 /// The smallest size of an effect that this recording can detect, and the smallest that it can name.

@@ -132,12 +132,13 @@ std::string why_not_judged(const CannotJudge& c, bool touches) {
   if (c.missing.empty())
     return touches ? "does nothing to these touches, or is hidden by what is unknown of the part or by their scatter"
                    : "nothing of it shows in values";
-  std::vector<std::string> missing;
-  for (const std::string& column : c.missing)
-    if (std::find(c.constant.begin(), c.constant.end(), column) == c.constant.end()) missing.push_back(column);
+  std::vector<std::string> missing = c.missing;
+  for (const auto* logged : {&c.constant, &c.too_few})
+    for (const std::string& column : *logged) std::erase(missing, column);
   std::vector<std::string> why;
   if (!missing.empty()) why.push_back(fmt::format("missing: {}", fmt::join(missing, ", ")));
   if (!c.constant.empty()) why.push_back(fmt::format("the same throughout: {}", fmt::join(c.constant, ", ")));
+  if (!c.too_few.empty()) why.push_back(fmt::format("{}: {}", c.too_few_of, fmt::join(c.too_few, ", ")));
   return fmt::format("{}", fmt::join(why, "; "));
 }
 

@@ -149,7 +149,7 @@ class Columns(harness.Case):
             self.assertEqual(self.codes(said), ["W0731"], why)
             self.assertIn(why, said["messages"][0]["message"])
             self.assertEqual((said["verdict"], said["p_value"]), ("no_mismatch", without["p_value"]), why)
-            self.assertIn({"effect": "machine.scale_interpolation", "missing": list(readings)}, said["cannot_judge"])
+            self.assertIn({"effect": "machine.scale_interpolation", "missing": list(readings), "constant": [], "too_few": []}, said["cannot_judge"])
         for wrong in ("-43660.1", "-1e7"):   # of one touch: a decimal point that was lost
             said = self.diagnosis(self.changed(whole, lambda row: row | {"enc_z": wrong} if row["feature"] == "P2_13" else row))
             self.assertEqual((self.codes(said), said["p_value"]), (["W0731"], without["p_value"]))
@@ -276,14 +276,24 @@ class Columns(harness.Case):
         said = self.diagnosis(sized)
         told = {d["effect"] for d in said["smallest_detectable"]}
         self.assertNotIn("probe.tip_radius", told)
-        self.assertIn({"effect": "probe.tip_radius", "missing": []}, said["cannot_judge"])
+        self.assertIn({"effect": "probe.tip_radius", "missing": [], "constant": [], "too_few": []}, said["cannot_judge"])
 
     def test_scatter_of_groups_that_are_not_parted_cannot_be_judged(self):
         whole = self.record("--seed", 4)
-        unequal = {"effect": "noise.unequal", "missing": ["head_A_deg", "sensor", "speed_mm_s"]}
         upright = self.changed(whole, lambda row: row | {"head_A_deg": "0", "head_B_deg": "0"}, "upright.csv")
-        self.assertNotIn(unequal, self.diagnosis(whole, "--design-only")["cannot_judge"])
-        self.assertIn(unequal, self.diagnosis(upright, "--design-only")["cannot_judge"])
+        few = self.changed(whole, lambda row: row | ({"visit": "1", "head_A_deg": "0", "head_B_deg": "0"} if row["feature"] != "P5_1" else {"visit": "2"}), "few.csv")
+        columns = ["head_A_deg", "sensor", "speed_mm_s"]
+
+        def unjudged(path, effect):
+            return [c for c in self.diagnosis(path, "--design-only")["cannot_judge"] if c["effect"] == effect]
+        self.assertEqual(unjudged(whole, "noise.unequal"), [])
+        entry, = unjudged(upright, "noise.unequal")
+        self.assertEqual((entry["missing"], entry["constant"], entry["too_few"]), (columns, ["head_A_deg", "speed_mm_s"], ["sensor"]))
+        entry, = unjudged(few, "head.reindexing")
+        self.assertEqual((entry["missing"], entry["constant"], entry["too_few"]), (["visit"], [], ["visit"]))
+        told = self.abbe("diagnose", few, "--machine", MACHINE, "--design-only").stdout
+        self.assertRegex(told, "noise.unequal +the same throughout: speed_mm_s; fewer than 20 touches in another orientation or with longer styli: head_A_deg, sensor")
+        self.assertRegex(told, "head.reindexing +fewer than three indexings: visit")
 
     def test_styli_that_were_not_logged_are_missed_where_one_cannot_reach_all(self):
         def without_styli(path, name):

@@ -23,12 +23,16 @@ constexpr unsigned kMustVary = Covariate::time | Covariate::speed | Covariate::a
 /// Covariates that a scene has by itself, whatever was logged.
 constexpr unsigned kImplied = Covariate::gradients | Covariate::qualification | Covariate::visit;
 
+std::size_t visits_in(const RecordedTouches& t) {
+  std::set<int> visits;
+  for (const RecordedTouch& touch : t.touches) visits.insert(touch.scene.visit);
+  return visits.size();
+}
+
 /// Of one difference, as between two indexings, nobody can tell that it is a spread.
 bool spread_hidden(const Effect& effect, const RecordedTouches& t) {
   constexpr std::size_t kLeastVisits = 3;
-  std::set<int> visits;
-  for (const RecordedTouch& touch : t.touches) visits.insert(touch.scene.visit);
-  return effect.draws > 0 && effect.draws_per == DrawsPer::visit && visits.size() < kLeastVisits;
+  return effect.draws > 0 && effect.draws_per == DrawsPer::visit && visits_in(t) < kLeastVisits;
 }
 
 unsigned missing_of(const Effect& effect, const RecordedTouches& t) {
@@ -320,7 +324,9 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
                 double least_period_um = 0) {
   if (spread_hidden(effect, t)) {
     constexpr auto kVisit = static_cast<unsigned>(Covariate::visit);
-    out.unjudged.push_back({&effect, kVisit, kVisit});
+    const unsigned known = kVisit & t.known;
+    out.unjudged.push_back(visits_in(t) > 1 ? Explanations::Unjudged{&effect, kVisit, 0, known}
+                                            : Explanations::Unjudged{&effect, kVisit, known});
     return;
   }
   Explanation explanation;
@@ -421,7 +427,9 @@ std::vector<CannotJudge> cannot_judge(const Explanations& all) {
   std::vector<CannotJudge> out;
   for (const Effect* effect : effects()) {
     for (const Explanations::Unjudged& u : all.unjudged) {
-      if (u.effect == effect) out.push_back({std::string(effect->name), columns_of(u.missing), columns_of(u.constant)});
+      if (u.effect == effect)
+        out.push_back({std::string(effect->name), columns_of(u.missing), columns_of(u.constant), columns_of(u.too_few),
+                       u.too_few ? "fewer than three indexings" : ""});
     }
   }
   return out;

@@ -89,7 +89,8 @@ struct Explanations {
   struct Unjudged {
     const Effect* effect;
     unsigned missing;
-    unsigned constant;  ///< of the missing, those that were logged and are the same throughout
+    unsigned constant;     ///< of the missing, those that were logged and are the same throughout
+    unsigned too_few = 0;  ///< and those that differ, but hold too few visits
   };
   std::vector<Unjudged> unjudged;  ///< effects that this recording cannot judge
 };

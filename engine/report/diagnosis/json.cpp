@@ -173,7 +173,8 @@ std::string diagnosis_json(const Diagnosis& d, const std::string& machine) {
       {"cannot_judge",
        array(d.cannot_judge,
              [](const CannotJudge& c) {
-               return Json{{"effect", c.effect}, {"missing", c.missing}};
+               return Json{
+                   {"effect", c.effect}, {"missing", c.missing}, {"constant", c.constant}, {"too_few", c.too_few}};
              })},
       {"smallest_detectable", array(d.smallest_detectable, detectable)},
       {"next_measurement", array(d.next_measurement, next)},

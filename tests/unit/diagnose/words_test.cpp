@@ -52,6 +52,8 @@ TEST_CASE("why an effect cannot be judged") {
         "the same throughout: temp_part_C");
   CHECK(why_not_judged({"machine.dynamics", {"accel_mm_s2", "speed_mm_s"}, {"speed_mm_s"}}, true) ==
         "missing: accel_mm_s2; the same throughout: speed_mm_s");
+  CHECK(why_not_judged({"noise.unequal", {"a", "b", "c"}, {"a"}, {"b", "c"}, "fewer than 20 touches at another speed"},
+                       true) == "the same throughout: a; fewer than 20 touches at another speed: b, c");
   CHECK(why_not_judged({"noise.vibration", {}, {}}, false) == "nothing of it shows in values");
 }
 

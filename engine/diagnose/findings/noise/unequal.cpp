@@ -1,5 +1,6 @@
 // noise.unequal: touches of one kind scatter more than the others.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -115,6 +116,31 @@ std::optional<NoiseFinding> judge_unequal(Scatter& scatter) {
   return best;
 }
 
+/// Why no touches are parted from the others: what becomes of each column that could.
+CannotJudge not_parted(const RecordedTouches& t) {
+  const struct {
+    Covariate covariate;
+    const char *column, *kind;
+  } kinds[] = {{Covariate::head, "head_A_deg", "in another orientation"},
+               {Covariate::sensor, "sensor", "with longer styli"},
+               {Covariate::speed, "speed_mm_s", "at another speed"}};
+  CannotJudge out{std::string(kUnequalNoise.name), {}, {}};
+  std::vector<std::string> of;
+  for (const auto& [covariate, column, kind] : kinds) {
+    const auto what = static_cast<unsigned>(covariate);
+    out.missing.emplace_back(column);
+    if ((t.known & what) == 0) continue;
+    if ((t.varying & what) == 0) {
+      out.constant.emplace_back(column);
+      continue;
+    }
+    out.too_few.emplace_back(column);
+    of.emplace_back(kind);
+  }
+  if (!of.empty()) out.too_few_of = fmt::format("fewer than {} touches {}", kEnoughOfGroup, fmt::join(of, " or "));
+  return out;
+}
+
 void plan_unequal(const ScatterDesign& design, Diagnosis& out) {
   std::map<std::string_view, std::vector<ScatterForm>> of_kind;
   for (const Split& s : splits_of(design.planned())) {
@@ -125,8 +151,7 @@ void plan_unequal(const ScatterDesign& design, Diagnosis& out) {
     of_kind[s.group].push_back(design.along(s.in, told, s.of_its_kind));
   }
   if (of_kind.empty()) {
-    const std::vector<std::string> columns{"head_A_deg", "sensor", "speed_mm_s"};
-    out.cannot_judge.push_back({std::string(kUnequalNoise.name), columns, columns});
+    out.cannot_judge.push_back(not_parted(design.planned().touches));
     return;
   }
   std::vector<ScatterForm> forms;
