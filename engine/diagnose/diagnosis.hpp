@@ -92,6 +92,7 @@ struct Unexplained {
   std::string model = {};  ///< the effect in `model_effects` that stands for it; empty: none was made
   /// the factor of which that is a function, where the pattern is one of several; else empty
   std::string model_follows = {};
+  std::optional<double> largest_um = {};  ///< the most that it is at a touch, as estimated; nothing of values
 };
 
 struct Improvement {

@@ -113,7 +113,8 @@ std::string sizes_in_words(const std::vector<DiagnosedParameter>& parameters, st
 }
 
 std::string amplitude_in_words(const Unexplained& u) {
-  return fmt::format("{} um rms ({} to {})", two_digits(u.amplitude_um), two_digits(u.low_um), two_digits(u.high_um));
+  return fmt::format("{} um rms ({} to {}){}", two_digits(u.amplitude_um), two_digits(u.low_um), two_digits(u.high_um),
+                     u.largest_um ? fmt::format("; at most {} um at a touch", two_digits(*u.largest_um)) : "");
 }
 
 std::vector<std::string> in_words(const DiagnosedEffect& e) {

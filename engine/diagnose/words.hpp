@@ -25,7 +25,7 @@ std::string explanation_sentence(const std::vector<std::string_view>& titles,
                                  RunChange change = {}, bool doubted = false, bool beside = false);
 /// Its sizes in a table, and what they come to: "amplitude 0.0400 um (0.0324 to 0.0485); at most 1.4 um at a touch".
 std::string sizes_in_words(const std::vector<DiagnosedParameter>&, std::optional<double> largest_um);
-/// How large a pattern is: "2.3 um rms (2.1 to 2.5)".
+/// How large a pattern is: "2.3 um rms (2.1 to 2.5); at most 5.4 um at a touch".
 std::string amplitude_in_words(const Unexplained&);
 /// The names of an effect in a table: "machine.squareness, new in run 2"
 std::vector<std::string> in_words(const DiagnosedEffect&);

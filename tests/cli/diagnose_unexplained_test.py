@@ -108,6 +108,10 @@ class Unexplained(harness.Case):
         recording = self.recorded("dented.csv", lambda n, _: 0.012 * math.exp(-((n[0] - 0.5) ** 2 + (n[1] - 0.6) ** 2 + (n[2] - 0.62) ** 2) / 0.25))
         before = self.diagnosis(recording, "--machine", MACHINE, "--model-out", "improved.json")
         self.assertEqual(before["verdict"], "unexplained")
+        # Some of the 11 um that a touch is off passes for another place or size of the sphere.
+        self.assertGreater(before["unexplained"]["largest_um"], 3 * before["unexplained"]["amplitude_um"]["value"])
+        self.assertLess(before["unexplained"]["largest_um"], 12)
+        self.assertRegex(before["unexplained"]["sentence"], r"of [\d.]+ um rms, at most [\d.]+ um at a touch, is in the recording")
         model = before["unexplained"]["model"]
         self.assertIn(model, ("empirical.curve", "empirical.direction"))
         effects = [e["name"] for e in json.loads((self.folder / "improved.json").read_text())["effects"]]

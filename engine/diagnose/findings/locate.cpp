@@ -252,8 +252,10 @@ Unexplained describe_unexplained(const Case& c, const SearchResult& result, cons
   const Pattern pattern = pattern_of(search, variant, f.variant);
   const double rms = std::sqrt(beside_free(rest, pattern.values).squaredNorm() / double(pattern.values.size()));
   Unexplained u = pattern_of_size(e.factor, e.shape, rms, pattern.energy);
-  u.sentence = fmt::format("A pattern over {} ({}{}) of {} um rms is in the recording", u.factor, u.shape,
-                           variant.told.empty() ? "" : ", with " + variant.told, two_digits(u.amplitude_um));
+  u.largest_um = pattern.values.cwiseAbs().maxCoeff();
+  u.sentence = fmt::format("A pattern over {} ({}{}) of {} um rms, at most {} um at a touch, is in the recording",
+                           u.factor, u.shape, variant.told.empty() ? "" : ", with " + variant.told,
+                           two_digits(u.amplitude_um), two_digits(*u.largest_um));
   const CredibleSet name = credible_set(c.explanations, f.evidence, true);
   const bool several_sizes = result.nearest && result.nearest->sizes;
   const bool as_good = !several_sizes && kAsWell * name.probability >= f.probability;

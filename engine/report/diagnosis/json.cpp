@@ -64,6 +64,7 @@ Json unexplained(const std::optional<Unexplained>& u) {
            {{"value", number(u->amplitude_um)},
             {"u", number(u->amplitude_u_um)},
             {"interval95", {number(u->low_um), number(u->high_um)}}}},
+          {"largest_um", u->largest_um ? number(*u->largest_um) : Json()},
           {"sentence", u->sentence},
           {"model", u->model.empty() ? Json() : Json(u->model)}};
 }

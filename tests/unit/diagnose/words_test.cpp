@@ -36,6 +36,14 @@ TEST_CASE("a size is told with its unit and the digits that its uncertainty bear
   CHECK(with_interval(far) == "squareness 46 urad (34 to 58), implausible");
 }
 
+TEST_CASE("a pattern is as large as its rms, and as it is at a touch") {
+  Unexplained u{"time", "slow", 0.82, 0.1, 0.62, 1.02, ""};
+  u.largest_um = 5.43;
+  CHECK(amplitude_in_words(u) == "0.82 um rms (0.62 to 1.0); at most 5.4 um at a touch");
+  u.largest_um.reset();
+  CHECK(amplitude_in_words(u) == "0.82 um rms (0.62 to 1.0)");
+}
+
 TEST_CASE("two digits, and no exponent") {
   CHECK(two_digits(0) == "0");
   CHECK(two_digits(0.0314) == "0.031");
