@@ -178,6 +178,7 @@ struct JudgedValue {
   double z = 0;              ///< deviation from the mean of the virtual machines, in units of u
   double p = 1;              ///< share of virtual machines that are at least as far out
   double low = 0, high = 0;  ///< 95 % of the deviations of virtual machines lie between these
+  bool beyond_all = false;   ///< no virtual machine is as far out: p is less than it says
 };
 
 /// Geometric errors of so many times those of the specification are told: such a machine may still pass an acceptance

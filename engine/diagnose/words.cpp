@@ -143,6 +143,8 @@ std::string why_not_judged(const CannotJudge& c, bool touches) {
   return fmt::format("{}", fmt::join(why, "; "));
 }
 
+std::string p_in_words(const JudgedValue& v) { return fmt::format("{}{:.3f}", v.beyond_all ? "<" : "", v.p); }
+
 std::string looks_like(const Detectable& d) {
   if (!d.name_um && d.confounded_with.empty()) return "a pattern without a name";
   return fmt::format("{}", fmt::join(d.confounded_with, ", "));

@@ -34,6 +34,8 @@ std::vector<std::string> in_words(const DiagnosedEffect&);
 std::string in_words(const Detectable&);
 /// Why an effect cannot be judged: "missing: load_kg"; `touches`: from those, not from values.
 std::string why_not_judged(const CannotJudge&, bool touches);
+/// The p of a value: "0.034"; "<0.001" where no virtual machine is as far out.
+std::string p_in_words(const JudgedValue&);
 /// What it would be taken for.
 std::string looks_like(const Detectable&);
 

@@ -53,6 +53,9 @@ class Values(harness.Case):
         self.assertEqual(self.diagnosis(values, "--machine", "improved.json")["verdict"], "no_mismatch")
         self.assertIn("<svg", (self.folder / "report.html").read_text())
         self.assertIn("7 values are not what", self.abbe("diagnose", values).stdout)
+        far = self.changed(values, lambda row: row | {"value": repr(float(row["value"]) + 0.1)}, "far.csv")
+        self.assertRegex(self.abbe("diagnose", far, "--report", "far.html").stdout, r"LEN .* <0\.00\d +mm")
+        self.assertRegex((self.folder / "far.html").read_text(), r"&lt;0\.00\d")
 
     def test_what_the_machine_file_has_of_an_effect_is_not_written_beside_it(self):
         """Scales of 20 um/m in the file, of 63 more in the recording: the file gets one of both together."""

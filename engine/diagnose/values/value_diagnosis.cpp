@@ -119,7 +119,7 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
         row.program.empty() ? std::filesystem::path(source.name()).filename().string() : row.program;
     out.push_back({row.characteristic, program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference,
                    v.deviation * unit, u * unit, (v.deviation - c.judges.mean(at)) / u, (double(beyond) + 1) / (n + 1),
-                   point(0.025), point(0.975)});
+                   point(0.025), point(0.975), beyond == 0});
   }
   return out;
 }

@@ -125,7 +125,7 @@ std::string values(const Diagnosis& d) {
   for (const JudgedValue& v : d.values)
     rows += html_row({label(v), v.program, std::to_string(v.run), fmt::format("{:.5f} {}", v.value, v.unit),
                       fmt::format("{:.5f}", v.deviation), fmt::format("{:.5f}", v.u), fmt::format("{:.2f}", v.z),
-                      fmt::format("{:.3f}", v.p)});
+                      p_in_words(v)});
   return out + html_table(rows);
 }
 

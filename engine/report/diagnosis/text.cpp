@@ -218,8 +218,8 @@ std::string value_table(const Diagnosis& d) {
   std::string out = fmt::format("{:<28} {:<22} {:>3} {:>13} {:>12} {:>24} {:>6} {:>6}\n", "characteristic", "program",
                                 "run", "value", "deviation", "95 % of such machines", "z", "p");
   for (const JudgedValue& v : d.values)
-    out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6.3f}  {}\n",
-                       label(v), v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, v.p, v.unit);
+    out += fmt::format("{:<28} {:<22} {:>3} {:>13.5f} {:>12.5f} {:>11.5f} to {:>9.5f} {:>6.2f} {:>6}  {}\n", label(v),
+                       v.program, v.run, v.value, v.deviation, v.low, v.high, v.z, p_in_words(v), v.unit);
   return out + "\n";
 }
 

@@ -44,6 +44,14 @@ TEST_CASE("a pattern is as large as its rms, and as it is at a touch") {
   CHECK(amplitude_in_words(u) == "0.82 um rms (0.62 to 1.0)");
 }
 
+TEST_CASE("a value that no virtual machine reaches has no p of its own") {
+  JudgedValue v;
+  v.p = 1 / 1001.0;
+  CHECK(p_in_words(v) == "0.001");
+  v.beyond_all = true;
+  CHECK(p_in_words(v) == "<0.001");
+}
+
 TEST_CASE("two digits, and no exponent") {
   CHECK(two_digits(0) == "0");
   CHECK(two_digits(0.0314) == "0.031");
