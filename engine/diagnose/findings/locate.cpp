@@ -9,8 +9,10 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 
+#include "engine/diagnose/findings/coordinate.hpp"
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/words.hpp"
 #include "engine/math/normal.hpp"
@@ -31,17 +33,6 @@ Pattern pattern_of(const EvidenceSearch& search, const Variant& variant, int ind
   return {variant.signature * size.coefficients, info.u.dot(size.coefficients)};
 }
 
-/// What was logged of temperature.
-struct Thermometer {
-  const char* name;
-  double (*of)(const TouchScene&);
-};
-constexpr Thermometer kThermometers[] = {{"part_C", [](const TouchScene& s) { return s.temperature.part; }},
-                                         {"x_C", [](const TouchScene& s) { return s.temperature.scale[0]; }},
-                                         {"y_C", [](const TouchScene& s) { return s.temperature.scale[1]; }},
-                                         {"z_C", [](const TouchScene& s) { return s.temperature.scale[2]; }},
-                                         {"air_C", [](const TouchScene& s) { return s.temperature.air; }}};
-
 template <class Value>
 bool differs(const Case& c, Value value) {
   const auto at = [&](int row) { return value(c.touches.touches[row].scene); };
@@ -53,7 +44,7 @@ bool varies(const Case& c, Factor factor) {
   switch (factor) {
     case Factor::temperature:
       return std::any_of(std::begin(kThermometers), std::end(kThermometers),
-                         [&](const Thermometer& t) { return differs(c, t.of); });
+                         [&](const Coordinate& t) { return differs(c, t.of); });
     case Factor::speed: return differs(c, [](const TouchScene& s) { return s.speed_mm_s; });
     case Factor::head:
       return differs(c, [](const TouchScene& s) { return std::pair(s.stylus.head_a_rad, s.stylus.head_b_rad); });
@@ -77,14 +68,8 @@ class Strongest {
 
   Places in(Factor factor) const {
     switch (factor) {
-      case Factor::time:
-        if (case_.recording->rows.front().time_s)
-          return range("time_s", " s", [](const TouchScene& s) { return s.time_s; });
-        return range("touch", "", [](const TouchScene& s) { return s.touch + 1.0; });
-      case Factor::position:
-        return joined({range("x", " mm", [](const TouchScene& s) { return s.point.x; }),
-                       range("y", " mm", [](const TouchScene& s) { return s.point.y; }),
-                       range("z", " mm", [](const TouchScene& s) { return s.point.z; })});
+      case Factor::time: return range(case_.recording->rows.front().time_s ? kClock : kTouchNumber);
+      case Factor::position: return ranges(kPosition);
       case Factor::direction: {
         Eigen::Index strongest = 0;
         pattern_.cwiseAbs().maxCoeff(&strongest);
@@ -100,11 +85,7 @@ class Strongest {
       case Factor::run: return label("run", [](const TouchScene& s) { return std::to_string(s.run); });
       case Factor::feature:
         return label("feature", [&](const TouchScene& s) { return case_.touches.features[s.feature]; });
-      case Factor::temperature: {
-        std::vector<Places> all;
-        for (const Thermometer& t : kThermometers) all.push_back(range(t.name, " C", t.of));
-        return joined(all);
-      }
+      case Factor::temperature: return ranges(kThermometers);
       case Factor::speed:
         return label("speed", [](const TouchScene& s) { return fmt::format("{:g} mm/s", s.speed_mm_s); });
     }
@@ -116,19 +97,24 @@ class Strongest {
 
   /// Between which values lie the touches that have at least half of the most that any has; nothing when that is nearly
   /// everywhere.
-  template <class Value>
-  Places range(const char* name, const char* unit, Value value) const {
+  Places range(const Coordinate& along) const {
     constexpr double kStrong = 0.5, kNearlyEverywhere = 2.0 / 3;
     const double strong = kStrong * pattern_.cwiseAbs().maxCoeff();
     double low = 1e300, high = -1e300, first = 1e300, last = -1e300;
     for (Eigen::Index i = 0; i < pattern_.size(); ++i) {
-      const double at = value(scene(i));
+      const double at = along.of(scene(i));
       first = std::min(first, at), last = std::max(last, at);
       if (std::abs(pattern_(i)) >= strong) low = std::min(low, at), high = std::max(high, at);
     }
     if (high - low >= kNearlyEverywhere * (last - first)) return {};
-    const std::string from = fmt::format("{:.0f}", low), to = fmt::format("{:.0f}", high);
-    return {{name, (from == to ? from : from + " to " + to) + unit}};
+    return {{along.name, in_words(along, low, high)}};
+  }
+
+  Places ranges(std::span<const Coordinate> each) const {
+    Places out;
+    for (const Coordinate& along : each)
+      for (auto& place : range(along)) out.push_back(std::move(place));
+    return out;
   }
 
   /// The label whose touches have the largest mean square.
@@ -143,12 +129,6 @@ class Strongest {
     const auto most = std::max_element(squares.begin(), squares.end(),
                                        [&](const auto& a, const auto& b) { return mean(a) < mean(b); });
     return {{name, most->first}};
-  }
-
-  static Places joined(const std::vector<Places>& each) {
-    Places out;
-    for (const Places& places : each) out.insert(out.end(), places.begin(), places.end());
-    return out;
   }
 
   const Case& case_;

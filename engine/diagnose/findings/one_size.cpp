@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/diagnose/explanations/patterns/touch_factors.hpp"
+#include "engine/diagnose/findings/coordinate.hpp"
 #include "engine/diagnose/model/sizes_by_group.hpp"
 
 namespace abbe::diagnose {
@@ -37,18 +38,11 @@ std::vector<int> thirds(const std::vector<double>& value) {
 class Groupings {
  public:
   explicit Groupings(const Case& c) : c_(c), f_(c.touches, c.rows) {
-    if (c.recording->rows.front().time_s)
-      along(Factor::time, "time_s", " s", [](const TouchScene& s) { return s.time_s; });
-    else
-      along(Factor::time, "touch", "", [](const TouchScene& s) { return s.touch + 1.0; });
+    along(Factor::time, c.recording->rows.front().time_s ? kClock : kTouchNumber);
     since(Factor::setup, "after the part was put down", f_.clamped);
     since(Factor::head, "after the head was turned", f_.settled);
-    along(Factor::position, "x", " mm", [](const TouchScene& s) { return s.point.x; });
-    along(Factor::position, "y", " mm", [](const TouchScene& s) { return s.point.y; });
-    along(Factor::position, "z", " mm", [](const TouchScene& s) { return s.point.z; });
-    if (patterns::differ(f_.part_above_20))
-      along(
-          Factor::temperature, "part_C", " C", [](const TouchScene& s) { return s.temperature.part; }, 2);
+    for (const Coordinate& place : kPosition) along(Factor::position, place);
+    if (patterns::differ(f_.part_above_20)) along(Factor::temperature, kThermometers[0]);
     as_touched(Factor::direction, sides(), [](const TouchScene& s) {
       return fmt::format("normal {}{}", s.normal[largest_of(s.normal)] > 0 ? '+' : '-', "xyz"[largest_of(s.normal)]);
     });
@@ -65,8 +59,6 @@ class Groupings {
   const std::vector<Grouping>& all() const { return all_; }
 
  private:
-  using Value = double (*)(const TouchScene&);
-
   static int largest_of(const Vec3& n) {
     int axis = 0;
     for (const int k : {1, 2})
@@ -76,13 +68,13 @@ class Groupings {
 
   const TouchScene& scene(int row) const { return c_.touches.touches[c_.rows[row]].scene; }
 
-  void along(Factor factor, const char* name, const char* unit, Value of, int digits = 0) {
+  void along(Factor factor, const Coordinate& coordinate) {
     std::vector<double> value;
-    for (std::size_t i = 0; i < c_.rows.size(); ++i) value.push_back(of(scene(static_cast<int>(i))));
-    add({factor, thirds(value), [value, name, unit, digits](const std::vector<int>& rows) {
+    for (std::size_t i = 0; i < c_.rows.size(); ++i) value.push_back(coordinate.of(scene(static_cast<int>(i))));
+    add({factor, thirds(value), [value, coordinate](const std::vector<int>& rows) {
            double low = value[rows.front()], high = low;
            for (const int i : rows) low = std::min(low, value[i]), high = std::max(high, value[i]);
-           return fmt::format("{} {:.{}f} to {:.{}f}{}", name, low, digits, high, digits, unit);
+           return fmt::format("{} {}", coordinate.name, in_words(coordinate, low, high));
          }});
   }
 

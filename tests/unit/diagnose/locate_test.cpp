@@ -65,7 +65,7 @@ TEST_CASE("where a pattern is strongest is told in words of its factor") {
   CHECK(label(Factor::head, [](const TouchScene& s) { return s.visit % 3 == 2; }) == "head A 0.0 B 114.6");
   CHECK(label(Factor::direction, [](const TouchScene& s) { return s.normal.z > 0.97; }).find("normal ") == 0);
   CHECK(label(Factor::position, [](const TouchScene& s) { return s.point.x > 480; }) == "x 481 to 494 mm");
-  CHECK(label(Factor::temperature, [](const TouchScene& s) { return s.temperature.part > 20.9; }) == "part_C 21 C");
+  CHECK(label(Factor::temperature, [](const TouchScene& s) { return s.temperature.part > 20.9; }) == "part_C 21.00 C");
 }
 
 TEST_CASE("a pattern over time lies between two times, or between two touches where no clock was logged") {
