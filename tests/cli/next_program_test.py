@@ -158,6 +158,16 @@ class NextProgram(harness.Case):
         again = rows(self.record(program, "again.csv", "--machine", PORTAL))
         self.assertEqual(len({(row["head_A_deg"], row["head_B_deg"]) for row in again}), 5)
 
+    def test_two_features_stay_two_where_dmis_could_call_them_alike(self):
+        first = self.record(SPHERE, "first.csv", "--machine", PORTAL, "--with", "probe.tip_radius:amplitude_um=2")
+        names = {"P1_1": "P2 1", "P1_2": "P2:1"}   # beside P2_1
+        labelled = self.changed(first, lambda row: row | {"feature": names.get(row["feature"], row["feature"])}, "labelled.csv")
+        program, _, _ = self.proposal(labelled, "--machine", PORTAL)
+        said = program.read_text()
+        self.assertEqual([said.count(f"F({label})=FEAT") for label in ("P2_1", "P2_1_2", "P2_1_3")], [1, 1, 1])
+        self.assertRegex(said, r"Put them back into the column 'feature' .*:\n\$\$ P2_1_2 is 'P2 1'\n\$\$ P2_1_3 is 'P2:1'\n")
+        self.assertEqual(len({row["feature"] for row in rows(self.record(program, "again.csv", "--machine", PORTAL))}), 125)
+
     def test_repeats_how_it_was_touched(self):
         """Speeds that change within a feature, the approach, compensation; every touch under its label and number."""
         varied = block("TECOMP/ON\n").replace("F(FRONT)", "FEDRAT/MESVEL,MMPS,5\nACLRAT/MESACL,MMPSS,300\nF(FRONT)", 1)

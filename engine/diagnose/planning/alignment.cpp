@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
-#include <set>
 
+#include "engine/diagnose/planning/labels.hpp"
 #include "engine/diagnose/planning/shape.hpp"
 
 namespace abbe::diagnose {
@@ -23,7 +22,7 @@ struct Face {
 
 class Aligner {
  public:
-  explicit Aligner(const Longer& longer) : longer_(longer), labels_(tip_labels(longer)) {
+  explicit Aligner(const Longer& longer) : longer_(longer), labels_(labels_of(longer)) {
     for (std::size_t k = longer.first; k < longer.touches.touches.size(); ++k) {
       const TouchScene& s = scene(k);
       for (Face* f : {&features_[s.feature], &everything_}) {
@@ -32,7 +31,7 @@ class Aligner {
         f->touched.normals.push_back(s.normal);
       }
     }
-    for (auto& [which, f] : features_) f.label = dmis_label(longer.touches.features[which]);
+    for (auto& [which, f] : features_) f.label = labels_.features[static_cast<std::size_t>(which)];
   }
 
   std::optional<Alignment> on_a_ball() {
@@ -139,7 +138,7 @@ class Aligner {
         fmt::format("F({})=FEAT/{}\nMEAS/{},F({}),{}\n", label, feature.definition, feature.kind, label, k.size());
     std::string styli;
     for (const std::size_t i : k) {
-      if (const std::string& tip = labels_.at(scene(i).stylus.tip_ordinal); tip != stylus_) {
+      if (const std::string& tip = labels_.tips.at(scene(i).stylus.tip_ordinal); tip != stylus_) {
         stylus_ = tip;
         const std::string select = fmt::format(
             "TEXT/OPER,'drive to a clear place: the stylus is changed or turned to {0}'\nSNSLCT/SA({0})\n", stylus_);
@@ -154,7 +153,7 @@ class Aligner {
   const Longer& longer_;
   std::map<int, Face> features_;
   Face everything_;
-  std::map<int, std::string> labels_;
+  Labels labels_;
   std::string stylus_;
   Alignment out_;
 };
@@ -171,26 +170,6 @@ Vec3 surface_of(const Longer& longer, std::size_t touch) {
   const RecordingRow& row = longer.recording.rows[t.row];
   return longer.recording.point == RecordedPoint::surface ? *row.target_mm
                                                           : *row.target_mm - t.scene.stylus.radius_mm * *row.normal;
-}
-
-std::map<int, std::string> tip_labels(const Longer& longer) {
-  std::map<std::string, std::set<int>> tips;
-  for (std::size_t k = longer.first; k < longer.touches.touches.size(); ++k) {
-    const StylusScene& s = longer.touches.touches[k].scene.stylus;
-    tips[dmis_label(std::string(s.name))].insert(s.tip_ordinal);
-  }
-  std::map<int, std::string> labels;
-  for (const auto& [label, ordinals] : tips)
-    for (const int ordinal : ordinals)
-      labels[ordinal] = ordinals.size() == 1 ? label : fmt::format("{}_{}", label, ordinal);
-  return labels;
-}
-
-std::string dmis_label(const std::string& feature) {
-  std::string out;
-  for (const char c : feature)
-    out += std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '.' ? c : '_';
-  return out;
 }
 
 }  // namespace abbe::diagnose

@@ -7,7 +7,6 @@
 // operator's own alignment, and the program says where they must stand.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -25,11 +24,5 @@ std::optional<Alignment> alignment_of(const Longer&);
 
 /// A touch in the coordinates of the recording: the point of the surface.
 Vec3 surface_of(const Longer&, std::size_t touch);
-/// A label that DMIS can hold.
-std::string dmis_label(const std::string& feature);
-
-/// The labels of the qualified tips of the new touches, by StylusScene::tip_ordinal: those of their styli; numbered
-/// where a recording has one stylus in several orientations of the head.
-std::map<int, std::string> tip_labels(const Longer&);
 
 }  // namespace abbe::diagnose

@@ -10,6 +10,7 @@
 
 #include "engine/base/numbers.hpp"
 #include "engine/diagnose/planning/alignment.hpp"
+#include "engine/diagnose/planning/labels.hpp"
 #include "engine/diagnose/planning/path.hpp"
 #include "engine/diagnose/planning/shape.hpp"
 #include "engine/run/motion.hpp"
@@ -49,7 +50,7 @@ class Writer {
         longer_(longer),
         path_(path_of(longer)),
         touches_(longer.touches.touches),
-        labels_(tip_labels(longer)) {
+        labels_(labels_of(longer)) {
     find_blocks();
     setups_ = new_setups(longer);
     X_DW_ = {Mat3{}, surface_of(longer, longer.first) - scene(longer.first).point};
@@ -74,6 +75,9 @@ class Writer {
 
  private:
   const TouchScene& scene(std::size_t k) const { return touches_[k].scene; }
+  const std::string& feature_label(std::size_t k) const {
+    return labels_.features[static_cast<std::size_t>(scene(k).feature)];
+  }
   const RecordingRow& row(std::size_t k) const { return longer_.recording.rows[touches_[k].row]; }
 
   /// Touches that one MEAS holds: of one feature, stylus and placement, and numbered on.
@@ -100,11 +104,22 @@ class Writer {
           "ATTENTION: the travel of the machine ends {:.0f} mm too early for that. Where the head turns, and how a stylus comes out, must be looked at.",
           path_.missing_mm));
     say(recording_sentence(longer_));
+    labels_to_put_back();
     if (const auto part = said(longer_.recording.metadata, "workpiece"))
       say(fmt::format("Its points are those of the true part '{}', not those of the drawing.", *part));
     if (change_.instruction.empty()) return;
     say("Before it: " + change_.instruction);
     tell_operator(change_.instruction);
+  }
+
+  /// Features that DMIS cannot call as the recording does.
+  void labels_to_put_back() {
+    std::set<std::string> told;
+    for (std::size_t k = longer_.first; k < touches_.size(); ++k)
+      if (feature_label(k) != row(k).feature) told.insert(fmt::format("{} is '{}'", feature_label(k), row(k).feature));
+    if (told.empty()) return;
+    say("DMIS cannot hold some labels of the first recording. Put them back into the column 'feature' of the new one, or its touches are others:");
+    for (const std::string& label : told) say(label);
   }
 
   /// Definitions of all styli: the recording may know some that the machine file does not.
@@ -114,7 +129,7 @@ class Writer {
       const StylusScene& s = scene(k).stylus;
       const auto named = longer_.machine.sensors.find(std::string(s.name));
       if (named == longer_.machine.sensors.end() || !defined.insert(s.tip_ordinal).second) continue;
-      const std::string& label = labels_.at(s.tip_ordinal);
+      const std::string& label = labels_.tips.at(s.tip_ordinal);
       if (label != s.name) say(fmt::format("{}: stylus '{}' of the first recording", label, s.name));
       out_ += definition(label, k, named->second.tip_in_r_mm);
     }
@@ -197,7 +212,7 @@ class Writer {
     out_ += fmt::format("GOTO/{:.4f},{:.4f},{:.4f}\n", p.x, p.y, p.z);
   }
 
-  void select(std::size_t k) { out_ += fmt::format("SNSLCT/SA({})\n", labels_.at(scene(k).stylus.tip_ordinal)); }
+  void select(std::size_t k) { out_ += fmt::format("SNSLCT/SA({})\n", labels_.tips.at(scene(k).stylus.tip_ordinal)); }
 
   /// Settings that this touch has and the one before had not.
   void set(const char* statement, double value, double& before) {
@@ -223,7 +238,7 @@ class Writer {
     const Vec3 p = on_part(k), n = X_DW_.R * scene(k).normal;
     out_ += fmt::format("PTMEAS/CART,{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", p.x, p.y, p.z, n.x, n.y, n.z);
     if (std::prev(blocks_.upper_bound(k))->second == k)
-      out_ += fmt::format("ENDMES\nOUTPUT/FA({})\n", dmis_label(row(k).feature));
+      out_ += fmt::format("ENDMES\nOUTPUT/FA({})\n", feature_label(k));
   }
   Vec3 on_part(std::size_t k) const { return X_DW_ * scene(k).point; }
 
@@ -240,7 +255,7 @@ class Writer {
       numbers.push_back(row(k).touch);
       as_recorded = as_recorded && numbers.back() == static_cast<int>(numbers.size());
     }
-    const std::string label = dmis_label(row(first).feature);
+    const std::string& label = feature_label(first);
     if (label != row(first).feature) say(fmt::format("'{}' of the first recording", row(first).feature));
     if (!as_recorded) say(fmt::format("its touches are numbers {} of the first recording", fmt::join(numbers, " ")));
     const DmisFeature feature = dmis_feature(touched);
@@ -253,7 +268,7 @@ class Writer {
   const Longer& longer_;
   Path path_;
   const std::vector<RecordedTouch>& touches_;
-  std::map<int, std::string> labels_;          ///< of the qualified tips
+  Labels labels_;
   std::map<std::size_t, std::size_t> blocks_;  ///< first and last touch of each
   Rigid X_DW_;
   double approach_mm_ = 0, retract_mm_ = 0;  ///< where there is room

@@ -9,6 +9,7 @@
 #include "engine/diagnose/baseline/machine_effects.hpp"
 #include "engine/diagnose/planning/alignment.hpp"
 #include "engine/diagnose/planning/changes.hpp"
+#include "engine/diagnose/planning/labels.hpp"
 #include "engine/diagnose/planning/next_measurement.hpp"
 #include "engine/diagnose/planning/path.hpp"
 #include "engine/diagnose/planning/program.hpp"
@@ -197,6 +198,11 @@ TEST_CASE("a moved part is found by its own touches") {
       if (feature_of(*longer, k) == "LEFT") CHECK(std::abs(p.x) < 1e-9);
     }
   }
+}
+
+TEST_CASE("each name has a label that DMIS can hold, and no two the same") {
+  using Names = std::vector<std::string>;
+  CHECK(dmis_labels({"P1 1", "P1_1", "BORE", "P1/1", "P1_1_2"}) == Names{"P1_1_3", "P1_1", "BORE", "P1_1_4", "P1_1_2"});
 }
 
 TEST_CASE("what was touched becomes a feature of its kind") {
