@@ -158,6 +158,18 @@ class NextProgram(harness.Case):
         again = rows(self.record(program, "again.csv", "--machine", PORTAL))
         self.assertEqual(len({(row["head_A_deg"], row["head_B_deg"]) for row in again}), 5)
 
+    def test_a_stylus_that_nobody_named_is_defined(self):
+        """Orientations were logged and the stylus was not; the machine file has none."""
+        first = self.record(SPHERE, "first.csv", "--machine", PORTAL, "--with", "probe.tip_radius:amplitude_um=2")
+        unnamed = self.changed(first, lambda row: {c: v for c, v in row.items() if c != "sensor"}, "unnamed.csv")
+        unnamed.write_text("".join(line for line in unnamed.read_text().splitlines(True) if not line.startswith("# sensor")))
+        program, _, _ = self.proposal(unnamed, "--machine", PORTAL)
+        self.assertTrue("its length, 100 mm, and its ball, 2 mm, are assumed" in program.read_text())
+        self.assertEqual(program.read_text().count("100.0000,2.0000\n"), 5)
+        self.abbe("run", program, "--machine", PORTAL)
+        again = rows(self.record(program, "again.csv", "--machine", PORTAL))
+        self.assertEqual(len({(row["head_A_deg"], row["head_B_deg"]) for row in again}), 5)
+
     def test_two_features_stay_two_where_dmis_could_call_them_alike(self):
         first = self.record(SPHERE, "first.csv", "--machine", PORTAL, "--with", "probe.tip_radius:amplitude_um=2")
         names = {"P1_1": "P2 1", "P1_2": "P2:1"}   # beside P2_1

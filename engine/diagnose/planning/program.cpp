@@ -127,12 +127,24 @@ class Writer {
     std::set<int> defined;
     for (std::size_t k = longer_.first; k < touches_.size(); ++k) {
       const StylusScene& s = scene(k).stylus;
-      const auto named = longer_.machine.sensors.find(std::string(s.name));
-      if (named == longer_.machine.sensors.end() || !defined.insert(s.tip_ordinal).second) continue;
+      if (!defined.insert(s.tip_ordinal).second) continue;
       const std::string& label = labels_.tips.at(s.tip_ordinal);
+      const auto named = longer_.machine.sensors.find(std::string(s.name));
+      if (named == longer_.machine.sensors.end()) {
+        if (defined.size() == 1) tell_assumed(s);
+        out_ += definition(label, k, -s.length_mm * (transpose(s.R_WR) * s.to_head));
+        continue;
+      }
       if (label != s.name) say(fmt::format("{}: stylus '{}' of the first recording", label, s.name));
       out_ += definition(label, k, named->second.tip_in_r_mm);
     }
+  }
+
+  /// A stylus that no row names, where the machine has none or several.
+  void tell_assumed(const StylusScene& s) {
+    say(fmt::format("The recording does not name its stylus: its length, {:g} mm, and its ball, {:g} mm, are assumed.",
+                    s.length_mm, 2 * s.radius_mm));
+    say("Write what they were, here and in the recording: the surface points below are reckoned with that ball.");
   }
 
   /// INDEX knows styli along the last link of the head only; the arms of a star are offsets from the mount, and so are its
