@@ -42,14 +42,14 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
     case Factor::position:
       return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
     case Factor::direction:
-      return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's.";
+      return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's. Give each placement a setup of its own.";
     case Factor::head:
       return "Repeat every orientation after a visit elsewhere: what comes back is the head's geometry, what does not is its indexing. Qualify anew for what is left.";
     case Factor::sensor:
       return "Qualify the stylus anew and repeat: what vanishes was its qualification or a loose joint, what stays is its bending or its form.";
     case Factor::setup:
     case Factor::feature:
-      return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping.";
+      return "Clamp the part anew in the same place and repeat: what comes back is the part, what does not is its clamping. Give it a new setup.";
     case Factor::run:
       return "Repeat the run unchanged: what comes back goes with the sequence, what does not was of that occasion.";
     case Factor::temperature:
@@ -95,7 +95,7 @@ std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
   unsigned missing = 0;
   for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
   if (columns_of(missing).empty())
-    return "What is left follows something: repeat in another order, and with the part moved, and see with what it goes.";
+    return "What is left follows something: repeat in another order, and with the part moved into a new setup, and see with what it goes.";
   return fmt::format("What is left may belong to what was not logged or did not change: {}.",
                      to_let_vary(c, missing, "log", "let"));
 }

@@ -30,12 +30,21 @@ std::vector<int> new_setups(const Longer& longer) {
   return out;
 }
 
-/// Which setup of the first recording is repeated as this one: new ones count on.
-int setup_before(const Longer& longer, int setup) {
+/// The last setup of the first recording: new ones count on from it.
+int last_setup(const Longer& longer) {
   int last = 0;
   for (std::size_t k = 0; k < longer.first; ++k) last = std::max(last, longer.touches.touches[k].scene.setup);
+  return last;
+}
+
+/// Which setup of the first recording is repeated as this one.
+int setup_before(const Longer& longer, int setup) {
+  const int last = last_setup(longer);
   return setup > last ? setup - last : setup;
 }
+
+/// Whether the part is still as the first recording left it.
+bool stays_put(const Longer& longer, int setup) { return setup <= last_setup(longer); }
 
 double distance_said(const Recording& r, std::string_view key, double usual) {
   const std::optional<std::string> text = said(r.metadata, key);
@@ -256,8 +265,10 @@ class Writer {
 
   void begin(std::size_t first, std::size_t last) {
     if (row(first).setup != setup_ && setups_.size() > 1)
-      tell_operator(fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
-                                setup_before(longer_, row(first).setup), row(first).setup));
+      tell_operator(stays_put(longer_, row(first).setup)
+                        ? fmt::format("leave the part as it stands, for setup {} of this recording", row(first).setup)
+                        : fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
+                                      setup_before(longer_, row(first).setup), row(first).setup));
     setup_ = row(first).setup;
     Touched touched;
     std::vector<int> numbers;
@@ -294,13 +305,19 @@ class Writer {
 
 std::string recording_sentence(const Longer& longer) {
   const std::vector<int> setups = new_setups(longer);
+  const int first = setups.front(), anew = first + last_setup(longer);
+  const bool stays = stays_put(longer, first);
   std::string out = fmt::format("Give its recording run {}", longer.recording.rows.back().run);
-  const bool elsewhere = setup_before(longer, setups.front()) != setups.front();
-  if (setups.size() > 1)
-    out += fmt::format(" and setups {}, one for each placement in this order", fmt::join(setups, ", "));
-  else if (elsewhere)
-    out += fmt::format(" and setup {}", setups.front());
-  return out + (elsewhere ? ": for the diagnosis the part stands elsewhere." : ".");
+  if (setups.size() > 1) {
+    out += fmt::format(" and setups {}, one for each placement in this order: ", fmt::join(setups, ", "));
+    if (stays) out += fmt::format("{} only if the part is not touched before it, else {}. ", first, anew);
+    return out + (stays ? "A" : "a") +
+        " part that is put down anew stands elsewhere for the diagnosis, in the same place too.";
+  }
+  return out +
+      (stays ? fmt::format(
+                   ". The part must not be touched in between: if it was, or was left for hours, give setup {}.", anew)
+             : fmt::format(" and setup {}: for the diagnosis the part stands elsewhere.", first));
 }
 
 std::string dmis_program(const Case& c, const Longer& longer, const Change& change) {

@@ -10,7 +10,8 @@
 
 namespace abbe::diagnose {
 
-/// How the recording of the new touches is told from those before: "Give its recording run 2 and setup 2: ...".
+/// How the recording of the new touches is told from those before: "Give its recording run 2 and setup 2: ..."; where the part
+/// is taken to stay as it stands, that it must.
 std::string recording_sentence(const Longer&);
 /// The new touches as a DMIS program.
 std::string dmis_program(const Case&, const Longer&, const Change&);

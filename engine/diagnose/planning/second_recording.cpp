@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "engine/diagnose/baseline/calibrated_part.hpp"
@@ -53,6 +54,15 @@ Last last_of(const Recording& r) {
   return last;
 }
 
+/// The setup in which the part can stay: a repetition begins with it, and the recording has left the part there. A part that is
+/// put down anew is elsewhere, by micrometres at least. Nothing where it begins with another.
+std::optional<int> setup_that_stays(const Case& c, const Change& change) {
+  const int begins_with =
+      c.recording->rows[selected(c, change.reversed, std::numeric_limits<std::size_t>::max()).front()].setup;
+  const bool stays = !change.new_setup && begins_with == c.touches.touches.back().scene.setup;
+  return stays ? std::optional(begins_with) : std::nullopt;
+}
+
 bool inside(const Machine& machine, const Vec3& reading) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z})
     if (!machine[axis].reaches(reading[static_cast<int>(axis)])) return false;
@@ -75,6 +85,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
   Longer out{*c.recording, *c.machine, {}, 0, {}};
   const Last last = last_of(*c.recording);
   const std::vector<int> rows = selected(c, change.reversed, most);
+  const std::optional<int> stays = setup_that_stays(c, change);
   const double begin_s = c.recording->rows[rows.front()].time_s.value_or(0);
   for (const int k : rows) {
     RecordingRow row = c.recording->rows[k];
@@ -83,7 +94,7 @@ std::optional<Longer> repeated(const Case& c, const Change& change, std::size_t 
     if (!row.qualification) row.qualification = 2;  // as of a second file that does not say otherwise
     if (row.visit) row.visit = change.reversed ? 2 * last.visit + 1 - *row.visit : *row.visit + last.visit;
     if (row.time_s) row.time_s = last.time_s + kPause_s + std::abs(*row.time_s - begin_s);
-    if (change.new_setup) row.setup += last.setup;
+    if (row.setup != stays) row.setup += last.setup;
     if (change.move) move_by(*change.move, row);
     change.apply(row, out.machine);
     row.position_mm = *row.target_mm + residual_mm * *row.normal;

@@ -110,11 +110,14 @@ TEST_CASE("a part that is moved, or that was left for hours, is in another setup
         change.text.find("stylus") != std::string::npos || change.text.find("head") != std::string::npos;
     // A second file that does not say otherwise was qualified anew, too.
     CHECK(longer->recording.rows.back().qualification == (qualified ? 3 : 2));
-    CHECK((recording_sentence(*longer).find("setup 2") != std::string::npos) == placed);
+    const std::string said = recording_sentence(*longer);
+    CHECK((said.find("and setup 2: for the diagnosis the part stands elsewhere") != std::string::npos) == placed);
+    CHECK((said.find("must not be touched in between: if it was, or was left for hours, give setup 2") !=
+           std::string::npos) == !placed);
   }
 }
 
-TEST_CASE("of several placements each has a setup of its own, in the program and in its recording") {
+TEST_CASE("of several placements each has a setup of its own, and a new one where the part is put down anew") {
   TouchedBlock block;
   for (RecordingRow& row : block.recording.rows) row.setup = row.feature == "BORE" || row.feature == "PIN" ? 2 : 1;
   block.c.touches = recorded_touches(block.recording, block.machine, "");
@@ -123,13 +126,16 @@ TEST_CASE("of several placements each has a setup of its own, in the program and
     if (!longer) continue;
     INFO(change.text);
     const std::string said = recording_sentence(*longer), program = dmis_program(block.c, *longer, change);
-    const bool anew = change.new_setup, backwards = change.reversed;
-    const std::string setups = anew ? (backwards ? "4, 3" : "3, 4") : (backwards ? "2, 1" : "1, 2");
+    // The recording ends in setup 2: what begins with it may leave the part there.
+    const bool stays = change.reversed && !change.new_setup;
+    const std::string setups = stays ? "2, 3" : change.reversed ? "4, 3" : "3, 4";
     CHECK(said.find("setups " + setups + ", one for each placement in this order") != std::string::npos);
-    CHECK((said.find("stands elsewhere") != std::string::npos) == anew);
+    CHECK(said.find("put down anew stands elsewhere for the diagnosis") != std::string::npos);
+    CHECK((said.find("2 only if the part is not touched before it, else 4") != std::string::npos) == stays);
+    CHECK((program.find("leave the part as it stands, for setup 2 of this recording") != std::string::npos) == stays);
     for (const int setup : {1, 2})
-      CHECK(program.find(fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
-                                     setup, anew ? setup + 2 : setup)) != std::string::npos);
+      CHECK((program.find(fmt::format("put the part as in setup {} of the first recording, for setup {} of this one",
+                                      setup, setup + 2)) != std::string::npos) == !(stays && setup == 2));
   }
 }
 
