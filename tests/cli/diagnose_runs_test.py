@@ -51,6 +51,18 @@ class DiagnoseRuns(harness.Case):
         placed_anew = self.changed(unnumbered, lambda row: row | {"setup": "2"}, "placed_anew.csv")
         self.assertNotIn(told, self.abbe("diagnose", first, placed_anew, "--machine", MACHINE, "--design-only").stderr)
 
+    def test_a_part_that_was_moved_between_runs_of_one_setup_is_thought_of(self):
+        """Of what is new in a run its sentence says it, of a pattern what to do next; and nobody says it twice."""
+        first, second = self.record(1, "--seed", 3), self.record(2, "--seed", 3)
+        for by_mm in (0.1, 0.004):
+            moved = self.changed(self.folder / second, lambda row: row | {
+                "x": repr(float(row["x"]) + by_mm), "z": repr(float(row["z"]) + (by_mm < 0.1) * by_mm / 100 * float(row["x"])),
+                "time_s": repr(float(row["time_s"]) + 5000)}, "moved.csv")
+            told = self.abbe("diagnose", first, moved, "--machine", MACHINE).stdout
+            self.assertEqual(told.count("different setups"), 1, told)
+        anew = self.changed(moved, lambda row: row | {"setup": "2"}, "placed.csv")
+        self.assertNotIn("different setups", self.abbe("diagnose", first, anew, "--machine", MACHINE).stdout)
+
     def test_a_part_placed_anew_is_measured_anew(self):
         """The noise of the first placement came again, and the second one looked impossibly alike."""
         for seed in (1, 2):

@@ -160,11 +160,32 @@ std::string to_know_sizes(const Case& c, const SearchResult& result) {
   return "The sizes of the part are not known: give those of its certificate with --workpiece, which costs no measurement.";
 }
 
+/// A part that was moved between runs of one setup makes what begins with a run, or goes on in time. Of names that are new in a
+/// run their sentence says it (findings/tell.cpp).
+std::string to_part_runs(const Case& c, const SearchResult& result) {
+  std::map<int, int> run_in;
+  const bool shared = std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const TouchScene& s = c.touches.touches[row].scene;
+    return run_in.try_emplace(s.setup, s.run).first->second != s.run;
+  });
+  const Explanations& all = c.explanations;
+  const auto new_in_run = [&](const Finding& f) { return all.variants[f.variant].change.any(); };
+  if (!shared || std::any_of(result.findings.begin(), result.findings.end(), new_in_run)) return "";
+  const auto over_runs = [&](const Finding& f) {
+    const Factor factor = shown_in(c, all.list[f.explanation]);
+    return factor == Factor::time || factor == Factor::run;
+  };
+  if (!std::any_of(result.findings.begin(), result.findings.end(), over_runs) &&
+      !(result.other && over_runs(*result.other)))
+    return "";
+  return "A part that was moved between runs of one setup, by micrometres, looks like this too: if it may have been, give such runs or files different setups.";
+}
+
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  std::vector<std::string> sentences = {to_know_sizes(c, result), to_know_the_material(c, result),
-                                        besides_sizes(c, result, next)};
+  std::vector<std::string> sentences = {to_part_runs(c, result), to_know_sizes(c, result),
+                                        to_know_the_material(c, result), besides_sizes(c, result, next)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }
