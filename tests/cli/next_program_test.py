@@ -227,6 +227,22 @@ class NextProgram(harness.Case):
         self.assertEqual((before["effects"][0]["members"], after["members"]), (["machine.scale", "thermal.scale_expansion"], ["machine.scale"]))
         self.assertAlmostEqual(after["parameters"]["scale_um_per_m"]["value"], 60, delta=8)
 
+    def test_a_part_that_was_moved_is_not_to_be_moved_again(self):
+        """A guide with a bump: what a part says that stood in two places which are 30 mm apart, or 100."""
+        fixed = block("TECOMP/ON\n").replace("INDEX,POL,0,0,0,0,-1,100,4", "FIXED,CART,0,0,-100,0,0,-1,4")
+
+        def bumped(x_mm, number):
+            program = self.write("block.dmi", fixed.replace("XORIG,500", f"XORIG,{x_mm}"))
+            clean = self.record(program, "clean.csv", "--seed", 3, "--run", number, "--setup", number)
+            bump = lambda row: 0.03 * abs(float(row["nz"])) * math.exp(-((float(row["tx"]) - 900) / 60) ** 2)
+            return self.changed(clean, lambda row: row | {"z": repr(float(row["z"]) + bump(row))} | {f"enc_{a}": "" for a in "xyz"}, f"at{x_mm}.csv")
+        first = bumped(500, 1)
+        for x_mm, again in ((530, True), (600, False)):
+            said = self.diagnosis(first, bumped(x_mm, 2))
+            self.assertEqual(said["location"][0]["factor"], "position")
+            self.assertEqual("Repeat with the part moved" in said["otherwise"], again)
+            self.assertEqual("at another height, and with the part in another orientation" in said["otherwise"], not again)
+
     def test_another_temperature_is_another_setup(self):
         """In hours a part does not stay put to micrometres. As one placement, the answer was a wrong name, and sure of it."""
         program = self.write("block.dmi", block("TECOMP/ON\n"))

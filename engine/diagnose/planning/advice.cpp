@@ -4,12 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/planning/question.hpp"
+#include "engine/math/units.hpp"
 #include "engine/run/recorded/logged.hpp"
 
 namespace abbe::diagnose {
@@ -32,6 +35,19 @@ bool one_after_the_other(const Case& c) {
   return done.size() > 1;
 }
 
+/// Whether the part stood in places of the machine that are far from one another, or was turned.
+bool stood_elsewhere(const Case& c) {
+  constexpr double kFar_mm = 50;
+  const double alike = std::cos(20 * kDegree);
+  std::map<std::pair<int, int>, const TouchScene*> first;  // by feature and number of the touch
+  return std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const RecordedTouch& t = c.touches.touches[row];
+    const TouchScene& s = t.scene;
+    const TouchScene& before = *first.try_emplace({s.feature, c.recording->rows[t.row].touch}, &s).first->second;
+    return s.setup != before.setup && (norm(s.point - before.point) > kFar_mm || dot(s.normal, before.normal) < alike);
+  });
+}
+
 /// What makes a pattern without a name is narrowed down by changing what it may belong to.
 std::string to_follow_a_pattern(const Case& c, Factor factor) {
   if (factor == Factor::feature && one_after_the_other(c))
@@ -40,7 +56,9 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
     case Factor::time:
       return "Repeat the same touches in another order: what follows the clock comes at the same time, what follows the place moves with it.";
     case Factor::position:
-      return "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's.";
+      return stood_elsewhere(c)
+          ? "The part stood in several places, and they do not tell whether this is the machine's or the part's: repeat at another height, and with the part in another orientation, each in a setup of its own."
+          : "Repeat with the part moved: what stays where it was in the machine is the machine's, what moves with the part is the part's. Give each placement a setup of its own.";
     case Factor::direction:
       return "Repeat with the part turned and with another stylus ball: what turns with the part is its form, what goes with the ball is the tip's, what stays is the probe's or the machine's. Give each placement a setup of its own.";
     case Factor::head:
