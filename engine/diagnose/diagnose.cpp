@@ -78,6 +78,7 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   doubt_temperatures(once, file, messages);
   doubt_motion(once, file, messages);
   leave_out_partly_logged(once, file, messages);
+  leave_out_head_at_rest(once, machine, file, messages);
   leave_out_constant_travel(once, file, messages);
   leave_out_readings_without_phase(once, file, messages);
   leave_out_commanded_readings(once, file, messages);

@@ -27,4 +27,7 @@ inline constexpr double kLeastExcess = 1.6;
 /// Standard uncertainty of rounding over the noise from which on it counts beside that, and is told.
 inline constexpr double kLeastRounding = 0.3;
 
+/// Steps of the readings that a signal period must have to be seen in them: its second harmonic has four then.
+inline constexpr double kLeastStepsInPeriod = 8;
+
 }  // namespace abbe::diagnose

@@ -28,7 +28,7 @@ CONFINED = {
     "sleef.h": ["engine/math/c_library.cpp"],
     "Eigen/": ["engine/math/", "engine/features/", "engine/diagnose/"],
     **{f"Eigen/{decomposition}": ["engine/math/", "engine/features/", "engine/diagnose/model/decompositions.cpp"]
-       for decomposition in ("Cholesky", "Dense", "Eigenvalues", "QR", "SVD")},
+       for decomposition in ("Cholesky", "Dense", "Eigenvalues", "LU", "QR", "SVD")},
 }
 
 # The folders of engine/diagnose, in the order in which they build on each other (docs/architecture.md, "Diagnosing a recording").

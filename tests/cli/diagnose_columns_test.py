@@ -173,6 +173,15 @@ class Columns(harness.Case):
             if change is rounded:  # eight points by themselves tell no period
                 self.assertNotIn("enc_x", str(said["cannot_judge"]))
 
+    def test_a_head_that_never_turned_in_the_log_turned_with_the_styli(self):
+        """One stylus in five orientations, and angles that nobody read: the answer is that without them."""
+        whole = self.record("--seed", 4, "--with", "probe.pretravel_lobing:amplitude_um=0.1")
+        at_rest = self.changed(whole, lambda row: row | {"head_A_deg": "0", "head_B_deg": "0"}, "at_rest.csv")
+        said, without = self.diagnosis(at_rest), self.diagnosis(self.changed(whole, lambda row: row | {"head_A_deg": "", "head_B_deg": ""}, "without.csv"))
+        self.assertEqual((self.codes(said), self.codes(without)), (["W0736"], []))
+        self.assertEqual((said["verdict"], said["effects"], said["p_value"]), (without["verdict"], without["effects"], without["p_value"]))
+        self.assertEqual(said["effects"][0]["members"], ["probe.pretravel_lobing"])
+
     def test_one_scale_that_was_commanded_is_told(self):
         whole = self.record("--seed", 4)
         said = self.diagnosis(self.changed(whole, lambda row: row | {"enc_z": f"{float(row['enc_z']) - float(row['z']) + float(row['tz']):.7f}"}))

@@ -1,6 +1,5 @@
 #include "engine/diagnose/baseline/sudden_change.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -63,7 +62,7 @@ std::vector<char> put_there_by_a_sudden_change(const Case& c) {
     for (const std::size_t touch : displaced)
       for (int axis = 0; axis < 3; ++axis)
         sks.row(axis) += c.touches.touches[touch].scene.normal[axis] * ks.row(static_cast<Eigen::Index>(touch));
-    const Three inverse = sks.inverse();
+    const Three inverse = Cholesky(sks).inverse();
     const Eigen::Vector3d displacement = inverse * sky;
     std::vector<char> there(n, 0);
     for (auto touch = from; touch != to; ++touch) {

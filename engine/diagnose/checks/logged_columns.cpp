@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/diagnose/quantile.hpp"
+#include "engine/math/units.hpp"
 #include "engine/recording/columns.hpp"
 #include "engine/recording/recording.hpp"
 #include "engine/run/recorded/touch.hpp"
@@ -157,6 +158,33 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
     messages.push_back(diagnostic(
         Code::W0728, fmt::format("{}: by time_s, {:.0f} days pass between two touches", file, longest / kDay_s),
         "if some rows have the time of another clock, write the seconds since one start into all"));
+}
+
+void leave_out_head_at_rest(Recording& recording, const Machine& machine, const std::string& file,
+                            std::vector<Diagnostic>& messages) {
+  constexpr double kApart_deg = 0.1;  // as of what is read back
+  const auto apart = [](double a_deg, double b_deg) { return std::abs(a_deg - b_deg) > kApart_deg; };
+  const RecordingRow& first = recording.rows.front();
+  const NamedSensor* one = nullptr;
+  bool turned = false;
+  for (const RecordingRow& row : recording.rows) {
+    if (!row.sensor || !row.head_a_deg || !row.head_b_deg) return;
+    if (apart(*row.head_a_deg, *first.head_a_deg) || apart(*row.head_b_deg, *first.head_b_deg)) return;
+    const auto found = machine.sensors.find(*row.sensor);
+    if (found == machine.sensors.end()) return;
+    const NamedSensor& stylus = found->second;
+    if (!one) one = &stylus;
+    turned = turned || apart(in_degrees(stylus.head_a_rad), in_degrees(one->head_a_rad)) ||
+        apart(in_degrees(stylus.head_b_rad), in_degrees(one->head_b_rad));
+  }
+  if (!turned) return;
+  messages.push_back(diagnostic(
+      Code::W0736,
+      fmt::format(
+          "{}: head_A_deg and head_B_deg are {:g} and {:g} in all rows, and the styli are used in several orientations: those of the styli count",
+          file, *first.head_a_deg, *first.head_b_deg),
+      "write the angles at which the head stood at each touch, or leave the columns out"));
+  for (RecordingRow& row : recording.rows) row.head_a_deg.reset(), row.head_b_deg.reset();
 }
 
 void leave_out_partly_logged(Recording& recording, const std::string& file, std::vector<Diagnostic>& messages) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/machine/machine.hpp"
 #include "engine/recording/recording.hpp"
 
 namespace abbe::diagnose {
@@ -16,5 +17,8 @@ void leave_out_partly_logged(Recording&, const std::string& file, std::vector<Di
 void doubt_temperatures(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 /// Warns of speeds, accelerations and clocks that no machine has (W0728).
 void doubt_motion(const Recording&, const std::string& file, std::vector<Diagnostic>& messages);
+
+/// Takes head angles out that are the same in all rows although the styli are described in several orientations (W0736).
+void leave_out_head_at_rest(Recording&, const Machine&, const std::string& file, std::vector<Diagnostic>& messages);
 
 }  // namespace abbe::diagnose

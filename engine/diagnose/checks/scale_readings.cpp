@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/diagnose/checks/remedies.hpp"
+#include "engine/diagnose/levels.hpp"
 #include "engine/diagnose/quantile.hpp"
 #include "engine/math/units.hpp"
 #include "engine/recording/recording.hpp"
@@ -184,7 +185,7 @@ std::optional<std::string> far_off(const Recording& r) {
 
 /// What is wrong with the readings, where they do not tell at which phase of its signal a scale was.
 std::optional<std::string> no_phase(const Recording& r) {
-  constexpr double kApart_mm = 0.1, kUsualPeriod_um = 20, kSteps = 8;
+  constexpr double kApart_mm = 0.1, kUsualPeriod_um = 20;
   const std::vector<Travel> of_touches = travels(r, kApart_mm);
   if (r.in_part_frame)
     if (std::optional<std::string> why = strays(of_touches)) return why;
@@ -192,7 +193,7 @@ std::optional<std::string> no_phase(const Recording& r) {
     const double step = step_mm(r, axis);
     if (!r.in_part_frame)
       if (std::optional<std::string> why = strays(of_touches, axis)) return why;
-    if (kSteps * kUmPerMm * step > kUsualPeriod_um)
+    if (kLeastStepsInPeriod * kUmPerMm * step > kUsualPeriod_um)
       return fmt::format("enc_{} is written in steps of {:g} um, and a scale has a signal period of some {:g} um",
                          "xyz"[axis], kUmPerMm * step, kUsualPeriod_um);
   }

@@ -418,8 +418,7 @@ Explanations explanations_without_readings(const RecordedTouches& t, const std::
 
 void add_explanations_of_readings(const RecordedTouches& t, const std::vector<int>& rows, double step_um,
                                   Explanations& out) {
-  constexpr double kSteps = 8;  // the second harmonic too
-  add_catalogue(t, rows, true, out, kSteps * step_um);
+  add_catalogue(t, rows, true, out, kLeastStepsInPeriod * step_um);
   share_priors(out);
 }
 

@@ -12,10 +12,6 @@ namespace {
 
 constexpr int kMoments = 32, kPlaces = 9;
 
-double duration(const RecordedTouches& t) {
-  return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
-}
-
 /// From the first touch to the last.
 ParameterGrid moments(const RecordedTouches& t) {
   std::vector<double> times;
@@ -28,14 +24,14 @@ ParameterGrid moments(const RecordedTouches& t) {
 /// None shorter than the effect has them: what repeats after a few touches would fit one of those.
 std::vector<double> periods(const EffectParameter& p, const RecordedTouches& t) {
   std::vector<double> list;
-  const double shortest = std::max(p.low, quickest_of_a_room_s(duration(t)));
-  for (int k = 1; duration(t) / (0.5 * k) >= shortest; ++k) list.push_back(duration(t) / (0.5 * k));
+  const double shortest = std::max(p.low, quickest_of_a_room_s(lasts_s(t)));
+  for (int k = 1; lasts_s(t) / (0.5 * k) >= shortest; ++k) list.push_back(lasts_s(t) / (0.5 * k));
   return list;
 }
 
 std::vector<double> time_constants(const RecordedTouches& t) {
   std::vector<double> list;
-  for (const double share : {0.05, 0.15, 0.5, 1.5}) list.push_back(share * duration(t));
+  for (const double share : {0.05, 0.15, 0.5, 1.5}) list.push_back(share * lasts_s(t));
   return list;
 }
 

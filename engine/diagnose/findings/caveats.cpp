@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/effects/direction.hpp"
 #include "engine/run/recorded/from_program.hpp"
 
 namespace abbe::diagnose {
@@ -40,6 +41,13 @@ std::string much_like_it(const Effect& effect) {
   if (!effect.only_spread) return "";
   return fmt::format(" It has no law but a spread, and much else looks like that. What would tell: {}.",
                      effect.separate);
+}
+
+std::string whose_direction(const Effect& effect) {
+  const bool has_direction = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                         [](const EffectParameter& p) { return is_direction(p); });
+  if (effect.stage != Stage::probe || !has_direction) return "";
+  return " Its direction is that of the probe body, which turns with the head: z is along the body, towards the head.";
 }
 
 std::string whose_clock(const Case& c, const Effect& effect) {

@@ -25,6 +25,8 @@ std::string whose_coordinates(const Case&, const Effect&);
 /// Of an effect that has no law but a spread: what would tell it from the others that look like it.
 std::string much_like_it(const Effect&);
 
+/// In which frame the direction of an effect of the probe is told: those of other effects are in the machine's.
+std::string whose_direction(const Effect&);
 /// Without a clock, moments and rates are those of the motion model.
 std::string whose_clock(const Case&, const Effect&);
 

@@ -2,8 +2,8 @@
 //
 // log p(y_g | rest, model) - log p(y_g | rest, baseline) = log B(all) - log B(all but g), B the Bayes factor
 // of the explanation with all its variants and sizes: so a held-out group enters neither the choice among the
-// variants nor of a size, and terms of improper priors cancel. Which variants are in question (those within 12 nats
-// of the best, search.cpp), and the other findings, are those of the whole recording. Model and baseline have each their own noise and
+// variants nor of a size, and terms of improper priors cancel. Which variants are in question (those that a round keeps,
+// search.cpp), and the other findings, are those of the whole recording. Model and baseline have each their own noise and
 // size of the machine's errors: those of the whole recording with what was found and without. The scheme is
 // the hardest that the recording allows: setups, runs, orientations, else parts of the sequence in time. The
 // residuals that are shown are those of the same predictions: of each group from the others, by the machine

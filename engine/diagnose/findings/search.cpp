@@ -67,7 +67,7 @@ struct Named {
 /// What a round has found, on a grid that is refined where the recording asks for it. The grid of the case
 /// stays as it is, for what is sought next; the variants of the name that count are appended to it.
 Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
-  constexpr double kOutOfQuestion = 12;  // nats
+  constexpr double kVariantOutOfQuestion = 12;  // nats
   Explanations fine = c.explanations;
   refine(c, fine, search);
   const Evidence& evidence = search.evidence();
@@ -80,7 +80,7 @@ Named named_on_finer_grid(Case& c, EvidenceSearch& search) {
   for (const int b : variants) best = std::max(best, belief(b));
   const int likeliest = out.name.variant;
   for (const int b : variants) {
-    if (b != likeliest && belief(b) < best - kOutOfQuestion) continue;
+    if (b != likeliest && belief(b) < best - kVariantOutOfQuestion) continue;
     if (b == likeliest) out.name.variant = static_cast<int>(c.explanations.variants.size());
     out.name.variants.push_back(static_cast<int>(c.explanations.variants.size()));
     c.explanations.variants.push_back(std::move(fine.variants[b]));

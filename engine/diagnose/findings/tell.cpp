@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/explanations/same_phase.hpp"
@@ -42,6 +43,19 @@ RunChange change_of(const Variant& variant, const Variant& found) {
   return holds ? found.change : variant.change;
 }
 
+/// Whether a tip that showed what is gone touched anything since. A head that stands elsewhere shows nothing of it.
+bool was_looked_for(const Case& c, const Variant& gone) {
+  std::set<int> before, since;
+  for (std::size_t k = 0; k < c.rows.size(); ++k) {
+    const TouchScene& s = c.touches.touches[c.rows[k]].scene;
+    if (!gone.change.acts_in(s.run))
+      since.insert(s.stylus.tip_ordinal);
+    else if (gone.signature.row(static_cast<Eigen::Index>(k)).squaredNorm() > 0)
+      before.insert(s.stylus.tip_ordinal);
+  }
+  return std::any_of(since.begin(), since.end(), [&](int tip) { return before.contains(tip); });
+}
+
 /// Whether it is the period of a scale, of which this recording shows one phase in each direction.
 bool is_same_phase(const Case& c, const Finding& f) {
   const Effect* effect = c.explanations.list[f.explanation].effect;
@@ -68,8 +82,9 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const bool rounding = may_be_rounding(c, e.largest_um);
     const Effect& effect = *c.explanations.list[f.explanation].effect;
     const std::string clock = whose_clock(c, effect);
-    const std::string in_file = change.gone() ? " It is gone: the machine file needs nothing of it."
-        : !clock.empty()                      ? " Until then no machine file carries it."
+    const bool looked_for = !change.gone() || was_looked_for(c, c.explanations.variants[f.variant]);
+    const std::string in_file = change.gone() && looked_for ? " It is gone: the machine file needs nothing of it."
+        : !clock.empty()                                    ? " Until then no machine file carries it."
         : rounding
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
@@ -90,7 +105,11 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         pattern_beside(c, f) + not_of_one_size(f) +
         (large_errors ? beside_large_errors(out.baseline.geometry_scale) : "") + (same_phase ? kSamePhase : "") +
         much_like_it(effect);
-    for (const std::string& note : {whose_coordinates(c, effect), clock}) e.sentence += unless_said(out.effects, note);
+    for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), clock})
+      e.sentence += unless_said(out.effects, note);
+    if (!looked_for)
+      e.sentence +=
+          " That it is gone nobody has seen: no orientation in which it was there was touched since. Touch one of them again.";
     e.sentence += in_file;
     if (change.any() && stays_in_its_setup(c))
       e.sentence +=

@@ -22,7 +22,7 @@ constexpr double kPriorUneven = 0.2;
 /// looks the same.
 constexpr double kPriorCorrelated = 0.5;
 /// Nats below the better ensemble from which on the other makes no difference.
-constexpr double kOutOfQuestion = 8;
+constexpr double kEnsembleOutOfQuestion = 8;
 
 /// Recordings as they are, without another added.
 std::vector<Ensemble::Sum> sums_of(const std::vector<Ensemble::Seen>& seen) {
@@ -59,7 +59,7 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
   Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
   const auto alone = [&](const Ensemble& e) { return e.judge({e.seen(model_.y)}, {}).alone(0); };
   const double harmonic = alone(ensembles_.back()), other = alone(rough);
-  if (other > harmonic - kOutOfQuestion) ensembles_.push_back(std::move(rough));
+  if (other > harmonic - kEnsembleOutOfQuestion) ensembles_.push_back(std::move(rough));
   return 1 / (1 + std::exp(harmonic - other));
 }
 

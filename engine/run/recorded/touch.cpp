@@ -81,11 +81,11 @@ void fill_covariates(const RecordingRow& row, const Machine& machine, int ordina
   scene.travel = row.travel.value_or(-scene.normal);
 
   scene.settled_s = 0;  // not logged: what rings is taken as it is right after the ramp
-  scene.temperature.part = row.temp_part_C.value_or(20);
-  scene.temperature.scale[0] = row.temp_x_C.value_or(20);
-  scene.temperature.scale[1] = row.temp_y_C.value_or(20);
-  scene.temperature.scale[2] = row.temp_z_C.value_or(20);
-  scene.temperature.air = row.temp_air_C.value_or(20);
+  scene.temperature.part = row.temp_part_C.value_or(kReferenceTemperature_C);
+  scene.temperature.scale[0] = row.temp_x_C.value_or(kReferenceTemperature_C);
+  scene.temperature.scale[1] = row.temp_y_C.value_or(kReferenceTemperature_C);
+  scene.temperature.scale[2] = row.temp_z_C.value_or(kReferenceTemperature_C);
+  scene.temperature.air = row.temp_air_C.value_or(kReferenceTemperature_C);
   scene.load_kg = row.load_kg.value_or(0);
   scene.setup = row.setup;
   scene.run = row.run;
@@ -125,6 +125,10 @@ TouchScene scene_for(const Effect& effect, const RecordedTouch& touch) {
   TouchScene scene = touch.scene;
   if (needs_raw_reading(effect)) scene.reading += touch.beyond_target_mm;
   return scene;
+}
+
+double lasts_s(const RecordedTouches& t) {
+  return std::max(1.0, t.touches.back().scene.time_s - t.touches.front().scene.time_s);
 }
 
 std::vector<int> surface_points(const RecordedTouches& t) {

@@ -47,6 +47,9 @@ struct RecordedTouches {
   std::vector<Diagnostic> messages;
 };
 
+/// From the first touch to the last, s; 1 at the least, so that it divides.
+double lasts_s(const RecordedTouches&);
+
 /// The number of the point of a surface that each touch aims at, wherever the part stood and whatever run it was: points
 /// of a feature that are nearer than two micrometres on the part are one, as targets are rounded.
 std::vector<int> surface_points(const RecordedTouches&);

@@ -157,10 +157,29 @@ TEST_CASE("of each of two effects that are gone it is said") {
   second.explanation = 1, second.set = {1}, second.variant = of.c.explanations.list[1].variants[0];
   of.result.findings[0].set = {0};
   of.result.findings.push_back(second);
+  for (int i = of.count() / 2; i < of.count(); ++i) of.scene(i).run = 2;
   for (const Finding& f : of.result.findings) of.c.explanations.variants[f.variant].change = {0, 2};
   tell_findings(of.c, of.result, of.out);
   REQUIRE(of.out.effects.size() == 2);
   for (const DiagnosedEffect& e : of.out.effects) CHECK(e.sentence.find(" It is gone: ") != std::string::npos);
+}
+
+TEST_CASE("what is gone must have been looked for") {
+  for (const bool again : {true, false}) {
+    Told of;
+    for (int i = 0; i < of.count(); ++i) {
+      TouchScene& s = of.scene(i);
+      s.run = i < of.count() / 2 ? 1 : 2;
+      s.stylus.tip_ordinal = again ? 1 : s.run;
+    }
+    Variant& variant = of.c.explanations.variants[of.result.findings[0].variant];
+    variant.change = {0, 2};
+    for (int i = of.count() / 2; i < of.count(); ++i) variant.signature.row(i).setZero();
+    tell_findings(of.c, of.result, of.out);
+    CHECK(of.says("It is gone: the machine file needs nothing of it") == again);
+    CHECK(of.says("no orientation in which it was there was touched since") != again);
+    CHECK(of.out.model_effects.empty() == again);
+  }
 }
 
 TEST_CASE("the verdict is the worst of what was found") {

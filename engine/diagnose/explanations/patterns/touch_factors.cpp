@@ -85,7 +85,7 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
   for (Vector& v : scale_above_20) v.resize(part_above_20.size());
   const double first_s = t.touches.front().scene.time_s;
   timed = (t.known & static_cast<unsigned>(Covariate::time)) != 0;
-  duration_s = std::max(1.0, t.touches.back().scene.time_s - first_s);
+  duration_s = lasts_s(t);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const TouchScene& s = t.touches[rows[i]].scene;
     const auto on_probe = [&](const Vec3& v) { return transpose(s.stylus.R_WR) * v; };
@@ -114,8 +114,8 @@ TouchFactors::TouchFactors(const RecordedTouches& t, const std::vector<int>& row
     speed_mm_s.push_back(s.speed_mm_s);
     accelerations.push_back(s.acceleration_mm_s2);
     const auto row = static_cast<Eigen::Index>(i);
-    part_above_20(row) = s.temperature.part - 20;
-    for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - 20;
+    part_above_20(row) = s.temperature.part - kReferenceTemperature_C;
+    for (int k = 0; k < 3; ++k) scale_above_20[k](row) = s.temperature.scale[k] - kReferenceTemperature_C;
   }
   arriving.resize(rows.size()), leaving.resize(rows.size());
   for (std::size_t i = 1; i < rows.size(); ++i) {

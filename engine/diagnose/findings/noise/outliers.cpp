@@ -88,8 +88,8 @@ void plan_outliers(const ScatterDesign& design, Diagnosis& out) {
   const double touches = double(c.masked.size()), expected = expected_outliers(c);
   double count = std::max(2.0, std::ceil(expected));
   while (count < touches && poisson_tail(count, expected) > kNoiseAlarm) ++count;
-  // Of so many in the mean, that many or more are there in 80 % of recordings.
-  const double mean = least(10 * count, [&](double m) { return poisson_tail(count, m) >= 0.8; });
+  // Of so many in the mean, that many or more are there in kPowerShare of recordings.
+  const double mean = least(10 * count, [&](double m) { return poisson_tail(count, m) >= kPowerShare; });
   if (mean > touches) return;
   Detectable d = smallest_of(kOutliers, "share", "1");
   d.detect = mean / touches, d.name = d.detect;
