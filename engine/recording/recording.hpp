@@ -49,7 +49,7 @@ struct Recording {
   bool in_part_frame = false;  ///< `frame: part`, else machine coordinates
   RecordedPoint point = RecordedPoint::tip_centre;
   std::vector<RecordingRow> rows;
-  std::vector<Diagnostic> messages;  ///< of reading it: what is doubtful and no error
+  std::vector<Diagnostic> messages;     ///< of reading it: what is doubtful and no error
   std::vector<std::string> files = {};  ///< names of those that were joined; none of a recording that never was
 };
 

@@ -1,5 +1,7 @@
 #include "engine/diagnose/model/linear.hpp"
 
+#include <map>
+
 namespace abbe::diagnose {
 
 namespace {
