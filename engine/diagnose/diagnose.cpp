@@ -310,7 +310,7 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   out.other_methods = other_methods(c, result.first);
   at("touches that the model has not seen");
   show_improvement(c, result, out);
-  take_in_runner_up(c, out, result);
+  take_in_runner_up(c, first, out, result);
   tell_findings(c, result, out);
   if (is_another_part(result)) return another();
   if (!result.findings.empty()) out.adequacy_p = result.adequacy;

@@ -68,6 +68,16 @@ class Values(harness.Case):
         [now] = json.loads((self.folder / "now.json").read_text())["effects"]
         self.assertTrue(70 < now["parameters"]["scale_um_per_m"]["value"] < 95, now)
 
+    def test_one_characteristic_that_strays_is_told_by_its_name(self):
+        """A wrong reference of one placement, in both runs: no machine measures that one alone too long."""
+        whole = self.recorded(runs=2).read_text()
+        wrong = "".join(line.replace(",500.0\n", ",499.98\n") if "d1_L" in line else line for line in whole.splitlines(keepends=True))
+        self.assertEqual(self.diagnosis(self.write("whole.csv", whole))["verdict"], "no_mismatch")
+        said = self.diagnosis(self.write("wrong.csv", wrong))
+        self.assertEqual(said["verdict"], "unexplained")
+        self.assertRegex(said["unexplained"]["sentence"], r"LEN of \S*d1_L.dmi strays by itself, by (1[89]|2[01]) um")
+        self.assertIn("Check reference", said["otherwise"])
+
     def test_an_effect_is_found_with_either_sign(self):
         """A position is an absolute value: what makes it is no linear function of the size of an effect."""
         program, machine = harness.ROOT / "examples/programs/prismatic_part.dmi", harness.ROOT / "examples/iso10360/portal-2009.json"

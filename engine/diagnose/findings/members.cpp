@@ -128,19 +128,27 @@ void drop_impossible_members(const Case& c, SearchResult& result) {
   }
 }
 
-void take_in_runner_up(const Case& c, const Diagnosis& d, SearchResult& result) {
+void take_in_runner_up(const Case& c, const EvidenceSearch& first, const Diagnosis& d, SearchResult& result) {
   // nats: below it "not worth more than a bare mention" (Kass, Raftery, J. Am. Stat. Assoc. 90 (1995) 773)
   constexpr double kBareMention = 1;
-  const bool as_well =
-      d.runner_up && d.improvement && d.runner_up->log_score_gain >= d.improvement->log_score_gain - kBareMention;
+  constexpr double kLeastBelief = 0.01;  // a hundred times less usual needs no measurement to be told apart
+  const bool as_well = d.runner_up && d.improvement &&
+      d.runner_up->log_score_gain >= d.improvement->log_score_gain - kBareMention;
   if (!as_well || result.findings.size() != 1 || result.other) return;
   Finding& f = result.findings.front();
   const auto& list = c.explanations.list;
   const auto found = std::find_if(list.begin(), list.end(),
                                   [&](const Explanation& e) { return e.name == d.runner_up->members.front(); });
   const int member = static_cast<int>(found - list.begin());
-  if (!possible(c, result, 0, member)) return;
-  f.probability += f.probability * weight(c.explanations, f, member) / weight_of_all(c.explanations, f);
+  const auto fits = [&](int variant) {
+    const Information i = first.information(variant);
+    return 0.5 * explained(i.g, i.u)(0) - double(i.u.size());  // each column fits something of the noise
+  };
+  const double belief = f.probability * share_of(c.explanations, f, member);
+  if (belief < kLeastBelief || fits(f.variant_of(member)) < fits(f.variant) - kBareMention ||
+      !possible(c, result, 0, member))
+    return;
+  f.probability += belief;
   f.set.push_back(member);
 }
 

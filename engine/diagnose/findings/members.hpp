@@ -21,9 +21,9 @@ void put_judged_members_first(const Case&, SearchResult&);
 /// filled up with the effects next in likelihood.
 void drop_impossible_members(const Case&, SearchResult&);
 
-/// The runner-up joins the set of the only finding where it predicts touches left out as well: what sets them apart is the
-/// size that was expected of each, and not the recording.
-void take_in_runner_up(const Case&, const Diagnosis&, SearchResult&);
+/// The runner-up joins the set of the only finding where, with its best size, it fits the recording as well and predicts
+/// touches left out as well: what sets the two apart is the size that was expected of each. `first`: of the whole recording.
+void take_in_runner_up(const Case&, const EvidenceSearch& first, const Diagnosis&, SearchResult&);
 
 /// The share of one member in what is believed of its set.
 double share_of(const Explanations&, const Finding&, int member);

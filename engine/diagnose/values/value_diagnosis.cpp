@@ -72,6 +72,24 @@ ValueReference reference_of(const ValueCase& c) {
   return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.calibration};
 }
 
+/// As the recording calls the program of a value, else the name of its file.
+std::string program_of(const ValueCase& c, std::size_t value) {
+  const std::string& said = c.recording->rows[value].program;
+  const SourceFile& source = *(*c.programs)[c.ensemble.values[value].program].source;
+  return said.empty() ? std::filesystem::path(source.name()).filename().string() : said;
+}
+
+/// "LX2 of part.dmi"; the evaluation too, where it is not the first.
+std::vector<std::string> labels_of(const ValueCase& c) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    out.push_back(fmt::format("{} of {}", c.recording->rows[k].characteristic, program_of(c, k)));
+    if (v.occurrence > 1) out.back() += fmt::format(", evaluation {}", v.occurrence);
+  }
+  return out;
+}
+
 /// How many virtual machines judge so many values.
 int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
 bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }
@@ -95,7 +113,7 @@ ValueCase value_case_of(const ValueRecording& recording, const std::vector<Value
         Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
         "`abbe run` says where they stop"));
   c.judges = judges_of(c.ensemble.simulated, c.calibration, options.seed);
-  add_value_patterns(c.judges.covariance, c.ensemble.explanations);
+  add_value_patterns(labels_of(c), c.judges.covariance, c.ensemble.explanations);
   c.search.emplace(c.judges.mean, c.judges.covariance, c.ensemble.explanations);
   return c;
 }
@@ -114,12 +132,9 @@ std::vector<JudgedValue> judge_each(const ValueCase& c) {
                                       [&](double s) { return std::abs(s - c.judges.mean(at)) >= distance; });
     const double u = std::sqrt(c.judges.covariance(at, at)), unit = v.reported();
     const auto point = [&](double p) { return simulated[static_cast<std::size_t>(p * (n - 1) + 0.5)] * unit; };
-    const SourceFile& source = *(*c.programs)[v.program].source;
-    const std::string program =
-        row.program.empty() ? std::filesystem::path(source.name()).filename().string() : row.program;
-    out.push_back({row.characteristic, program, v.angle ? "deg" : "mm", row.run, row.occurrence, row.value, v.reference,
-                   v.deviation * unit, u * unit, (v.deviation - c.judges.mean(at)) / u, (double(beyond) + 1) / (n + 1),
-                   point(0.025), point(0.975), beyond == 0});
+    out.push_back({row.characteristic, program_of(c, k), v.angle ? "deg" : "mm", row.run, row.occurrence, row.value,
+                   v.reference, v.deviation * unit, u * unit, (v.deviation - c.judges.mean(at)) / u,
+                   (double(beyond) + 1) / (n + 1), point(0.025), point(0.975), beyond == 0});
   }
   return out;
 }
@@ -164,12 +179,22 @@ void tell_pattern(const ValueCase& c, const Closer& closer, const Finding& f, Di
   // located in the values themselves: no more is known of them
   out.unexplained = pattern_of_size(Factor::feature, e.shape, std::sqrt(pattern.squaredNorm() / double(pattern.size())),
                                     closer.search.information(f.variant, c.deviation).u.dot(sizes));
+  out.verdict = Verdict::unexplained;
+  if (e.shape == kOneCharacteristic) {
+    const std::string& which = closer.variant(f).told;
+    Eigen::Index at = 0;
+    const double most = all.cwiseAbs().maxCoeff(&at);
+    out.unexplained->sentence = fmt::format(
+        "No effect of the catalogue explains it: {} strays by itself, by {} {}, and what the other values say of the machine does not explain it.",
+        which, two_digits(most), c.ensemble.values[static_cast<std::size_t>(at)].angle ? "urad" : "um");
+    out.otherwise = fmt::format("Check reference, U and program of {}, and measure it again.", which);
+    return;
+  }
   out.unexplained->sentence = e.shape == "single values"
       ? "No effect of the catalogue explains it: single values stray (the table says which)."
       : "No effect of the catalogue explains it: the values deviate as those of a machine with larger errors than specified.";
   out.otherwise =
       "Values hold too little to tell an effect on all lengths from a machine out of its specification: measure calibrated lengths along each axis, or give the touches themselves, with x, y, z of each.";
-  out.verdict = Verdict::unexplained;
 }
 
 /// The members of a set, the first as it was told, some others with sizes of their own.
@@ -344,17 +369,32 @@ NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evi
   return *likeliest;
 }
 
+/// The characteristic that strays by itself, where chance leaves as much as the others do.
+std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
+  const Explanations& all = closer.search.explanations();
+  const auto found = std::find_if(all.list.begin(), all.list.end(),
+                                  [](const Explanation& e) { return e.shape == kOneCharacteristic; });
+  if (found == all.list.end()) return std::nullopt;
+  Finding f;
+  f.explanation = static_cast<int>(found - all.list.begin());
+  f.variant = best_variant(all, f.explanation, evidence);
+  f.set = {f.explanation};
+  return left_by_chance(c, closer, f) >= kInadequate ? std::optional(f) : std::nullopt;
+}
+
 /// A name, or what stands for none; what is told is returned.
 Finding tell(const ValueCase& c, const Closer& closer, Diagnosis& out) {
-  const auto [name, pattern] = possible_name(c, closer, closer.search.evidence(c.deviation));
+  const Evidence evidence = closer.search.evidence(c.deviation);
+  auto [name, pattern] = possible_name(c, closer, evidence);
   const double adequacy = adequacy_of(c, closer, name);
   const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
   const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
+  if (!named) pattern = one_characteristic(c, closer, evidence).value_or(pattern);
   if (named)
     tell_name(c, closer, name, adequacy, out);
   else
     tell_pattern(c, closer, pattern, out);
-  if (!named && name.explanation >= 0)
+  if (!named && name.explanation >= 0 && closer.explanation(pattern).shape != kOneCharacteristic)
     out.unexplained->sentence +=
         fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
   return named ? name : pattern;

@@ -1,8 +1,10 @@
 #include "engine/diagnose/values/value_signature.hpp"
 
 #include <cmath>
+#include <map>
 
 #include "engine/base/on_threads.hpp"
+#include "engine/diagnose/explanations/patterns/families.hpp"
 #include "engine/diagnose/explanations/patterns/patterns.hpp"
 #include "engine/effects/effect.hpp"
 #include "engine/run/run.hpp"
@@ -207,9 +209,20 @@ Explanations value_explanations(const std::vector<RecordedValue>& values, const 
   return out;
 }
 
-void add_value_patterns(const Matrix& covariance, Explanations& out) {
+void add_value_patterns(const std::vector<std::string>& labels, const Matrix& covariance, Explanations& out) {
   const std::size_t catalogue = out.list.size();
-  add_pattern(out, Factor::feature, "single values", Matrix(covariance.diagonal().cwiseSqrt().asDiagonal()));
+  const Vector deviation = covariance.diagonal().cwiseSqrt();
+  std::map<std::string, Matrix> strays;  // all repeats by the same: they tell each other to a fraction of that
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    Matrix& column = strays.try_emplace(labels[k], Matrix::Zero(deviation.size(), 1)).first->second;
+    const double size = column.isZero() ? deviation(static_cast<Eigen::Index>(k)) : column.maxCoeff();
+    column(static_cast<Eigen::Index>(k), 0) = size;
+  }
+  std::vector<patterns::Family::Told> each;
+  for (const auto& [label, column] : strays) each.push_back({label, column});
+  constexpr std::size_t kOthers = 2;  // for one of fewer nobody knows which it is
+  if (each.size() > kOthers) patterns::Family(Factor::feature, out).add(kOneCharacteristic, each);
+  add_pattern(out, Factor::feature, "single values", Matrix(deviation.asDiagonal()));
   add_pattern(out, Factor::position, "larger errors", Cholesky(covariance).lower());
   for (std::size_t k = 0; k < out.list.size(); ++k)
     out.list[k].prior =

@@ -17,7 +17,11 @@ Explanations value_explanations(const std::vector<RecordedValue>&, const std::ve
 /// An effect of one setting, as a machine file says it.
 EffectSetting setting_at(const Effect&, const std::vector<double>& theta);
 
-/// OTHER: `covariance` of the values as the machines of the specification have it. Sets the priors of all explanations.
-void add_value_patterns(const Matrix& covariance, Explanations&);
+/// The shape of the pattern that one characteristic strays by itself, in all its repeats alike.
+inline constexpr const char* kOneCharacteristic = "one characteristic";
+
+/// OTHER: `covariance` of the values as the machines of the specification have it; `labels`: what each value is called,
+/// repeats alike. Sets the priors of all explanations.
+void add_value_patterns(const std::vector<std::string>& labels, const Matrix& covariance, Explanations&);
 
 }  // namespace abbe::diagnose

@@ -41,10 +41,14 @@ struct OfASet {
   Finding& finding() { return result.findings.front(); }
 };
 
-/// A tip radius, and a set of three names that share nine tenths of all belief as 0.5, 0.3 and 0.2.
+/// One effect planted, a tip radius or a scale, and a set of three names that share nine tenths of all belief as 0.5, 0.3
+/// and 0.2.
 struct OfThree : Planted {
-  explicit OfThree(const std::vector<std::string>& names) : Planted(4) {
-    plant("probe.tip_radius", {1.2, 0});
+  explicit OfThree(const std::vector<std::string>& names, bool scale = false) : Planted(4) {
+    if (scale)
+      plant("machine.scale", {60, 1});  // along y: a machine whose x is too long is taken for one of the specification
+    else
+      plant("probe.tip_radius", {1.2, 0});
     c.explanations = named_explanations(c.touches, c.rows, names);
     c.machine = &machine;
     Finding f;
@@ -79,22 +83,33 @@ TEST_CASE("a member is believed by its share of the set, and told with a size of
   CHECK(members[2].parameters.at(0).unit == "urad");
 }
 
-TEST_CASE("a runner-up that predicts as well joins the set") {
-  const auto set_with = [](double gain_of_runner_up, bool beside_a_pattern = false) {
-    OfThree of({"probe.tip_radius", "machine.scale", "machine.squareness"});
-    of.result.findings[0].set = {0};
-    of.result.findings[0].probability = 0.6;
-    if (beside_a_pattern) of.result.other.emplace();
+TEST_CASE("a runner-up that fits and predicts as well joins the set") {
+  struct Given {
+    double gain = 25;
+    bool planted = true, beside_a_pattern = false;
+    double belief = 0.3;
+  };
+  const auto set_with = [](Given given) {
+    OfThree of({"probe.tip_radius", "machine.scale", "machine.squareness"}, given.planted);
+    Finding& f = of.result.findings[0];
+    f.set = {0};
+    f.probability = 0.6;
+    f.evidence.log_bayes[1] += std::log(given.belief / 0.3);
+    if (given.beside_a_pattern) of.result.other.emplace();
     Diagnosis d;
     d.improvement = Improvement{"leave-one-setup-out", 20, 4};
-    d.runner_up = RunnerUp{{"machine.scale"}, gain_of_runner_up};
-    take_in_runner_up(of.c, d, of.result);
-    return std::pair(of.result.findings[0].set, of.result.findings[0].probability);
+    d.runner_up = RunnerUp{{"machine.scale"}, given.gain};
+    take_in_runner_up(of.c, EvidenceSearch(of.c.model, of.c.hyper, of.c.explanations), d, of.result);
+    return std::pair(f.set, f.probability);
   };
-  CHECK(set_with(18.9).first == std::vector<int>{0});
-  CHECK(set_with(19.1).first == std::vector<int>{0, 1});
-  CHECK(set_with(19.1).second == doctest::Approx(0.6 * (0.5 + 0.3) / 0.5));
-  CHECK(set_with(25, true).first == std::vector<int>{0});
+  const std::vector<int> alone = {0}, both = {0, 1};
+  CHECK(set_with({}).first == both);
+  CHECK(set_with({}).second == doctest::Approx(0.6 * (0.5 + 0.3) / 0.5));
+  CHECK(set_with({.gain = 19.1}).first == both);
+  CHECK(set_with({.gain = 18.9}).first == alone);
+  CHECK(set_with({.planted = false}).first == alone);
+  CHECK(set_with({.beside_a_pattern = true}).first == alone);
+  CHECK(set_with({.belief = 0.001}).first == alone);
 }
 
 TEST_CASE("a set is judged unless four fifths of it need what was not logged") {
