@@ -132,8 +132,8 @@ void take_in_runner_up(const Case& c, const EvidenceSearch& first, const Diagnos
   // nats: below it "not worth more than a bare mention" (Kass, Raftery, J. Am. Stat. Assoc. 90 (1995) 773)
   constexpr double kBareMention = 1;
   constexpr double kLeastBelief = 0.01;  // a hundred times less usual needs no measurement to be told apart
-  const bool as_well = d.runner_up && d.improvement &&
-      d.runner_up->log_score_gain >= d.improvement->log_score_gain - kBareMention;
+  const bool as_well =
+      d.runner_up && d.improvement && d.runner_up->log_score_gain >= d.improvement->log_score_gain - kBareMention;
   if (!as_well || result.findings.size() != 1 || result.other) return;
   Finding& f = result.findings.front();
   const auto& list = c.explanations.list;
