@@ -36,7 +36,8 @@ std::string html_row(const std::vector<std::string>& cells, const char* tag) {
   const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   std::string out = "<tr>";
   for (const std::string& c : cells) {
-    const bool number = !c.empty() && (is_digit(c[0]) || ((c[0] == '-' || c[0] == '+') && c.size() > 1));
+    const bool number = !c.empty() &&
+        (is_digit(c[0]) || ((c[0] == '-' || c[0] == '+' || c[0] == '<') && c.size() > 1 && is_digit(c[1])));
     out += fmt::format("<{}{}>{}</{}>", tag, number ? " class=\"n\"" : "", escaped(c), tag);
   }
   return out + "</tr>\n";

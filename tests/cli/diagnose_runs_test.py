@@ -280,6 +280,14 @@ class DiagnoseRuns(harness.Case):
         stated = self.changed(self.folder / third, lambda row: row | {"qualification": "1"}, "stated.csv")
         self.assertEqual(self.diagnosis(first, second, stated)["p_value"], self.diagnosis(first, second, third)["p_value"])
 
+    def test_that_styli_count_as_qualified_anew_is_said_where_nothing_was_found(self):
+        """A head that was knocked between two files passes for a new qualification: not in silence."""
+        files = [self.folder / self.record(run, "--seed", 7) for run in (1, 2)]
+        stated = [self.changed(f, lambda row: row | {"qualification": "1"}, f"stated_{f.name}") for f in files]
+        self.assertIn("Between the files the styli count as qualified anew", self.diagnosis(*files)["otherwise"])
+        for one_knows in (stated, files[:1]):
+            self.assertIsNone(self.diagnosis(*one_knows)["otherwise"])
+
     def test_what_is_there_in_all_runs_is_not_new(self):
         lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")
         said = self.diagnosis(self.record(1, *lobing), self.record(2, *lobing))

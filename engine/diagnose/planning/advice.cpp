@@ -154,6 +154,21 @@ std::string besides_sizes(const Case& c, const SearchResult& result, const std::
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
+/// Between files a head that was knocked and a new qualification look alike: the offset of every tip is another one.
+std::string to_know_qualifications(const Case& c, const SearchResult& result) {
+  if (!result.findings.empty() || result.other) return "";
+  std::map<int, const RecordingRow*> first;  // by tip
+  const bool anew = std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
+    const RecordedTouch& t = c.touches.touches[row];
+    const RecordingRow& here = c.recording->rows[t.row];
+    const RecordingRow& before = *first.try_emplace(t.scene.stylus.tip_ordinal, &here).first->second;
+    return here.file != before.file && here.qualification != before.qualification;
+  });
+  return anew
+      ? "Between the files the styli count as qualified anew. If they were not, give each file the column qualification with one number: what a knock did to the head shows only then."
+      : "";
+}
+
 /// A part that is not at 20 degrees C expands as a workpiece file says, and not at all where none does.
 std::string to_know_the_material(const Case& c, const SearchResult& result) {
   constexpr double kWarm_K = 0.5;
@@ -202,8 +217,9 @@ std::string to_part_runs(const Case& c, const SearchResult& result) {
 }  // namespace
 
 std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  std::vector<std::string> sentences = {to_part_runs(c, result), to_know_sizes(c, result),
-                                        to_know_the_material(c, result), besides_sizes(c, result, next)};
+  std::vector<std::string> sentences = {to_know_qualifications(c, result), to_part_runs(c, result),
+                                        to_know_sizes(c, result), to_know_the_material(c, result),
+                                        besides_sizes(c, result, next)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }

@@ -81,10 +81,12 @@ void RecordedStyli::assume(const RecordingRow& row, plan::SensorDef& def) {
     def.radius_mm = 1;
   }
   if (!messages_.empty()) return;
-  messages_.push_back(diagnostic(Code::W0541,
-                                 fmt::format("{}: rows do not name their stylus: '{}' is assumed{}", file_, def.label,
-                                             def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
-                                 "add the column 'sensor', and the sensor to the machine file"));
+  messages_.push_back(diagnostic(
+      Code::W0541,
+      fmt::format("{}: rows do not name their stylus, first '{}' touch {}: '{}' is assumed{}", file_, row.feature,
+                  row.touch, def.label, def.from_machine_file ? "" : ", 100 mm straight from the head, 2 mm ball"),
+      known_.size() > 1 ? "fill in 'sensor' there, or leave those rows out: by it the other touches are told apart"
+                        : "add the column 'sensor', and the sensor to the machine file"));
 }
 
 }  // namespace abbe
