@@ -63,7 +63,11 @@ TouchScene with_surrogates(TouchScene scene, const RecordedTouches& t) {
 class Evaluation {
  public:
   Evaluation(const Effect& effect, const RecordedTouches& t, const std::vector<int>& rows) : effect_(effect) {
-    for (const int i : rows) scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t));
+    std::map<int, double> begin_s;  // by file; touches stand in the order of time
+    for (const int i : rows) {
+      scenes_.push_back(with_surrogates(scene_for(effect, t.touches[i]), t));
+      start_s_.push_back(begin_s.try_emplace(t.touches[i].file, scenes_.back().time_s).first->second);
+    }
   }
 
   Vector column(const std::vector<double>& theta, RunChange change, const std::vector<double>& draws,
@@ -73,8 +77,9 @@ class Evaluation {
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       if (!change.acts_in(scenes_[i].run)) continue;
       const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
-      r(static_cast<Eigen::Index>(i)) =
-          kUmPerMm * dot(scenes_[i].normal, effect_.displace(scenes_[i], theta.data(), z.data()));
+      TouchScene scene = scenes_[i];
+      if (change.in_each_file) scene.time_s -= start_s_[i];
+      r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scene.normal, effect_.displace(scene, theta.data(), z.data()));
     }
     return r;
   }
@@ -88,6 +93,7 @@ class Evaluation {
  private:
   const Effect& effect_;
   std::vector<TouchScene> scenes_;
+  std::vector<double> start_s_;  ///< of the file that each is of
 };
 
 /// Every combination of the values tried, with what each stands for.
@@ -142,10 +148,16 @@ constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
 /// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after
 /// a crash, a mend or a change of the weather; what is gone, a dirty tip that was cleaned; and what came and went. What
 /// happens at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by
-/// itself.
-std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effect, const std::vector<LaterRun>& later) {
+/// itself, but may have begun anew in each of several files.
+std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effect, const std::vector<LaterRun>& later,
+                                  bool of_files) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
+  const bool settles = std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                                   [](const EffectParameter& p) { return p.sought == Sought::time_constant; });
+  const std::size_t once = list.size();
+  for (std::size_t k = 0; of_files && settles && k < once; ++k)
+    list.push_back(list[k]), list.back().change.in_each_file = true;
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
   const std::vector<Variant> in_all = list;
   const auto add = [&](const LaterRun& at, RunChange change) {
@@ -337,7 +349,9 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   const std::vector<ParameterGrid> grids = grids_of(effect, t, least_period_um);
   const Variants variants(effect, grids, t, rows);
   const std::vector<Variant> in_all = by_directions(by_groups(settings(effect, grids), effect), grids);
-  for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows))) {
+  const bool of_files =
+      std::any_of(rows.begin(), rows.end(), [&](int i) { return t.touches[i].file != t.touches[rows.front()].file; });
+  for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows), of_files)) {
     variant.explanation = static_cast<int>(out.list.size());
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;

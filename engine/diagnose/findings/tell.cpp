@@ -107,6 +107,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
         much_like_it(effect);
     for (const std::string& note : {whose_coordinates(c, effect), whose_direction(effect), clock})
       e.sentence += unless_said(out.effects, note);
+    if (change.in_each_file) e.sentence += " Its clock begins anew in each file.";
     if (!looked_for)
       e.sentence +=
           " That it is gone nobody has seen: no orientation in which it was there was touched since. Touch one of them again.";

@@ -205,6 +205,7 @@ std::string to_part_runs(const Case& c, const SearchResult& result) {
   const auto new_in_run = [&](const Finding& f) { return all.variants[f.variant].change.any(); };
   if (!shared || std::any_of(result.findings.begin(), result.findings.end(), new_in_run)) return "";
   const auto over_runs = [&](const Finding& f) {
+    if (f.probability >= kTold && !result.other) return false;
     const Factor factor = shown_in(c, all.list[f.explanation]);
     return factor == Factor::time || factor == Factor::run;
   };

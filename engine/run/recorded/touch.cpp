@@ -193,7 +193,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     const RecordingRow& row = recording.rows[i];
     const Sensor& sensor = *sensor_of[i];
     RecordedTouch t;
-    t.row = i;
+    t.row = i, t.file = row.file;
     t.residual_mm = dot(*row.normal, row.position_mm - *row.target_mm);
     t.per_rad_a_mm = sensor.per_rad_a_mm;
     t.per_rad_b_mm = sensor.per_rad_b_mm;

@@ -31,6 +31,7 @@ struct RecordedTouch {
   Vec3 per_rad_a_mm, per_rad_b_mm;  ///< of the tip per radian of the head's angles, W
   Vec3 beyond_target_mm;            ///< from there to where the axes stopped, W; zero where no reading was logged
   int row = 0;                      ///< index into the recording
+  int file = 0;                     ///< RecordingRow::file
 };
 
 /// The scene as an effect sees it: with the readings where the axes stopped, if it needs raw readings.
