@@ -53,8 +53,9 @@ std::string whose_direction(const Effect& effect) {
 std::string whose_clock(const Case& c, const Effect& effect) {
   const auto time = static_cast<unsigned>(Covariate::time);
   if ((effect.needs & time) == 0 || (c.touches.known & time) != 0) return "";
-  return fmt::format(" The recording has no time_s: seconds are those of a touch every {:g} seconds; log time_s.",
-                     kUsualInterval_s);
+  return fmt::format(
+      " The recording has no time_s: seconds are those of a touch every {:g} seconds; log time_s. Until then no machine file carries it.",
+      kUsualInterval_s);
 }
 
 std::string unless_said(const std::vector<DiagnosedEffect>& effects, const std::string& note) {

@@ -84,7 +84,7 @@ void tell_findings(const Case& c, const SearchResult& result, Diagnosis& out) {
     const std::string clock = whose_clock(c, effect);
     const bool looked_for = !change.gone() || was_looked_for(c, c.explanations.variants[f.variant]);
     const std::string in_file = change.gone() && looked_for ? " It is gone: the machine file needs nothing of it."
-        : !clock.empty()                                    ? " Until then no machine file carries it."
+        : !clock.empty()                                    ? ""
         : rounding
         ? fmt::format(
               " It may come from the rounding of the positions to {:g} um, and no machine file carries it: record the digits that the machine has.",
