@@ -45,14 +45,9 @@ using namespace diagnose;
 namespace {
 
 /// What the file says of the surfaces.
-std::optional<Surfaces> stated_surfaces(const Recording& r, const std::string& file) {
-  const std::optional<std::string> value = said(r.metadata, "surfaces");
-  if (!value) return std::nullopt;
-  if (*value == "calibrated") return Surfaces::calibrated;
-  if (*value == "unknown_size") return Surfaces::unknown_size;
-  if (*value == "unknown") return Surfaces::unknown;
-  throw UserError(diagnostic(Code::E0703, fmt::format("{}: '# surfaces: {}' is not known", file, *value),
-                             "write calibrated, unknown_size or unknown"));
+std::optional<Surfaces> stated_surfaces(const Recording& r) {
+  const std::optional<std::string> word = said(r.metadata, "surfaces");
+  return word ? find_surfaces(*word) : std::nullopt;  // the reader refuses another one
 }
 
 /// Beyond this, what all touches are too far out is no effect but a wrong tip, unless sizes are unknown or
@@ -347,7 +342,7 @@ std::vector<Diagnostic> recording_problems(const Recording& recorded, const Mach
   const Recording once = without_copies(recorded, file, messages);
   check_data(once, machine, file);
   constexpr double kNoSize_mm = 0.5;  // all over: no part deviates so evenly from its drawing
-  const bool stated = stated_surfaces(once, file).has_value();
+  const bool stated = stated_surfaces(once).has_value();
   const Recording placed =
       put_on_targets(once, stated ? std::numeric_limits<double>::infinity() : kNoSize_mm, file, of_placement);
   const RecordedTouches touches = recorded_touches(placed, machine, file);
@@ -372,7 +367,7 @@ Diagnosis diagnose_saying(const Recording& recorded, const Machine& machine, con
     messages.push_back(std::move(*contradiction));
   out.messages = messages;
   const Given given{recording, step_um, machine, options, file};
-  std::variant<Diagnosis, AnotherPart> found = diagnosed(given, stated_surfaces(recording, file), out);
+  std::variant<Diagnosis, AnotherPart> found = diagnosed(given, stated_surfaces(recording), out);
   if (const auto* other = std::get_if<AnotherPart>(&found)) {
     out.messages.push_back(other->told);
     found = diagnosed(given, Surfaces::unknown, std::move(out));

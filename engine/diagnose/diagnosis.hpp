@@ -42,8 +42,8 @@ struct LengthError {
 /// How something differs between runs: it is new in one, or gone from one on, or both. 0: neither; it is the same in all.
 struct RunChange {
   int from = 0, until = 0;
-  bool in_each_file =
-      false;  ///< it goes on in time, and its clock begins anew in each file, as a warm-up every morning does
+  /// It goes on in time, and its clock begins anew in each file, as that of a warm-up every morning.
+  bool in_each_file = false;
   bool any() const { return from > 0 || until > 0; }
   bool gone() const { return until > 0; }
   bool acts_in(int run) const { return run >= from && (until == 0 || run < until); }

@@ -47,6 +47,13 @@ struct WrittenColumn {
 
 }  // namespace
 
+std::optional<Surfaces> find_surfaces(std::string_view word) {
+  if (word == "calibrated") return Surfaces::calibrated;
+  if (word == "unknown_size") return Surfaces::unknown_size;
+  if (word == "unknown") return Surfaces::unknown;
+  return std::nullopt;
+}
+
 std::string line_of(const Recording& r, const RecordingRow& row) {
   return fmt::format("line {}{}", row.line,
                      r.files.size() > 1 ? " of " + r.files[static_cast<std::size_t>(row.file)] : "");

@@ -38,6 +38,11 @@ struct RecordingRow {
 
 enum class RecordedPoint { tip_centre, surface };
 
+/// Whether the true places of surfaces are known: entirely, but for a size by feature, or not at all.
+enum class Surfaces { calibrated, unknown_size, unknown };
+/// As a line `# surfaces: ...` says it; nothing of another word.
+std::optional<Surfaces> find_surfaces(std::string_view word);
+
 /// The lines `# key: value` of a recording.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
@@ -75,7 +80,8 @@ std::string to_csv(const Recording&);
 enum class Positions { recorded, or_targets };
 
 /// Reads the contract of docs/recording.md. Throws UserError with the place of every mistake: lines before the table
-/// that contradict each other, unknown or missing column, value that is no number, incomplete vector, direction that is no unit vector.
+/// that contradict each other, unknown or missing column, value that is no number, incomplete vector, direction that is no
+/// unit vector.
 Recording read_recording(const SourceFile&, Positions = Positions::recorded);
 
 /// Whether the file is a table of values of characteristics (value_recording.hpp) and not of touches, complete or not.

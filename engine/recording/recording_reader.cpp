@@ -110,7 +110,7 @@ void check_distance(const CsvRemark& line, const SourceFile& file) {
 }
 
 void check_surfaces(const CsvRemark& line, const SourceFile& file) {
-  if (line.value != "calibrated" && line.value != "unknown_size" && line.value != "unknown")
+  if (!find_surfaces(line.value))
     throw UserError(diagnostic_at(file, line.span, Code::E0703,
                                   fmt::format("'{}: {}' is not known", line.key, line.value),
                                   "write calibrated, unknown_size or unknown"));

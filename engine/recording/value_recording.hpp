@@ -32,7 +32,8 @@ struct ValueRecording {
   std::vector<Diagnostic> messages;  ///< of reading it: what is doubtful and no error
 };
 
-/// Throws UserError with the place of every mistake: lines that contradict each other, unknown or missing column, a value that is no number, U below 0.
+/// Throws UserError with the place of every mistake: lines that contradict each other, unknown or missing column, a value
+/// that is no number, U below 0.
 ValueRecording read_value_recording(const SourceFile&);
 
 /// The labels that a characteristic names, in upper case, the tolerance last.

@@ -29,9 +29,6 @@ struct KnownGeometry {
   Matrix factor;  ///< covariance = factor factor'
 };
 
-/// Whether the true places of surfaces are known.
-enum class Surfaces { calibrated, unknown_size, unknown };
-
 struct BaselineOptions {
   Surfaces surfaces = Surfaces::calibrated;
   const KnownGeometry* known = nullptr;

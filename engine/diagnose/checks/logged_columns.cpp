@@ -17,6 +17,7 @@
 #include "engine/math/units.hpp"
 #include "engine/recording/columns.hpp"
 #include "engine/recording/recording.hpp"
+#include "engine/run/recorded/styli.hpp"
 #include "engine/run/recorded/touch.hpp"
 
 namespace abbe::diagnose {
@@ -162,8 +163,7 @@ void doubt_motion(const Recording& recording, const std::string& file, std::vect
 
 void leave_out_head_at_rest(Recording& recording, const Machine& machine, const std::string& file,
                             std::vector<Diagnostic>& messages) {
-  constexpr double kApart_deg = 0.1;  // as of what is read back
-  const auto apart = [](double a_deg, double b_deg) { return std::abs(a_deg - b_deg) > kApart_deg; };
+  const auto apart = [](double a_deg, double b_deg) { return std::abs(a_deg - b_deg) >= kReadBack_deg; };
   const RecordingRow& first = recording.rows.front();
   const NamedSensor* one = nullptr;
   bool turned = false;

@@ -77,9 +77,16 @@ class Evaluation {
     for (std::size_t i = 0; i < scenes_.size(); ++i) {
       if (!change.acts_in(scenes_[i].run)) continue;
       const std::vector<double>& z = visit >= 0 && scenes_[i].visit != visit ? none : draws;
-      TouchScene scene = scenes_[i];
-      if (change.in_each_file) scene.time_s -= start_s_[i];
-      r(static_cast<Eigen::Index>(i)) = kUmPerMm * dot(scene.normal, effect_.displace(scene, theta.data(), z.data()));
+      const auto along_normal = [&](const TouchScene& s) {
+        return kUmPerMm * dot(s.normal, effect_.displace(s, theta.data(), z.data()));
+      };
+      if (change.in_each_file) {
+        TouchScene since_its_start = scenes_[i];
+        since_its_start.time_s -= start_s_[i];
+        r(static_cast<Eigen::Index>(i)) = along_normal(since_its_start);
+      } else {
+        r(static_cast<Eigen::Index>(i)) = along_normal(scenes_[i]);
+      }
     }
     return r;
   }

@@ -157,12 +157,11 @@ std::string besides_sizes(const Case& c, const SearchResult& result, const std::
 /// Between files a head that was knocked and a new qualification look alike: the offset of every tip is another one.
 std::string to_know_qualifications(const Case& c, const SearchResult& result) {
   if (!result.findings.empty() || result.other) return "";
-  std::map<int, const RecordingRow*> first;  // by tip
+  std::map<int, const RecordedTouch*> first;  // by tip
   const bool anew = std::any_of(c.rows.begin(), c.rows.end(), [&](int row) {
     const RecordedTouch& t = c.touches.touches[row];
-    const RecordingRow& here = c.recording->rows[t.row];
-    const RecordingRow& before = *first.try_emplace(t.scene.stylus.tip_ordinal, &here).first->second;
-    return here.file != before.file && here.qualification != before.qualification;
+    const RecordedTouch& before = *first.try_emplace(t.scene.stylus.tip_ordinal, &t).first->second;
+    return t.file != before.file && t.scene.qualification != before.scene.qualification;
   });
   return anew
       ? "Between the files the styli count as qualified anew. If they were not, give each file the column qualification with one number: what a knock did to the head shows only then."

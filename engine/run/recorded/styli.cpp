@@ -14,7 +14,6 @@ namespace abbe {
 namespace {
 
 bool is_near(const std::optional<double>& a_deg, const std::optional<double>& b_deg) {
-  constexpr double kReadBack_deg = 0.1;
   return a_deg && b_deg ? std::abs(*a_deg - *b_deg) < kReadBack_deg : a_deg.has_value() == b_deg.has_value();
 }
 

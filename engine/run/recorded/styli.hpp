@@ -15,6 +15,9 @@
 
 namespace abbe {
 
+/// Head angles that differ by less are one orientation.
+inline constexpr double kReadBack_deg = 0.1;
+
 /// The stylus systems of a recording, resolved once each: by name, and by the angles of the head where rows give them.
 /// Angles that were read back scatter by thousandths of a degree about those that the head was sent to.
 class RecordedStyli {
