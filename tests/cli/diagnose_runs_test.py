@@ -289,15 +289,19 @@ class DiagnoseRuns(harness.Case):
             self.assertIsNone(self.diagnosis(*one_knows)["otherwise"])
 
     def test_the_same_warm_up_in_each_file_is_one(self):
-        """Three mornings: in one go it would be three drifts, or a swing of the room."""
+        """Three mornings: in one go it would be three drifts, or a swing of the room. The nights between may be logged or not."""
         warm = ("--with", "thermal.drift:amplitude_um=8,direction=x,tau_s=60")
-        said = self.diagnosis(*(self.record(day, *warm, "--seed", 5, "--setup", day) for day in (1, 2, 3)))
-        effect = said["effects"][0]
-        self.assertIn("thermal.drift", effect["members"])
-        self.assertIn("Its clock begins anew in each file.", effect["sentence"])
-        drift = next(m["parameters"] for m in effect["by_member"] or [effect] if "amplitude_um" in m["parameters"])
-        self.assertLess(drift["amplitude_um"]["interval95"][0], 8)
-        self.assertGreater(drift["amplitude_um"]["interval95"][1], 8)
+        days = [self.folder / self.record(day, *warm, "--seed", 5, "--setup", day) for day in (1, 2, 3)]
+        apart = [self.changed(path, lambda row, day=day: row | {"time_s": str(float(row["time_s"]) + 86400 * day)}, f"of_{path.name}")
+                 for day, path in enumerate(days)]
+        for files in (days, apart):
+            effect = self.diagnosis(*files)["effects"][0]
+            self.assertIn("thermal.drift", effect["members"])
+            self.assertIn("Its clock begins anew in each file.", effect["sentence"])
+            drift = next(m["parameters"] for m in effect["by_member"] or [effect] if "amplitude_um" in m["parameters"])
+            for parameter, planted in (("amplitude_um", 8), ("tau_s", 60)):
+                self.assertLess(drift[parameter]["interval95"][0], planted)
+                self.assertGreater(drift[parameter]["interval95"][1], planted)
 
     def test_what_is_there_in_all_runs_is_not_new(self):
         lobing = ("--with", "probe.pretravel_lobing:amplitude_um=3")

@@ -149,22 +149,47 @@ std::vector<Variant> by_directions(const std::vector<Variant>& all, const std::v
   return list;
 }
 
+/// Of several files, how long the longest takes of the whole; nothing of one.
+std::optional<double> share_of_longest_file(const RecordedTouches& t, const std::vector<int>& rows) {
+  std::map<int, Cell> spans_s;
+  for (const int i : rows) {
+    const double now_s = t.touches[i].scene.time_s;
+    spans_s.try_emplace(t.touches[i].file, Cell{now_s, now_s}).first->second.high = now_s;
+  }
+  if (spans_s.size() < 2) return {};
+  double longest_s = 0;
+  for (const auto& [file, span_s] : spans_s) longest_s = std::max(longest_s, span_s.high - span_s.low);
+  return longest_s / lasts_s(t);
+}
+
+/// What settles, once in the whole time and, of several files, anew in each. There the time constants that are tried,
+/// shares of the whole time, are shares of the longest file: a night may lie between two.
+std::vector<Variant> with_beginnings(std::vector<Variant> list, const Effect& effect,
+                                     std::optional<double> share_of_longest) {
+  const auto settles = std::find_if(effect.parameters.begin(), effect.parameters.end(),
+                                    [](const EffectParameter& p) { return p.sought == Sought::time_constant; });
+  if (!share_of_longest || settles == effect.parameters.end()) return list;
+  const auto constant = static_cast<std::size_t>(settles - effect.parameters.begin());
+  for (std::size_t k = 0, once = list.size(); k < once; ++k) {
+    Variant anew = list[k];
+    anew.change.in_each_file = true;
+    anew.theta[constant] *= *share_of_longest;
+    anew.cells[constant].low *= *share_of_longest, anew.cells[constant].high *= *share_of_longest;
+    list.push_back(std::move(anew));
+  }
+  return list;
+}
+
 /// Stretches of runs that are told apart at first; where the recording speaks for one, it is divided (refine.cpp).
 constexpr std::size_t kMostChanges = 8, kMostGone = 4, kMostBetween = 3;
 
 /// The same from each run but the first on, or from one of each stretch of them: what is new in a run, after
 /// a crash, a mend or a change of the weather; what is gone, a dirty tip that was cleaned; and what came and went. What
 /// happens at a moment happens between the runs then; what goes on in time, or is drawn anew in every visit, is new by
-/// itself, but may have begun anew in each of several files.
-std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effect, const std::vector<LaterRun>& later,
-                                  bool of_files) {
+/// itself.
+std::vector<Variant> with_changes(std::vector<Variant> list, const Effect& effect, const std::vector<LaterRun>& later) {
   const std::optional<std::size_t> moment = moment_of(effect);
   const bool goes_on = !moment && (effect.needs & static_cast<unsigned>(Covariate::time));
-  const bool settles = std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                                   [](const EffectParameter& p) { return p.sought == Sought::time_constant; });
-  const std::size_t once = list.size();
-  for (std::size_t k = 0; of_files && settles && k < once; ++k)
-    list.push_back(list[k]), list.back().change.in_each_file = true;
   if (goes_on || (effect.draws > 0 && effect.draws_per == DrawsPer::visit)) return list;
   const std::vector<Variant> in_all = list;
   const auto add = [&](const LaterRun& at, RunChange change) {
@@ -355,10 +380,9 @@ void add_effect(const Effect& effect, const RecordedTouches& t, const std::vecto
   explanation.missing = missing_of(effect, t);
   const std::vector<ParameterGrid> grids = grids_of(effect, t, least_period_um);
   const Variants variants(effect, grids, t, rows);
-  const std::vector<Variant> in_all = by_directions(by_groups(settings(effect, grids), effect), grids);
-  const bool of_files =
-      std::any_of(rows.begin(), rows.end(), [&](int i) { return t.touches[i].file != t.touches[rows.front()].file; });
-  for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows), of_files)) {
+  const std::vector<Variant> in_all = with_beginnings(by_directions(by_groups(settings(effect, grids), effect), grids),
+                                                      effect, share_of_longest_file(t, rows));
+  for (Variant& variant : with_changes(in_all, effect, later_runs(t, rows))) {
     variant.explanation = static_cast<int>(out.list.size());
     variants.fill(variant);
     if (variant.signature.cols() == 0) continue;
