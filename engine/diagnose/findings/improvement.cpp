@@ -162,6 +162,87 @@ void tell_residuals(const Case& c, const Vector& before, const Vector& after, Di
   }
 }
 
+/// What was told, in its order: the names, and the pattern that no name explains.
+struct Told {
+  int explanation = 0, variant = 0;
+};
+std::vector<Told> all_told(const SearchResult& result) {
+  std::vector<Told> list;
+  for (const Finding& f : result.findings) list.push_back({f.explanation, f.variant});
+  if (result.other) list.push_back({result.other->explanation, result.other->variant});
+  return list;
+}
+
+/// By group: what all that was told gains there, each beside those before it, and what it was taken for.
+struct GroupGains {
+  std::vector<double> gain;
+  std::vector<Matrix> columns;
+};
+/// `baseline`: log likelihood of every group with nothing told, by the noise and errors without it.
+GroupGains gains_of(const Case& c, const Scheme& scheme, const std::vector<Told>& told, const Hyperparameters& beside,
+                    const std::vector<double>& baseline) {
+  GroupGains out{std::vector<double>(baseline.size(), 0),
+                 std::vector<Matrix>(baseline.size(), Matrix(c.model.y.size(), 0))};
+  std::vector<const Matrix*> found;
+  for (const Told& t : told) {
+    const HeldOut h = held_out(c, scheme, t.explanation, with_free(c.model, found), beside);
+    for (std::size_t g = 0; g < baseline.size(); ++g) {
+      out.gain[g] += h.gain[g] + (found.empty() ? h.null[g] - baseline[g] : 0);
+      append(out.columns[g], h.columns[g]);
+    }
+    found.push_back(&c.explanations.variants[t.variant].signature);
+  }
+  return out;
+}
+
+/// Every group by what the others show of what was told.
+struct Corrected {
+  LinearModel without;  ///< the recording less what was told
+  Vector residual;      ///< beyond the prediction of machine and what was told
+  /// What was told, where it acts most. Each group asks the others alone: chosen among the predictions of all groups, the
+  /// touches would be those of the group of which the others expect too much.
+  Vector most;
+};
+Corrected corrected(const LinearModel& machine, const Hyperparameters& hyper, const Scheme& scheme,
+                    const std::vector<Matrix>& columns) {
+  Corrected out{machine, Vector::Zero(machine.y.size()), Vector::Zero(machine.y.size())};
+  std::size_t at = 0;
+  for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end())) {
+    const Vector predicted = expected(machine, hyper, scheme, g, columns[at++]);
+    LinearModel improved = machine;
+    improved.y -= predicted;
+    out.residual += beyond_prediction(improved, hyper, of_group(scheme, g));
+    const Vector shows = beside_free(machine, predicted);
+    const double limit = largest_fifth(shows);
+    for (std::size_t k = 0; k < scheme.group.size(); ++k) {
+      if (scheme.group[k] != g) continue;
+      const auto row = static_cast<Eigen::Index>(k);
+      out.without.y(row) -= predicted(row);
+      if (std::abs(shows(row)) >= limit) out.most(row) = shows(row);
+    }
+  }
+  return out;
+}
+
+/// The best effect that no set holds, with what it gains by itself.
+std::optional<RunnerUp> runner_up(const Case& c, const SearchResult& result, const Scheme& scheme, int first_told,
+                                  const std::vector<double>& baseline) {
+  const auto in_a_set = [&](int k) {
+    return std::any_of(result.findings.begin(), result.findings.end(),
+                       [&](const Finding& f) { return std::find(f.set.begin(), f.set.end(), k) != f.set.end(); });
+  };
+  int best = -1;
+  for (int k = 0; k < static_cast<int>(c.explanations.list.size()); ++k) {
+    if (in_a_set(k) || !c.explanations.list[k].effect || k == first_told) continue;
+    if (best < 0 || result.first.log_bayes[k] > result.first.log_bayes[best]) best = k;
+  }
+  if (best < 0) return {};
+  const int variant = best_variant(c.explanations, best, result.first);
+  const Matrix& signature = c.explanations.variants[variant].signature;
+  const HeldOut h = held_out(c, scheme, best, c.model, estimate(with_free(c.model, {&signature})));
+  return RunnerUp{{c.explanations.list[best].name}, sum(h.gain) + sum(h.null) - sum(baseline)};
+}
+
 }  // namespace
 
 double standard_error_of_sum(const std::vector<double>& gain, const std::vector<int>& group) {
@@ -174,78 +255,34 @@ double standard_error_of_sum(const std::vector<double>& gain, const std::vector<
 
 void show_improvement(const Case& c, const SearchResult& result, Diagnosis& out) {
   const Scheme scheme = scheme_of(c);
-  const std::set<int> groups(scheme.group.begin(), scheme.group.end());
   const LinearModel machine = likelier_ensemble(c, c.model);
   const Hyperparameters& hyper = result.hyper_of_likelier;
-  // Before and after by one machine, as it is beside what was found: one that takes the mismatch for its own
+  // Before and after by one machine, as it is beside what was told: one that takes the mismatch for its own
   // errors predicts worse than none.
   Vector before = Vector::Zero(machine.y.size());
-  for (const int g : groups) before += beyond_prediction(machine, hyper, of_group(scheme, g));
-  std::vector<int> named;
-  std::vector<int> variants;
-  for (const Finding& f : result.findings) named.push_back(f.explanation), variants.push_back(f.variant);
-  if (result.other) named.push_back(result.other->explanation), variants.push_back(result.other->variant);
-  if (named.empty()) return tell_residuals(c, before, before, out);
-  const std::vector<double> baseline = held_out(c, scheme, named.front(), c.model, c.hyper).null;
-  std::vector<double> gain(groups.size(), 0);
-  std::vector<Matrix> columns(groups.size(), Matrix(machine.y.size(), 0));
-  for (std::size_t k = 0; k < named.size(); ++k) {
-    std::vector<const Matrix*> found;
-    for (std::size_t j = 0; j < k; ++j) found.push_back(&c.explanations.variants[variants[j]].signature);
-    const HeldOut h = held_out(c, scheme, named[k], with_free(c.model, found), result.hyper);
-    for (std::size_t g = 0; g < gain.size(); ++g)
-      gain[g] += h.gain[g] + (k == 0 ? h.null[g] - baseline[g] : 0), append(columns[g], h.columns[g]);
-  }
-  Vector after = Vector::Zero(machine.y.size());
-  LinearModel without = machine;  // what was found, as the other groups show it
-  // Where it acts. Each group asks the others alone: chosen among the predictions of all groups, the touches would be
-  // those of the group of which the others expect too much.
-  Vector most = Vector::Zero(machine.y.size());
-  std::size_t at = 0;
-  for (const int g : groups) {
-    const Vector predicted = expected(machine, hyper, scheme, g, columns[at++]);
-    LinearModel improved = machine;
-    improved.y -= predicted;
-    after += beyond_prediction(improved, hyper, of_group(scheme, g));
-    const Vector shows = beside_free(machine, predicted);
-    const double limit = largest_fifth(shows);
-    for (std::size_t k = 0; k < scheme.group.size(); ++k) {
-      if (scheme.group[k] != g) continue;
-      const auto row = static_cast<Eigen::Index>(k);
-      without.y(row) -= predicted(row);
-      if (std::abs(shows(row)) >= limit) most(row) = shows(row);
-    }
-  }
-  Improvement i;
-  i.scheme = scheme.name;
-  i.log_score_gain = sum(gain);
-  i.se = standard_error_of_sum(gain, scheme.group);
-  i.rms_before_um = rms(before);
-  i.rms_after_um = rms(after);
-  i.bias_before_um = bias(before, most);
-  i.bias_after_um = bias(after, most);
+  for (const int g : std::set<int>(scheme.group.begin(), scheme.group.end()))
+    before += beyond_prediction(machine, hyper, of_group(scheme, g));
+  const std::vector<Told> told = all_told(result);
+  if (told.empty()) return tell_residuals(c, before, before, out);
+  const std::vector<double> baseline = held_out(c, scheme, told.front().explanation, c.model, c.hyper).null;
+  const GroupGains gains = gains_of(c, scheme, told, result.hyper, baseline);
+  const Corrected after = corrected(machine, hyper, scheme, gains.columns);
   const auto chi2_per_dof = [&](const LinearModel& m) {
     return leave_one_out(m, hyper).squaredNorm() / double(m.y.size());
   };
+  Improvement i;
+  i.scheme = scheme.name;
+  i.log_score_gain = sum(gains.gain);
+  i.se = standard_error_of_sum(gains.gain, scheme.group);
+  i.rms_before_um = rms(before);
+  i.rms_after_um = rms(after.residual);
+  i.bias_before_um = bias(before, after.most);
+  i.bias_after_um = bias(after.residual, after.most);
   i.chi2_per_dof_before = chi2_per_dof(machine);
-  i.chi2_per_dof_after = chi2_per_dof(without);
+  i.chi2_per_dof_after = chi2_per_dof(after.without);
   out.improvement = i;
-  tell_residuals(c, before, after, out);
-  // The runner-up: the best explanation outside the named sets.
-  int second = -1;
-  for (std::size_t k = 0; k < c.explanations.list.size(); ++k) {
-    const bool in_set = std::any_of(result.findings.begin(), result.findings.end(), [&](const Finding& f) {
-      return std::find(f.set.begin(), f.set.end(), int(k)) != f.set.end();
-    });
-    if (in_set || !c.explanations.list[k].effect || int(k) == named.front()) continue;
-    if (second < 0 || result.first.log_bayes[k] > result.first.log_bayes[second]) second = static_cast<int>(k);
-  }
-  if (second < 0) return;
-  const Explanation& e = c.explanations.list[second];
-  const int variant = best_variant(c.explanations, second, result.first);
-  const Matrix& signature = c.explanations.variants[variant].signature;
-  const HeldOut h = held_out(c, scheme, second, c.model, estimate(with_free(c.model, {&signature})));
-  out.runner_up = RunnerUp{{e.name}, sum(h.gain) + sum(h.null) - sum(baseline)};
+  tell_residuals(c, before, after.residual, out);
+  out.runner_up = runner_up(c, result, scheme, told.front().explanation, baseline);
 }
 
 }  // namespace abbe::diagnose
