@@ -254,53 +254,23 @@ BaselineSummary machine_beside(const Case& c, const EvidenceSearch& first, const
   return out;
 }
 
-/// `out`: what has been said of the recording so far.
-std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional<Surfaces> surfaces, Diagnosis out) {
-  const Recording& recording = given.recording;
-  const DiagnoseOptions& options = given.options;
-  const std::string& file = given.file;
-  const auto at = [&](std::string_view step) { begins(options.progress, step); };
-  at("virtual machines of the specification");
-  Case c = case_of(recording, given.machine, options, surfaces, file, out);
-  const std::vector<Diagnostic> of_the_file = out.messages;
-  judge_rounding(given.step_um, c);
-  // What holds no error at all says no more than its plan.
-  const bool as_planned = !options.design_only && holds_targets_only(recording);
-  if (as_planned) out.messages.push_back(nothing_but_targets(file));
-  const bool plan = options.design_only || as_planned;
-  if (plan)
-    take_plan(c);
-  else
-    mask_outliers(c);
-  at("what each explanation would do to these touches");
-  EvidenceSearch first = search_of(c, plan, plan ? 0 : kUmPerMm * reading_step_mm(recording));
-  at("what this recording could detect");
-  tell_power(c, first, out);
-  const bool known = given.machine.known_state.has_value();
-  out.baseline = summary(c, c.hyper, known);
-  if (as_planned) {
-    out.judged = Judged::targets_only;
-    out.verdict = Verdict::cannot_judge;
-    out.otherwise = "Record measured positions: those of a real machine differ from their targets in the last digits.";
-    return out;
-  }
-  if (plan) {
-    at("the next measurement");
-    out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
-    return out;
-  }
+/// What the recording shows is searched, named and told. `out`: what has been said of it so far, `of_the_file` before the
+/// machine was asked.
+std::variant<Diagnosis, AnotherPart> searched(const Given& given, bool surfaces_stated, Case& c, EvidenceSearch& first,
+                                              std::vector<Diagnostic> of_the_file, Diagnosis out) {
+  const auto at = [&](std::string_view step) { begins(given.options.progress, step); };
   const auto is_another_part = [&](const SearchResult& result) {
-    return !surfaces && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out);
+    return !surfaces_stated && c.baseline.surfaces != Surfaces::unknown && another_part(c, result, out);
   };
-  const auto another = [&] { return AnotherPart{not_its_targets(c.touches, kNineTenths, file)}; };
+  const auto another = [&] { return AnotherPart{not_its_targets(c.touches, kNineTenths, given.file)}; };
   if (out.smallest_detectable.empty()) {
     if (is_another_part({})) return another();
-    tell_nothing_judged(c, file, out);
+    tell_nothing_judged(c, given.file, out);
     return out;
   }
   c.rough = first.rough() > 0.5;
   SearchResult result = search(c, first);
-  out.baseline = machine_beside(c, first, result, known);
+  out.baseline = machine_beside(c, first, result, out.baseline.known);
   out.p_value = result.p_value;
   out.other_methods = other_methods(c, result.first);
   at("touches that the model has not seen");
@@ -313,15 +283,50 @@ std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional
   out.location = locate(c, first, result);
   tell_noise(c, judge_noise(c, result), out);
   out.verdict = verdict_of(c, result, out);
-  tell_machine(c, result, file, out);
+  tell_machine(c, result, given.file, out);
   // What rougher errors would explain may be that as well: here errors are large that are so as harmonics.
   const bool large = result.hyper.scale >= kLargeErrors;
-  if (c.styli_unlogged && (is_mismatch(out) || large)) return without_styli(std::move(out), of_the_file);
+  if (c.styli_unlogged && (is_mismatch(out) || large)) return without_styli(std::move(out), std::move(of_the_file));
   at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
   out.otherwise = otherwise(c, result, out.next_measurement);
-  if (options.keep_state) out.known_state = known_state_beside(c, result);
+  if (given.options.keep_state) out.known_state = known_state_beside(c, result);
   return out;
+}
+
+/// `out`: what has been said of the recording so far.
+std::variant<Diagnosis, AnotherPart> diagnosed(const Given& given, std::optional<Surfaces> surfaces, Diagnosis out) {
+  const DiagnoseOptions& options = given.options;
+  const auto at = [&](std::string_view step) { begins(options.progress, step); };
+  at("virtual machines of the specification");
+  Case c = case_of(given.recording, given.machine, options, surfaces, given.file, out);
+  std::vector<Diagnostic> of_the_file = out.messages;
+  judge_rounding(given.step_um, c);
+  // What holds no error at all says no more than its plan.
+  const bool as_planned = !options.design_only && holds_targets_only(given.recording);
+  if (as_planned) out.messages.push_back(nothing_but_targets(given.file));
+  const bool plan = options.design_only || as_planned;
+  if (plan)
+    take_plan(c);
+  else
+    mask_outliers(c);
+  at("what each explanation would do to these touches");
+  EvidenceSearch first = search_of(c, plan, plan ? 0 : kUmPerMm * reading_step_mm(given.recording));
+  at("what this recording could detect");
+  tell_power(c, first, out);
+  out.baseline = summary(c, c.hyper, given.machine.known_state.has_value());
+  if (as_planned) {
+    out.judged = Judged::targets_only;
+    out.verdict = Verdict::cannot_judge;
+    out.otherwise = "Record measured positions: those of a real machine differ from their targets in the last digits.";
+    return out;
+  }
+  if (plan) {
+    at("the next measurement");
+    out.next_measurement = next_measurements(c, nullptr, out.smallest_detectable);
+    return out;
+  }
+  return searched(given, surfaces.has_value(), c, first, std::move(of_the_file), std::move(out));
 }
 
 }  // namespace
