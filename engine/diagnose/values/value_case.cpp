@@ -1,0 +1,76 @@
+#include "engine/diagnose/values/value_case.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "engine/diagnose/values/value_signature.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+constexpr int kHalf = 1000, kPerValue = 10, kMostValues = 500;
+
+/// "LX2 of part.dmi"; the evaluation too, where it is not the first.
+std::vector<std::string> labels_of(const ValueCase& c) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < c.ensemble.values.size(); ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    out.push_back(fmt::format("{} of {}", c.recording->rows[k].characteristic, program_of(c, k)));
+    if (v.occurrence > 1) out.back() += fmt::format(", evaluation {}", v.occurrence);
+  }
+  return out;
+}
+
+}  // namespace
+
+int machines_for(Eigen::Index values) { return 2 * (kHalf + kPerValue * static_cast<int>(values)); }
+bool enough(const Matrix& simulated) { return simulated.rows() / 2 >= simulated.cols() + 2; }
+
+Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64_t seed) {
+  const Eigen::Index half = simulated.rows() / 2;
+  Judges out;
+  out.judged = with_calibration(simulated.bottomRows(simulated.rows() - half), calibration, seed);
+  out.mean = simulated.topRows(half).colwise().mean();
+  const Matrix centred = simulated.topRows(half).rowwise() - out.mean.transpose();
+  out.covariance = centred.transpose() * centred / double(half - 1) + calibration * calibration.transpose();
+  out.covariance.diagonal().array() += kLeastOfValue_um * kLeastOfValue_um;
+  return out;
+}
+
+ValueReference reference_of(const ValueCase& c) {
+  return {c.ensemble.values, *c.programs, *c.machine, *c.options, c.deviation, c.judges.covariance, c.calibration};
+}
+
+std::string program_of(const ValueCase& c, std::size_t value) {
+  const std::string& said = c.recording->rows[value].program;
+  const SourceFile& source = *(*c.programs)[c.ensemble.values[value].program].source;
+  return said.empty() ? std::filesystem::path(source.name()).filename().string() : said;
+}
+
+ValueCase value_case_of(const ValueRecording& recording, const std::vector<ValueProgram>& programs,
+                        const Machine& machine, const DiagnoseOptions& options) {
+  const int n = static_cast<int>(recording.rows.size());
+  if (n > kMostValues)
+    throw UserError(diagnostic(Code::E0552, fmt::format("{}: {} values are too many", recording.source.name(), n),
+                               fmt::format("at most {} are judged together; split the file", kMostValues)));
+  ValueCase c;
+  c.recording = &recording, c.programs = &programs, c.machine = &machine, c.options = &options;
+  c.ensemble = value_ensemble(recording, programs, machine, options, machines_for(n));
+  c.deviation.resize(n), c.calibration.setZero(n, n);
+  for (int k = 0; k < n; ++k) {
+    const RecordedValue& v = c.ensemble.values[k];
+    c.deviation(k) = v.deviation, c.calibration(k, v.artefact) = v.calibration;
+  }
+  if (!enough(c.ensemble.simulated))
+    throw UserError(diagnostic(
+        Code::E0553, fmt::format("{}: hardly any virtual machine reaches all of these values", recording.source.name()),
+        "`abbe run` says where they stop"));
+  c.judges = judges_of(c.ensemble.simulated, c.calibration, options.seed);
+  add_value_patterns(labels_of(c), c.judges.covariance, c.ensemble.explanations);
+  c.search.emplace(c.judges.mean, c.judges.covariance, c.ensemble.explanations);
+  return c;
+}
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,59 @@
+// Recorded values beside those of simulated machines: what a diagnosis of values is made of.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/diagnose/findings/finding.hpp"
+#include "engine/diagnose/values/value_estimate.hpp"
+
+namespace abbe::diagnose {
+
+/// Simulated machines that values are compared with.
+struct Judges {
+  Vector mean;        ///< of the first half
+  Matrix covariance;  ///< of these, with that of the calibrations
+  Matrix judged;      ///< the second half, with errors of calibration
+};
+
+/// Recorded values, and what they are judged by.
+struct ValueCase {
+  const ValueRecording* recording = nullptr;
+  const std::vector<ValueProgram>* programs = nullptr;
+  const Machine* machine = nullptr;
+  const DiagnoseOptions* options = nullptr;
+  ValueEnsemble ensemble;
+  Vector deviation;
+  Matrix calibration;  ///< one column for each artefact: a standard deviation of its calibration
+  Judges judges;
+  std::optional<ValueSearch> search;
+};
+
+/// Throws UserError: too many values (E0552), or machines that do not reach them (E0553).
+ValueCase value_case_of(const ValueRecording&, const std::vector<ValueProgram>&, const Machine&,
+                        const DiagnoseOptions&);
+
+/// How many virtual machines judge so many values.
+int machines_for(Eigen::Index values);
+/// Whether these machines (rows) are enough to judge their values.
+bool enough(const Matrix& simulated);
+/// `simulated`: machines x values, more than twice as many machines as values.
+Judges judges_of(const Matrix& simulated, const Matrix& calibration, std::uint64_t seed);
+
+ValueReference reference_of(const ValueCase&);
+
+/// As the recording calls the program of a value, else the name of its file.
+std::string program_of(const ValueCase&, std::size_t value);
+
+/// The search once more, beside the errors that a machine has.
+struct Closer {
+  ValueSearch search;
+  std::map<int, Sizes> sizes;  ///< by variant, of the likeliest
+
+  explicit Closer(const ValueCase& c) : search(*c.search), sizes(linearise_likeliest(search, reference_of(c))) {}
+  const Variant& variant(const Finding& f) const { return search.explanations().variants[f.variant]; }
+  const Explanation& explanation(const Finding& f) const { return search.explanations().list[f.explanation]; }
+};
+
+}  // namespace abbe::diagnose

@@ -1,0 +1,110 @@
+#include "engine/diagnose/values/value_naming.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/diagnose/findings/belief.hpp"
+#include "engine/diagnose/findings/members.hpp"
+#include "engine/diagnose/findings/search.hpp"
+#include "engine/diagnose/quantile.hpp"
+#include "engine/diagnose/values/value_signature.hpp"
+#include "engine/diagnose/values/value_telling.hpp"
+
+namespace abbe::diagnose {
+
+namespace {
+
+/// How often such machines look as unusual to a search as the recording does.
+double chance_of(const ValueCase& c, const ValueSearch& search, const Matrix& machines) {
+  return tail_probability(search.evidence(c.deviation).statistic, statistics_of(search, machines));
+}
+
+/// How often chance leaves as much as a pattern does, or a name that no machine was simulated with.
+double left_by_chance(const ValueCase& c, const Closer& closer, const Finding& f) {
+  const ValueSearch without(c.judges.mean, c.judges.covariance, c.search->explanations(), closer.variant(f).signature);
+  return chance_of(c, without, c.judges.judged);
+}
+
+/// How often a machine with the effect that is named leaves as much as the recording does.
+double adequacy_of(const ValueCase& c, const Closer& closer, const Finding& name) {
+  if (name.explanation < 0) return 1;
+  const auto found = closer.sizes.find(name.variant);
+  if (found == closer.sizes.end()) return left_by_chance(c, closer, name);
+  const Variant& variant = closer.variant(name);
+  const Machine planted = with_effect(*c.machine, *closer.explanation(name).effect, variant, found->second.mean);
+  const VirtualMachines machines =
+      screened_machines(*c.machine, c.options->seed, machines_for(c.deviation.size()), c.options->threads);
+  const Matrix simulated =
+      complete_rows(simulated_values(c.ensemble.values, *c.programs, planted, machines, *c.options));
+  if (!enough(simulated)) return left_by_chance(c, closer, name);
+  const Judges judges = judges_of(simulated, c.calibration, c.options->seed);
+  return chance_of(c, ValueSearch(judges.mean, judges.covariance, c.search->explanations(), variant.signature),
+                   judges.judged);
+}
+
+/// Of a set those first that need nothing untold.
+void put_told_first(const Explanations& all, const Evidence& evidence, Finding& name) {
+  if (name.set.empty()) return;
+  std::stable_partition(name.set.begin(), name.set.end(), [&](int k) { return !all.list[k].missing; });
+  if (name.set.front() == name.explanation) return;
+  name.explanation = name.set.front();
+  name.variant = best_variant(all, name.explanation, evidence);
+}
+
+struct NameAndPattern {
+  Finding name, pattern;
+};
+
+/// The likeliest name with a size that it can have, if one is likelier than a pattern; else the likeliest. Beside it the
+/// likeliest pattern, once those names are struck that are impossible.
+NameAndPattern possible_name(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
+  constexpr int kTries = 5;
+  constexpr double kStruck = -1e6;
+  const Explanations& all = closer.search.explanations();
+  Evidence left = evidence;
+  std::optional<NameAndPattern> likeliest;
+  for (int k = 0; k < kTries; ++k) {
+    NameAndPattern now{finding_of(all, left, true), finding_of(all, left, false)};
+    put_told_first(all, left, now.name);
+    if (!likeliest) likeliest = now;
+    if (!likelier(now.name, now.pattern, kNamed)) break;
+    if (all_plausible(parameters_of(c, closer, now.name))) return now;
+    left.log_bayes[now.name.explanation] = kStruck;
+  }
+  return *likeliest;
+}
+
+/// The characteristic that strays by itself, where chance leaves as much as the others do.
+std::optional<Finding> one_characteristic(const ValueCase& c, const Closer& closer, const Evidence& evidence) {
+  const Explanations& all = closer.search.explanations();
+  const auto found = std::find_if(all.list.begin(), all.list.end(),
+                                  [](const Explanation& e) { return e.shape == kOneCharacteristic; });
+  if (found == all.list.end()) return std::nullopt;
+  Finding f;
+  f.explanation = static_cast<int>(found - all.list.begin());
+  f.variant = best_variant(all, f.explanation, evidence);
+  f.set = {f.explanation};
+  return left_by_chance(c, closer, f) >= kInadequate ? std::optional(f) : std::nullopt;
+}
+
+}  // namespace
+
+Finding tell_explanation(const ValueCase& c, const Closer& closer, Diagnosis& out) {
+  const Evidence evidence = closer.search.evidence(c.deviation);
+  auto [name, pattern] = possible_name(c, closer, evidence);
+  const double adequacy = adequacy_of(c, closer, name);
+  const bool doubted = adequacy < kInadequate && leaves_less(left_by_chance(c, closer, pattern), adequacy);
+  const bool named = likelier(name, pattern, doubted ? kNamedInDoubt : kNamed);
+  if (!named) pattern = one_characteristic(c, closer, evidence).value_or(pattern);
+  if (named)
+    tell_name(c, closer, name, adequacy, out);
+  else
+    tell_pattern(c, closer, pattern, out);
+  if (!named && name.explanation >= 0 && closer.explanation(pattern).shape != kOneCharacteristic)
+    out.unexplained->sentence +=
+        fmt::format(" Of the catalogue, {} comes nearest.", closer.explanation(name).effect->title);
+  return named ? name : pattern;
+}
+
+}  // namespace abbe::diagnose
