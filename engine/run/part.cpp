@@ -125,24 +125,30 @@ Part::OnSurface Part::resolve(int index, const plan::FeatureDef& def, std::vecto
   if (!surface.form.empty() && !is_round(def.kind->shape))
     refuse("undulations", "\"form\" is for circles, cylinders and cones; \"random_form_um\" is for every surface");
   const double size = def.nominal.size, per_deviation = !as_diameter ? 1 : def.inner ? -0.5 : 0.5;
-  const double deviation_mm = given_of(surface).value - (surface.diameter_mm ? 2 * size : 0);
-  const OnSurface out{index, per_deviation * deviation_mm, per_deviation};
+  const OnSurface out{index, per_deviation};
   constexpr double kNoDeviation = 0.1;  // of the size: that is another part, or another unit
-  if (!has_diameter(def.kind->shape) || !(size > 0) || std::abs(out.known_mm) <= kNoDeviation * size) return out;
+  const double known_mm = offset_mm(out, size);
+  if (!has_diameter(def.kind->shape) || !(size > 0) || std::abs(known_mm) <= kNoDeviation * size) return out;
   const std::optional<ForeignUnit> unit =
       surface.diameter_mm ? foreign_unit(surface.diameter_mm->value, 2 * size) : std::nullopt;
   errors.push_back(diagnostic_at(
       workpiece_->source, surface.label_span, Code::E0424,
       fmt::format("the surface of '{}' lies {:g} mm from where the program has it, and its diameter there is {:g} mm{}",
-                  def.label, out.known_mm, 2 * size, unit ? fmt::format(": it is given in {}", unit->name) : ""),
+                  def.label, known_mm, 2 * size, unit ? fmt::format(": it is given in {}", unit->name) : ""),
       "diameters are in millimetres, offsets and deviations in micrometres"));
   return out;
+}
+
+double Part::offset_mm(const OnSurface& on, double nominal_radius_mm) const {
+  const Surface& surface = workpiece_->surfaces[on.index];
+  const double deviation_mm = given_of(surface).value - (surface.diameter_mm ? 2 * nominal_radius_mm : 0);
+  return on.per_deviation * deviation_mm;
 }
 
 double Part::known_offset_mm(const PlaceOnPart& at) const {
   const OnSurface on = given() ? on_surface_[at.feature.value] : OnSurface{};
   if (on.index < 0) return 0;
-  double offset = on.known_mm;
+  double offset = offset_mm(on, at.nominal.size);
   for (const FormHarmonic& h : workpiece_->surfaces[on.index].form) {
     if (!h.phase_half_turns) continue;
     const CosSin angle = times(h.undulations, angle_about_axis(at));

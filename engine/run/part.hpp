@@ -89,9 +89,10 @@ class Part {
   /// What the file says of the surface of one feature. A label that is defined again is another feature on the same one.
   struct OnSurface {
     int index = -1;            ///< in the order of the workpiece; -1: nothing
-    double known_mm = 0;       ///< offset along the outward normal, best estimate
     double per_deviation = 1;  ///< offset for what the file gives: half of a diameter, minus half of a bore's
   };
+  /// Best estimate along the outward normal. The nominal radius is that of the touch: a FEAT may take it from a variable.
+  double offset_mm(const OnSurface&, double nominal_radius_mm) const;
   /// Adds what is wrong with it, if anything.
   OnSurface resolve(int index, const plan::FeatureDef&, std::vector<Diagnostic>&) const;
 

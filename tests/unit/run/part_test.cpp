@@ -154,6 +154,18 @@ TEST_CASE("a diameter is the same for a bore and a shaft") {
   }
 }
 
+TEST_CASE("a diameter that a variable gives is known when the feature is touched") {
+  plan::Plan varying = circle(false);
+  plan::FeatureDef& def = varying.features[0];
+  for (const auto& [name, value] : {std::pair{"x", 800.0}, {"y", 500.0}, {"z", -500.0}, {"k", 1.0}, {"diam", 0.0}})
+    def.arguments.add_number(name, value);
+  def.varying = {{"diam", 0, plan::ColumnId{0}}}, def.nominal = {};
+  varying.columns = 1;
+  varying.operations.insert(varying.operations.begin(), {plan::Assign{{0}, {plan::PushConstant{40}}}, {}, 0});
+  CHECK(run(varying, workpiece(R"("surfaces": {"F0": {"diameter_mm": 40.01}})"), 1).samples[0].reference ==
+        doctest::Approx(40.01).epsilon(1e-12));
+}
+
 TEST_CASE("a label that is defined again is on the same surface, seen from its own side and size") {
   // A bore of 40 mm, then a plug of 40.004 mm under the same label: the surface of 40.01 mm is 10 um and 6 um from them.
   plan::Plan twice = circle(true);
@@ -164,7 +176,7 @@ TEST_CASE("a label that is defined again is on the same surface, seen from its o
   const Part part(w, twice);
   const PlaceOnPart bore{{0}, {820, 500, -500}, {-1, 0, 0}, twice.features[0].nominal, {1, 0, 0}, {0, 1, 0}};
   PlaceOnPart outside = bore;
-  outside.feature = {1}, outside.normal = {1, 0, 0};
+  outside.feature = {1}, outside.normal = {1, 0, 0}, outside.nominal = twice.features[1].nominal;
   CHECK(part.known_offset_mm(bore) == doctest::Approx(-0.005));
   CHECK(part.known_offset_mm(outside) == doctest::Approx(0.003));
   // The doubt of the diameter moves the same surface the same way, whichever side it is touched from.
