@@ -195,12 +195,11 @@ std::vector<Vec3> BlockRun::faces_of(Lane& lane, plan::FeatureId feature) {
 std::optional<ToleranceLimits> BlockRun::widened(int i, const plan::CharacteristicDef& def, ToleranceLimits limits) {
   const plan::Plan& plan = executor.plan_;
   Lane& lane = block.lanes[i];
-  Lane& twin = twin_of(lane);
   for (const plan::MaterialCondition& m : def.widening) {
     const plan::ToleranceDef& size = plan[m.size];
     const Element* element = actual(i, m.feature);
     if (!element) return std::nullopt;
-    const Element own = inverse(lane.X_WD) * *element, nominal = inverse(twin.X_WD) * state(twin, m.feature).nominal;
+    const Element own = inverse(lane.X_WD) * *element, nominal = nominal_of(lane, m.feature);
     const Shape shape = plan[m.feature].kind->acts_as;
     const Arguments arguments = filled(lane, size.arguments, size.varying);
     const Outcome<double> value = size.kind->evaluate(arguments, {{&shape, 1}, {&own, 1}, {&nominal, 1}, {}, {}, {}});

@@ -116,6 +116,20 @@ TEST_CASE("tolerances and sensors can be read") {
   CHECK(texts[0] == 1);
 }
 
+TEST_CASE("a bonus counts from the nominal that each machine took from a measured one") {
+  const std::string bore = "CIRCLE,INNER,CART,20,20,0,0,0,1,";
+  const Ran ran("F(A)=FEAT/" + bore + "10\nMEAS/CIRCLE,F(A),6\nENDMES\nT(FIRST)=TOL/DIAM,-1,1\nEVAL/FA(A),T(FIRST)\n" +
+                    "X=OBTAIN/FA(A),11\nF(B)=FEAT/" + bore + "X\nMEAS/CIRCLE,F(B),6\nENDMES\n" +
+                    "T(SIZE)=TOL/DIAM,-0.1,0.2\nT(PLACE)=TOL/POS,2D,0.05,MMC\nEVAL/FA(B),T(SIZE),T(PLACE)\n",
+                20);
+  const Samples& place = ran.samples("PLACE");
+  REQUIRE(place.own_limits.size() == 20);
+  for (std::size_t i = 0; i < 20; ++i) {
+    const double smallest = ran.samples("FIRST").value[i] - 0.1;
+    CHECK(*place.own_limits[i].upper == Approx(0.05 + ran.samples("SIZE").value[i] - smallest).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("a DO whose limit is measured has the turns of one that is known") {
   const std::string loop = "DECL/INTGR,N,LAST\nDECL/REAL,X,ZERO\nDECL/INTGR,I\n" +
       measured("A", "POINT,CART,0,0,0,0,0,1", {"0,0,0,0,0,1"}) + "ZERO=OBTAIN/FA(A),6\n";
