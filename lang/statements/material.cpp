@@ -2,15 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "engine/features/nominal.hpp"
 #include "engine/features/shape_traits.hpp"
 
 namespace abbe::lang {
 
 namespace {
 
-bool along(const Vec3& a, const Vec3& b) { return norm(cross(a, b)) < kOneDegreeSine; }
+/// Nothing where it is known only while the program runs.
+std::optional<Vec3> nominal_direction(const plan::FeatureDef& def) {
+  if (def.varying.empty()) return def.nominal.direction;
+  const bool turns = std::any_of(def.varying.begin(), def.varying.end(), [](const plan::VaryingNumber& v) {
+    return v.name == "i" || v.name == "j" || v.name == "k";
+  });
+  const Outcome<Vec3> written = direction(def.arguments);
+  return written && !turns ? std::optional(written.value) : std::nullopt;
+}
+
+bool along(const plan::FeatureDef& a, const plan::FeatureDef& b) {
+  const std::optional<Vec3> one = nominal_direction(a), other = nominal_direction(b);
+  return one && other && norm(cross(*one, *other)) < kOneDegreeSine;
+}
 
 /// One label of the tolerance and the word that follows it.
 struct Modified {
@@ -45,12 +61,11 @@ const char* no_simple_shift(const plan::Plan& plan, const std::vector<Modified>&
   for (const Modified& other : datums) {
     if (&other == &datum) continue;
     const plan::FeatureDef& face = plan[other.feature];
-    if (face.kind->acts_as != Shape::plane || !along(face.nominal.direction, def.nominal.direction))
+    if (face.kind->acts_as != Shape::plane || !along(face, def))
       return "another datum than a face square to the axis holds the part";
   }
   const Shape own = part.kind->acts_as;
-  if ((own != Shape::cylinder && own != Shape::circle && own != Shape::line) ||
-      !along(part.nominal.direction, def.nominal.direction))
+  if ((own != Shape::cylinder && own != Shape::circle && own != Shape::line) || !along(part, def))
     return "the feature has no axis along that of the datum";
   return nullptr;
 }
