@@ -24,7 +24,7 @@ Placement find_placement(const plan::Plan& plan, const Machine& machine, const S
   const double first = z.lowest_mm(), last = z.highest_mm();
   if (low > high || (z.reaches(low) && z.reaches(high)) || high - low > z.travel_mm) return {};
   const double shift = std::round((first + last) / 2 - (low + high) / 2);
-  if (std::fabs(shift) > z.travel_mm + std::max(std::fabs(first), std::fabs(last))) return {};
+  if (std::fabs(shift) > 2 * z.travel_mm) return {};
   Placement placement;
   placement.shift_mm.z = shift;
   placement.message = diagnostic(
