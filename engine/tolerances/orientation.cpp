@@ -108,7 +108,7 @@ Outcome<double> zone_width(const Arguments& arguments, const EvaluationInput& in
 
 extern const ToleranceKind perpendicularity_tolerance{
     .word = "PERP",
-    .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
+    .signature = "zone:length," ABBE_MATERIAL "," ABBE_DATUM,
     .help =
         "perpendicularity to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q1)=TOL/PERP,0.05,DAT(A)",
@@ -124,7 +124,7 @@ extern const ToleranceKind perpendicularity_tolerance{
 
 extern const ToleranceKind parallelism_tolerance{
     .word = "PARLEL",
-    .signature = "zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
+    .signature = "zone:length," ABBE_MATERIAL "," ABBE_DATUM,
     .help =
         "parallelism to a datum: of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q2)=TOL/PARLEL,0.05,DAT(A)",
@@ -140,7 +140,7 @@ extern const ToleranceKind parallelism_tolerance{
 
 extern const ToleranceKind angularity_tolerance{
     .word = "ANGLR",
-    .signature = "angle:angle,zone:length," ABBE_MATERIAL ",datum:datum,[ datum_material:MMC|LMC|RFS ]",
+    .signature = "angle:angle,zone:length," ABBE_MATERIAL "," ABBE_DATUM,
     .help =
         "angularity: at a given angle to a datum; of a plane or line the zone that holds its touches, of an axis over its measured length",
     .example = "T(Q3)=TOL/ANGLR,30,0.05,DAT(A)",

@@ -81,7 +81,7 @@ Outcome<double> position(const Arguments& arguments, const EvaluationInput& in) 
 
 extern const ToleranceKind true_position_tolerance{
     .word = "POS",
-    .signature = "space:2D|3D,zone:length," ABBE_MATERIAL ",{ datum:datum,[ datum_material:MMC|LMC|RFS ] }",
+    .signature = "space:2D|3D,zone:length," ABBE_MATERIAL ",{ " ABBE_DATUM " }",
     .help =
         "position: diameter of the zone about the nominal location, in the frame of the datums, of an "
         "axis over its measured length; "
