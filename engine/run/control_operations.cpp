@@ -21,24 +21,26 @@ Arguments BlockRun::filled(const Lane& lane, const Arguments& arguments,
 
 namespace {
 
-/// The vectors of plan::Quantity, in its order.
-Vec3 vector_of(const Element& e, int which) {
-  switch (which) {
-    case 0: return e.point;
-    case 1: return e.direction;
-    case 2: return e.point + e.begin * e.direction;
-    case 3: return e.point + e.end * e.direction;
-    case 4: return e.second;
-    case 5: return cross(e.direction, e.second);
-    case 6: return apex(e);
-    case 7:
-    case 8:
-      return e.point +
-          (which == 7 ? -1 : 1) * std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
-    case 9:
-    case 10: return e.point + (which == 9 ? 1 : -1) * e.size * e.direction;
+/// The vector whose first component the quantity is.
+Vec3 vector_of(const Element& e, plan::Quantity first) {
+  using enum plan::Quantity;
+  const auto from_centre_to_focus = [&] {
+    return std::sqrt(std::max(0.0, e.size * e.size - e.minor_size * e.minor_size)) * e.second;
+  };
+  switch (first) {
+    case x: return e.point;
+    case i: return e.direction;
+    case begin_x: return e.point + e.begin * e.direction;
+    case end_x: return e.point + e.end * e.direction;
+    case second_i: return e.second;
+    case third_i: return cross(e.direction, e.second);
+    case apex_x: return apex(e);
+    case focus1_x: return e.point - from_centre_to_focus();
+    case focus2_x: return e.point + from_centre_to_focus();
+    case face1_x: return e.point + e.size * e.direction;
+    case face2_x: return e.point - e.size * e.direction;
+    default: ABBE_CHECK(false);
   }
-  ABBE_CHECK(false);
 }
 
 double quantity_of(const Element& e, plan::Quantity quantity) {
@@ -49,8 +51,10 @@ double quantity_of(const Element& e, plan::Quantity quantity) {
     case angle: return e.angle;
     case length: return e.end - e.begin;
     case form: return e.high - e.low;
-    default: return vector_of(e, static_cast<int>(quantity) / 3)[static_cast<int>(quantity) % 3];
+    default: break;
   }
+  const int component = static_cast<int>(quantity) % 3;  // vectors come first, three quantities each
+  return vector_of(e, static_cast<plan::Quantity>(static_cast<int>(quantity) - component))[component];
 }
 
 }  // namespace
