@@ -333,28 +333,28 @@ struct EffectSet::Sum {
   std::vector<std::vector<double>> columns;  ///< that outlive the terms which point to them
 };
 
-void EffectSet::add(int k, const Group& group, const LaneParameters& lanes, std::uint64_t seed, std::uint32_t site,
-                    TouchBatch& batch, Acted& acted) const {
+void EffectSet::add(std::optional<int> only, const Group& group, const LaneParameters& lanes, TouchBatch& batch,
+                    Acted& acted) const {
   if (group.slots.empty()) return;
   std::vector<int> anywhere, by_reading;
-  for (int e = k < 0 ? 0 : k; e < (k < 0 ? size() : k + 1); ++e)
+  for (int e = only.value_or(0); e < (only ? *only + 1 : size()); ++e)
     (needs_raw_reading(*active_[e].effect) ? by_reading : anywhere).push_back(e);
-  if (!anywhere.empty()) add_alike(anywhere, group, lanes, seed, site, batch, acted);
+  if (!anywhere.empty()) add_alike(anywhere, group, lanes, batch, acted);
   if (by_reading.empty()) return;
   find_contact(batch);
-  add_alike(by_reading, group, lanes, seed, site, batch, acted);
+  add_alike(by_reading, group, lanes, batch, acted);
 }
 
 void EffectSet::add_alike(const std::vector<int>& which, const Group& group, const LaneParameters& lanes,
-                          std::uint64_t seed, std::uint32_t site, TouchBatch& batch, Acted& acted) const {
+                          TouchBatch& batch, Acted& acted) const {
   Sum sum(group, batch, lanes.lanes);
   for (const int e : which) {
     const Active& a = active_[e];
     std::vector<double> draws;
     if (a.effect->draws_per == DrawsPer::touch)
-      draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, site, sum.visit);
+      draws = normal_numbers(a.effect->draws, group.seed, sum.machine, a.stream, group.site, sum.visit);
     if (a.effect->draws_per == DrawsPer::visit)
-      draws = normal_numbers(a.effect->draws, seed, sum.machine, a.stream, kVisitSite, group.indexings);
+      draws = normal_numbers(a.effect->draws, group.seed, sum.machine, a.stream, kVisitSite, group.indexings);
     const bool own_scenes = needs_raw_reading(*a.effect) || (sees_temperatures(a) && !group.temperatures.empty());
     if (a.linear && !own_scenes)
       add_linear(a, lanes.weights[e], draws, sum, acted[e]);

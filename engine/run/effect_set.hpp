@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ class EffectSet {
   /// Where and for whom one touch happens: the slots of the batch that share a scene.
   struct Group {
     const TouchScene* scene = nullptr;
+    std::uint64_t seed = 0;                  ///< of what is drawn for this touch
+    std::uint32_t site = 0;                  ///< the ordinal of the touch, which addresses it
     std::vector<int> slots;                  ///< of the batch, machines only
     std::vector<std::uint32_t> indexings;    ///< by slot of the group: which indexing event the head is in
     std::vector<Temperatures> temperatures;  ///< by slot of the group; empty: all have those of the scene
@@ -65,10 +68,9 @@ class EffectSet {
   /// By effect, 0 or 1: whether it has moved a touch along its normal by more than rounding.
   using Acted = std::vector<char>;
   Acted none_acted() const { return Acted(active_.size()); }
-  /// Adds effect `k` (every effect when k < 0) to the errors of a group, which hold all errors but those of
-  /// the effects, and notes in `acted` which of them moved a touch. `site`: the ordinal of the touch.
-  void add(int k, const Group&, const LaneParameters&, std::uint64_t seed, std::uint32_t site, TouchBatch&,
-           Acted& acted) const;
+  /// Adds the effects, or one alone, to the errors of a group, which hold all errors but those of the effects, and
+  /// notes in `acted` which of them moved a touch.
+  void add(std::optional<int> only, const Group&, const LaneParameters&, TouchBatch&, Acted& acted) const;
 
   /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation
   /// of each of its unknowns.
@@ -98,8 +100,7 @@ class EffectSet {
   struct Sum;  ///< of the effects on one group
   static bool is_linear(const Active&);
   static bool sees_temperatures(const Active&);
-  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, std::uint64_t seed,
-                 std::uint32_t site, TouchBatch&, Acted&) const;
+  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, TouchBatch&, Acted&) const;
   static std::vector<Component> components_of(const Active&);
   static std::vector<double> weights(const Active&, const std::vector<double>& theta,
                                      const std::vector<double>& machine_draws, int lanes);

@@ -79,9 +79,10 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     if (group == groups.end()) continue;
     const TouchScene scene = scene_of(touch, slot);
     group->second.scene = &scene;
+    group->second.seed = executor.options_.noise_seed();
+    group->second.site = executor.site_[operation];
     if (own_temperatures) set_temperatures(scene.temperature, group->second);
-    effects.add(executor.options_.contributors.only_effect.value_or(-1), group->second, block.effects,
-                executor.options_.noise_seed(), executor.site_[operation], touch_batch, block.acted);
+    effects.add(executor.options_.contributors.only_effect, group->second, block.effects, touch_batch, block.acted);
   }
 }
 

@@ -58,6 +58,7 @@ struct Case {
 /// Machine m is on its visit m % 3, its head in indexing m % 2.
 Case case_of(const TouchScene& scene, const std::vector<int>& lanes, const std::vector<std::uint32_t>& machines) {
   Case c{scene, {}, {}};
+  c.group.seed = kSeed, c.group.site = kSite;
   c.batch.resize(static_cast<int>(lanes.size()));
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const std::uint32_t m = machines[lanes[i]];
@@ -120,7 +121,7 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
     Case all = case_of(where, lanes, machines);
     all.group.scene = &all.scene;
     EffectSet::Acted together = set.none_acted();
-    set.add(-1, all.group, drawn, kSeed, kSite, all.batch, together);
+    set.add({}, all.group, drawn, all.batch, together);
     std::vector<Vec3> total(lanes.size());
     double largest = 0;
     for (int k = 0; k < set.size(); ++k) {
@@ -128,7 +129,7 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
       Case one = case_of(where, lanes, machines);
       one.group.scene = &one.scene;
       EffectSet::Acted acted = set.none_acted();
-      set.add(k, one.group, drawn, kSeed, kSite, one.batch, acted);
+      set.add(k, one.group, drawn, one.batch, acted);
       bool moved = false;
       for (int slot = 0; slot < one.batch.n; ++slot) {
         const Vec3 expected = plain(set, k, drawn, one, slot, use == EffectUse::corrected ? &settings[k] : nullptr);
@@ -179,7 +180,7 @@ TEST_CASE("effect set: a machine has the same errors in any block, to the bit") 
     Case c = case_of(where, lanes, machines);
     c.group.scene = &c.scene;
     EffectSet::Acted acted = set.none_acted();
-    set.add(-1, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch, acted);
+    set.add({}, c.group, set.draw(kSeed, machines), c.batch, acted);
     return c.batch.error;
   };
   const Columns3 whole = errors(100, kMachines), left = errors(100, 4), right = errors(104, kMachines - 4);
@@ -209,7 +210,7 @@ TEST_CASE("effect set: two settings of one effect draw their own numbers, and th
     Case c = case_of(where, lanes, machines);
     c.group.scene = &c.scene;
     EffectSet::Acted acted = set.none_acted();
-    set.add(k, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch, acted);
+    set.add(k, c.group, set.draw(kSeed, machines), c.batch, acted);
     return c.batch.error;
   };
   for (const char* name : {"machine.scale", "noise.vibration", "head.reindexing", "head.axis_errors"}) {
@@ -235,7 +236,7 @@ TEST_CASE("effect set: an effect acts once it moves a touch along its normal") {
     c.scene.reading = {500, 500, 500};
     c.scene.normal = normal;
     c.group.scene = &c.scene;
-    set.add(-1, c.group, set.draw(kSeed, machines), kSeed, kSite, c.batch, before);
+    set.add({}, c.group, set.draw(kSeed, machines), c.batch, before);
     return before[0] != 0;
   };
   CHECK_FALSE(acted({0}, {0, 1, 0}));
