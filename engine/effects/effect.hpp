@@ -185,6 +185,8 @@ struct Effect {
   std::string_view (*contradiction)(const double* theta) = nullptr;
   /// d of one touch, mm in W. theta: parameter values in the units of `parameters`, in their order; z: the draws.
   Vec3 (*displace)(const TouchScene&, const double* theta, const double* z) = nullptr;
+  /// Whether a touch lies where it only prolongs what it was fitted to; none: physics has no such ends.
+  bool (*beyond)(const TouchScene&, const double* theta) = nullptr;
 };
 
 constexpr unsigned operator|(Covariate a, Covariate b) { return static_cast<unsigned>(a) | static_cast<unsigned>(b); }

@@ -47,14 +47,14 @@ constexpr PartInfluence kPartInfluences[] = {
      [](const Workpiece& w, const PartInRun& run) { return w.has_form(run.recorded_points); }},
 };
 
-bool modelled(const InfluenceQuantity& quantity, const Machine& machine, const std::vector<char>& acted,
+bool modelled(const InfluenceQuantity& quantity, const Machine& machine, const EffectActivities& activities,
               const Workpiece* workpiece, const PartInRun& run) {
   const auto* own = std::find_if(std::begin(kMachineInfluences), std::end(kMachineInfluences),
                                  [&](const MachineInfluence& i) { return i.name == quantity.name; });
   if (own == std::end(kMachineInfluences) ? quantity.always_modelled : own->acts(machine)) return true;
   for (std::size_t k = 0; k < machine.effects.size(); ++k) {
     const Effect* effect = find_effect(machine.effects[k].name);
-    if (acted[k] && effect && effect->influence == quantity.name) return true;
+    if (activities[k].moved && effect && effect->influence == quantity.name) return true;
   }
   return workpiece && std::any_of(std::begin(kPartInfluences), std::end(kPartInfluences), [&](const PartInfluence& i) {
            return i.name == quantity.name && i.described(*workpiece, run);
@@ -80,13 +80,13 @@ std::string_view name(InfluenceStatus status) {
   return names[static_cast<int>(status)];
 }
 
-Declaration declare_influences(const Machine& machine, const std::vector<char>& acted, const Workpiece* workpiece,
+Declaration declare_influences(const Machine& machine, const EffectActivities& activities, const Workpiece* workpiece,
                                const PartInRun& run) {
   Declaration out;
   for (const InfluenceQuantity& quantity : influence_quantities()) {
     Influence influence{std::string(quantity.name)};
     const InfluenceBound* bound = bound_on(quantity.name, machine, workpiece);
-    if (modelled(quantity, machine, acted, workpiece, run)) {
+    if (modelled(quantity, machine, activities, workpiece, run)) {
       influence.status = InfluenceStatus::modelled;
       if (bound)
         out.messages.push_back(diagnostic(

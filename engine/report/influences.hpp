@@ -7,6 +7,7 @@
 
 #include "engine/machine/machine.hpp"
 #include "engine/report/run_report.hpp"
+#include "engine/run/effect_activity.hpp"
 #include "engine/workpiece/workpiece.hpp"
 
 namespace abbe {
@@ -24,9 +25,9 @@ struct PartInRun {
 
 /// The declaration for a run on a machine and, when there is one, a workpiece file. An influence that
 /// is not modelled by itself is when an effect of the machine file that describes it moved a touch
-/// (`acted`: RunResult), or the workpiece file describes it; else it is bounded when one of the two
+/// in the run, or the workpiece file describes it; else it is bounded when one of the two
 /// states a bound.
-Declaration declare_influences(const Machine&, const std::vector<char>& acted, const Workpiece* workpiece = nullptr,
+Declaration declare_influences(const Machine&, const EffectActivities&, const Workpiece* workpiece = nullptr,
                                const PartInRun& = {});
 
 }  // namespace abbe

@@ -160,7 +160,7 @@ class StudyRun {
     }
     study_.result.machines += part.machines;
     study_.result.touches += part.touches;
-    add_acted(part.acted, study_.result.acted);
+    add_activities(part.activities, study_.result.activities);
     add_to_trials(part);
   }
 
@@ -245,7 +245,7 @@ class StudyRun {
     report.seed = options_.seed;
     report.cycle_time_s = study_.result.cycle_time_s;
     report.characteristics = characteristic_reports(plan_, study_.result, alone, budget, options_.coverage);
-    Declaration declaration = declare_influences(machine_, study_.result.acted, options_.workpiece, part_in_run());
+    Declaration declaration = declare_influences(machine_, study_.result.activities, options_.workpiece, part_in_run());
     report.influences = std::move(declaration.influences);
     std::move(declaration.messages.begin(), declaration.messages.end(), std::back_inserter(report.messages));
     report.traps = study_.result.traps;
@@ -253,6 +253,7 @@ class StudyRun {
     warn_of_parting();
     warn_of_fixed_values();
     warn_of_idle_effects();
+    warn_of_prolonged_effects();
     warn_of_few_machines();
     warn_of_screening();
     if (study_.result.samples.empty())
@@ -342,11 +343,39 @@ class StudyRun {
     const std::vector<std::string> names = effect_names(machine_.effects);
     const bool corrected = options_.effect_use == EffectUse::corrected;
     for (std::size_t k = 0; k < names.size(); ++k) {
-      if (study_.result.acted[k]) continue;
+      if (study_.result.activities[k].moved) continue;
       message(Code::W0615,
               fmt::format("{}: it moves no touch of this program, so that nothing of it is in the figures", names[k]),
               why_idle(machine_.effects[k], corrected));
     }
+  }
+
+  /// What a diagnosis fitted to the touches of one recording is a guess at other touches.
+  void warn_of_prolonged_effects() {
+    const std::vector<std::string> names = effect_names(machine_.effects);
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      if (!study_.result.activities[k].beyond) continue;
+      message(
+          Code::W0623,
+          fmt::format("{}: touches of this program lie beyond what it was fitted to ({}), where it stays as it is at "
+                      "the nearest end",
+                      names[k], fmt::join(words_of_fit(machine_.effects[k]), ", ")),
+          "nothing has shown how large it is there, so its uncertainty is too small: record touches there too and "
+          "diagnose them together, or find the physics");
+    }
+  }
+
+  /// "plane xy", "from_1 100 mm": what is not its size.
+  static std::vector<std::string> words_of_fit(const EffectSetting& setting) {
+    std::vector<std::string> words;
+    for (const EffectParameter& p : find_effect(setting.name)->parameters) {
+      const auto given = setting.parameters.find(std::string(p.name));
+      if (p.linear || given == setting.parameters.end()) continue;
+      const EffectSetting::Value& v = given->second;
+      words.push_back(v.word.empty() ? fmt::format("{} {:.4g}", p.name, v.value)
+                                     : fmt::format("{} {}", p.name, v.word));
+    }
+    return words;
   }
 
   static std::string why_idle(const EffectSetting& setting, bool corrected) {

@@ -97,7 +97,7 @@ struct Block {
   int machines = 0;
   GeometryBlock geometry;
   EffectSet::LaneParameters effects;
-  EffectSet::Acted acted;
+  EffectActivities activities;
   std::vector<Part::Draw> parts;  ///< by machine
   std::uint64_t touches = 0;
 

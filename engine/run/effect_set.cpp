@@ -334,22 +334,23 @@ struct EffectSet::Sum {
 };
 
 void EffectSet::add(std::optional<int> only, const Group& group, const LaneParameters& lanes, TouchBatch& batch,
-                    Acted& acted) const {
+                    EffectActivities& activities) const {
   if (group.slots.empty()) return;
   std::vector<int> anywhere, by_reading;
   for (int e = only.value_or(0); e < (only ? *only + 1 : size()); ++e)
     (needs_raw_reading(*active_[e].effect) ? by_reading : anywhere).push_back(e);
-  if (!anywhere.empty()) add_alike(anywhere, group, lanes, batch, acted);
+  if (!anywhere.empty()) add_alike(anywhere, group, lanes, batch, activities);
   if (by_reading.empty()) return;
   find_contact(batch);
-  add_alike(by_reading, group, lanes, batch, acted);
+  add_alike(by_reading, group, lanes, batch, activities);
 }
 
 void EffectSet::add_alike(const std::vector<int>& which, const Group& group, const LaneParameters& lanes,
-                          TouchBatch& batch, Acted& acted) const {
+                          TouchBatch& batch, EffectActivities& activities) const {
   Sum sum(group, batch, lanes.lanes);
   for (const int e : which) {
     const Active& a = active_[e];
+    if (a.effect->beyond && a.effect->beyond(*group.scene, a.value.data())) activities[e].beyond = true;
     std::vector<double> draws;
     if (a.effect->draws_per == DrawsPer::touch)
       draws = normal_numbers(a.effect->draws, group.seed, sum.machine, a.stream, group.site, sum.visit);
@@ -357,10 +358,10 @@ void EffectSet::add_alike(const std::vector<int>& which, const Group& group, con
       draws = normal_numbers(a.effect->draws, group.seed, sum.machine, a.stream, kVisitSite, group.indexings);
     const bool own_scenes = needs_raw_reading(*a.effect) || (sees_temperatures(a) && !group.temperatures.empty());
     if (a.linear && !own_scenes)
-      add_linear(a, lanes.weights[e], draws, sum, acted[e]);
+      add_linear(a, lanes.weights[e], draws, sum, activities[e].moved);
     else
       add_sampled(a, lanes.theta[e], a.effect->draws_per == DrawsPer::machine ? lanes.machine_draws[e] : draws, batch,
-                  sum, acted[e]);
+                  sum, activities[e].moved);
   }
   auto& [x, y, z] = sum.error.column;
   add_weighted(sum.n, sum.terms, x.data(), y.data(), z.data());
@@ -368,7 +369,7 @@ void EffectSet::add_alike(const std::vector<int>& which, const Group& group, con
 }
 
 void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, const std::vector<double>& draws,
-                           Sum& sum, char& acted) {
+                           Sum& sum, bool& moved) {
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
   const int terms = std::max(1, a.effect->draws);
   ABBE_CHECK(terms <= kMostNumbers);
@@ -386,14 +387,14 @@ void EffectSet::add_linear(const Active& a, const std::vector<double>& weights, 
         weight = sum.keep(std::move(product));
       }
       const double along = dot(sum.group.scene->normal, vector);
-      for (int i = 0; i < sum.n && !acted; ++i) acted = shows(along * weight[i]);
+      for (int i = 0; i < sum.n && !moved; ++i) moved = shows(along * weight[i]);
       sum.terms.push_back({vector, weight});
     }
   }
 }
 
 void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, const std::vector<double>& draws,
-                            const TouchBatch& batch, Sum& sum, char& acted) {
+                            const TouchBatch& batch, Sum& sum, bool& moved) {
   const std::size_t parameters = a.value.size(), numbers = a.effect->draws;
   ABBE_CHECK(numbers <= kMostNumbers);
   const bool by_machine = a.effect->draws_per == DrawsPer::machine;
@@ -416,7 +417,7 @@ void EffectSet::add_sampled(const Active& a, const std::vector<double>& theta, c
     for (std::size_t j = 0; j < numbers; ++j)
       z[j] = by_machine ? draws[j * sum.lanes + sum.lane[i]] : draws[j * sum.n + i];
     const Vec3 d = a.effect->displace(scene, values.data(), z);
-    if (!acted) acted = shows(dot(scene.normal, d - estimate));
+    if (!moved) moved = shows(dot(scene.normal, d - estimate));
     sum.error.set(i, sum.error.get(i) + d - estimate);
   }
 }

@@ -19,6 +19,7 @@
 
 #include "engine/effects/effect.hpp"
 #include "engine/machine/machine.hpp"
+#include "engine/run/effect_activity.hpp"
 #include "engine/run/effect_use.hpp"
 #include "engine/run/recorded/touch.hpp"
 #include "engine/run/touch.hpp"
@@ -65,12 +66,10 @@ class EffectSet {
     std::vector<std::uint32_t> indexings;    ///< by slot of the group: which indexing event the head is in
     std::vector<Temperatures> temperatures;  ///< by slot of the group; empty: all have those of the scene
   };
-  /// By effect, 0 or 1: whether it has moved a touch along its normal by more than rounding.
-  using Acted = std::vector<char>;
-  Acted none_acted() const { return Acted(active_.size()); }
+  EffectActivities none_active() const { return EffectActivities(active_.size()); }
   /// Adds the effects, or one alone, to the errors of a group, which hold all errors but those of the effects, and
-  /// notes in `acted` which of them moved a touch.
-  void add(std::optional<int> only, const Group&, const LaneParameters&, TouchBatch&, Acted& acted) const;
+  /// notes what they did.
+  void add(std::optional<int> only, const Group&, const LaneParameters&, TouchBatch&, EffectActivities&) const;
 
   /// For recordings: what the set does to a touch at its best estimates, mm in W; and one standard deviation
   /// of each of its unknowns.
@@ -100,14 +99,15 @@ class EffectSet {
   struct Sum;  ///< of the effects on one group
   static bool is_linear(const Active&);
   static bool sees_temperatures(const Active&);
-  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, TouchBatch&, Acted&) const;
+  void add_alike(const std::vector<int>& which, const Group&, const LaneParameters&, TouchBatch&,
+                 EffectActivities&) const;
   static std::vector<Component> components_of(const Active&);
   static std::vector<double> weights(const Active&, const std::vector<double>& theta,
                                      const std::vector<double>& machine_draws, int lanes);
   static void add_linear(const Active&, const std::vector<double>& weights, const std::vector<double>& draws, Sum&,
-                         char& acted);
+                         bool& moved);
   static void add_sampled(const Active&, const std::vector<double>& theta, const std::vector<double>& draws,
-                          const TouchBatch&, Sum&, char& acted);
+                          const TouchBatch&, Sum&, bool& moved);
 
   std::vector<Active> active_;
 };

@@ -104,7 +104,7 @@ Block Executor::make_block(const VirtualMachines& machines, int first, int count
               count,
               acting_geometry(machines, first, count),
               effects_.draw(options_.seed, index),
-              effects_.none_acted(),
+              effects_.none_active(),
               {},
               0};
   for (int i = 0; i < count; ++i) {

@@ -37,7 +37,7 @@ struct BlockResult {
   /// what the error-free machine does not evaluate, on the twin of the first machine that did
   std::map<Key, Value> elsewhere;
   std::uint64_t touches = 0;
-  EffectSet::Acted acted;
+  EffectActivities activities;
 };
 
 BlockResult::LaneResult kept(const Lane& lane, const plan::Plan& plan) {
@@ -70,7 +70,7 @@ BlockResult run_block(const Executor& executor, const plan::Plan& plan, const Vi
   executor.run(block);
   BlockResult result;
   result.touches = block.touches;
-  result.acted = std::move(block.acted);
+  result.activities = std::move(block.activities);
   for (int i = 0; i < count; ++i) {
     keep_elsewhere(block, block.lanes[i], referenced, result.elsewhere);
     result.lanes.push_back(kept(block.lanes[i], plan));
@@ -217,8 +217,11 @@ const Samples* counterpart(const std::vector<Samples>& samples, std::size_t inde
   return found == other.samples.end() ? nullptr : &*found;
 }
 
-void add_acted(const std::vector<char>& of_some, std::vector<char>& of_all) {
-  for (std::size_t k = 0; k < of_all.size(); ++k) of_all[k] |= of_some[k];
+void add_activities(const EffectActivities& of_some, EffectActivities& of_all) {
+  for (std::size_t k = 0; k < of_all.size(); ++k) {
+    of_all[k].moved |= of_some[k].moved;
+    of_all[k].beyond |= of_some[k].beyond;
+  }
 }
 
 RunResult run_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& machines,
@@ -229,7 +232,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
 
   RunResult result;
   result.machines = machines.size();
-  result.acted.assign(machine.effects.size(), 0);
+  result.activities.resize(machine.effects.size());
   result.reference_outputs = std::move(reference_ran.outputs);
   result.warnings = std::move(reference_ran.warnings);
   result.cycle_time_s = reference.motion->time_s();
@@ -239,7 +242,7 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   std::uint32_t machine_number = 0;
   for (BlockResult& block : run_blocks(executor, plan, machines, options, referenced)) {
     result.touches += block.touches;
-    add_acted(block.acted, result.acted);
+    add_activities(block.activities, result.activities);
     for (BlockResult::LaneResult& lane : block.lanes) {
       auto own_limits = lane.own_limits.begin();
       for (const BlockResult::Kept& v : lane.values) {
@@ -301,7 +304,7 @@ MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const 
   if (options.workpiece)
     tell("temperature_compensation", observed.compensations, [](bool on) { return on ? "on" : "off"; });
   record.outputs = std::move(observed.outputs);
-  record.acted = std::move(block.acted);
+  record.activities = std::move(block.activities);
   return record;
 }
 

@@ -11,6 +11,7 @@
 #include "engine/machine/screening.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/recording/recording.hpp"
+#include "engine/run/effect_activity.hpp"
 #include "engine/run/effect_use.hpp"
 #include "engine/workpiece/workpiece.hpp"
 
@@ -108,8 +109,8 @@ struct RunResult {
   std::vector<OutputRecord> reference_outputs;  ///< of the error-free machine
   std::vector<Diagnostic> warnings;             ///< of what it does (program_warnings.hpp)
   std::uint64_t touches = 0;                    ///< executed on virtual machines
-  std::vector<char> acted;  ///< by effect of the machine file, 0 or 1: whether it moved one of them (EffectSet::Acted)
-  double cycle_time_s = 0;  ///< of the program on the error-free machine (motion.hpp)
+  EffectActivities activities;                  ///< on virtual machines
+  double cycle_time_s = 0;                      ///< of the program on the error-free machine (motion.hpp)
 };
 
 /// Runs the plan on an error-free machine and on every machine of `machines`. The same result for any thread
@@ -122,9 +123,6 @@ RunResult run_plan(const plan::Plan&, const Machine&, const VirtualMachines& mac
 /// no machine made it there.
 const Samples* counterpart(const std::vector<Samples>& samples, std::size_t index, const RunResult& other);
 
-/// Joins RunResult::acted of some machines to that of others, of the same machine file.
-void add_acted(const std::vector<char>& of_some, std::vector<char>& of_all);
-
 /// What the program had in force at a touch.
 struct TouchAim {
   Rigid X_MD;            ///< its coordinate system, in its machine system
@@ -136,7 +134,7 @@ struct MachineRecord {
   Recording recording;  ///< tip centres in the program's machine coordinates, targets, normals, motion, raw readings
   std::vector<TouchAim> aims;  ///< by row of the recording
   std::vector<OutputRecord> outputs;
-  std::vector<char> acted;           ///< by effect of the machine: RunResult::acted
+  EffectActivities activities;
   std::vector<Diagnostic> warnings;  ///< RunResult::warnings
 };
 

@@ -82,7 +82,8 @@ void BlockRun::add_effects(const plan::Touch& touch, int machines) {
     group->second.seed = executor.options_.noise_seed();
     group->second.site = executor.site_[operation];
     if (own_temperatures) set_temperatures(scene.temperature, group->second);
-    effects.add(executor.options_.contributors.only_effect, group->second, block.effects, touch_batch, block.acted);
+    effects.add(executor.options_.contributors.only_effect, group->second, block.effects, touch_batch,
+                block.activities);
   }
 }
 

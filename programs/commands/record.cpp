@@ -61,10 +61,10 @@ EffectSetting effect_setting(const std::string& text) {
 }
 
 /// Warns of effects that did nothing: an expansion at 20 degrees C, a head that does not turn.
-void tell_idle(const std::vector<std::string>& with, const Machine& machine, const std::vector<char>& acted) {
+void tell_idle(const std::vector<std::string>& with, const Machine& machine, const EffectActivities& activities) {
   const std::size_t own = machine.effects.size() - with.size();
   for (std::size_t k = 0; k < with.size(); ++k) {
-    if (acted[own + k]) continue;
+    if (activities[own + k].moved) continue;
     const std::string& name = machine.effects[own + k].name;
     const EffectParameter* size = missing_size(machine.effects[own + k]);
     const bool drawn = !size && find_effect(name)->draws_per == DrawsPer::touch;
@@ -151,7 +151,7 @@ int record_command(const RecordOptions& options) {
   print_messages(record.warnings);
   for (const Rounding& rounding : roundings) {
     round_readings(record.recording, rounding.step_mm);
-    record.acted[rounding.effect] = 1;
+    record.activities[rounding.effect].moved = true;
   }
   auto& metadata = record.recording.metadata;
   const std::pair<std::string, std::string> origin[] = {{"machine", inputs.machine_name},
@@ -168,7 +168,7 @@ int record_command(const RecordOptions& options) {
     files.push_back({*options.dmo, dmis_result(plan, record.outputs)});
   }
   write_together(files);
-  tell_idle(options.with, machine, record.acted);
+  tell_idle(options.with, machine, record.activities);
   return kDone;
 }
 

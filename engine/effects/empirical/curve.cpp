@@ -77,6 +77,11 @@ Vec3 empirical_curve(const TouchScene& scene, const double* theta, const double*
       along_normal(scene, kUm * ((1 - w) * a[3] + w * b[3]));
 }
 
+bool beyond_empirical_curve(const TouchScene& scene, const double* theta) {
+  return beyond_knots(curve_coordinate(scene, static_cast<CurveCoordinate>(code(theta[0]))), theta[1], theta[2],
+                      kCurveKnots);
+}
+
 std::string_view empirical_curve_contradiction(const double* theta) {
   return theta[1] == theta[2] ? "a curve needs two ends: from and to are the same" : "";
 }
@@ -103,6 +108,7 @@ constinit const Effect kEmpiricalCurve{
     .neighbours = kNeighbouringKnots,
     .contradiction = empirical_curve_contradiction,
     .displace = empirical_curve,
+    .beyond = beyond_empirical_curve,
 };
 
 }  // namespace abbe

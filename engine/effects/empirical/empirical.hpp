@@ -4,6 +4,9 @@
 // is.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "engine/effects/effect.hpp"
 
 namespace abbe {
@@ -17,6 +20,12 @@ extern const Effect kEmpiricalCurve, kEmpiricalDirection, kEmpiricalMap, kEmpiri
 /// What empirical.curve runs along, in the order of the codes of its parameter `along`.
 enum class CurveCoordinate { time, x, y, z, part_temperature, speed };
 double curve_coordinate(const TouchScene&, CurveCoordinate);
+
+/// Whether a coordinate lies further from a range than half the way between two of its evenly spaced knots.
+inline bool beyond_knots(double at, double from, double to, int knots) {
+  const double half_way = std::abs(to - from) / (2 * (knots - 1));
+  return at < std::min(from, to) - half_way || at > std::max(from, to) + half_way;
+}
 
 /// The planes of empirical.map, in the order of the codes of its parameter `plane`.
 enum class MapPlane { xy, xz, yz };

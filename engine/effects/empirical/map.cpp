@@ -87,6 +87,12 @@ Vec3 empirical_map(const TouchScene& scene, const double* theta, const double*) 
   return kUm * d + along_normal(scene, kUm * r);
 }
 
+bool beyond_empirical_map(const TouchScene& scene, const double* theta) {
+  const int plane = code(theta[0]);
+  return beyond_knots(scene.point[kFirst[plane]], theta[1], theta[2], kMapNodes) ||
+      beyond_knots(scene.point[kSecond[plane]], theta[3], theta[4], kMapNodes);
+}
+
 std::string_view empirical_map_contradiction(const double* theta) {
   return theta[1] == theta[2] || theta[3] == theta[4]
       ? "a map needs two ends along each coordinate: from and to are the same"
@@ -124,6 +130,7 @@ constinit const Effect kEmpiricalMap{
     .neighbours = kNeighbouringNodes,
     .contradiction = empirical_map_contradiction,
     .displace = empirical_map,
+    .beyond = beyond_empirical_map,
 };
 
 }  // namespace abbe

@@ -174,7 +174,7 @@ TEST_CASE("the same labels again in the same line are further occurrences") {
 }
 
 TEST_CASE("influences are declared; an effect that acts makes its influence modelled") {
-  std::vector<char> acted;
+  EffectActivities acted;
   const auto status = [&](const Machine& machine, const std::string& influence_name) {
     for (const Influence& influence : declare_influences(machine, acted).influences)
       if (influence.name == influence_name) return std::string(name(influence.status));
@@ -193,10 +193,10 @@ TEST_CASE("influences are declared; an effect that acts makes its influence mode
   CHECK(status(machine, "part temperature") == "not modelled");
   CHECK(status(machine, "vibration and outliers") == "not modelled");
   machine.effects = {{"thermal.part_expansion", {}}, {"noise.outliers", {}}};
-  acted = {0, 1};
+  acted = {{}, {.moved = true}};
   CHECK(status(machine, "part temperature") == "not modelled");
   CHECK(status(machine, "vibration and outliers") == "modelled");
-  acted = {1, 0};
+  acted = {{.moved = true}, {}};
   CHECK(status(machine, "part temperature") == "modelled");
   CHECK(status(machine, "vibration and outliers") == "not modelled");
   CHECK(status(machine, "thermal drift") == "not modelled");
@@ -237,7 +237,7 @@ TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpi
   machine.bounds = {{"thermal drift", 0.0003, "drift test"}, {"fixturing", 0.002, "machine"}};
   Workpiece workpiece;
   workpiece.bounds = {{"fixturing", 0.001, "task"}};
-  std::vector<char> acted;
+  EffectActivities acted;
   const auto find = [&](const char* name) {
     for (const Influence& influence : declare_influences(machine, acted, &workpiece).influences)
       if (influence.name == name) return influence;
@@ -251,9 +251,9 @@ TEST_CASE("a bound makes an influence bounded, unless it is modelled; the workpi
   CHECK(find("operator").status == InfluenceStatus::not_modelled);
   CHECK(declare_influences(machine, acted, &workpiece).messages.empty());
   machine.effects = {{"thermal.cycle", {}}};
-  acted = {0};
+  acted = {{}};
   CHECK(find("thermal drift").status == InfluenceStatus::bounded);
-  acted = {1};
+  acted = {{.moved = true}};
   CHECK(find("thermal drift").status == InfluenceStatus::modelled);
   const auto messages = declare_influences(machine, acted, &workpiece).messages;
   REQUIRE(messages.size() == 1);
@@ -266,7 +266,7 @@ TEST_CASE("every effect models one influence") {
     Machine machine;
     machine.effects = {{std::string(effect->name), {}}};
     int found = 0;
-    for (const Influence& influence : declare_influences(machine, {1}).influences) {
+    for (const Influence& influence : declare_influences(machine, {{.moved = true}}).influences) {
       if (influence.name != effect->influence) continue;
       ++found;
       CHECK(influence.status == InfluenceStatus::modelled);

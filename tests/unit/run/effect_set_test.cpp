@@ -120,7 +120,7 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
     const TouchScene where = random_scene(random);
     Case all = case_of(where, lanes, machines);
     all.group.scene = &all.scene;
-    EffectSet::Acted together = set.none_acted();
+    EffectActivities together = set.none_active();
     set.add({}, all.group, drawn, all.batch, together);
     std::vector<Vec3> total(lanes.size());
     double largest = 0;
@@ -128,7 +128,7 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
       CAPTURE(set.effect(k).name);
       Case one = case_of(where, lanes, machines);
       one.group.scene = &one.scene;
-      EffectSet::Acted acted = set.none_acted();
+      EffectActivities acted = set.none_active();
       set.add(k, one.group, drawn, one.batch, acted);
       bool moved = false;
       for (int slot = 0; slot < one.batch.n; ++slot) {
@@ -138,9 +138,10 @@ void compare_with_plain(UncertainParameters uncertain, EffectUse use, const std:
         largest = std::fmax(largest, norm(expected));
         moved = moved || std::fabs(dot(where.normal, expected)) > 1e-9;
       }
-      CHECK((acted[k] != 0) == moved);
-      CHECK(std::count(acted.begin(), acted.end(), 1) == (moved ? 1 : 0));
-      if (!sees_reading(set.effect(k))) CHECK(together[k] == acted[k]);
+      CHECK(acted[k].moved == moved);
+      CHECK(std::count_if(acted.begin(), acted.end(), [](const EffectActivity& a) { return a.moved; }) ==
+            (moved ? 1 : 0));
+      if (!sees_reading(set.effect(k))) CHECK(together[k].moved == acted[k].moved);
     }
     for (int slot = 0; slot < all.batch.n; ++slot) {
       const Vec3 others = total[slot];
@@ -179,7 +180,7 @@ TEST_CASE("effect set: a machine has the same errors in any block, to the bit") 
     std::iota(lanes.begin(), lanes.end(), 0);
     Case c = case_of(where, lanes, machines);
     c.group.scene = &c.scene;
-    EffectSet::Acted acted = set.none_acted();
+    EffectActivities acted = set.none_active();
     set.add({}, c.group, set.draw(kSeed, machines), c.batch, acted);
     return c.batch.error;
   };
@@ -209,7 +210,7 @@ TEST_CASE("effect set: two settings of one effect draw their own numbers, and th
     const EffectSet set(settings, EffectUse::left_in, "test");
     Case c = case_of(where, lanes, machines);
     c.group.scene = &c.scene;
-    EffectSet::Acted acted = set.none_acted();
+    EffectActivities acted = set.none_active();
     set.add(k, c.group, set.draw(kSeed, machines), c.batch, acted);
     return c.batch.error;
   };
@@ -231,15 +232,15 @@ TEST_CASE("effect set: an effect acts once it moves a touch along its normal") {
   const auto machines = machines_from(100, kMachines);
   const EffectSet set({{"machine.scale", {{"axis", {0, 0, "x"}}, {"scale_um_per_m", {10, 0, ""}}}}}, EffectUse::left_in,
                       "test");
-  const auto acted = [&](EffectSet::Acted before, const Vec3& normal) {
+  const auto acted = [&](EffectActivities before, const Vec3& normal) {
     Case c = case_of({}, {0, 1}, machines);
     c.scene.reading = {500, 500, 500};
     c.scene.normal = normal;
     c.group.scene = &c.scene;
     set.add({}, c.group, set.draw(kSeed, machines), c.batch, before);
-    return before[0] != 0;
+    return before[0].moved;
   };
-  CHECK_FALSE(acted({0}, {0, 1, 0}));
-  CHECK(acted({0}, {1, 0, 0}));
-  CHECK(acted({1}, {0, 1, 0}));  // earlier touches count
+  CHECK_FALSE(acted({{}}, {0, 1, 0}));
+  CHECK(acted({{}}, {1, 0, 0}));
+  CHECK(acted({{.moved = true}}, {0, 1, 0}));  // earlier touches count
 }
