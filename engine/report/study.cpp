@@ -11,7 +11,7 @@
 #include "engine/report/budget.hpp"
 #include "engine/report/influences.hpp"
 #include "engine/report/report_unit.hpp"
-#include "engine/run/effect_set.hpp"
+#include "engine/run/effect_settings.hpp"
 
 namespace abbe {
 

@@ -26,18 +26,10 @@
 
 namespace abbe {
 
-/// The size that a setting of a known effect does not give, so that it does nothing; nullptr: it has one.
-const EffectParameter* missing_size(const EffectSetting&);
-
-/// When in a program the effect begins, s; 0 of one that is there from the start.
-double begins_at_s(const EffectSetting&);
-
 class EffectSet {
  public:
   EffectSet() = default;
-  /// Throws UserError, with the place of the setting: unknown effect or parameter (with the nearest known
-  /// name), value outside its plausible range, a choice that is none. `machine` names the machine in
-  /// messages.
+  /// Throws UserError for a setting that cannot be, as resolve does.
   EffectSet(const std::vector<EffectSetting>&, EffectUse, const std::string& machine);
 
   bool empty() const { return active_.empty(); }

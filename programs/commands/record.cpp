@@ -10,6 +10,7 @@
 #include "engine/effects/effect.hpp"
 #include "engine/report/dmis_result.hpp"
 #include "engine/run/effect_set.hpp"
+#include "engine/run/effect_settings.hpp"
 #include "programs/commands/commands.hpp"
 #include "programs/commands/usable_program.hpp"
 #include "programs/terminal.hpp"

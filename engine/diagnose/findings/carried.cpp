@@ -8,7 +8,7 @@
 
 #include "engine/diagnose/findings/known_effect.hpp"
 #include "engine/math/normal.hpp"
-#include "engine/run/effect_set.hpp"
+#include "engine/run/effect_settings.hpp"
 
 namespace abbe::diagnose {
 
