@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/run/executor.hpp"
+#include "engine/run/reference_run.hpp"
 
 namespace abbe {
 
 Placement find_placement(const plan::Plan& plan, const Machine& machine, const SourceFile& source) {
   const RunOptions options;
-  const Executor executor(plan, machine, options, source);
-  Block reference = executor.make_block({}, 0, 0);
-  const Executor::Observed observed = executor.observe(reference);
+  const Executor::Observed observed = run_alone(Executor(plan, machine, options, source)).second;
   double low = INFINITY, high = -INFINITY;
   for (const auto& stop : observed.stops) {
     if (!stop.touch) continue;

@@ -1,17 +1,15 @@
-#include "engine/run/check_plan.hpp"
+#include "engine/run/run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "engine/base/on_threads.hpp"
-#include "engine/math/units.hpp"
 #include "engine/run/executor.hpp"
-#include "engine/run/program_warnings.hpp"
 #include "engine/run/recorded/sensor_lines.hpp"
+#include "engine/run/reference_run.hpp"
 
 namespace abbe {
 
@@ -100,87 +98,6 @@ std::vector<BlockResult> run_blocks(const Executor& executor, const plan::Plan& 
   return results;
 }
 
-/// What else may be wrong where a touch is outside the travel: offsets of which one is left out or has the other sign.
-std::string where_home_is(const Machine& machine) {
-  const Vec3 home = machine.home_offset();
-  if (norm(home) < kUm) return "";
-  return fmt::format(
-      "; at readings of 0 the head's mount stands at {:g}, {:g}, {:g} mm, the sum of the offsets_mm on the ram side",
-      home.x, home.y, home.z);
-}
-
-/// A touch is its statement; of a default touch there is none.
-std::string name_of(const Executor::Stop& stop, const plan::Plan& plan) {
-  const auto& touch = std::get<plan::Touch>(plan.operations[stop.operation].action);
-  if (touch.pattern_count == 0) return "this touch";
-  const auto shown = [](double mm) { return std::round(1000 * mm) / 1000 + 0.0; };  // no -0.000
-  const Vec3& at = stop.surface_mm;
-  return fmt::format("default touch {} of F({}), at {:.3f}, {:.3f}, {:.3f} mm in the coordinate system there,",
-                     touch.pattern_index + 1, plan[touch.feature].label, shown(at.x), shown(at.y), shown(at.z));
-}
-
-/// Every touch of the error-free machine must lie inside the travel.
-void check_travel(const std::vector<Executor::Stop>& stops, const plan::Plan& plan, const Machine& machine,
-                  const SourceFile& source) {
-  constexpr std::size_t kShown = 10;
-  std::vector<Diagnostic> errors;
-  std::size_t outside = 0;
-  for (const Executor::Stop& stop : stops) {
-    if (!stop.touch) continue;
-    for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
-      const double reading = stop.reading_mm[static_cast<int>(axis)];
-      if (machine[axis].reaches(reading)) continue;
-      if (++outside > kShown) break;
-      errors.push_back(diagnostic_at(
-          source, plan.operations[stop.operation].span, Code::E0302,
-          fmt::format(
-              "{} is outside the travel of machine '{}': it needs the {} scale at {:.3f} mm, which runs from {:g} to {:g} mm",
-              name_of(stop, plan), machine.name, "xyz"[static_cast<int>(axis)], reading, machine[axis].lowest_mm(),
-              machine[axis].highest_mm()),
-          "move the part with a `$$! place dx dy dz` line, correct the point, or choose a larger machine" +
-              where_home_is(machine)));
-      break;
-    }
-  }
-  if (outside > kShown) errors.back().help += fmt::format(" ({} touches in all are outside)", outside);
-  if (!errors.empty()) throw UserError(std::move(errors));
-}
-
-struct ReferenceRun {
-  Lane lane;
-  std::vector<OutputRecord> outputs;
-  std::vector<Diagnostic> warnings;
-};
-
-/// Runs the error-free machine alone.
-std::pair<Lane, Executor::Observed> run_alone(const Executor& executor) {
-  Block block = executor.make_block({}, 0, 0);
-  Executor::Observed observed = executor.observe(block);
-  observed.nominal_values = block.lanes[block.lanes[block.reference()].nominal].values;
-  return {std::move(block.lanes[block.reference()]), std::move(observed)};
-}
-
-bool evaluates(const plan::Operation& operation) { return std::holds_alternative<plan::Evaluate>(operation.action); }
-
-/// Runs the error-free machine alone and refuses what no machine could do.
-ReferenceRun reference_run(Executor& executor, const plan::Plan& plan, const Machine& machine,
-                           const SourceFile& source) {
-  auto [lane, observed] = run_alone(executor);
-  if (!lane.trap.reason.empty()) {
-    const plan::Operation& stopped = plan.operations[lane.trap.operation];
-    throw UserError(diagnostic_at(
-        source, stopped.span, Code::E0304, "not even an error-free machine can go on here: " + lane.trap.reason,
-        fmt::format("correct the statement; `abbe run --only-valid` leaves {} out",
-                    evaluates(stopped) ? "this characteristic" : "it and all that rests on it")));
-  }
-  check_travel(observed.stops, plan, machine, source);
-  std::vector<Diagnostic> warnings = program_warnings(observed, plan, machine, source);
-  executor.know(std::move(observed.fits));
-  executor.place_part(observed.frames.of_part(executor.machine_frame()));
-  executor.find_curved(observed.curved);
-  return {std::move(lane), std::move(observed.outputs), std::move(warnings)};
-}
-
 /// The samples of a run in the making.
 class Collected {
  public:
@@ -261,19 +178,6 @@ RunResult run_plan(const plan::Plan& plan, const Machine& machine, const Virtual
   }
   result.samples = std::move(collected.samples);
   return result;
-}
-
-std::vector<Diagnostic> check_plan(const plan::Plan& plan, const Machine& machine, const RunOptions& options,
-                                   const SourceFile& source) {
-  Executor executor(plan, machine, options, source);
-  return reference_run(executor, plan, machine, source).warnings;
-}
-
-std::optional<Impossible> first_impossible(const plan::Plan& plan, const Machine& machine, const RunOptions& options,
-                                           const SourceFile& source) {
-  const LaneTrap trap = run_alone(Executor(plan, machine, options, source)).first.trap;
-  if (trap.reason.empty()) return std::nullopt;
-  return Impossible{trap.operation, trap.reason};
 }
 
 MachineRecord record_plan(const plan::Plan& plan, const Machine& machine, const VirtualMachines& one,
