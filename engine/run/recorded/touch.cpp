@@ -92,6 +92,57 @@ void fill_covariates(const RecordingRow& row, const Machine& machine, int ordina
   scene.qualification = row.qualification.value_or(1);
 }
 
+/// The centre of the tip at the target of a row.
+Vec3 tip_at_target(const RecordingRow& row, RecordedPoint point, const Sensor& sensor) {
+  return *row.target_mm + (point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
+}
+
+/// The point of the surface that the tip touches there.
+Vec3 surface_at_target(const RecordingRow& row, RecordedPoint point, const Sensor& sensor) {
+  return point == RecordedPoint::surface ? *row.target_mm : *row.target_mm - sensor.radius_mm * *row.normal;
+}
+
+/// Where on the part touches lie: as its program says, as a recording in part coordinates has it, or as the setups hang
+/// together (part_frame.hpp).
+class OnPart {
+ public:
+  /// `surfaces`: by row.
+  OnPart(const Recording& recording, const std::vector<Vec3>& surfaces)
+      : planned_(lies_as_planned(recording)),
+        in_part_frame_(recording.in_part_frame),
+        frames_(aimed(recording, surfaces)) {}
+
+  void place(const RecordingRow& row, const Vec3& surface, TouchScene& s) const {
+    if (planned_)
+      s.on_part = *row.on_part_mm, s.normal_on_part = *row.normal_on_part;
+    else if (in_part_frame_)
+      s.on_part = surface, s.normal_on_part = s.normal;
+    else
+      s.on_part = frames_.on_part(row.setup, surface),
+      s.normal_on_part = frames_.direction_on_part(row.setup, s.normal);
+  }
+
+ private:
+  static std::vector<AimedTouch> aimed(const Recording& recording, const std::vector<Vec3>& surfaces) {
+    std::vector<AimedTouch> all;
+    for (std::size_t i = 0; i < recording.rows.size(); ++i) {
+      const RecordingRow& row = recording.rows[i];
+      all.push_back({row.setup, row.feature, row.touch, surfaces[i], *row.normal});
+    }
+    return all;
+  }
+
+  bool planned_, in_part_frame_;
+  PartFrames frames_;
+};
+
+/// Scenes point to the names of their sensors, which must outlive them.
+void keep_names(const std::vector<const Sensor*>& sensor_of, RecordedTouches& out) {
+  const auto names = std::make_shared<std::set<std::string>>();
+  for (RecordedTouch& t : out.touches) t.scene.stylus.name = *names->insert(sensor_of[t.row]->name).first;
+  out.names = names;
+}
+
 /// Senses of the axes and indexing visits follow from the sequence of touches.
 void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& touches) {
   constexpr double kMoves = 0.02;  // an axis that takes this share of the way counts as moving
@@ -161,14 +212,12 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   RecordedTouches out;
   require_targets(recording, file);
   RecordedStyli styli(machine, file);
-  std::vector<Vec3> readings;
   std::vector<const Sensor*> sensor_of;
+  std::vector<Vec3> readings, surfaces;
   for (const RecordingRow& row : recording.rows) {
-    const Sensor& sensor = styli.of(row);
-    sensor_of.push_back(&sensor);
-    const Vec3 tip =
-        *row.target_mm + (recording.point == RecordedPoint::surface ? sensor.radius_mm * *row.normal : Vec3{});
-    readings.push_back(tip - machine.home_offset() - sensor.tip_from_mount_mm);
+    const Sensor& sensor = *sensor_of.emplace_back(&styli.of(row));
+    readings.push_back(tip_at_target(row, recording.point, sensor) - machine.home_offset() - sensor.tip_from_mount_mm);
+    surfaces.push_back(surface_at_target(row, recording.point, sensor));
   }
   out.styli = styli.names();
   out.tips = styli.tips();
@@ -178,17 +227,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
   out.varying = logged.varying;
   doubt_axes(recording, out, file);
   const Vec3 shift = placement(recording, machine, readings, out, file);
-  const auto surface_of = [&](std::size_t i) {
-    const RecordingRow& row = recording.rows[i];
-    return recording.point == RecordedPoint::surface ? *row.target_mm
-                                                     : *row.target_mm - sensor_of[i]->radius_mm * *row.normal;
-  };
-  std::vector<AimedTouch> aimed;
-  for (std::size_t i = 0; i < recording.rows.size(); ++i)
-    aimed.push_back({recording.rows[i].setup, recording.rows[i].feature, recording.rows[i].touch, surface_of(i),
-                     *recording.rows[i].normal});
-  const PartFrames part(aimed);
-  const bool planned = lies_as_planned(recording);
+  const OnPart on_part(recording, surfaces);
   for (const int i : order_of(recording)) {
     const RecordingRow& row = recording.rows[i];
     const Sensor& sensor = *sensor_of[i];
@@ -199,15 +238,9 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     t.per_rad_b_mm = sensor.per_rad_b_mm;
     TouchScene& s = t.scene;
     s.normal = *row.normal;
-    const Vec3 surface = surface_of(static_cast<std::size_t>(i));
-    s.point = surface + shift;
+    s.point = surfaces[i] + shift;
     s.reading = readings[i] + shift;
-    if (planned)
-      s.on_part = *row.on_part_mm, s.normal_on_part = *row.normal_on_part;
-    else if (recording.in_part_frame)
-      s.on_part = surface, s.normal_on_part = s.normal;
-    else
-      s.on_part = part.on_part(row.setup, surface), s.normal_on_part = part.direction_on_part(row.setup, s.normal);
+    on_part.place(row, surfaces[i], s);
     s.stylus = stylus_scene(sensor);
     s.touch = static_cast<int>(out.touches.size());
     s.feature = label_index(out.features, row.feature);
@@ -219,9 +252,7 @@ RecordedTouches recorded_touches(const Recording& recording, const Machine& mach
     }
     out.touches.push_back(std::move(t));
   }
-  const auto names = std::make_shared<std::set<std::string>>();
-  for (RecordedTouch& t : out.touches) t.scene.stylus.name = *names->insert(sensor_of[t.row]->name).first;
-  out.names = names;
+  keep_names(sensor_of, out);
   follow_sequence(recording, out.touches);
   find_curved(out);
   return out;
