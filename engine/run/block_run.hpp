@@ -85,8 +85,14 @@ class BlockRun {
   std::vector<Target> targets;        // by slot of touch_batch: where the program put the surface, W
   std::vector<double> points_buffer;  // columns handed to the fits
 
+  /// Where a lane takes the surface of a touch to be, and where its twin has it; W.
+  struct Aim {
+    Target own, meant;
+  };
+  Outcome<Aim> aim(Lane&, Lane& twin, const plan::Touch&);
   /// The tip of the lane's machine goes to a point in W; `lane` is a twin.
   void go_to(int lane, const Vec3& point);
+  /// Enters the touch of a lane into the batch; false after trapping it.
   bool prepare_touch(int slot, int lane, const plan::Touch&);
   void add_errors(int machines);
   void move_twins(int machines);

@@ -117,51 +117,55 @@ Outcome<Target> BlockRun::pattern_target(Lane& lane, const plan::Touch& touch) {
   return {{X_WD * made.value.point + lane.X_WD.R * value(lane, touch.point), X_WD.R * made.value.normal}};
 }
 
+Outcome<BlockRun::Aim> BlockRun::aim(Lane& lane, Lane& twin, const plan::Touch& touch) {
+  if (touch.pattern_count > 0) {
+    const Outcome<Target> own = pattern_target(lane, touch), meant = pattern_target(twin, touch);
+    return own ? Outcome<Aim>{{own.value, meant.value}} : Outcome<Aim>::failed(own.failure);
+  }
+  Aim a;
+  a.meant.point = twin.X_WD * value(twin, touch.point);
+  Vec3 normal_D;
+  if (touch.has_normal) {
+    normal_D = value(lane, touch.normal);
+    if (norm(normal_D) == 0) return Outcome<Aim>::failed("the vector of the touch has no length");
+    a.meant.normal = twin.X_WD.R * value(twin, touch.normal);
+  } else {
+    const plan::FeatureDef& def = executor.plan_[touch.feature];
+    const Outcome<Vec3> n = nominal_normal(*def.kind, state(twin, touch.feature).nominal, def.inner, a.meant.point);
+    if (!n) return Outcome<Aim>::failed(n.failure);
+    a.meant.normal = n.value;
+    normal_D = transpose(twin.X_WD.R) * n.value;
+  }
+  a.own = {lane.X_WD * value(lane, touch.point), lane.X_WD.R * unit(normal_D)};
+  return {a};
+}
+
 bool BlockRun::prepare_touch(int slot, int index, const plan::Touch& touch) {
   Lane& lane = block.lanes[index];
   Lane& twin = twin_of(lane);
   if (!lane.sensor.valid()) return trap(index, "no sensor is selected (SNSLCT)"), false;
   const Sensor& sensor = executor.sensors_[lane.sensor.value];
-  Vec3 surface, true_normal, point, normal;
-  if (touch.pattern_count > 0) {
-    const Outcome<Target> own = pattern_target(lane, touch), meant = pattern_target(twin, touch);
-    if (!own) return trap(index, own.failure), false;
-    point = own.value.point, normal = own.value.normal;
-    surface = meant.value.point, true_normal = meant.value.normal;
-  } else {
-    surface = twin.X_WD * value(twin, touch.point);
-    Vec3 normal_D;
-    if (touch.has_normal) {
-      normal_D = value(lane, touch.normal);
-      true_normal = twin.X_WD.R * value(twin, touch.normal);
-      if (norm(normal_D) == 0) return trap(index, "the vector of the touch has no length"), false;
-    } else {
-      const plan::FeatureDef& def = executor.plan_[touch.feature];
-      const Outcome<Vec3> n = nominal_normal(*def.kind, state(twin, touch.feature).nominal, def.inner, surface);
-      if (!n) return trap(index, n.failure), false;
-      true_normal = n.value;
-      normal_D = transpose(twin.X_WD.R) * n.value;
-    }
-    normal = lane.X_WD.R * unit(normal_D);
-    point = lane.X_WD * value(lane, touch.point);
-  }
+  const Outcome<Aim> aimed = aim(lane, twin, touch);
+  if (!aimed) return trap(index, aimed.failure), false;
+  const auto& [point, normal] = aimed.value.own;
+  Target meant{aimed.value.meant.point, unit(aimed.value.meant.normal)};
   const bool on_nominal_part = block.is_nominal(index);
   if (executor.options_.recorded && !on_nominal_part) {
     const auto recorded =
-        executor.recorded_surface(touch.feature, twin.points.size(), surface, unit(true_normal), sensor.radius_mm);
+        executor.recorded_surface(touch.feature, twin.points.size(), meant.point, meant.normal, sensor.radius_mm);
     if (!recorded)
       return trap(index,
                   "the recording has no touch " + std::to_string(twin.points.size() + 1) + " of '" +
                       executor.plan_[touch.feature].label + "'"),
              false;
-    surface = *recorded;
+    meant.point = *recorded;
   }
   const Vec3 commanded = point + sensor.radius_mm * normal;
   touch_batch.commanded.set(slot, commanded);
   touch_batch.normal.set(slot, normal);
-  touch_batch.surface.set(slot, surface);
-  touch_batch.surface_normal.set(slot, unit(true_normal));
-  targets[static_cast<std::size_t>(slot)] = {surface, unit(true_normal)};
+  touch_batch.surface.set(slot, meant.point);
+  touch_batch.surface_normal.set(slot, meant.normal);
+  targets[static_cast<std::size_t>(slot)] = meant;
   touch_batch.tip.set(slot, sensor.tip_from_mount_mm);
   touch_batch.reading.set(slot, commanded - executor.machine_.home_offset() - sensor.tip_from_mount_mm);
   touch_batch.error.set(slot,
