@@ -3,6 +3,7 @@
 // identify them, so equal plans give equal texts.
 #include <fmt/format.h>
 
+#include <iterator>
 #include <map>
 
 #include "engine/plan/plan.hpp"
@@ -39,6 +40,15 @@ template <class Enum>
 std::string_view name_of(Enum value, const auto& names) {
   return names[static_cast<std::size_t>(value)];
 }
+
+/// Whether the names end where the values do, so that a new value does not compile before it has its name.
+template <class Enum>
+constexpr bool name_all(const auto& names, Enum last) {
+  return std::size(names) == static_cast<std::size_t>(last) + 1;
+}
+static_assert(name_all(kSettings, MotionSetting::fly_radius) && name_all(kOp1, Op1::round) &&
+              name_all(kOp2, Op2::logical_or) && name_all(kCriteria, FitCriterion::minimum_circumscribed) &&
+              name_all(kQuantities, Quantity::form));
 
 char letter(Axis axis) { return "xyz"[static_cast<int>(axis)]; }
 std::string text(const AxisDirection& d) { return fmt::format("{}{}", d.sign < 0 ? '-' : '+', letter(d.axis)); }
