@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/base/csv.hpp"
+#include "engine/base/letter_case.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/recording/remarks.hpp"
 
@@ -120,15 +121,16 @@ std::vector<std::string> labels_of(const std::string& characteristic) {
   std::vector<std::string> labels;
   std::string word;
   const auto end = [&](char after) {
-    const bool kind = after == '(' && (word == "FA" || word == "F" || word == "TA" || word == "T");
-    if (!word.empty() && !kind) labels.push_back(word);
+    const std::string label = upper(word);
+    const bool kind = after == '(' && (label == "FA" || label == "F" || label == "TA" || label == "T");
+    if (!label.empty() && !kind) labels.push_back(label);
     word.clear();
   };
   for (const char c : characteristic) {
     if (c == ',' || c == '(' || c == ')' || std::isspace(static_cast<unsigned char>(c)))
       end(c);
     else
-      word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+      word += c;
   }
   end(' ');
   return labels;

@@ -16,6 +16,7 @@ TEST_CASE("a characteristic is named by its tolerance, or with its features") {
   CHECK(labels_of("FA(END1),FA(END2),TA(LEN)") == Labels{"END1", "END2", "LEN"});
   CHECK(labels_of("F(fa),T(ta)") == Labels{"FA", "TA"});
   CHECK(labels_of(" , ").empty());
+  CHECK(labels_of("FA(größe)") == Labels{"GRÖßE"});  // as programs have it: letter_case.hpp
 }
 
 TEST_CASE("columns that are left out have their usual values") {
