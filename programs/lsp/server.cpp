@@ -33,6 +33,22 @@ struct RequestError {
   std::string message;
 };
 
+/// Throws RequestError when it is not JSON, or nested deeper than any message of the protocol: a value is copied and
+/// destroyed level by level on the stack.
+json parsed(const std::string& text) {
+  constexpr int kDeepest = 64;
+  bool too_deep = false;
+  const auto is_shallow = [&](int depth, json::parse_event_t, json&) {
+    too_deep = too_deep || depth > kDeepest;
+    return !too_deep;
+  };
+  json message = json::parse(text, is_shallow, false);
+  if (too_deep)
+    throw RequestError{Fault::invalid_request, fmt::format("a message is nested at most {} deep", kDeepest)};
+  if (message.is_discarded()) throw RequestError{Fault::parse, "the message is not JSON"};
+  return message;
+}
+
 /// What a message holds, by name.
 class Parameters {
  public:
@@ -108,8 +124,15 @@ class Server {
 
   /// Nothing while the server goes on, else its exit code.
   std::optional<int> handle(const std::string& text) {
-    const json message = json::parse(text, nullptr, false);
-    if (message.is_discarded()) return fail(nullptr, {Fault::parse, "the message is not JSON"});
+    try {
+      return handle_message(parsed(text));
+    } catch (const RequestError& error) {
+      return fail(nullptr, error);
+    }
+  }
+
+ private:
+  std::optional<int> handle_message(const json& message) {
     const bool object = message.is_object();
     // An answer to a request of ours would come here; we make none.
     if (object && (message.contains("result") || message.contains("error"))) return std::nullopt;
@@ -135,7 +158,6 @@ class Server {
     return std::nullopt;
   }
 
- private:
   /// Names and labels may hold bytes that are not UTF-8; JSON must not.
   void send(const json& message) { write_message(out_, message.dump(-1, ' ', false, json::error_handler_t::replace)); }
 

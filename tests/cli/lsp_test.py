@@ -305,6 +305,9 @@ class Lsp(harness.Case):
             self.server.send(wrong)
             answer = self.server.receive()
             self.assertEqual((answer["id"], answer["error"]["code"]), (8 if isinstance(wrong, dict) else None, -32600))
+        for opening, closing in ((b'{"a":', b"}"), (b"[", b"]")):
+            self.server.send(b'{"id":8,"method":"nothing","params":' + 300_000 * opening + b"1" + 300_000 * closing + b"}")
+            self.assertEqual(self.server.receive()["error"]["code"], -32600)
         self.server.send({"id": 8, "result": None})
         self.server.notify("$/cancelRequest", {"id": 1})
         self.server.notify("textDocument/didChange", {})
