@@ -39,6 +39,11 @@ std::string bare_label(const std::string& operand) {
   return operand.substr(open + 1, operand.size() - open - 2);
 }
 
+/// A column with how many times `one` is `other`; of what never varies there is no such number.
+std::string ratio(double one, double other) {
+  return other > 0 ? fmt::format("{:>9.2f}", one / other) : fmt::format("{:>9}", "-");
+}
+
 [[noreturn]] void missing(const Session::Command& command, const char* what) {
   throw UserError(
       diagnostic(Code::E0613, fmt::format("{} needs {}", command.word, what), fmt::format("write {}", command.form)));
@@ -200,8 +205,8 @@ std::string Session::compare(const std::vector<std::string>& operands) {
   if (!figures[0].tasks || !figures[1].tasks) return out;
   const TaskUncertainties &a = *figures[0].tasks, &b = *figures[1].tasks;
   out += fmt::format("{:<70}", fmt::format("{} / {}", figures[1].label, figures[0].label));
-  for (std::size_t k = 0; k < 3; ++k) out += fmt::format("{:>9.2f}", b.length_mm[k] / a.length_mm[k]);
-  return out + fmt::format("{:>9.2f}{:>9.2f}\n", b.size_mm / a.size_mm, b.form_mm / a.form_mm);
+  for (std::size_t k = 0; k < 3; ++k) out += ratio(b.length_mm[k], a.length_mm[k]);
+  return out + ratio(b.size_mm, a.size_mm) + ratio(b.form_mm, a.form_mm) + "\n";
 }
 
 std::string Session::load(const std::string& path) {

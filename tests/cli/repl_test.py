@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """abbe repl: scripted sessions through a pipe."""
+import json
 import os
 import subprocess
 import time
@@ -185,6 +186,19 @@ class Repl(harness.Case):
         ratios = next(line for line in out.splitlines() if line.startswith("SHORT / LONG")).split()[3:]
         lengths = [float(table[name][6]) for name in ("SHORT", "LONG")]
         self.assertAlmostEqual(float(ratios[0]), lengths[0] / lengths[1], delta=0.03)
+
+    def test_what_never_varies_has_no_ratio(self):
+        machine = json.loads((ROOT / "examples/machines/coord3-mc16.json").read_text())
+        del machine["head"]
+        machine["probe"]["sd_um"] = [0, 0, 0]
+        machine["specification"]["v_max"] = "unlimited"
+        for component in machine["geometry"]["components"].values():
+            component["e_max"] = 0
+        self.write("perfect.json", json.dumps(machine))
+        sensors = "S(A)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,100,4\nS(B)=SNSDEF/PROBE,INDEX,POL,0,0,0,0,-1,400,4\n"
+        out = self.session(sensors + ".compare A B\n", "--machine", "perfect.json")
+        ratios = next(line for line in out.splitlines() if line.startswith("B / A")).split()[3:]
+        self.assertEqual(ratios[:3], 3 * ["-"])
 
     def test_levers_are_those_of_the_machine(self):
         # At mid travel the tip of the lever of Z stands across Z by the mount's offset and the tip's: mount (25, 40), machine file.
