@@ -35,7 +35,7 @@ std::string machine_of(const DiagnoseCommandOptions& options, Said& said, Record
   return kDefaultMachine;
 }
 
-/// Every file was read once: a recording may come through a pipe.
+/// Every file is read once: it may come through a pipe.
 struct Files {
   std::vector<SourceFile> recordings;
   std::optional<Workpiece> workpiece;
@@ -55,21 +55,23 @@ void protect_files(const DiagnoseCommandOptions& options, const Files& read, con
 
 struct Answer {
   Diagnosis diagnosis;
-  std::string machine;  ///< that it was compared with, as read_machine takes it
-  std::string name;     ///< of that machine
+  std::string machine;       ///< that it was compared with, as read_machine takes it
+  std::string machine_text;  ///< of its file
+  std::string name;          ///< of that machine
 };
 
 Answer of_values(const DiagnoseCommandOptions& options, const Files& read, const DiagnoseOptions& how, Said& said) {
   const RecordedValues values(read.recordings.front(), options.program, said);
   const std::string name = machine_of(options, said, [&] { return values.machine(); });
   protect_files(options, read, values.files(), name);
-  const Machine machine = read_machine(name);
+  const std::string text = machine_text(name);
+  const Machine machine = parse_machine(name, text);
   if (options.known || machine.known_state)
     said.push_back(diagnostic(
         Code::W0715,
         fmt::format("values are compared with all machines of the specification: no known_state of '{}' is used", name),
         "record the touches: their diagnosis uses it"));
-  return {values.diagnosis(machine, how), name, machine.name};
+  return {values.diagnosis(machine, how), name, text, machine.name};
 }
 
 /// The name of the machine that --machine or else the recording names; nothing where no file of it is here.
@@ -104,12 +106,13 @@ Answer of_touches(const DiagnoseCommandOptions& options, const Files& read, cons
       options.program ? std::optional(usable_program(*options.program)) : std::nullopt;
   if (program) said.insert(said.end(), program->messages.begin(), program->messages.end());
   protect_files(options, read, program ? files_compiled(*program) : std::vector<std::string>{}, name);
-  Machine machine = read_machine(name);
+  const std::string text = machine_text(name);
+  Machine machine = parse_machine(name, text);
   if (options.known) doubt_known(options, recording, machine, said);
   if (program) complete_from_program(recording, nominal_record(*program, machine), file);
   if (how.workpiece) fill_from_workpiece(recording, *how.workpiece);
   add_recorded_sensors(recording, machine, file, said);
-  return {diagnose_recording(recording, machine, how, file), name, machine.name};
+  return {diagnose_recording(recording, machine, how, file), name, text, machine.name};
 }
 
 }  // namespace
@@ -126,7 +129,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   how.design_only = options.design_only;
   how.keep_state = options.model_out.has_value();
   Said said = sink.list();
-  auto [d, machine, name] = [&] {
+  auto [d, machine, machine_text, name] = [&] {
     ProgressLine line;
     how.progress = [&](std::string_view step) { line.show(step); };
     try {
@@ -139,7 +142,7 @@ int diagnose_command(const DiagnoseCommandOptions& options) {
   d.messages.insert(d.messages.begin(), said.begin(), said.end());
   print_messages(d.messages);
   std::vector<OutputFile> files;
-  if (options.model_out) files.push_back({*options.model_out, improved_machine(machine_text(machine), d)});
+  if (options.model_out) files.push_back({*options.model_out, improved_machine(machine_text, d)});
   if (options.report)
     files.push_back(
         {*options.report, diagnosis_html(d, fmt::format("{}", fmt::join(options.recordings, ", ")), machine)});

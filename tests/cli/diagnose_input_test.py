@@ -189,14 +189,25 @@ class Outputs(Input):
         self.assertFalse((self.folder / "out.csv").exists())
         self.assertEqual({name: (self.folder / name).read_text() for name in files}, files)
 
+    def piped(self, text, *args):
+        """What a command says that reads this text from the pipe `pipe`."""
+        os.mkfifo(self.folder / "pipe")
+        writer = threading.Thread(target=lambda: (self.folder / "pipe").write_text(text))
+        writer.start()
+        said = self.abbe(*args).stdout
+        writer.join()
+        return said
+
     def test_a_recording_comes_through_a_pipe(self):
         expected = self.abbe("diagnose", "rec.csv", "--design-only", "--format", "json").stdout
-        os.mkfifo(self.folder / "pipe")
-        writer = threading.Thread(target=lambda: (self.folder / "pipe").write_text(self.recording.read_text()))
-        writer.start()
-        said = self.abbe("diagnose", "pipe", "--design-only", "--format", "json").stdout
-        writer.join()
+        said = self.piped(self.recording.read_text(), "diagnose", "pipe", "--design-only", "--format", "json")
         self.assertEqual(said.replace("pipe", "rec.csv"), expected)
+
+    def test_a_machine_file_comes_through_a_pipe(self):
+        machine = (harness.ROOT / "examples/machines/coord3-mc16.json").read_text()
+        self.abbe("diagnose", "rec.csv", "--machine", self.write("mine.json", machine), "--model-out", "expected.json")
+        self.piped(machine, "diagnose", "rec.csv", "--machine", "pipe", "--model-out", "out.json")
+        self.assertEqual((self.folder / "out.json").read_text(), (self.folder / "expected.json").read_text())
 
     def test_a_pipe_stays_a_pipe(self):
         os.mkfifo(self.folder / "pipe")
