@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "engine/base/diagnostic.hpp"
+#include "engine/base/files.hpp"
 #include "engine/base/letter_case.hpp"
 
 namespace abbe {
@@ -23,7 +24,7 @@ std::vector<std::string> program_files(const std::vector<std::string>& paths) {
     }
     std::vector<std::string> below;
     for (const auto& entry : fs::recursive_directory_iterator(path, fs::directory_options::skip_permission_denied))
-      if (entry.is_regular_file() && upper(entry.path().extension().string()) == ".DMI")
+      if (is_file(entry.path().string()) && upper(entry.path().extension().string()) == ".DMI")
         below.push_back(entry.path().string());
     std::sort(below.begin(), below.end());
     found.insert(found.end(), below.begin(), below.end());

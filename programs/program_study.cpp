@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/base/file_kind.hpp"
+#include "engine/base/files.hpp"
 #include "engine/run/check_plan.hpp"
 #include "programs/recorded_points.hpp"
 #include "programs/thread_count.hpp"
@@ -20,7 +21,7 @@ std::string machine_name(const CompiledProgram& program, const std::optional<std
   if (chosen) return *chosen;
   const std::string asked = program.compilation.directives.machine.value_or(kDefaultMachine);
   const std::string file = beside(program.source.name(), asked);
-  return std::filesystem::exists(file) ? file : asked;
+  return is_there(file) ? file : asked;
 }
 
 std::optional<Workpiece> workpiece_of(const CompiledProgram& program, const std::optional<std::string>& chosen) {

@@ -160,20 +160,34 @@ class Replacement {
 /// The path without links, as far as it exists; two names of one file have the same.
 std::string where(const std::string& path) {
   std::error_code unreadable;
-  const std::filesystem::path real = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unreadable);
+  const std::filesystem::path whole = std::filesystem::absolute(path, unreadable);
+  if (unreadable) return path;  // the current folder was deleted
+  const std::filesystem::path real = std::filesystem::weakly_canonical(whole, unreadable);
   return unreadable ? path : real.string();
 }
 
-/// What a link points to, even if that does not exist yet.
+/// What a link points to, even if that does not exist yet. Throws UserError when it leads round in a circle.
 std::string followed(std::string path) {
   constexpr int kMostLinks = 40;
   std::error_code none;
   for (int k = 0; k < kMostLinks && std::filesystem::is_symlink(path, none); ++k)
     path = (std::filesystem::path(path).parent_path() / std::filesystem::read_symlink(path, none)).string();
-  return path;
+  if (!std::filesystem::is_symlink(path, none)) return path;
+  errno = ELOOP;
+  fail(path, "following its links");
 }
 
 }  // namespace
+
+bool is_there(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::exists(path, none);
+}
+
+bool is_file(const std::string& path) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(path, none);
+}
 
 void write_whole(const std::string& path, std::string_view content) {
   refuse_no_file(path);

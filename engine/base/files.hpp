@@ -1,4 +1,5 @@
-// Output files appear whole or not at all, and destroy nothing that the same command reads or writes.
+// Files that are there, and output files: they appear whole or not at all, and destroy nothing that the same command
+// reads or writes.
 #pragma once
 
 #include <functional>
@@ -7,6 +8,11 @@
 #include <vector>
 
 namespace abbe {
+
+/// Whether something, or a regular file, stands at the path. What cannot even be looked for, because its folder is locked,
+/// its name too long or its link leads round in a circle, does not.
+bool is_there(const std::string& path);
+bool is_file(const std::string& path);
 
 /// Writes `content` to a temporary file beside `path` and renames it. A link stays, and the file that it
 /// points to is replaced; into a device or a pipe the content is written. A file keeps its permissions; one

@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "engine/base/file_kind.hpp"
+#include "engine/base/files.hpp"
 #include "engine/machine/shipped.hpp"
 
 namespace abbe {
@@ -33,7 +33,7 @@ SourceFile machine_source(const std::string& name_or_path) {
     if (file.name == name_or_path) return {std::string(file.name) + ".json", std::string(file.text)};
     names.push_back(file.name);
   }
-  const bool is_path = name_or_path.find_first_of("/.") != std::string::npos || std::filesystem::exists(name_or_path);
+  const bool is_path = name_or_path.find_first_of("/.") != std::string::npos || is_there(name_or_path);
   if (is_path) {
     SourceFile source = read_source(name_or_path);
     refuse_other_kind(source, FileKind::json);

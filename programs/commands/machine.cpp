@@ -122,7 +122,7 @@ int init(const MachineOptions& options) {
   if (name.empty() || !std::all_of(name.begin(), name.end(), plain))
     throw UserError(diagnostic(Code::E0603, fmt::format("'{}' cannot be the name of a machine", name),
                                "use letters, digits, '-', '_' and '.'; with .json at the end the file is written"));
-  if (to_file && std::filesystem::exists(options.machine))
+  if (to_file && is_there(options.machine))
     throw UserError(diagnostic(Code::E0602, fmt::format("'{}' exists already and was left as it is", options.machine),
                                "choose another name, or delete the file first"));
   const std::string text = machine_template(name);

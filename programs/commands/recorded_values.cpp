@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/base/file_kind.hpp"
+#include "engine/base/files.hpp"
 #include "engine/base/letter_case.hpp"
 #include "engine/base/numbers.hpp"
 #include "engine/math/units.hpp"
@@ -105,9 +106,9 @@ bool are_values(const std::vector<SourceFile>& files) {
 std::string recorded_machine(const std::string& named, const std::vector<std::string>& recordings) {
   if (named.empty()) return named;
   for (const std::string& recording : recordings)
-    if (const std::string file = beside(recording, named); std::filesystem::is_regular_file(file)) return file;
+    if (const std::string file = beside(recording, named); is_file(file)) return file;
   const std::vector<std::string> shipped = shipped_machines();
-  if (std::find(shipped.begin(), shipped.end(), named) != shipped.end() || std::filesystem::exists(named)) return named;
+  if (std::find(shipped.begin(), shipped.end(), named) != shipped.end() || is_there(named)) return named;
   throw UserError(diagnostic(
       Code::E0411,
       fmt::format(
@@ -137,8 +138,7 @@ RecordedValues::RecordedValues(const SourceFile& file, const std::optional<std::
       throw UserError(
           diagnostic_at(recording_.source, row.span, Code::E0555, "which program evaluated this value is not said",
                         "give --program P.dmi, or a column 'program' with its path as seen from this file"));
-    if (const std::string path = (folder / row.program).string();
-        !row.program.empty() && !std::filesystem::is_regular_file(path))
+    if (const std::string path = (folder / row.program).string(); !row.program.empty() && !is_file(path))
       throw UserError(diagnostic_at(recording_.source, row.span, Code::E0601, fmt::format("cannot read '{}'", path),
                                     "the column 'program' names the measurement program as seen from this file"));
     names_.push_back(row.program);

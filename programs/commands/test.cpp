@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 
 #include "engine/base/file_kind.hpp"
@@ -106,11 +105,10 @@ TestSuite test_file(const std::string& path, const TestOptions& options, Progres
 /// wrong with a file is that program's.
 void refuse_no_programs(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
-    std::error_code none;
-    if (!std::filesystem::exists(path, none))
+    if (!is_there(path))
       throw UserError(diagnostic(Code::E0601, fmt::format("cannot read '{}': it does not exist", path),
                                  "check the name of the program or folder"));
-    if (!std::filesystem::is_regular_file(path, none)) continue;  // a pipe is read once
+    if (!is_file(path)) continue;  // a pipe is read once
     try {
       refuse_other_kind(read_source(path), FileKind::program);
     } catch (const UserError& error) {

@@ -158,6 +158,30 @@ class Usage(harness.Case):
         self.assertIn("E0602", done.stderr)
         self.assertEqual([p.name for p in self.folder.iterdir()], ["length.dmi"])
 
+    def test_what_cannot_even_be_looked_for_is_not_there(self):
+        """A name that is too long, a link that leads round in a circle."""
+        self.write("parts/length.dmi", "$$! expect TA(LEN) u >= 0\n" + harness.LENGTH)
+        self.abbe("record", PART, "-o", "rec.csv")
+        self.write("other.csv", re.sub("(?m)^# machine: .*", "# machine: " + 300 * "m", (self.folder / "rec.csv").read_text()))
+        self.write("values.csv", f"characteristic,program,value\nLEN,{300 * 'p'},100.001\n")
+        for round_about in ("parts/circle.dmi", "circle"):
+            (self.folder / round_about).symlink_to(pathlib.Path(round_about).name)
+        self.refused("E0411", "run", PART, "--machine", 300 * "m")
+        self.refused("E0411", "diagnose", "other.csv")
+        self.refused("E0601", "diagnose", "values.csv")
+        self.refused("E0602", "machine", "init", 300 * "m" + ".json")
+        self.refused("E0602", "run", PART, "--csv", "circle")
+        for command in ("check", "test", "format"):
+            self.abbe(command, "parts")
+        self.assertTrue((self.folder / "circle").is_symlink())
+
+    def test_a_folder_that_is_gone_is_no_fault(self):
+        self.write("length.dmi", harness.LENGTH)
+        done = subprocess.run(["bash", "-c", f"mkdir gone; cd gone; rmdir ../gone; {self.abbe_path} run {self.folder}/length.dmi --machines 20 --csv {self.folder}/values.csv"],
+                              cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue((self.folder / "values.csv").exists())
+
     def test_what_a_directive_names_is_refused_at_its_place(self):
         self.write("length.dmi", "$$! machine nope\n" + harness.LENGTH)
         self.assertIn("length.dmi:1:13: error E0411", self.refused("E0411", "run", "length.dmi"))
