@@ -102,13 +102,15 @@ void refuse_no_file(const std::string& path) {
                                "give the name of a file, in it or elsewhere"));
 }
 
-/// A command with several outputs finds out before the first is written that another has no place.
+/// A command finds out before its work, and before the first of several outputs is written, that one has no place.
 void refuse_without_folder(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const std::string parent = std::filesystem::path(path).parent_path().string(), folder = parent.empty() ? "." : parent;
   struct stat there {};
-  if (folder.empty() || (::stat(folder.c_str(), &there) == 0 && S_ISDIR(there.st_mode))) return;
-  errno = ENOENT;
-  fail(path, "finding its folder");
+  if (::stat(folder.c_str(), &there) != 0 || !S_ISDIR(there.st_mode)) {
+    errno = ENOENT;
+    fail(path, "finding its folder");
+  }
+  if (::faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) != 0) fail(path, "writing into its folder");
 }
 
 /// Who may read and write the file: as before; of a new one as the umask says.

@@ -1,4 +1,5 @@
 """The command line itself: help, version, and wrong usage (exit code 2)."""
+import os
 import pathlib
 import re
 import subprocess
@@ -174,6 +175,17 @@ class Usage(harness.Case):
         for command in ("check", "test", "format"):
             self.abbe(command, "parts")
         self.assertTrue((self.folder / "circle").is_symlink())
+
+    def test_the_folder_of_an_output_is_tried_before_the_work(self):
+        self.write("length.dmi", harness.LENGTH)
+        (self.folder / "locked").mkdir(mode=0o555)
+        user = {"user": 65534, "extra_groups": []} if os.geteuid() == 0 else {}   # root may write anywhere
+        self.folder.chmod(0o755)
+        done = subprocess.run([self.abbe_path, "run", "length.dmi", "--machines", "5", "--csv", "locked/values.csv"], cwd=self.folder, capture_output=True,
+                              text=True, **user)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("E0602", done.stderr)
+        self.assertNotIn("W0435", done.stderr)   # what a run has to say
 
     def test_a_folder_that_is_gone_is_no_fault(self):
         self.write("length.dmi", harness.LENGTH)
