@@ -4,28 +4,11 @@
 
 #include <algorithm>
 
+#include "engine/base/utf8.hpp"
+
 namespace abbe {
 
 namespace {
-
-/// Bytes of the UTF-8 character at the start of `text`, 0 when there is none (RFC 3629: no
-/// surrogates, no overlong forms).
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xC2 && lead < 0xE0 ? 2
-      : lead >= 0xE0 && lead < 0xF0                      ? 3
-      : lead >= 0xF0 && lead < 0xF5                      ? 4
-                                                         : 0;
-  if (length == 0 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  const unsigned char second = byte(1);
-  const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
-  const bool outside = (lead == 0xED && second >= 0xA0) || (lead == 0xF4 && second >= 0x90);
-  return overlong || outside ? 0 : length;
-}
 
 std::string escaped_character(std::string_view character) {
   constexpr const char* kReplacement = "\xEF\xBF\xBD";
@@ -61,7 +44,7 @@ std::string case_xml(const TestSuite& suite, const TestCase& c) {
 std::string xml_escaped(std::string_view text) {
   std::string out;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = utf8_character(text, 0).bytes;
     out += length ? escaped_character(text.substr(0, length)) : "\xEF\xBF\xBD";
     text.remove_prefix(std::max<std::size_t>(1, length));
   }

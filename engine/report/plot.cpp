@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/utf8.hpp"
+
 namespace abbe {
 
 namespace {
@@ -47,6 +49,7 @@ std::string text(double x, double y, const char* anchor, std::string_view what, 
                      escaped(what));
 }
 
+constexpr std::string_view kNoCharacter = "\xEF\xBF\xBD";
 constexpr const char* kGrid = "stroke=\"currentColor\" stroke-opacity=\"0.15\"";
 constexpr const char* kZero = "stroke=\"currentColor\" stroke-opacity=\"0.6\"";
 
@@ -69,17 +72,18 @@ std::string x_axis(const Scale& x, double top, double bottom, const std::string&
 
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '&')
+  for (std::size_t at = 0, bytes = 0; at < text.size(); at += std::max<std::size_t>(bytes, 1)) {
+    bytes = utf8_character(text, at).bytes;
+    if (text[at] == '&')
       out += "&amp;";
-    else if (c == '<')
+    else if (text[at] == '<')
       out += "&lt;";
-    else if (c == '>')
+    else if (text[at] == '>')
       out += "&gt;";
-    else if (c == '"')
+    else if (text[at] == '"')
       out += "&quot;";
     else
-      out += c;
+      out += bytes > 0 ? text.substr(at, bytes) : kNoCharacter;  // the name of a file may hold any byte
   }
   return out;
 }

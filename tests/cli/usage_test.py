@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 
 import harness
@@ -175,6 +176,15 @@ class Usage(harness.Case):
         for command in ("check", "test", "format"):
             self.abbe(command, "parts")
         self.assertTrue((self.folder / "circle").is_symlink())
+
+    def test_a_page_is_utf8_whatever_its_files_are_called(self):
+        program, recording = (os.fsencode(self.folder) + b"/\xff<b>\xc3\xa9" + ending for ending in (b".dmi", b".csv"))
+        shutil.copy(PART, program)
+        self.abbe("record", PART, "-o", "rec.csv")
+        shutil.copy(self.folder / "rec.csv", recording)
+        for command in (("run", program, "--machines", "5"), ("diagnose", recording, "--design-only")):
+            subprocess.run([self.abbe_path, *command, "--report", "page.html"], cwd=self.folder, capture_output=True, check=True)
+            self.assertIn("\ufffd&lt;b&gt;\u00e9", (self.folder / "page.html").read_text(encoding="utf-8"))
 
     def test_the_folder_of_an_output_is_tried_before_the_work(self):
         self.write("length.dmi", harness.LENGTH)
