@@ -82,7 +82,8 @@ double common_step_mm(const Recording& recording) {
 
 void round_readings(Recording& recording, double step_mm) {
   const auto round = [&](Vec3& v) {
-    for (int k = 0; k < 3; ++k) v[k] = step_mm * std::round(v[k] / step_mm);
+    for (int k = 0; k < 3; ++k)
+      if (const double steps = std::round(v[k] / step_mm); std::isfinite(steps)) v[k] = step_mm * steps;
   };
   for (RecordingRow& row : recording.rows) {
     round(row.position_mm);

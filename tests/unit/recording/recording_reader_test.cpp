@@ -125,4 +125,6 @@ TEST_CASE("rounded readings are multiples of the step, the nearest ones") {
   CHECK(r.rows[0].position_mm.y == doctest::Approx(-1.23));
   CHECK(r.rows[1].reading_mm->x == doctest::Approx(10.01));
   CHECK_FALSE(r.rows[0].reading_mm);
+  round_readings(r, 1e-311);
+  CHECK(r.rows[0].position_mm.x == doctest::Approx(1.23));
 }
