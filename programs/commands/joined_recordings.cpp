@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/letter_case.hpp"
 #include "engine/recording/clock.hpp"
 #include "engine/recording/copies.hpp"
 #include "programs/commands/recorded_values.hpp"
@@ -132,10 +133,14 @@ void refuse_unlike(const Recording& first, const std::string& name, const Record
 
 Recording joined(const std::vector<SourceFile>& files, Positions positions, std::vector<Diagnostic>& messages) {
   std::vector<Recording> read;
+  std::map<std::string, std::string> as_met_first;  // labels are the same whatever their case
   for (const SourceFile& file : files) {
     read.push_back(read_recording(file, positions));
     messages.insert(messages.end(), read.back().messages.begin(), read.back().messages.end());
-    for (RecordingRow& row : read.back().rows) row.file = static_cast<int>(read.size()) - 1;
+    for (RecordingRow& row : read.back().rows) {
+      row.file = static_cast<int>(read.size()) - 1;
+      row.feature = as_met_first.emplace(upper(row.feature), row.feature).first->second;
+    }
     refuse_unlike(read.front(), files.front().name(), read.back(), file.name());
     for (std::size_t k = 0; k + 1 < read.size(); ++k) refuse_copy(read[k], files[k].name(), read.back(), file.name());
   }

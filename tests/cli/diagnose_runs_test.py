@@ -48,6 +48,8 @@ class DiagnoseRuns(harness.Case):
             self.assertEqual(said[key], numbered[key], key)
         told = "its runs are counted on: run 1 counts as 2"
         self.assertIn(told, self.abbe("diagnose", first, unnumbered, "--machine", MACHINE, "--design-only").stderr)
+        lower = self.changed(unnumbered, lambda row: row | {"feature": row["feature"].lower()}, "lower.csv")
+        self.assertIn(told, self.abbe("diagnose", first, lower, "--machine", MACHINE, "--design-only").stderr)
         placed_anew = self.changed(unnumbered, lambda row: row | {"setup": "2"}, "placed_anew.csv")
         self.assertNotIn(told, self.abbe("diagnose", first, placed_anew, "--machine", MACHINE, "--design-only").stderr)
 
