@@ -106,6 +106,13 @@ std::optional<Reading> reading_of(const plan::FeatureDef& def, const Form& form,
   return name == "h" ? Reading{component(place_of(def.kind->shape), 2)} : size_reading(def, form, name);
 }
 
+/// Whether the nominal decides what an argument means: which of two faces, and the sense of the second side of a block.
+bool nominal_decides(Shape shape, std::string_view name) {
+  if (name.size() != 2) return false;
+  return shape == Shape::parallel_planes ? name[1] == '1' || name[1] == '2'
+                                         : shape == Shape::rectangle && name[1] == '2';
+}
+
 plan::Expression obtained(Lowering& lowering, plan::FeatureId feature, plan::Quantity quantity) {
   const plan::ColumnId column{lowering.out.plan.columns++};
   lowering.emit(plan::Obtain{column, feature, quantity});
@@ -164,6 +171,14 @@ std::optional<Value> from_feature(Lowering& lowering, const MatchedValue& label,
     const plan::Expression squares = combine(Op2::add, combine(Op2::multiply, x, x), combine(Op2::multiply, y, y));
     return Value{Type::real,
                  {scaled(item->name == "r" ? combine(Op1::sqrt, squares) : combine(Op2::atan2, y, x), unit)}};
+  }
+  if (!def.varying.empty() && nominal_decides(def.kind->shape, item->name)) {
+    lowering.error(
+        Code::E0231, label.span,
+        fmt::format("what argument {} of FA({}) is, the nominal decides, and that depends on a measured value",
+                    index.number, label.label.name),
+        "give its FEAT numbers, or variables that nothing measured goes into");
+    return std::nullopt;
   }
   const std::optional<Reading> reading = reading_of(def, form, item->name);
   ABBE_CHECK(reading);
