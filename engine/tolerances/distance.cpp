@@ -26,9 +26,10 @@
 //
 // Extent. AVG, the default, is as above. MAX and MIN are between the far and the near ends of the
 // features along the line of measurement: r to both sides of a sphere, r sqrt(1 - (n e)^2) for a
-// circle, and so for the circles in which a cylinder or a cone ends, the measured ends of a line, the
-// outermost touches of a plane (a constructed one and a median plane have none: form, and tilt over the
-// extent). Features that overlap have the MIN distance 0.
+// circle, and so for the circles in which a cylinder or a cone ends, a torus as that of its major radius
+// and the tube's around it, the measured ends of a line, the outermost touches of a plane (a constructed one
+// and a median plane have none: form, and tilt over the extent). An arc counts as its centre. Features that
+// overlap have the MIN distance 0.
 #include <algorithm>
 #include <cmath>
 
@@ -82,8 +83,10 @@ Interval reach(Shape shape, const Element& feature, const Vec3& e, std::span<con
   const double cosine = dot(feature.direction, e);
   switch (shape) {
     case Shape::sphere: return {-feature.size, feature.size};
-    case Shape::circle: {
-      const double r = feature.size * std::sqrt(std::max(0.0, 1 - cosine * cosine));
+    case Shape::circle:
+    case Shape::torus: {
+      const double circle = feature.size * std::sqrt(std::max(0.0, 1 - cosine * cosine)),
+                   r = shape == Shape::torus ? circle + feature.minor_size : circle;
       return {-r, r};
     }
     case Shape::plane: return plane_reach(feature, e, touches);

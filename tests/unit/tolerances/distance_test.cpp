@@ -77,8 +77,25 @@ TEST_CASE("MAX and MIN reach to the far and near ends") {
         Approx(30 + 5 * std::sqrt(0.75)));
   CHECK(value("MAX", Shape::line, spanning(at({}, {-0.6, 0.8, 0}), -10, 20), Shape::point, t) == Approx(42));
   CHECK(value("MIN", Shape::line, spanning(at({}, {-0.6, 0.8, 0}), -10, 20), Shape::point, t) == Approx(24));
-  CHECK(value("MAX", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) == Approx(30.1));
-  CHECK(value("MIN", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::torus, t) == Approx(29.8));
+  CHECK(value("MAX", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::point, t) == Approx(30.1));
+  CHECK(value("MIN", Shape::plane, spread(at({}, {1, 0, 0}), -0.1, 0.2), Shape::point, t) == Approx(29.8));
+}
+
+TEST_CASE("MAX and MIN of a torus go round its tube") {
+  const auto apart = [](const char* use, const Vec3& axis) {
+    Element ring = sized(at({}, axis), 20);
+    ring.minor_size = 4;
+    return nominal_distance("DISTB", "XAXIS", 50, -1, 1)
+        .word("use", use)
+        .feature(Shape::torus, ring)
+        .feature(Shape::point, at({50, 9, 0}))
+        .value();
+  };
+  CHECK(apart("AVG", {0, 0, 1}) == Approx(50));
+  CHECK(apart("MAX", {0, 0, 1}) == Approx(74));
+  CHECK(apart("MIN", {0, 0, 1}) == Approx(26));
+  CHECK(apart("MAX", {1, 0, 0}) == Approx(54));
+  CHECK(apart("MIN", {0.6, 0.8, 0}) == Approx(50 - (20 * 0.8 + 4)));
 }
 
 TEST_CASE("MAX and MIN of cylinders and cones go to their rims") {
