@@ -17,7 +17,7 @@ namespace {
 
 bool is_round(Shape shape) { return shape == Shape::circle || shape == Shape::cylinder || shape == Shape::cone; }
 
-/// Features that the plan touches, by label in upper case.
+/// Labels of the features that the plan touches, as the program writes them.
 std::vector<std::string_view> touched_labels(const plan::Plan& plan) {
   std::vector<std::string_view> labels;
   for (const plan::Operation& op : plan.operations)
