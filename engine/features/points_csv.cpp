@@ -41,6 +41,7 @@ std::string quoted(std::string_view text) {
   return q.append(text).append("'");
 }
 
+/// Takes nan and inf, as finite_number() does not: the fit refuses them in its own words (not_finite, E0505).
 std::optional<double> number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;
