@@ -53,11 +53,12 @@ Executor::Executor(const plan::Plan& plan, const Machine& machine, const RunOpti
   }
 }
 
-void Executor::find_curved(const CurvedFeatures& curved) {
+void Executor::find_curved(const CurvedFeatures& touched) {
+  const std::set<std::string> curved = touched.curved();
   curved_.clear();
   for (const plan::FeatureDef& def : plan_.features) {
     const std::string key = upper(def.label);
-    curved_.push_back(curved.touched(key) ? curved.has(key) : !def.kind->flat);
+    curved_.push_back(touched.touched(key) ? curved.count(key) > 0 : !def.kind->flat);
   }
 }
 

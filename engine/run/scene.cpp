@@ -132,7 +132,7 @@ void BlockRun::observe_touch(const plan::Touch& touch, int slot) {
         {touch_batch.reading.get(slot), operation, true, inverse(X_WD) * touch_batch.surface.get(slot)});
     observed->frames.add(X_WD, touch_batch.surface.get(slot));
     observed->curved.add(upper(executor.plan_[touch.feature].label), executor.options_.setup,
-                         touch_batch.surface_normal.get(slot));
+                         touch_batch.surface.get(slot), touch_batch.surface_normal.get(slot));
   }
   if (lane != 0 || block.machines == 0) return;
   observed->rows.push_back(recording_row(touch, slot));

@@ -7,7 +7,7 @@
 // degree 2 and the seven of degree 3, so that a form is one however the part was put down. On a
 // sphere they are its form, on a cylinder along the part's z ovality and three lobes. A face has
 // one normal: its form is over the position p along an axis of the part, a wave. Which it is, is
-// told by the touches: a feature is curved when their normals are neither parallel nor opposite.
+// told by the touches (run/curved_features.hpp).
 // r > 0 is material too much. The form is there in every repeat and moves with the part. Sizes:
 // reference spheres 0.05 to 0.1 um, machined parts micrometres.
 // Source: real solid harmonics on the unit sphere; ISO 12181 (lobes), ISO 12780 (waviness).

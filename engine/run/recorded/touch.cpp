@@ -164,10 +164,11 @@ void follow_sequence(const Recording& recording, std::vector<RecordedTouch>& tou
 }
 
 void find_curved(RecordedTouches& out) {
-  CurvedFeatures curved;
+  CurvedFeatures touched;
   for (const RecordedTouch& t : out.touches)
-    curved.add(out.features[t.scene.feature], t.scene.setup, t.scene.normal_on_part);
-  for (RecordedTouch& t : out.touches) t.scene.curved = curved.has(out.features[t.scene.feature]);
+    touched.add(out.features[t.scene.feature], t.scene.setup, t.scene.on_part, t.scene.normal_on_part);
+  const std::set<std::string> curved = touched.curved();
+  for (RecordedTouch& t : out.touches) t.scene.curved = curved.count(out.features[t.scene.feature]) > 0;
 }
 
 }  // namespace

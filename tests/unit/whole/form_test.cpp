@@ -31,14 +31,32 @@ TEST_CASE("a point has one normal, as a face has: its form is the wave, as it is
 }
 
 TEST_CASE("features are curved by the normals of their touches") {
-  CurvedFeatures curved;
-  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0.9987, 0.05, 0}}) curved.add("SLOT", 1, normal);
-  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) curved.add("BLOCK", 1, normal);
+  CurvedFeatures touches;
+  const auto add = [&](const std::string& feature, int setup, const Vec3& normal) {
+    touches.add(feature, setup, 10 * normal, normal);
+  };
+  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0.9987, 0.05, 0}}) add("SLOT", 1, normal);
+  for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}}) add("BLOCK", 1, normal);
   for (int setup = 1; setup <= 2; ++setup)
-    for (const double side : {1.0, -1.0}) curved.add("GAUGE", setup, setup == 1 ? Vec3{side, 0, 0} : Vec3{0, side, 0});
-  CHECK_FALSE(curved.has("SLOT"));
-  CHECK(curved.has("BLOCK"));
-  CHECK_FALSE(curved.has("GAUGE"));
-  CHECK(curved.touched("SLOT"));
-  CHECK_FALSE(curved.touched("BORE"));
+    for (const double side : {1.0, -1.0}) add("GAUGE", setup, setup == 1 ? Vec3{side, 0, 0} : Vec3{0, side, 0});
+  CHECK(touches.curved() == std::set<std::string>{"BLOCK"});
+  CHECK(touches.touched("SLOT"));
+  CHECK_FALSE(touches.touched("BORE"));
+}
+
+TEST_CASE("points are curved where all of them lie on one ball") {
+  const std::vector<Vec3> directions{{1, 0, 0}, {-1, 0, 0},    {0, 1, 0},      {0, -1, 0},
+                                     {0, 0, 1}, {0.6, 0, 0.8}, {0, -0.6, 0.8}, {-0.48, 0.64, 0.6}};
+  const auto curved = [&](std::size_t count, double last_radius_mm) {
+    CurvedFeatures touches;
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3& n = directions[k];
+      const double radius_mm = k + 1 == count ? last_radius_mm : 12.5;
+      touches.add("P" + std::to_string(k), 1, Vec3{100, 50, 30} + radius_mm * n, n);
+    }
+    return touches.curved().size();
+  };
+  CHECK(curved(8, 12.5) == 8);
+  CHECK(curved(8, 12.6) == 0);  // of another surface
+  CHECK(curved(6, 12.5) == 0);  // so do the faces of a cube
 }
