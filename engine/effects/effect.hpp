@@ -93,7 +93,7 @@ struct TouchScene {
   double load_kg = 0;
   int touch = 0;       ///< ordinal in the program or recording
   int feature = 0;     ///< ordinal of the feature measured
-  bool curved = true;  ///< its touches have normals that are neither parallel nor opposite: a ball, a bore
+  bool curved = true;  ///< of a ball or a bore, as its touches tell (run/curved_features.hpp)
   int setup = 0, run = 0, visit = 0, qualification = 0;
   Vec3 travel_length_mm{1000, 1000, 1000};  ///< of the machine's axes
   /// From the origin of each carriage's frame (x, y, z) to the tip, W: the arm on which a rotation of that
@@ -117,6 +117,7 @@ enum class Sought {
   around_listed,  ///< `tried`, and what lies between
   wavelength,     ///< likewise, but none longer than two parts as large as what was touched: that is no form, mm
   signal_period,  ///< those of `tried` that the readings of a recording resolve, um
+  height,         ///< of a plane of the part, from its middle to some way beyond what was touched, mm
   moment,         ///< between two touches
   period,         ///< whole half cycles in the duration of the recording
   time_constant,  ///< shares of that duration

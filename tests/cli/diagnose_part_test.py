@@ -145,6 +145,27 @@ class CalibratedPart(harness.Case):
         self.assertEqual((said["effects"][0]["members"], said["effects"][0]["new_in_run"]), (["part.clamping"], [2]))
         self.assertEqual(said["baseline"]["outliers"], [])
 
+    def test_a_part_bends_about_a_plane_of_its_own(self):
+        """Which is not where its touches have their middle: about that it would seem to stretch, as by a scale."""
+        part = harness.ROOT / "examples/programs/prismatic_part.dmi"
+        self.abbe("record", part, "--machine", MACHINE, "--seed", 3, "-o", "before.csv")
+        self.abbe("record", part, "--machine", MACHINE, "--seed", 3, "--run", 2,
+                  "--with", "part.clamping:bow_um=30,half_size_mm=80,neutral_mm=-25", "-o", "after.csv")
+        said = self.diagnosis("before.csv", "after.csv", "--program", part)
+        self.assertEqual((said["effects"][0]["members"], len(said["effects"])), (["part.clamping"], 1))
+        low, high = said["effects"][0]["parameters"]["neutral_mm"]["interval95"]
+        self.assertLess(low, -25)
+        self.assertGreater(high, -25)
+
+    def test_the_form_of_a_ball_that_is_measured_as_points_is_its_own(self):
+        ball = harness.ROOT / "examples/iso10360/form_and_size_5x25.dmi"
+        for run in (1, 2):
+            self.abbe("record", ball, "--machine", MACHINE, "--seed", 7, "--run", run, "--with", "part.form:three_lobe_um=2", "-o", f"{run}.csv")
+        said = self.diagnosis("1.csv", "2.csv")["effects"][0]
+        self.assertIn("part.form", said["members"])
+        form = next(m["parameters"] for m in said["by_member"] or [said] if "three_lobe_um" in m["parameters"])
+        self.assertLess(abs(form["three_lobe_um"]["value"] - 2), 3 * form["three_lobe_um"]["u"])
+
     def test_a_force_that_fell_is_told_as_its_change(self):
         """A trigger force is never negative; its change is. Where both do the same to the touches, it is the change."""
         part = harness.ROOT / "examples/programs/prismatic_part.dmi"

@@ -68,13 +68,25 @@ std::vector<double> codes(const EffectParameter& p) {
 
 std::vector<double> listed(const EffectParameter& p) { return {p.tried.begin(), p.tried.end()}; }
 
-/// One at least. Less than half a wave is a size, or an angle of the part.
-std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches& t) {
+/// The largest side of what was touched, on the part.
+double extent_mm(const RecordedTouches& t) {
   Vec3 low = t.touches.front().scene.on_part, high = low;
   for (const RecordedTouch& touch : t.touches)
     for (int k = 0; k < 3; ++k)
       low[k] = std::min(low[k], touch.scene.on_part[k]), high[k] = std::max(high[k], touch.scene.on_part[k]);
-  const double extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+/// Shares of the part's largest side.
+std::vector<double> heights(const RecordedTouches& t) {
+  std::vector<double> list;
+  for (const double share : {-0.15, -0.05, 0.0, 0.05, 0.15}) list.push_back(share * extent_mm(t));
+  return list;
+}
+
+/// One at least. Less than half a wave is a size, or an angle of the part.
+std::vector<double> wavelengths(const EffectParameter& p, const RecordedTouches& t) {
+  const double extent = extent_mm(t);
   std::vector<double> list{p.tried.front()};
   for (const double length : p.tried.subspan(1))
     if (length <= 2 * extent) list.push_back(length);
@@ -134,6 +146,7 @@ ParameterGrid grid_of(const EffectParameter& p, const RecordedTouches& t, double
     }
     case Sought::around_listed: return with_those_between(listed(p));
     case Sought::wavelength: return with_those_between(wavelengths(p, t));
+    case Sought::height: return with_those_between(heights(t));
     case Sought::moment: return moments(t);
     case Sought::period: return with_those_between(periods(p, t));
     case Sought::time_constant: return with_those_between(time_constants(t));

@@ -1,11 +1,12 @@
 // Elastic distortion of the part by its clamps or supports.
 //
 //   w(u, v) = b u^2 + c v^2 + t u v + p (u^3 - 3 u v^2)        u = x_part / h,  v = y_part / h
-//   displacement in the part's frame:  ( - z dw/dx,  - z dw/dy,  w ),     r = n_part . displacement
+//   displacement in the part's frame:  ( - (z - z_n) dw/dx,  - (z - z_n) dw/dy,  w ),     r = n_part . displacement
 //
 // The four softest modes of a plate: bow along its two directions, twist, and the sag between three
-// supports. A plate that bends also turns its normals, so points off its middle plane z = 0 move
-// sideways (Kirchhoff). h is half the size of the part: each parameter is the deflection at that
+// supports. A plate that bends also turns its normals, so points off its neutral plane z_n, which bends but does not
+// stretch, move sideways (Kirchhoff). The origin of the part is where its coordinates, or its touches, have it: that plane
+// need not go through it. h is half the size of the part: each parameter is the deflection at that
 // distance from the part's origin. Fixed to part and fixture: another clamping gives other values, so
 // that it may be there in one placement only; another placement of the clamped whole gives the same.
 // Size: 1 to 50 um. Source: Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, chapters 2
@@ -54,6 +55,13 @@ constexpr EffectParameter kClampingParameters[] = {
      .high = 10000,
      .standard = 250},
     kSetupParameter,
+    {.name = "neutral_mm",
+     .unit = "mm",
+     .help = "height in the part of the plane that is bent but not stretched",
+     .typical = 0,
+     .low = -10000,
+     .high = 10000,
+     .sought = Sought::height},
 };
 
 Vec3 clamping(const TouchScene& scene, const double* theta, const double*) {
@@ -64,7 +72,8 @@ Vec3 clamping(const TouchScene& scene, const double* theta, const double*) {
   const double w = bow * u * u + cross_bow * v * v + twist * u * v + lobes * u * (u * u - 3 * v * v);
   const double slope_x = (2 * bow * u + twist * v + 3 * lobes * (u * u - v * v)) / h;
   const double slope_y = (2 * cross_bow * v + twist * u - 6 * lobes * u * v) / h;
-  const Vec3 moved{-scene.on_part.z * slope_x, -scene.on_part.z * slope_y, w};
+  const double above_neutral = scene.on_part.z - theta[6];
+  const Vec3 moved{-above_neutral * slope_x, -above_neutral * slope_y, w};
   return along_normal(scene, dot(scene.normal_on_part, moved));
 }
 
