@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "engine/diagnose/model/log_sums.hpp"
 #include "engine/diagnose/model/precision.hpp"
@@ -13,30 +17,32 @@ namespace abbe::diagnose {
 namespace {
 
 /// Forward selection by BIC over single variants, at the baseline of the recording.
-std::vector<int> forward_selection(const Case& c, const std::vector<Variant>& variants) {
+std::vector<std::size_t> forward_selection(const Case& c, std::span<const Matrix* const> variants) {
   constexpr int kMost = 3;
-  std::vector<const Matrix*> signatures;
-  for (const Variant& v : variants) signatures.push_back(&v.signature);
-  const Matrix patterns = side_by_side(c.model.y.size(), signatures);
-  const double log_n = std::log(double(c.model.y.size()));
+  const Eigen::Index rows = c.model.y.size();
+  const double log_n = std::log(double(rows));
   std::vector<const Matrix*> taken;
-  std::vector<int> out;
+  std::vector<std::size_t> out;
   while (out.size() < kMost) {
     const Precision precision(with_free(c.model, taken), c.hyper);
-    const Precision::Seen y = precision.y(), all = precision.seen(patterns);
+    const Precision::Seen y = precision.y();
     double most = 0;
-    int chosen = -1;
-    Eigen::Index first = 0;
-    for (std::size_t k = 0; k < variants.size(); ++k) {
-      const Eigen::Index count = variants[k].signature.cols();
-      const Precision::Seen h{all.rows.middleCols(first, count), all.taken.middleCols(first, count)};
-      first += count;
-      const double gain = explained(inner(h, h), inner(h, y))(0) - log_n * double(count);
-      if (gain > most) most = gain, chosen = static_cast<int>(k);
+    std::optional<std::size_t> chosen;
+    for (std::size_t begin = 0, end = 0; begin < variants.size(); begin = end) {
+      end += portion(variants.subspan(begin));
+      const Precision::Seen seen = precision.seen(side_by_side(rows, variants.subspan(begin, end - begin)));
+      Eigen::Index first = 0;
+      for (std::size_t k = begin; k < end; ++k) {
+        const Eigen::Index count = variants[k]->cols();
+        const Precision::Seen h{seen.rows.middleCols(first, count), seen.taken.middleCols(first, count)};
+        first += count;
+        const double gain = explained(inner(h, h), inner(h, y))(0) - log_n * double(count);
+        if (gain > most) most = gain, chosen = k;
+      }
     }
-    if (chosen < 0) break;
-    taken.push_back(&variants[chosen].signature);
-    out.push_back(chosen);
+    if (!chosen) break;
+    taken.push_back(variants[*chosen]);
+    out.push_back(*chosen);
   }
   return out;
 }
@@ -61,9 +67,14 @@ OtherMethods other_methods(const Case& c, const Evidence& evidence) {
   const auto best = static_cast<std::size_t>(std::max_element(logs.begin(), logs.end()) - logs.begin());
   out.best_bayes_factor = c.explanations.list[effects[best]].name;
   out.best_bayes_probability = std::exp(logs[best] - log_sum_exp(logs));
-  const Explanations catalogue = only(c.explanations, effects);
-  for (const int chosen : forward_selection(c, catalogue.variants))
-    out.stepwise_bic.push_back(catalogue.list[catalogue.variants[chosen].explanation].name);
+  std::vector<const Matrix*> signatures;
+  std::vector<std::string> names;
+  for (const int k : effects)
+    for (const int variant : c.explanations.list[k].variants) {
+      signatures.push_back(&c.explanations.variants[variant].signature);
+      names.push_back(c.explanations.list[k].name);
+    }
+  for (const std::size_t chosen : forward_selection(c, signatures)) out.stepwise_bic.push_back(names[chosen]);
   return out;
 }
 

@@ -44,6 +44,12 @@ Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const> list) {
   return out;
 }
 
+std::size_t portion(std::span<const Matrix* const> list) {
+  std::size_t count = 0;
+  for (Eigen::Index columns = 0; count < list.size() && columns < kPortion; ++count) columns += list[count]->cols();
+  return count;
+}
+
 std::vector<char> alone(const LinearModel& m) {
   constexpr double kNothing = 1e-6;  // of a row that X leaves
   const Matrix x = independent(m.noise_um.cwiseInverse().asDiagonal() * m.free);

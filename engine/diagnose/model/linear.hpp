@@ -65,6 +65,11 @@ LinearModel with_random(const LinearModel&, const Matrix& columns);
 /// The columns of all of them, which have so many rows, one after the other.
 Matrix side_by_side(Eigen::Index rows, std::span<const Matrix* const>);
 
+/// Columns that are worked on at once: a basis is read from memory once for all of them.
+inline constexpr Eigen::Index kPortion = 512;
+/// How many of the first have so many.
+std::size_t portion(std::span<const Matrix* const>);
+
 /// One column for each group: 1 in its rows.
 Matrix indicator(const std::vector<int>& group);
 /// The columns kept apart by group.
