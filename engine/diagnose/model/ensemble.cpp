@@ -61,6 +61,11 @@ Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double lo
   }
 }
 
+Ensemble::Ensemble(const LinearModel& model, const Hyperparameters& h, double log_prior, const Ensemble& other)
+    : Ensemble(model, h, log_prior) {
+  projected_ = other.projected_;
+}
+
 void Ensemble::prepare(const std::vector<Matrix>& uneven) {
   std::vector<const Matrix*> list;
   for (const Matrix& function : uneven) list.push_back(&function);
@@ -78,27 +83,33 @@ void Ensemble::keep(std::size_t count) {
   variants_.erase(variants_.begin() + static_cast<std::ptrdiff_t>(functions_ + count), variants_.end());
   const Eigen::Index columns = variants_.empty() ? 0 : variants_.back().first + variants_.back().count;
   coordinates_.conservativeResize(Eigen::NoChange, columns);
-  projected_.conservativeResize(Eigen::NoChange, columns);
+  projected_->conservativeResize(Eigen::NoChange, columns);
+}
+
+void Ensemble::project(std::span<const Matrix* const> signatures) {
+  Eigen::Index first = projected_->cols(), columns = first;
+  for (const Matrix* m : signatures) columns += m->cols();
+  projected_->conservativeResize(basis_.rows(), columns);
+  for (std::size_t begin = 0, end = 0; begin < signatures.size(); begin = end) {
+    end += portion(signatures.subspan(begin));
+    const Matrix together =
+        basis_.project_patterns(side_by_side(basis_.rows(), signatures.subspan(begin, end - begin)));
+    projected_->middleCols(first, together.cols()) = together;
+    first += together.cols();
+  }
 }
 
 void Ensemble::prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants) {
-  // Many columns at once: the basis is read from memory once for all of them.
-  constexpr Eigen::Index kTogether = 512;
-  Eigen::Index first = coordinates_.cols(), columns = first;
-  for (const Matrix* m : signatures) columns += m->cols();
-  coordinates_.conservativeResize(basis_.rank(), columns);
-  projected_.conservativeResize(basis_.rows(), columns);
-  for (std::size_t begin = 0, end = 0; begin < signatures.size(); begin = end) {
-    Eigen::Index count = 0;
-    while (end < signatures.size() && count < kTogether) count += signatures[end++]->cols();
-    const Matrix together =
-        basis_.project_patterns(side_by_side(basis_.rows(), std::span(signatures).subspan(begin, end - begin)));
-    coordinates_.middleCols(first, count) = basis_.coordinates(together);
-    projected_.middleCols(first, count) = together;
-    for (std::size_t k = begin; k < end; ++k) {
-      variants_.push_back(prepared(first, signatures[k]->cols(), variants ? &(*variants)[k] : nullptr));
-      first += signatures[k]->cols();
-    }
+  Eigen::Index first = coordinates_.cols();
+  if (projected_->cols() == first) project(signatures);  // or an ensemble that shares them has done so
+  coordinates_.conservativeResize(basis_.rank(), projected_->cols());
+  for (Eigen::Index begin = first, count = 0; begin < coordinates_.cols(); begin += count) {
+    count = std::min(kPortion, coordinates_.cols() - begin);
+    coordinates_.middleCols(begin, count) = basis_.coordinates(projected_->middleCols(begin, count));
+  }
+  for (std::size_t k = 0; k < signatures.size(); ++k) {
+    variants_.push_back(prepared(first, signatures[k]->cols(), variants ? &(*variants)[k] : nullptr));
+    first += signatures[k]->cols();
   }
 }
 
@@ -106,7 +117,8 @@ PreparedVariant Ensemble::prepared(Eigen::Index first, Eigen::Index count, const
   PreparedVariant b;
   b.first = first;
   b.count = count;
-  const auto a = coordinates_.middleCols(first, count), h = projected_.middleCols(first, count);
+  const auto a = coordinates_.middleCols(first, count);
+  const auto h = projected_->middleCols(first, count);
   const Matrix outside = h.transpose() * h - a.transpose() * a;
   const double information = (a.transpose() * precision(1.0).asDiagonal() * a).trace() + outside.trace();
   const bool own_sizes = variant && variant->sizes.empty(),
@@ -141,7 +153,7 @@ Ensemble::Seen Ensemble::seen(const Matrix& recordings) const {
   for (Eigen::Index j = 0; j < scales; ++j)
     weighted.middleCols(j * count, count) = precision_.col(j).asDiagonal() * out.z;
   out.u = transposed_product(weighted, coordinates_);
-  const Matrix beside = transposed_product(out.rest, projected_);
+  const Matrix beside = transposed_product(out.rest, *projected_);
   for (Eigen::Index j = 0; j < scales; ++j) out.u.middleRows(j * count, count) += beside;
   return out;
 }
@@ -224,20 +236,20 @@ Matrix Ensemble::between(const Level& level, int a, int b) const {
   const PreparedVariant &i = of(a), &j = of(b);
   return coordinates_.middleCols(i.first, i.count).transpose() * beside_noise(level).asDiagonal() *
       coordinates_.middleCols(j.first, j.count) +
-      projected_.middleCols(i.first, i.count).transpose() * projected_.middleCols(j.first, j.count) / level.s2;
+      projected_->middleCols(i.first, i.count).transpose() * projected_->middleCols(j.first, j.count) / level.s2;
 }
 
 Vector Ensemble::with_data(const Level& level, int variant, const Vector& recording) const {
   const PreparedVariant& b = of(variant);
   const Vector y = basis_.project(recording), z = basis_.coordinates(y), rest = basis_.remainder(y, z);
   return coordinates_.middleCols(b.first, b.count).transpose() * Vector(precision(level).array() * z.array()) +
-      projected_.middleCols(b.first, b.count).transpose() * rest / level.s2;
+      projected_->middleCols(b.first, b.count).transpose() * rest / level.s2;
 }
 
 Matrix Ensemble::against_all(const Level& level, const std::vector<Eigen::Index>& columns) const {
   const Matrix weighted = beside_noise(level).asDiagonal() * Matrix(coordinates_(Eigen::all, columns));
   return (transposed_product(weighted, coordinates_) +
-          transposed_product(Matrix(projected_(Eigen::all, columns)), projected_) / level.s2)
+          transposed_product(Matrix((*projected_)(Eigen::all, columns)), *projected_) / level.s2)
       .transpose();
 }
 

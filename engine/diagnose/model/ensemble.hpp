@@ -14,6 +14,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <span>
 
 #include "engine/diagnose/model/ensemble_basis.hpp"
 #include "engine/diagnose/model/explanation.hpp"
@@ -37,6 +39,10 @@ class Ensemble {
  public:
   /// `log_prior`: of this family among others.
   Ensemble(const LinearModel&, const Hyperparameters&, double log_prior);
+  /// One that differs from `other` only in the columns whose scale is judged: it judges the same columns of variants.
+  Ensemble(const LinearModel&, const Hyperparameters&, double log_prior, const Ensemble& other);
+  Ensemble(Ensemble&&) = default;
+  Ensemble& operator=(Ensemble&&) = default;
   /// Makes it ready to judge error functions that are larger than the others. Before any variant.
   void prepare(const std::vector<Matrix>& uneven);
   /// Makes it ready to judge variants, after those before.
@@ -87,6 +93,7 @@ class Ensemble {
  private:
   /// `variants`: whose signatures they are; none: error functions of the machine.
   void prepare(const std::vector<const Matrix*>& signatures, const std::vector<Variant>* variants);
+  void project(std::span<const Matrix* const> signatures);
   PreparedVariant prepared(Eigen::Index first, Eigen::Index count, const Variant*) const;
   const PreparedVariant& of(int variant) const { return variants_[functions_ + static_cast<std::size_t>(variant)]; }
   /// Of these recordings, without any variant.
@@ -103,7 +110,9 @@ class Ensemble {
   Matrix precision_;            ///< 1 / (g^2 lambda + 1), one column for each scale
   Vector log_scale_;            ///< log prior of family and scale, and its determinant
   /// of all columns: U' h, and h; what is off the model, h - U U' h, is seen in products with h alone
-  Matrix coordinates_, projected_;
+  Matrix coordinates_;
+  /// the largest that a search keeps, and free of what the ensemble is: ensembles of one noise share it
+  std::shared_ptr<Matrix> projected_ = std::make_shared<Matrix>();
   std::size_t functions_ = 0;  ///< of the machine; variants follow them
   std::vector<PreparedVariant> variants_;
 };

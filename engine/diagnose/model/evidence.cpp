@@ -47,7 +47,8 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
   rough_ = add_machines(model, h, std::log(correlated));
   if (correlated < 1) add_machines(model, estimate_uncorrelated(model), std::log(1 - correlated));
   functions_ = model.uneven.size();
-  for (Ensemble& e : ensembles_) e.prepare(model.uneven), e.add(explanations.variants);
+  for (Ensemble& e : ensembles_) e.prepare(model.uneven);
+  for (Ensemble& e : ensembles_) e.add(explanations.variants);
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
   // A plan has no values yet: what it can tell is judged at the level that was stated.
   if (!plan) judge_recording();
@@ -56,7 +57,7 @@ EvidenceSearch::EvidenceSearch(const LinearModel& model, const Hyperparameters& 
 double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparameters& h, double log_prior) {
   ensembles_.emplace_back(model, h, log_prior + std::log(1 - kPriorRough));
   if (model.rough.cols() == 0 || model_.y.squaredNorm() == 0) return 0;
-  Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough));
+  Ensemble rough(rougher(model), h, log_prior + std::log(kPriorRough), ensembles_.back());
   const auto alone = [&](const Ensemble& e) { return e.judge({e.seen(model_.y)}, {}).alone(0); };
   const double harmonic = alone(ensembles_.back()), other = alone(rough);
   if (other > harmonic - kEnsembleOutOfQuestion) ensembles_.push_back(std::move(rough));
@@ -66,7 +67,8 @@ double EvidenceSearch::add_machines(const LinearModel& model, const Hyperparamet
 void EvidenceSearch::extend(const Explanations& explanations, std::size_t same) {
   const std::vector<Variant> more(explanations.variants.begin() + static_cast<std::ptrdiff_t>(same),
                                   explanations.variants.end());
-  for (Ensemble& e : ensembles_) e.keep(same), e.add(more);
+  for (Ensemble& e : ensembles_) e.keep(same);
+  for (Ensemble& e : ensembles_) e.add(more);
   explanations_ = explanations.list;
   log_weight_.clear();
   for (const Variant& b : explanations.variants) log_weight_.push_back(std::log(b.weight));
