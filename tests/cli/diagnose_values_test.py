@@ -260,7 +260,7 @@ class Values(harness.Case):
                            "E0556": head + "LENGTH,100\n", "E0551": head + "LEN,100\nA B LEN,100\n"}.items():
             self.refused(code, "diagnose", self.write("bad.csv", text), "--program", program)
         for row, said in {"LEN,150,100,": "150 mm here and 100 mm by its reference", "LEN,1e200,,": "1e+200 mm here and 100 mm on an error-free machine",
-                          "LEN,100,100,1e300": "U of 1e+300 mm"}.items():
+                          "LEN,100,100,1e300": "U of 1e+300 mm", "LEN,500.001,500,": "500 mm by its reference and 100 mm on an error-free machine"}.items():
             self.assertIn(said, self.refused("E0701", "diagnose", self.write("bad.csv", f"characteristic,value,reference,U\n{row}\n"), "--program", program))
         self.assertIn("twice the standard one", self.refused("E0526", "diagnose", self.write("bad.csv", "characteristic,value,u\nLEN,100,0.001\n"), "--program", program))
         good = self.write("good.csv", head + "LEN,100.0\n")

@@ -133,9 +133,21 @@ class EnsembleRuns {
                           "value, reference and U are in millimetres or degrees"));
   }
 
+  static constexpr double kMost = 10;  ///< mm or degrees
+
+  /// A calibrated length that no part of this program has: its errors are those of another one.
+  void refuse_other_program(const ValueRow& row, double measured_mm) const {
+    if (!row.reference || std::abs(*row.reference - measured_mm) <= kMost) return;
+    throw UserError(
+        diagnostic_at(recording_.source, row.span, Code::E0701,
+                      fmt::format("'{}' is {:.6g} mm by its reference and {:.6g} mm on an error-free machine: its "
+                                  "program is another one",
+                                  row.characteristic, *row.reference, measured_mm),
+                      "name the program that evaluated this value, and the characteristic as it has it"));
+  }
+
   /// A difference that no error of measurement makes: another part, another place, a slip of the pen.
   void refuse_stranger(const ValueRow& row, double reference, bool angle) const {
-    constexpr double kMost = 10;  // mm or degrees
     const double off = std::abs(row.value - reference);
     if (off <= kMost && row.expanded_uncertainty <= kMost) return;
     const std::string unit = angle ? "degrees" : "mm";
@@ -159,7 +171,7 @@ class EnsembleRuns {
           "number repeats in the column 'run', further evaluations in one program in the column 'occurrence'"));
     const plan::ToleranceDef& tolerance = (*program.plan)[(*program.plan)[s.characteristic].tolerance];
     const bool angle = unit_of(*tolerance.kind, tolerance.arguments) == Unit::rad;
-    if (!angle) refuse_unit(row, *s.reference);
+    if (!angle) refuse_unit(row, *s.reference), refuse_other_program(row, *s.reference);
     RecordedValue v{run.program, run.repeat, s.characteristic, s.occurrence, angle};
     v.reference = row.reference.value_or(*s.reference * engine_scale(angle) * v.reported());
     refuse_stranger(row, v.reference, angle);
