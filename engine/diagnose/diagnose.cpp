@@ -86,6 +86,12 @@ Recording ready(const Recording& recorded, const Machine& machine, const Diagnos
   return placed;
 }
 
+/// A plan has no positions that may be wrong, but it may be a recording of old, with the clock of the day.
+Recording planned(Recording recorded, const std::string& file, std::vector<Diagnostic>& messages) {
+  count_from_first_touch(recorded, file, messages);
+  return recorded;
+}
+
 void refuse_too_many(const Recording& r, const std::string& file) {
   constexpr std::size_t kMostTouches = 4000;  // ten minutes, and 7 GB (docs/benchmarks.md)
   if (r.rows.size() > kMostTouches)
@@ -365,7 +371,8 @@ Diagnosis diagnose_saying(const Recording& recorded, const Machine& machine, con
   Diagnosis out;
   refuse_too_many(recorded, file);
   if (options.design_only) out.judged = Judged::plan;
-  const Recording recording = options.design_only ? recorded : ready(recorded, machine, options, file, messages);
+  const Recording recording =
+      options.design_only ? planned(recorded, file, messages) : ready(recorded, machine, options, file, messages);
   out.touches = static_cast<int>(recording.rows.size());
   const double step_um = options.design_only ? 0 : kUmPerMm * common_step_mm(recorded);
   if (std::optional<Diagnostic> contradiction = contradicts_specification(machine, options.seed, options.threads))

@@ -100,7 +100,7 @@ void count_from_first_touch(Recording& recording, const std::string& file, std::
   std::optional<double> first;
   for (const RecordingRow& row : recording.rows)
     if (row.time_s) first = std::min(first.value_or(*row.time_s), *row.time_s);
-  if (!first || *first < kLate_s) return;
+  if (!first || (*first >= 0 && *first < kLate_s)) return;
   for (RecordingRow& row : recording.rows)
     if (row.time_s) *row.time_s -= *first;
   messages.push_back(diagnostic(

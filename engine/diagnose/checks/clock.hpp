@@ -19,7 +19,8 @@ void continue_where_put_back(Recording&, const std::string& file, std::vector<Di
 /// from one to the next (N0708). Where their rows are mixed, or stand in another order than that of time, nothing is
 /// changed.
 void continue_from_run_to_run(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
-/// A recording whose clock began long before its first touch, with times from that touch on (N0721).
+/// A recording whose clock began long before its first touch, or counts down to a later event, with times from the first
+/// touch on (N0721).
 void count_from_first_touch(Recording&, const std::string& file, std::vector<Diagnostic>& messages);
 
 }  // namespace abbe::diagnose
