@@ -93,7 +93,7 @@ Recording planned(Recording recorded, const std::string& file, std::vector<Diagn
 }
 
 void refuse_too_many(const Recording& r, const std::string& file) {
-  constexpr std::size_t kMostTouches = 4000;  // ten minutes, and 7 GB (docs/benchmarks.md)
+  constexpr std::size_t kMostTouches = 4000;  // ten minutes, and 5 GB (docs/benchmarks.md)
   if (r.rows.size() > kMostTouches)
     throw UserError(diagnostic(
         Code::E0719, fmt::format("{}: {} touches are too many to be judged together", file, r.rows.size()),
