@@ -274,7 +274,7 @@ std::variant<Diagnosis, AnotherPart> searched(const Given& given, bool surfaces_
     tell_nothing_judged(c, given.file, out);
     return out;
   }
-  c.rough = first.rough() > 0.5;
+  c.rough = first.more_likely_rough();
   SearchResult result = search(c, first);
   out.baseline = machine_beside(c, first, result, out.baseline.known);
   out.p_value = result.p_value;

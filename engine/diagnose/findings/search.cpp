@@ -247,16 +247,21 @@ void add_what_names_leave(const Case& c, SearchResult& result) {
   drop_names_beside_a_pattern(c, result);
 }
 
-/// What machine and noise are beside all that was found.
-void fit_beside_findings(const Case& c, SearchResult& result) {
+/// What machine and noise are beside all that was found. A mismatch may hide that the machine is rougher than its
+/// specification's functions: as such functions its errors would have to be large.
+void fit_beside_findings(Case& c, SearchResult& result) {
   const bool nothing = result.findings.empty() && !result.other;
   const auto beside = [&](const LinearModel& m) { return estimate(with_free(m, signatures_of(c, result))); };
   result.hyper = nothing ? c.hyper : beside(c.model);
+  if (!nothing) {
+    const LinearModel rest = with_free(c.model, signatures_of(c, result));
+    c.rough = EvidenceSearch(rest, result.hyper, only(c.explanations, {0})).more_likely_rough();
+  }
   result.hyper_of_likelier = c.rough ? beside(likelier_ensemble(c, c.model)) : result.hyper;
 }
 
 /// Which of the names of a set is told, and what is left beside it.
-void choose_first_members(const Case& c, SearchResult& result) {
+void choose_first_members(Case& c, SearchResult& result) {
   const auto first_members = [&] {
     std::vector<int> list;
     for (const Finding& f : result.findings) list.push_back(f.explanation);
@@ -278,7 +283,7 @@ bool has_period(const Effect& effect) {
 
 /// A period fits whatever differs between a few places, as long as it may be as large as it likes. One of a size that no
 /// such effect has is none, and what it was taken for has no name.
-void drop_impossible_periods(const Case& c, SearchResult& result) {
+void drop_impossible_periods(Case& c, SearchResult& result) {
   std::vector<Finding> left;
   for (std::size_t k = 0; k < result.findings.size(); ++k) {
     const Finding& f = result.findings[k];

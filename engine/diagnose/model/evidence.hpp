@@ -62,6 +62,7 @@ class EvidenceSearch {
   const Evidence& evidence() const { return evidence_; }
   /// The belief that the machine's errors are rougher than the specification's ensemble, without any explanation.
   double rough() const { return rough_; }
+  bool more_likely_rough() const { return rough_ > 0.5; }
   /// The columns, um at the scale 1, of the error functions that are more uneven than the others, as the recording without
   /// any explanation has them; nothing where it is not more likely than not that there are any.
   std::optional<Matrix> uneven() const;
