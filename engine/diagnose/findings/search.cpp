@@ -247,19 +247,6 @@ void add_what_names_leave(const Case& c, SearchResult& result) {
   drop_names_beside_a_pattern(c, result);
 }
 
-/// What machine and noise are beside all that was found. A mismatch may hide that the machine is rougher than its
-/// specification's functions: as such functions its errors would have to be large.
-void fit_beside_findings(Case& c, SearchResult& result) {
-  const bool nothing = result.findings.empty() && !result.other;
-  const auto beside = [&](const LinearModel& m) { return estimate(with_free(m, signatures_of(c, result))); };
-  result.hyper = nothing ? c.hyper : beside(c.model);
-  if (!nothing) {
-    const LinearModel rest = with_free(c.model, signatures_of(c, result));
-    c.rough = EvidenceSearch(rest, result.hyper, only(c.explanations, {0})).more_likely_rough();
-  }
-  result.hyper_of_likelier = c.rough ? beside(likelier_ensemble(c, c.model)) : result.hyper;
-}
-
 /// Which of the names of a set is told, and what is left beside it.
 void choose_first_members(Case& c, SearchResult& result) {
   const auto first_members = [&] {
@@ -383,6 +370,17 @@ bool others(const Case& c, const std::vector<Finding>& now, const std::vector<Fi
 }
 
 }  // namespace
+
+void fit_beside_findings(Case& c, SearchResult& result) {
+  const bool nothing = result.findings.empty() && !result.other;
+  const auto beside = [&](const LinearModel& m) { return estimate(with_free(m, signatures_of(c, result))); };
+  result.hyper = nothing ? c.hyper : beside(c.model);
+  if (!nothing) {
+    const LinearModel rest = with_free(c.model, signatures_of(c, result));
+    c.rough = EvidenceSearch(rest, result.hyper, only(c.explanations, {0})).more_likely_rough();
+  }
+  result.hyper_of_likelier = c.rough ? beside(likelier_ensemble(c, c.model)) : result.hyper;
+}
 
 SearchResult search(Case& c, EvidenceSearch& first) {
   const std::size_t grid = c.explanations.variants.size();

@@ -32,6 +32,10 @@ struct SearchResult {
 /// `first`: the evidence of the whole recording. Effects that are found get finer variants, in the case and in `first`.
 SearchResult search(Case&, EvidenceSearch& first);
 
+/// What machine and noise are beside all that was found, and whether the machine is rougher than its specification's
+/// functions: a mismatch may hide that, as such functions its errors would have to be large.
+void fit_beside_findings(Case&, SearchResult&);
+
 /// The signatures of findings; of all that was found, a pattern without a name too.
 std::vector<const Matrix*> signatures_of(const Case&, const std::vector<Finding>&);
 std::vector<const Matrix*> signatures_of(const Case&, const SearchResult&);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/diagnose/explanations/catalogue.hpp"
+#include "engine/diagnose/model/restricted_likelihood.hpp"
 #include "engine/effects/effect.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
 
@@ -81,6 +82,24 @@ TEST_CASE("a set of names ends where it holds 92 % of what the names have") {
   CHECK(beside.set == std::vector<int>{1});
   CHECK(beside.probability == doctest::Approx(0.465));
   CHECK(found({0.1, 0.2}, 0.7, false).set == std::vector<int>{2});
+}
+
+TEST_CASE("whether a machine is rougher shows beside what was found") {
+  constexpr int kBumps = 8;
+  Planted p(5);
+  Matrix& rough = p.c.model.rough;
+  rough.resize(p.count(), kBumps);
+  for (int k = 0; k < kBumps; ++k)
+    for (int i = 0; i < p.count(); ++i)
+      rough(i, k) = p.scene(i).normal.y * std::exp(-0.5 * std::pow((p.scene(i).point.x - 500.0 * k / kBumps) / 30, 2));
+  for (int k = 0; k < kBumps; ++k) p.c.model.y += p.normal(k, 7) * rough.col(k);
+  p.plant("machine.scale", {100, 0});  // as an error of the specification's functions it is a hundred times too large
+  p.c.hyper = estimate(p.c.model);
+  p.find({"machine.scale"});
+  CHECK_FALSE(EvidenceSearch(p.c.model, p.c.hyper, p.c.explanations).more_likely_rough());
+  fit_beside_findings(p.c, p.result);
+  CHECK(p.c.rough);
+  CHECK(p.result.hyper_of_likelier.scale < 3);
 }
 
 TEST_CASE("what displaces most is first") {
