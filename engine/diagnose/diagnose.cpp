@@ -26,6 +26,7 @@
 #include "engine/diagnose/findings/members.hpp"
 #include "engine/diagnose/findings/noise/judge_noise.hpp"
 #include "engine/diagnose/findings/noise/scatter.hpp"
+#include "engine/diagnose/findings/on_all_touches.hpp"
 #include "engine/diagnose/findings/other_methods.hpp"
 #include "engine/diagnose/findings/tell.hpp"
 #include "engine/diagnose/model/restricted_likelihood.hpp"
@@ -236,7 +237,9 @@ void tell_power(const Case& c, const EvidenceSearch& search, Diagnosis& out) {
 /// What of the machine itself is not as its file says: lengths, sizes of errors, scatter.
 void tell_machine(const Case& c, const SearchResult& result, const std::string& file, Diagnosis& out) {
   const bool known = out.baseline.known;
-  if (out.beyond && out.effects.empty()) out.messages.push_back(beyond_its_specification(*out.beyond, file));
+  const bool named = !result.findings.empty();
+  if (const auto beyond = named && out.beyond ? beyond_beside_names(c, result) : out.beyond)
+    out.messages.push_back(beyond_its_specification(*beyond, named, file));
   const bool only_noise = result.findings.empty() && !result.other;
   if (!known && only_noise && !out.beyond && out.baseline.geometry_scale >= kLargeErrors)
     out.messages.push_back(large_errors(out.baseline.geometry_scale, deviations(c.model, out.baseline.noise_um), file));

@@ -39,12 +39,12 @@ Diagnostic nothing_but_targets(const std::string& file) {
       "a real machine differs in the last digits: check that measured positions were recorded, and not targets");
 }
 
-Diagnostic beyond_its_specification(const LengthError& e, const std::string& file) {
+Diagnostic beyond_its_specification(const LengthError& e, bool beside_names, const std::string& file) {
   return diagnostic(
       Code::W0716,
       fmt::format(
-          "{}: lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um",
-          file, e.length_mm, kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
+          "{}: {}lengths of {:.0f} mm between touches are wrong by {:.1f} um, and the specification of the machine allows {:.1f} um",
+          file, beside_names ? "beside what was named, " : "", e.length_mm, kUmPerMm * e.error_mm, kUmPerMm * e.mpe_mm),
       "have the machine tested (ISO 10360-2), check the calibration of the part, and its temperature");
 }
 

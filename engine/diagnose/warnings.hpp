@@ -24,8 +24,8 @@ bool scatters_more(const BaselineSummary&, int touches);
 Diagnostic not_its_targets(const RecordedTouches&, double share, const std::string& file);
 /// W0717
 Diagnostic nothing_but_targets(const std::string& file);
-/// W0716
-Diagnostic beyond_its_specification(const LengthError&, const std::string& file);
+/// W0716; `beside_names`: something else was named.
+Diagnostic beyond_its_specification(const LengthError&, bool beside_names, const std::string& file);
 /// W0723
 Diagnostic large_errors(double times, const Deviations& rms, const std::string& file);
 /// W0720

@@ -100,6 +100,12 @@ class Diagnose(harness.Case):
         self.abbe("record", program, "--machine", MACHINE, "-o", "bar.csv")
         self.assertIsNone(self.diagnosis("bar.csv", "--fail-on-mismatch")["length_beyond_mpe"])
 
+    def test_lengths_beyond_the_specification_are_told_beside_what_makes_none_of_them(self):
+        program = self.write("bar.dmi", BAR)
+        self.abbe("record", program, "--machine", MACHINE, "-o", "bar.csv", "--with", "machine.scale:scale_um_per_m=28,axis=x", "--with", "noise.vibration:sd_um=3")
+        said = self.diagnosis("bar.csv")
+        self.assertEqual(([e["members"] for e in said["effects"]], [m["code"] for m in said["messages"]]), ([["noise.vibration"]], ["W0716"]))
+
     def test_scatter_that_has_grown_is_one_effect(self):
         quiet = json.loads(MACHINE.read_text())
         quiet["effects"] = [{"name": "noise.vibration", "parameters": {"sd_um": {"value": 5, "u": 0.1}}}]

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
-#include "engine/diagnose/explanations/catalogue.hpp"
 #include "engine/diagnose/findings/noise/noise_property.hpp"
+#include "engine/diagnose/findings/on_all_touches.hpp"
 #include "engine/diagnose/model/noise_law.hpp"
 #include "engine/diagnose/model/prediction.hpp"
 #include "engine/effects/noise/noise.hpp"
@@ -31,14 +30,7 @@ double expected_outliers(const Case& c) {
 /// How far each touch that was left out is from what the others predict, um, once the effects that were found are known:
 /// what happened at a moment strikes its first touches alone.
 Vector beyond_found(const Case& c, const SearchResult& result) {
-  std::vector<int> all(c.masked.size());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<Matrix> found;
-  for (const Finding& f : result.findings) {
-    const Variant& b = c.explanations.variants[f.variant];
-    const Effect& effect = *c.explanations.list[f.explanation].effect;
-    found.push_back(variant_like(b, effect, c.touches, all).signature);
-  }
+  const std::vector<Matrix> found = on_all_touches(c, result.findings);
   if (found.empty()) return c.off_um;
   std::vector<const Matrix*> signatures;
   for (const Matrix& m : found) signatures.push_back(&m);

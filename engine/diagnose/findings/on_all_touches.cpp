@@ -1,0 +1,34 @@
+#include "engine/diagnose/findings/on_all_touches.hpp"
+
+#include <numeric>
+
+#include "engine/diagnose/baseline/length_errors.hpp"
+#include "engine/diagnose/explanations/catalogue.hpp"
+#include "engine/diagnose/model/precision.hpp"
+
+namespace abbe::diagnose {
+
+std::vector<Matrix> on_all_touches(const Case& c, const std::vector<Finding>& findings) {
+  std::vector<int> all(c.touches.touches.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Matrix> out;
+  for (const Finding& f : findings) {
+    const Effect& effect = *c.explanations.list[f.explanation].effect;
+    out.push_back(variant_like(c.explanations.variants[f.variant], effect, c.touches, all).signature);
+  }
+  return out;
+}
+
+std::optional<LengthError> beyond_beside_names(const Case& c, const SearchResult& result) {
+  const std::vector<Matrix> found = on_all_touches(c, result.findings);
+  std::vector<const Matrix*> each;
+  for (const Matrix& m : found) each.push_back(&m);
+  LinearModel left = c.baseline.model;
+  const Matrix named = side_by_side(left.y.size(), each);
+  const Precision precision(likelier_ensemble(c, c.model), result.hyper_of_likelier);
+  const Precision::Seen seen = precision.seen(named(c.rows, Eigen::all));
+  left.y -= named * Cholesky(inner(seen, seen), 1).solve(inner(seen, precision.y()));
+  return beyond_specification(c.touches, without_placement(left), *c.machine);
+}
+
+}  // namespace abbe::diagnose
