@@ -22,7 +22,7 @@ inline constexpr double kTold = 0.9;
 /// - of an effect that has no law but a spread: it fits whatever differs so freely;
 /// - where it does not predict touches better that it was not fitted to;
 /// - with a size outside the catalogue's range: rather the name is wrong than the size;
-/// - of scatter, where no touch was repeated or repeats have it in common: it may be a pattern too fine for the recording.
+/// - of scatter, where no touch was repeated or repeats agree in it: it may be a pattern too fine for the recording.
 inline constexpr double kDoubted = 0.5;
 inline double believed(double probability, bool doubted) {
   return doubted ? std::min(probability, kDoubted) : probability;

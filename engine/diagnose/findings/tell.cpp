@@ -130,20 +130,33 @@ void tell_unexplained(const Case& c, const SearchResult& result, Diagnosis& out)
   for (EffectSetting& setting : model.settings) out.model_effects.push_back(std::move(setting));
 }
 
+namespace {
+
+/// Whether it is noise, which only repeats of the same touches show. `sure`: it is believed as much as what is certain.
+std::string what_repeats_say(const NoiseFinding& n, bool sure) {
+  if (n.repeats == Repeats::agree)
+    return " But repeats of the same touches agree: it is no scatter, but something that is the same each time and too fine for these touches. More touches between them would show it; no machine file carries it.";
+  const bool repeated = n.repeats == Repeats::differ;
+  if (!n.certain)
+    return repeated
+        ? " Repeats of the same touches differ, so that it belongs to no place: touch one again and again for some minutes, and see when it changes."
+        : " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
+  return sure
+      ? ""
+      : fmt::format(" It may still be chance: {}repeats of the same touches would tell.", repeated ? "more " : "");
+}
+
+}  // namespace
+
 void tell_noise(const Case& c, std::vector<NoiseFinding> noise, Diagnosis& out) {
   for (NoiseFinding& n : noise) {
-    const std::string in_file = carry(*c.machine, *n.effect, n.parameters, out);
+    const std::string in_file = n.repeats == Repeats::agree ? "" : carry(*c.machine, *n.effect, n.parameters, out);
     if (n.factor && out.effects.empty() && !out.unexplained)
       out.location.push_back({std::string(abbe::diagnose::name(*n.factor)), n.where, 1, n.p});
     const double probability =
         believed(most_believed(n.p, kPriorScatter), out.unexplained || !n.certain || !all_plausible(n.parameters));
     out.effects.push_back({{std::string(n.effect->name)}, probability, n.parameters, n.sentence});
-    if (!n.certain)
-      out.effects.back().sentence +=
-          " Repeats of the same touches would tell whether it is noise, or a pattern too fine for this recording.";
-    else if (probability < kTold)
-      out.effects.back().sentence += " It may still be chance: repeats of the same touches would tell.";
-    out.effects.back().sentence += in_file;
+    out.effects.back().sentence += what_repeats_say(n, probability >= kTold) + in_file;
     out.p_value = std::min(out.p_value, n.p);
   }
 }

@@ -132,7 +132,9 @@ std::string third_sentence(const Diagnosis& d) {
     return is_noise(e.members.front());
   });
   if (scatter && !d.improvement)
-    return "Scatter moves hardly any mean: no touch is predicted better with it, but results are less certain than without.";
+    return d.model_effects.empty()
+        ? ""
+        : "Scatter moves hardly any mean: no touch is predicted better with it, but results are less certain than without.";
   if (!d.improvement) return "";
   const Improvement& i = *d.improvement;
   constexpr double kClear = 3;  // nats

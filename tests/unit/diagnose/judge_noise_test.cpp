@@ -92,7 +92,9 @@ TEST_CASE("repeats tell scatter from a pattern too fine for the recording") {
   for (int i = 0; i < pattern.count(); ++i)
     pattern.c.model.y(i) += 1.5 * fast(pattern.scene(i)) * pattern.normal(i % (pattern.count() / 2), 50);
   CHECK(only_noise(noise, "noise.unequal").certain);
+  CHECK(only_noise(noise, "noise.unequal").repeats == Repeats::differ);
   CHECK_FALSE(only_noise(pattern, "noise.unequal").certain);
+  CHECK(only_noise(pattern, "noise.unequal").repeats == Repeats::agree);
 }
 
 TEST_CASE("a machine that shakes along one axis is told with the axis and how much") {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <tuple>
+
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/caveats.hpp"
 #include "tests/unit/diagnose/scattered.hpp"
@@ -137,6 +139,25 @@ TEST_CASE("scatter is told with its place where nothing else was, and counts in 
   tell_noise(p.c, {noise}, beside);
   CHECK(beside.location.empty());
   CHECK(beside.p_value == 1e-9);
+}
+
+TEST_CASE("no repeats are asked for where there are enough of them") {
+  Planted p(3);
+  NoiseFinding noise{find_effect("noise.vibration"),
+                     1e-6,
+                     {{.name = "sd_um", .unit = "um", .value = 1, .u = 0.1}},
+                     "Touches scatter."};
+  noise.certain = false;
+  for (const auto& [repeats, says, carried] :
+       {std::tuple{Repeats::agree, "repeats of the same touches agree: it is no scatter", std::size_t{0}},
+        std::tuple{Repeats::differ, "Repeats of the same touches differ", std::size_t{1}}}) {
+    noise.repeats = repeats;
+    Diagnosis out;
+    tell_noise(p.c, {noise}, out);
+    CHECK(out.effects.at(0).sentence.find(says) != std::string::npos);
+    CHECK(out.effects[0].sentence.find("Repeats of the same touches would tell") == std::string::npos);
+    CHECK(out.model_effects.size() == carried);
+  }
 }
 
 TEST_CASE("scatter of an impossible size is doubted as any other name is") {

@@ -29,14 +29,17 @@ std::optional<EffectSetting::Value> in_machine_file(const Case& c, const Effect&
   return std::nullopt;
 }
 
-bool other_each_time(const Scatter& s, const Vector& in, double share) {
+void ask_repeats(const Scatter& s, const Vector& in, double share, NoiseFinding& f) {
   const auto pairs = repeats_in(s.c, in);
   double common = 0, squares = 0;
   for (const auto& [first, again] : pairs) {
     const double a = s.residuals.standardised(first), b = s.residuals.standardised(again);
     common += a * b, squares += (a * a + b * b) / 2;
   }
-  return pairs.size() >= kEnoughRepeats && common < kInCommon * share * squares;
+  f.repeats = pairs.size() < kEnoughRepeats  ? Repeats::too_few
+      : common < kInCommon * share * squares ? Repeats::differ
+                                             : Repeats::agree;
+  f.certain = f.repeats == Repeats::differ;
 }
 
 }  // namespace abbe::diagnose

@@ -15,12 +15,17 @@
 
 namespace abbe::diagnose {
 
+/// Whether repeats of one touch, with the same stylus at the same place, differ in what scatters more, or agree: they have
+/// half of it or more in common.
+enum class Repeats { too_few, differ, agree };
+
 struct NoiseFinding {
   const Effect* effect = nullptr;
   double p = 1;
   std::vector<DiagnosedParameter> parameters;
   std::string sentence;
   bool certain = true;  ///< that it is noise: what scatters may else be a pattern too fine for this recording
+  Repeats repeats = Repeats::too_few;
   std::optional<Factor> factor = {};  ///< in which it shows; none of what is everywhere
   std::vector<std::pair<std::string, std::string>> where = {};
 };
@@ -49,9 +54,7 @@ std::span<const NoiseProperty* const> noise_properties();
 DiagnosedParameter figure(const char* name, const char* unit, double value, double u);
 /// What the machine file says of it already; nothing where it does not have the effect.
 std::optional<EffectSetting::Value> in_machine_file(const Case&, const Effect&, const std::string& parameter);
-/// Whether what scatters more, in these rows and by this share of their variance, is other each time: repeats
-/// of one touch, with the same stylus at the same place, have less than half of it in common. Without repeats
-/// nobody knows.
-bool other_each_time(const Scatter&, const Vector& in, double share);
+/// What repeats say of it where these rows scatter more, by this share of their variance. It is noise only where they differ.
+void ask_repeats(const Scatter&, const Vector& in, double share, NoiseFinding&);
 
 }  // namespace abbe::diagnose

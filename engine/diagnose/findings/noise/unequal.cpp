@@ -107,7 +107,7 @@ std::optional<NoiseFinding> judge_unequal(Scatter& scatter) {
     f.parameters.push_back(figure("sd_um", "um", others, others / std::sqrt(2 * (double(s.in.size()) - s.in.sum()))));
     f.parameters.push_back({.name = "group", .unit = "", .word = s.group});
     f.parameters.insert(f.parameters.end(), s.which.begin(), s.which.end());
-    f.certain = other_each_time(scatter, s.in, e.size / (1 + e.size));
+    ask_repeats(scatter, s.in, e.size / (1 + e.size), f);
     f.factor = s.factor, f.where = {s.where};
     f.sentence = fmt::format("T{} scatter {:.1f} times as much as the others.", s.touches.substr(1), ratio);
     best = std::move(f), in = s.in;

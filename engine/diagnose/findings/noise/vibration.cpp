@@ -64,10 +64,12 @@ std::optional<NoiseFinding> judge_vibration(Scatter& scatter) {
     const double sd = probe * std::sqrt(e.size), u = sd * (1 + 1 / e.size) / std::sqrt(2 * along.sum());
     NoiseFinding f{&kVibration, p, {figure("sd_um", "um", sd, u)}, {}};
     f.parameters.push_back({.name = "direction", .unit = "", .word = std::string(1, "xyz"[axis])});
-    f.certain = other_each_time(scatter, along, e.size / (1 + e.size));
+    ask_repeats(scatter, along, e.size / (1 + e.size), f);
     f.factor = Factor::direction, f.where = {{"normal", std::string("along ") + "xyz"[axis]}};
     f.sentence = fmt::format("Touches along {} scatter by {:.2g} um more than the others{}.", "xyz"[axis], sd,
-                             f.certain ? ": the machine shakes that way" : ", as if the machine shook that way");
+                             f.certain                           ? ": the machine shakes that way"
+                                 : f.repeats == Repeats::too_few ? ", as if the machine shook that way"
+                                                                 : "");
     best = std::move(f);
   }
   if (best) return best;
@@ -78,7 +80,7 @@ std::optional<NoiseFinding> judge_vibration(Scatter& scatter) {
   if (excess < kLeastExcess || p > kNoiseAlarm) return std::nullopt;
   const double sd = spec * std::sqrt(excess * excess - 1), u_sd = spec * excess * u / std::sqrt(excess * excess - 1);
   NoiseFinding f{&kVibration, p, {figure("sd_um", "um", sd, u_sd)}, {}};
-  f.certain = other_each_time(scatter, quiet, 1 - 1 / (excess * excess));
+  ask_repeats(scatter, quiet, 1 - 1 / (excess * excess), f);
   const std::optional<bool> alike = alike_along_all_axes(c, r);
   f.sentence = fmt::format("Touches scatter {:.1f} times as much as the probe's specification says{}.", excess,
                            !alike       ? ""
