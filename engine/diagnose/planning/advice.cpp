@@ -19,9 +19,6 @@ namespace abbe::diagnose {
 
 namespace {
 
-/// The share of what can be gained over guessing below which the answer says beside it what would tell more:
-/// of two, a probability of 0.6.
-constexpr double kWorthARound = 0.2;
 /// Whether every feature was measured at one stretch: what differs between them may be the time then.
 bool one_after_the_other(const Case& c) {
   std::set<int> done;
@@ -128,17 +125,9 @@ std::string to_check_a_name(const Case& c, const SearchResult& result) {
   return "";
 }
 
-/// Whether a measurement of the menu tells the rivals apart clearly better than guessing.
-bool worth_a_round(const std::vector<NextMeasurement>& next) {
-  return std::any_of(next.begin(), next.end(), [](const NextMeasurement& n) {
-    const double guess = 1 / double(n.separates.size());
-    return n.expected_probability > guess + kWorthARound * (1 - guess);
-  });
-}
-
-/// What to do beside a measurement of the menu, or where there is none that is worth its time.
+/// What to do beside a measurement of the menu, or where none is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (worth_a_round(next)) return to_follow_what_is_left(c, result);
+  if (!next.empty()) return to_follow_what_is_left(c, result);
   if (result.other) return to_follow_a_pattern(c, c.explanations.list[result.other->explanation].factor);
   std::vector<std::string> sentences = to_log(c, result);
   if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
