@@ -75,15 +75,38 @@ std::string to_follow_a_pattern(const Case& c, Factor factor) {
   return "";
 }
 
-/// "log a, and let it vary"; "let a and b vary" of what was logged and is the same throughout.
+/// "log a, and let it vary"; "let b vary" of what was logged and is the same throughout; "log a, and let it and b vary".
 std::string to_let_vary(const Case& c, unsigned missing, std::string_view first_word_log,
                         std::string_view first_word_let) {
-  const std::vector<std::string> all = columns_of(missing), absent = columns_of(missing & ~c.touches.known);
-  if (absent.empty()) return fmt::format("{} {} vary", first_word_let, fmt::join(all, ", "));
-  const std::string what = absent.size() < all.size() ? fmt::format("{}", fmt::join(all, ", "))
-      : all.size() == 1                               ? "it"
-                                                      : "them";
-  return fmt::format("{} {}, and let {} vary", first_word_log, fmt::join(absent, ", "), what);
+  const std::vector<std::string> absent = columns_of(missing & ~c.touches.known),
+                                 constant = columns_of(missing & c.touches.known);
+  if (absent.empty()) return fmt::format("{} {} vary", first_word_let, fmt::join(constant, ", "));
+  return fmt::format("{} {}, and let {}{}{} vary", first_word_log, fmt::join(absent, ", "),
+                     absent.size() == 1 ? "it" : "them", constant.empty() ? "" : " and ", fmt::join(constant, ", "));
+}
+
+/// What the names that were found miss before they can be judged.
+unsigned missed_by_names(const Case& c, const SearchResult& result) {
+  unsigned missing = 0;
+  for (const Finding& f : result.findings)
+    for (const int k : f.set) missing |= c.explanations.list[k].missing;
+  return missing;
+}
+
+/// Of what the other effects miss, beside what is asked for already, as much as one can act on: three columns at most, of an effect all or none. What was not
+/// logged comes before what did not change, for logging takes no measurement of its own; and the catalogue begins with
+/// temperatures, which make the largest errors in most rooms.
+unsigned missed_first(const Case& c, unsigned asked) {
+  constexpr std::size_t kMostColumns = 3;
+  unsigned out = 0;
+  for (const bool logged : {false, true}) {
+    for (const Explanations::Unjudged& u : c.explanations.unjudged) {
+      const unsigned missing = u.missing & ~asked;
+      if (((missing & ~c.touches.known) == 0) == logged && columns_of(out | missing).size() <= kMostColumns)
+        out |= missing;
+    }
+  }
+  return out;
 }
 
 /// What must be logged, and vary, before the names that were found can be judged.
@@ -104,14 +127,13 @@ std::vector<std::string> to_log(const Case& c, const SearchResult& result) {
   return out;
 }
 
-/// What would show what it is that the names leave.
-std::string to_follow_what_is_left(const Case& c, const SearchResult& result) {
+/// What would show what it is that the names leave. `asked`: what is to be logged anyway.
+std::string to_follow_what_is_left(const Case& c, const SearchResult& result, unsigned asked) {
   if (result.findings.empty() || result.other || result.adequacy >= kInadequate) return "";
-  unsigned missing = 0;
-  for (const Explanations::Unjudged& u : c.explanations.unjudged) missing |= u.missing;
+  const unsigned missing = missed_first(c, asked);
   if (columns_of(missing).empty())
     return "What is left follows something: repeat in another order, and with the part moved into a new setup, and see with what it goes.";
-  return fmt::format("What is left may belong to what was not logged or did not change: {}.",
+  return fmt::format("What is left may belong to what was not logged or did not change: first of all, {}.",
                      to_let_vary(c, missing, "log", "let"));
 }
 
@@ -127,10 +149,11 @@ std::string to_check_a_name(const Case& c, const SearchResult& result) {
 
 /// What to do beside a measurement of the menu, or where none is worth its time.
 std::string besides_sizes(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  if (!next.empty()) return to_follow_what_is_left(c, result);
+  if (!next.empty()) return to_follow_what_is_left(c, result, 0);
   if (result.other) return to_follow_a_pattern(c, c.explanations.list[result.other->explanation].factor);
   std::vector<std::string> sentences = to_log(c, result);
-  if (std::string left = to_follow_what_is_left(c, result); !left.empty()) sentences.push_back(std::move(left));
+  if (std::string left = to_follow_what_is_left(c, result, missed_by_names(c, result)); !left.empty())
+    sentences.push_back(std::move(left));
   if (std::string check = to_check_a_name(c, result); !check.empty()) sentences.push_back(std::move(check));
   const std::vector<int> rivals = question_of(result).rivals;
   if (rivals.size() >= 2)

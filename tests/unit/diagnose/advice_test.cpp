@@ -1,0 +1,47 @@
+// What to do next is little enough to be done.
+#include "engine/diagnose/planning/advice.hpp"
+
+#include <doctest/doctest.h>
+
+#include "engine/diagnose/findings/belief.hpp"
+#include "tests/unit/diagnose/scattered.hpp"
+
+using namespace abbe;
+using namespace abbe::diagnose;
+
+namespace {
+
+/// A tip's radius was found, and it leaves more than chance does.
+struct LeavesMore : Planted {
+  LeavesMore() : Planted(1) {
+    plant("probe.tip_radius", {2, 0});
+    find({"probe.tip_radius"});
+    result.adequacy = kInadequate / 2;
+    c.baseline.surfaces = Surfaces::calibrated;
+  }
+  void miss(const char* effect, Covariate what, bool logged) {
+    const auto missing = static_cast<unsigned>(what);
+    c.explanations.unjudged.push_back({find_effect(effect), missing, logged ? missing : 0});
+    if (!logged) c.touches.known &= ~missing;
+  }
+  std::string says() const { return otherwise(c, result, {}); }
+};
+
+}  // namespace
+
+TEST_CASE("of all that was not logged three columns are asked for, each once") {
+  LeavesMore p;
+  p.miss("thermal.part_expansion", Covariate::part_temperature, false);
+  p.miss("thermal.scale_expansion", Covariate::scale_temperature, false);  // three more, and no two of them do
+  p.miss("probe.trigger_delay", Covariate::speed, true);
+  p.miss("machine.dynamics", Covariate::acceleration, false);
+  p.miss("part.load_bending", Covariate::load, false);
+  CHECK(p.says().ends_with("first of all, log accel_mm_s2, temp_part_C, load_kg, and let them vary."));
+}
+
+TEST_CASE("what was logged and is the same throughout comes last") {
+  LeavesMore p;
+  p.miss("probe.trigger_delay", Covariate::speed, true);
+  p.miss("machine.dynamics", Covariate::acceleration, false);
+  CHECK(p.says().ends_with("first of all, log accel_mm_s2, and let it and speed_mm_s vary."));
+}
