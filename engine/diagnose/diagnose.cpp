@@ -298,7 +298,7 @@ std::variant<Diagnosis, AnotherPart> searched(const Given& given, bool surfaces_
   if (c.styli_unlogged && (is_mismatch(out) || large)) return without_styli(std::move(out), std::move(of_the_file));
   at("the next measurement");
   out.next_measurement = next_measurements(c, &result, out.smallest_detectable);
-  out.otherwise = otherwise(c, result, out.next_measurement);
+  out.otherwise = otherwise(c, result, out);
   if (given.options.keep_state) out.known_state = known_state_beside(c, result);
   return out;
 }

@@ -31,6 +31,7 @@ class Columns(harness.Case):
             said = self.diagnosis(self.record("--seed", seed, "--with", f"noise.resolution:resolution_um={step_um}"))
             self.assertEqual([e["members"] for e in said["effects"]], [["noise.resolution"]], (seed, step_um))
             self.assertAlmostEqual(said["effects"][0]["parameters"]["resolution_um"]["value"], step_um)
+            self.assertIn(f"Record the digits that the machine has: x, y and z come in steps of {step_um} um.", said["otherwise"] or "")
 
     def test_a_part_off_its_targets_hides_no_rounding(self):
         def moved(row):

@@ -12,6 +12,7 @@
 #include "engine/diagnose/findings/belief.hpp"
 #include "engine/diagnose/findings/locate.hpp"
 #include "engine/diagnose/planning/question.hpp"
+#include "engine/effects/noise/noise.hpp"
 #include "engine/math/units.hpp"
 #include "engine/run/recorded/logged.hpp"
 
@@ -197,6 +198,15 @@ std::string to_know_the_material(const Case& c, const SearchResult& result) {
       *part_C);
 }
 
+/// Rounding is of the file, and not of the machine: nothing is to be mended.
+std::string to_record_digits(const Case& c, const Diagnosis& told) {
+  const bool rounded = std::any_of(told.effects.begin(), told.effects.end(),
+                                   [](const DiagnosedEffect& e) { return e.members.front() == kResolution.name; });
+  return rounded
+      ? fmt::format("Record the digits that the machine has: x, y and z come in steps of {:g} um.", c.step_um)
+      : "";
+}
+
 /// Sizes that nobody gave hide the radius of the tip and all that acts like it. A certificate costs no measurement.
 std::string to_know_sizes(const Case& c, const SearchResult& result) {
   const bool mismatch = !result.findings.empty() || result.other;
@@ -228,10 +238,13 @@ std::string to_part_runs(const Case& c, const SearchResult& result) {
 
 }  // namespace
 
-std::string otherwise(const Case& c, const SearchResult& result, const std::vector<NextMeasurement>& next) {
-  std::vector<std::string> sentences = {to_know_qualifications(c, result), to_part_runs(c, result),
-                                        to_know_sizes(c, result), to_know_the_material(c, result),
-                                        besides_sizes(c, result, next)};
+std::string otherwise(const Case& c, const SearchResult& result, const Diagnosis& told) {
+  std::vector<std::string> sentences = {to_know_qualifications(c, result),
+                                        to_part_runs(c, result),
+                                        to_know_sizes(c, result),
+                                        to_know_the_material(c, result),
+                                        besides_sizes(c, result, told.next_measurement),
+                                        to_record_digits(c, told)};
   std::erase(sentences, "");
   return fmt::format("{}", fmt::join(sentences, " "));
 }
